@@ -1,0 +1,102 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vspring/polygon_mesh.hpp"
+
+namespace vspring {
+
+/// What each node of a shape may do (paper §4.5, direct constraints): its position fixed or free, its normal given or
+/// computed, in any combination.
+class Constraints {
+ public:
+  /// All positions and normals free.
+  explicit Constraints(Index node_count);
+
+  [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(flags_.size()); }
+
+  /// The node stays at `position`. Throws Error(unusable_constraint) naming the node unless it is finite.
+  void fix_position(Index node, const Vector3& position);
+  void free_position(Index node);
+  [[nodiscard]] bool position_fixed(Index node) const { return (flags_[at(node)] & position_flag) != 0; }
+  /// Meaningful where position_fixed().
+  [[nodiscard]] const Vector3& position(Index node) const { return positions_[at(node)]; }
+
+  /// The node's normal is `normal`, made unit length; its sense does not matter. Throws Error(unusable_constraint)
+  /// naming the node when it is zero or not finite.
+  void fix_normal(Index node, const Vector3& normal);
+  void free_normal(Index node);
+  [[nodiscard]] bool normal_fixed(Index node) const { return (flags_[at(node)] & normal_flag) != 0; }
+  /// Unit length; meaningful where normal_fixed().
+  [[nodiscard]] const Vector3& normal(Index node) const { return normals_[at(node)]; }
+
+ private:
+  static constexpr std::uint8_t position_flag = 1;
+  static constexpr std::uint8_t normal_flag = 2;
+  /// Throws Error(unusable_constraint) for a node number out of range.
+  [[nodiscard]] std::size_t at(Index node) const;
+
+  std::vector<std::uint8_t> flags_;
+  std::vector<Vector3> positions_;
+  std::vector<Vector3> normals_;
+};
+
+/// Fixes the boundary nodes of the mesh where they are. Cost: linear.
+void fix_boundary_positions(Constraints& constraints, const PolygonMesh& mesh);
+
+/// Gives the boundary nodes the normals that the mesh has there, by estimate_normals(). Cost: linear.
+void fix_boundary_normals(Constraints& constraints, const PolygonMesh& mesh);
+
+/// The normals of a mesh at some of its nodes, of second order in the node spacing on smooth shapes also at boundaries,
+/// where the nodes around lie on one side only, and exact on spheres and planes: a least-squares fit of
+/// e·N = c|e|² + a quadratic form without trace, over the nodes e around. Follows the sense of the faces.
+///
+/// nodes: where. usable_face: one entry per face, 0 for faces that must not be looked at; empty for all.
+/// Returns one unit vector per entry of nodes; zero where no usable face touches the node.
+/// Cost: proportional to the nodes asked for, after a linear preparation.
+[[nodiscard]] std::vector<Vector3> estimate_normals(const PolygonMesh& mesh, std::span<const Index> nodes,
+                                                    std::span<const std::uint8_t> usable_face = {});
+
+/// Only the nodes of `region` may move: all others are fixed where the mesh has them. Their neighbours among
+/// the fixed nodes (the rim) get the tangent planes of the faces without a moving node, to second order, so that the
+/// faired patch meets the rest smoothly. A rim node without such a face keeps its normal free: the patch turns about
+/// it. What `constraints` says already about nodes of the region stays. Throws Error(unusable_constraint) naming a node
+/// out of range. Cost: linear.
+void restrict_to_region(Constraints& constraints, const PolygonMesh& mesh, std::span<const Index> region);
+
+using Groups = std::map<std::string, std::vector<Index>>;
+
+/// The nodes that a region specification names, ascending: `sphere:x,y,z,r`, `box:x0,y0,z0,x1,y1,z1` (both include
+/// their surface), `group:NAME`, or the path of a JSON file with a list of node numbers.
+/// Throws Error(unusable_constraint) for a malformed or empty region, an unknown group or a node out of range, and
+/// Error(unusable_file) for a file that cannot be read.
+[[nodiscard]] std::vector<Index> select_region(const PolygonMesh& mesh, const std::string& specification,
+                                               const Groups& groups = {});
+
+/// What rules may refer to beside the mesh.
+struct RuleInput {
+  const Groups* groups = nullptr;                 ///< for {"group": NAME}
+  const std::vector<Vector3>* normals = nullptr;  ///< the file's own, for "normal": "file"
+};
+
+/// Applies rules, in order, the later one winning, as a JSON text:
+///   {"rules": [{"nodes": SELECTION, "position": P, "normal": N}, …]}
+/// SELECTION: "all", "boundary", "interior", "non-manifold", {"group": NAME}, {"region": SPECIFICATION}, or a list of
+/// node numbers. P: "fixed" (where the input has it), "free", [x, y, z], or a list of those, one per node in the
+/// selection's order. N: "fixed" (estimate_normals() of the input), "file" (the file's own), "free", [x, y, z] or a
+/// list, node by node. Throws Error(unusable_constraint) naming the rule, and line or node where it can; constraints
+/// are then unchanged. Cost: linear in the mesh, once, and in the nodes named.
+void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view json, const RuleInput& input = {});
+
+/// Refuses what would shrink, drift or vanish: throws Error(unusable_constraint), with the reason and the ways out, for
+/// a component with moving nodes that nothing holds, and for one with a boundary loop of which fewer than three nodes
+/// are fixed; Error(unusable_mesh) for a defect (see check()) at a place that would have to move. Returns warnings, one
+/// line each, for constraints that leave a family of shapes (a closed surface held by too little to tell one sphere
+/// from another) and for boundary nodes that are free to be drawn in. Cost: linear.
+std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints);
+
+}  // namespace vspring

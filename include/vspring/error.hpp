@@ -1,0 +1,26 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace vspring {
+
+enum class ErrorCode {
+  invalid_argument,    ///< an option or argument outside its range
+  unusable_file,       ///< a file that cannot be opened, read, understood or written
+  unusable_mesh,       ///< connectivity or coordinates that cannot be faired where a node has to move
+  unusable_constraint  ///< constraints that contradict themselves or leave the shape unheld
+};
+
+/// The one exception type of the library. The message names the file, line, node or face, says what is
+/// wrong with it, and what to do. A call that throws leaves its arguments as they were.
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  [[nodiscard]] ErrorCode code() const noexcept { return code_; }
+
+ private:
+  ErrorCode code_;
+};
+
+}  // namespace vspring

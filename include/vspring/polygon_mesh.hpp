@@ -1,0 +1,70 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "vspring/types.hpp"
+
+namespace vspring {
+
+/// A polygonal surface: node positions and faces of any number of nodes (triangles, quads, n-gons, mixed).
+///
+/// Connectivity is fixed at construction; positions may change. Only memory safety is checked here: a mesh may hold
+/// non-manifold spots, repeated nodes, isolated nodes or coordinates that are not finite. They are refused
+/// when such a place would have to move, see fair(); check() lists them.
+class PolygonMesh {
+ public:
+  PolygonMesh() = default;
+
+  /// positions: one per node. face_begin: faces + 1 ascending offsets into corners, the first 0 and the last
+  /// corners.size(). corners: the nodes of each face in order around it.
+  /// Throws Error(unusable_mesh) naming the face when offsets do not ascend or a node number is out of range.
+  /// Cost: linear.
+  PolygonMesh(std::vector<Vector3> positions, std::vector<Index> face_begin, std::vector<Index> corners);
+
+  [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(positions_.size()); }
+  [[nodiscard]] Index face_count() const noexcept { return static_cast<Index>(face_begin_.size()) - 1; }
+
+  [[nodiscard]] const std::vector<Vector3>& positions() const noexcept { return positions_; }
+  [[nodiscard]] const Vector3& position(Index node) const { return positions_[static_cast<std::size_t>(node)]; }
+  /// Throws Error(invalid_argument) unless there is one position per node.
+  void set_positions(std::vector<Vector3> positions);
+
+  /// The nodes of a face, in order around it.
+  [[nodiscard]] std::span<const Index> face(Index face) const {
+    const auto f = static_cast<std::size_t>(face);
+    return {corners_.data() + face_begin_[f], static_cast<std::size_t>(face_begin_[f + 1] - face_begin_[f])};
+  }
+  [[nodiscard]] const std::vector<Index>& face_begin() const noexcept { return face_begin_; }
+  [[nodiscard]] const std::vector<Index>& corners() const noexcept { return corners_; }
+
+ private:
+  std::vector<Vector3> positions_;
+  std::vector<Index> face_begin_ = {0};
+  std::vector<Index> corners_;
+};
+
+/// Collects a mesh node by node and face by face.
+class MeshBuilder {
+ public:
+  /// Returns the number of the new node.
+  Index add_node(const Vector3& position) {
+    positions_.push_back(position);
+    return static_cast<Index>(positions_.size()) - 1;
+  }
+  void add_face(std::span<const Index> nodes) {
+    corners_.insert(corners_.end(), nodes.begin(), nodes.end());
+    face_begin_.push_back(static_cast<Index>(corners_.size()));
+  }
+  void add_face(std::initializer_list<Index> nodes) { add_face(std::span(nodes.begin(), nodes.size())); }
+
+  /// Hands the mesh over; throws as the constructor of PolygonMesh does.
+  [[nodiscard]] PolygonMesh take() { return {std::move(positions_), std::move(face_begin_), std::move(corners_)}; }
+
+ private:
+  std::vector<Vector3> positions_;
+  std::vector<Index> face_begin_ = {0};
+  std::vector<Index> corners_;
+};
+
+}  // namespace vspring

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vspring/context.hpp"
+#include "vspring/polygon_mesh.hpp"
+
+namespace vspring {
+
+enum class SurfaceFormat { obj, off, ply, stl };
+
+/// "obj", "off", "ply" or "stl" in any case, with or without a dot before it; empty for anything else.
+[[nodiscard]] std::optional<SurfaceFormat> surface_format(std::string_view extension);
+
+class SurfaceSource;  // the bytes of a file and where its coordinates and normals are; private to the library
+
+/// A mesh and all else that its file carried.
+struct SurfaceFile {
+  PolygonMesh mesh;
+  /// Nodes of each named group (OBJ `g` and `o`: all nodes of the faces that follow), ascending. Other formats have
+  /// none.
+  std::map<std::string, std::vector<Index>> groups;
+  /// The file's own normal of every node, unit length; empty where the file gives none, zero where a node has none.
+  std::vector<Vector3> normals;
+  SurfaceFormat format = SurfaceFormat::obj;
+  /// What a person should know: what was skipped, welded or repaired while reading.
+  std::vector<std::string> warnings;
+  /// Keeps what the format carried besides positions, for writing; null for a mesh that no file gave.
+  std::shared_ptr<const SurfaceSource> source;
+};
+
+/// Reads OBJ, OFF (with its N, C and ST variants), PLY (ASCII, both binary byte orders) or STL (ASCII, binary; equal
+/// positions are welded). path: a file, or "-" for standard input. The format is found from the content; `format`,
+/// where given, or the extension decide only where the content leaves it open. Throws Error(unusable_file) naming path
+/// and line (or byte) for anything that cannot be read whole. Cost: linear; the bytes of the file stay in memory.
+[[nodiscard]] SurfaceFile read_surface(const std::string& path, std::optional<SurfaceFormat> format = std::nullopt);
+
+/// Writes the surface with `positions` in place of its own. path: a file, or "-" for standard output. format: where
+/// not given, the extension's, and without one the source's own.
+///
+/// In the source's own format everything but positions is written as it was read, byte for byte; coordinates of nodes
+/// whose position is unchanged are too. Normals that the file gave are computed anew at nodes that moved and their
+/// neighbours. Single precision stays single. In another format: nodes and faces, and node normals where the source has
+/// them.
+///
+/// The file appears whole or not at all: it is written beside its place and renamed. Throws Error(unusable_file) when
+/// it cannot be, and Error(invalid_argument) unless there is one finite position per node. Returns what the source
+/// carried and the output does not, one line each, empty when nothing is lost. Cost: linear.
+std::vector<std::string> write_surface(const std::string& path, const SurfaceFile& surface,
+                                       const std::vector<Vector3>& positions,
+                                       std::optional<SurfaceFormat> format = std::nullopt);
+
+/// Writes a mesh that no file gave.
+void write_surface(const std::string& path, const PolygonMesh& mesh,
+                   std::optional<SurfaceFormat> format = std::nullopt);
+
+}  // namespace vspring

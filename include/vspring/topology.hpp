@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vspring/polygon_mesh.hpp"
+
+namespace vspring {
+
+/// Nodes with an edge that belongs to one face only: 1, else 0; one entry per node. Cost: linear.
+[[nodiscard]] std::vector<std::uint8_t> boundary_nodes(const PolygonMesh& mesh);
+
+/// Chains of boundary edges, each a list of nodes in order; the first node is not repeated at the end. At a node
+/// where more than two boundary edges meet, loops are told apart by the faces between them. Cost: linear.
+[[nodiscard]] std::vector<std::vector<Index>> boundary_loops(const PolygonMesh& mesh);
+
+/// The component of every node (nodes that share a face are in one component), numbered from 0 in the order of their
+/// first nodes. An isolated node is a component of its own. Cost: linear.
+[[nodiscard]] std::vector<Index> components(const PolygonMesh& mesh);
+
+/// What can be wrong with a mesh. `node`, `other` and `face` are −1 where they do not apply.
+struct Defect {
+  enum class Kind {
+    not_finite,         ///< node: a coordinate is not finite
+    isolated_node,      ///< node: no face uses it; it stays where it is
+    too_few_nodes,      ///< face: fewer than three nodes
+    repeated_node,      ///< face, node: the node occurs twice in the face
+    duplicate_face,     ///< face: has the same nodes as the earlier face `other`
+    non_manifold_edge,  ///< node, other: more than two faces share the edge between them
+    non_manifold_node,  ///< node: its faces form more than one fan
+    orientation,        ///< node, other: the two faces of this edge run along it in the same direction
+    zero_length_edge,   ///< node, other: at the same position
+    zero_area_face      ///< face: no area, so no normal
+  };
+  Kind kind;
+  Index node = -1;
+  Index other = -1;
+  Index face = -1;
+  /// One line: names the element and says what is wrong.
+  [[nodiscard]] std::string message() const;
+};
+
+/// Lists every defect of a mesh, ordered by kind, then by element. Cost: linear, apart from sorting what it finds.
+[[nodiscard]] std::vector<Defect> check(const PolygonMesh& mesh);
+
+}  // namespace vspring

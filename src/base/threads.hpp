@@ -1,0 +1,53 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace vspring {
+
+/// A team of threads that works off numbered tasks. Which thread takes which task is left open, so tasks must not
+/// depend on each other, and what they compute must not depend on who computes it: then results are the same bits for
+/// every size of team.
+class ThreadTeam {
+ public:
+  /// threads: at least 1, the caller among them.
+  explicit ThreadTeam(int threads);
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  [[nodiscard]] int size() const noexcept { return static_cast<int>(workers_.size()) + 1; }
+
+  /// Calls task(k) for k from 0 to count − 1 and returns when all are done. Tasks must not throw.
+  void run(std::size_t count, const std::function<void(std::size_t)>& task);
+
+ private:
+  void work();
+  void take_tasks();
+
+  std::vector<std::thread> workers_;
+  std::mutex mutex_;
+  std::condition_variable started_;
+  std::condition_variable finished_;
+  std::uint64_t round_ = 0;
+  bool ending_ = false;
+  std::size_t busy_ = 0;
+  const std::function<void(std::size_t)>* task_ = nullptr;
+  std::size_t count_ = 0;
+  std::atomic<std::size_t> next_ = 0;
+};
+
+/// Calls body(begin, end) for ranges that together cover 0 … count − 1, each at most `grain` long. The ranges do not
+/// depend on the size of the team.
+template <typename Body>
+void parallel_ranges(ThreadTeam& team, std::size_t count, std::size_t grain, const Body& body) {
+  const std::size_t ranges = (count + grain - 1) / grain;
+  team.run(ranges, [&](std::size_t k) { body(k * grain, k + 1 == ranges ? count : (k + 1) * grain); });
+}
+
+}  // namespace vspring

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "shape/incidence.hpp"
+
+namespace vspring {
+
+/// One step of the walk around a node through all nodes of its adjoining faces (its link).
+struct Link {
+  static constexpr std::uint32_t spoke_bit = 1U << 31;
+  static constexpr std::uint32_t start_bit = 1U << 30;
+  static constexpr std::uint32_t node_mask = start_bit - 1;
+
+  std::uint32_t code = 0;
+
+  [[nodiscard]] std::size_t node() const noexcept { return code & node_mask; }
+  /// An edge joins the node to its centre; a face ends here and the next begins.
+  [[nodiscard]] bool spoke() const noexcept { return (code & spoke_bit) != 0; }
+  /// A chain begins here: no face lies between this link and the one before it. A walk whose first link has
+  /// no such mark is closed: a face lies between its last link and its first.
+  [[nodiscard]] bool start() const noexcept { return (code & start_bit) != 0; }
+};
+
+/// The walk around one node, and what is wrong there.
+struct Fan {
+  std::vector<Link> links;
+  /// Faces go all the way around.
+  bool closed = false;
+  /// Chains of faces that hang together by edges at the node; more than one is non-manifold, none is an isolated node.
+  int chains = 0;
+  /// A neighbour whose edge belongs to more than two faces, or −1.
+  Index crowded_neighbour = -1;
+  /// A neighbour along whose edge both faces run in the same direction, or −1. The walk turns such faces over.
+  Index flipped_neighbour = -1;
+  /// A face that meets the node more than once, or −1.
+  Index repeating_face = -1;
+
+  /// Surface on all sides or on one: a normal can be told, and the node may move.
+  [[nodiscard]] bool manifold() const noexcept { return chains == 1 && crowded_neighbour < 0 && repeating_face < 0; }
+};
+
+/// Walks around nodes. Holds the buffers of a walk, so use one per thread.
+class FanWalker {
+ public:
+  FanWalker(const PolygonMesh& mesh, const Incidence& incidence) : mesh_(&mesh), incidence_(&incidence) {}
+
+  /// The fan of a node, in the sense of its first face where the orientation is consistent; valid until the next walk.
+  /// Cost: d log d for d faces.
+  const Fan& walk(Index node);
+
+ private:
+  struct End {
+    Index neighbour;
+    Index side;  // 2 × corner, + 1 on the side of the previous node in the face
+  };
+  void pair_sides(Index node);
+  void walk_chain(Index first_side);
+  void emit(Index node, std::uint32_t bits) { fan_.links.push_back({static_cast<std::uint32_t>(node) | bits}); }
+  [[nodiscard]] Index neighbour(Index side) const;
+
+  const PolygonMesh* mesh_;
+  const Incidence* incidence_;
+  std::span<const Corner> corners_;
+  Fan fan_;
+  std::vector<End> ends_;
+  std::vector<Index> twin_;
+  std::vector<std::uint8_t> visited_;
+};
+
+}  // namespace vspring

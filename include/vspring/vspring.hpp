@@ -7,6 +7,7 @@
 #include "vspring/fair.hpp"
 #include "vspring/fairness.hpp"
 #include "vspring/generate.hpp"
+#include "vspring/model.hpp"
 #include "vspring/polygon_mesh.hpp"
 #include "vspring/surface_file.hpp"
 #include "vspring/topology.hpp"

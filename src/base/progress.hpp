@@ -1,0 +1,32 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+
+#include "vspring/context.hpp"
+
+namespace vspring {
+
+/// Tells a context how far a call has come, at most some 20 times a second and never backwards.
+class ProgressReporter {
+ public:
+  explicit ProgressReporter(Context& context) : context_(&context) {}
+
+  void report(std::string_view stage, double fraction, int iteration = 0, double residual = 0) {
+    if (!context_->on_progress) return;
+    fraction_ = std::max(fraction_, std::clamp(fraction, 0.0, 1.0));
+    const auto now = std::chrono::steady_clock::now();
+    if (reported_ && now - last_ < std::chrono::milliseconds(50)) return;
+    reported_ = true;
+    last_ = now;
+    context_->on_progress({stage, fraction_, iteration, residual});
+  }
+
+ private:
+  Context* context_;
+  double fraction_ = 0;
+  bool reported_ = false;
+  std::chrono::steady_clock::time_point last_;
+};
+
+}  // namespace vspring

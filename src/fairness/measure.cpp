@@ -1,0 +1,207 @@
+#include "fairness/measure.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "shape/fan.hpp"
+#include "shape/frame.hpp"
+#include "spring/pseudo_normal.hpp"
+#include "spring/v_spring.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Sums are taken task by task and then over the tasks in order, so that they do not depend on the number of threads.
+constexpr std::size_t nodes_per_task = 2048;
+constexpr std::size_t faces_per_task = 4096;
+
+struct Sums {
+  double energy = 0;
+  double squared_turns = 0;
+  double greatest_turn = 0;
+  double turns = 0;
+
+  void add(const Sums& other) {
+    energy += other.energy;
+    squared_turns += other.squared_turns;
+    greatest_turn = std::max(greatest_turn, other.greatest_turn);
+    turns += other.turns;
+  }
+};
+
+class Measurement {
+ public:
+  Measurement(const PolygonMesh& mesh, const Constraints* constraints, ThreadTeam& team)
+      : mesh_(mesh), constraints_(constraints), team_(team), incidence_(mesh) {
+    mark_faces();
+    place();
+    compute_normals();
+  }
+
+  Fairness sum() {
+    const auto nodes = static_cast<std::size_t>(mesh_.node_count());
+    std::vector<Sums> sums((nodes + nodes_per_task - 1) / nodes_per_task);
+    parallel_ranges(team_, nodes, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      FanWalker walker(mesh_, incidence_);
+      Sums& part = sums[begin / nodes_per_task];
+      for (std::size_t i = begin; i < end; ++i) {
+        add_edges(static_cast<Index>(i), walker, part);
+        add_turns(static_cast<Index>(i), part);
+      }
+    });
+    Sums all;
+    for (const Sums& part : sums) all.add(part);
+    constexpr double degrees = 180 / std::numbers::pi;
+    Fairness fairness;
+    fairness.vspring_energy = all.energy;
+    fairness.greatest_turn = degrees * all.greatest_turn;
+    fairness.mean_turn = all.turns > 0 ? degrees * std::sqrt(all.squared_turns / all.turns) : 0;
+    return fairness;
+  }
+
+ private:
+  // With constraints, only faces at moving nodes count: the rest of the shape says nothing about what was done.
+  void mark_faces() {
+    const auto faces = static_cast<std::size_t>(mesh_.face_count());
+    counted_.assign(faces, constraints_ == nullptr ? 1 : 0);
+    for (std::size_t f = 0; f < faces; ++f) {
+      const auto face = mesh_.face(static_cast<Index>(f));
+      if (face.size() < 3) counted_[f] = 0;
+      if (constraints_ == nullptr || face.size() < 3) continue;
+      const bool moves =
+          std::any_of(face.begin(), face.end(), [&](Index i) { return !constraints_->position_fixed(i); });
+      counted_[f] = moves ? 1 : 0;
+    }
+  }
+
+  void place() {
+    Eigen::AlignedBox<double, 3> box;
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      if (counted_[static_cast<std::size_t>(f)] == 0) continue;
+      for (const Index i : mesh_.face(f)) box.extend(mesh_.position(i));
+    }
+    const Frame frame(box);
+    positions_.reserve(mesh_.positions().size());
+    for (const Vector3& position : mesh_.positions()) positions_.push_back(frame.to_local(position));
+  }
+  [[nodiscard]] const Vector3& position(Index node) const { return positions_[static_cast<std::size_t>(node)]; }
+
+  void compute_normals() {
+    node_normals_.assign(static_cast<std::size_t>(mesh_.node_count()), Vector3::Zero());
+    parallel_ranges(team_, node_normals_.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      FanWalker walker(mesh_, incidence_);
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto node = static_cast<Index>(i);
+        if (!touches_counted(node)) continue;
+        node_normals_[i] = constraints_ != nullptr && constraints_->normal_fixed(node)
+                               ? constraints_->normal(node)
+                               : LinkNormal()(position(node), walker.walk(node).links, positions_);
+      }
+    });
+    face_normals_.assign(static_cast<std::size_t>(mesh_.face_count()), Vector3::Zero());
+    parallel_ranges(team_, face_normals_.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t f = begin; f < end; ++f) {
+        if (counted_[f] != 0) face_normals_[f] = face_normal(static_cast<Index>(f));
+      }
+    });
+  }
+
+  [[nodiscard]] Vector3 face_normal(Index f) const {
+    const auto face = mesh_.face(f);
+    const Vector3& first = position(face[0]);
+    Vector3 sum = Vector3::Zero();
+    double scale = 0;
+    for (std::size_t k = 1; k + 1 < face.size(); ++k) {
+      const Vector3 a = position(face[k]) - first;
+      const Vector3 b = position(face[k + 1]) - first;
+      sum += a.cross(b);
+      scale += a.dot(a) + b.dot(b);
+    }
+    return direction(sum, scale);
+  }
+
+  [[nodiscard]] bool touches_counted(Index node) const {
+    const auto corners = incidence_.corners(node);
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](Corner corner) { return counted_[static_cast<std::size_t>(corner.face)] != 0; });
+  }
+
+  void add_edges(Index i, FanWalker& walker, Sums& sums) const {
+    if (!touches_counted(i)) return;
+    for (const Link link : walker.walk(i).links) {
+      const auto j = static_cast<Index>(link.node());
+      if (!link.spoke() || j < i) continue;
+      if (constraints_ != nullptr && constraints_->position_fixed(i) && constraints_->position_fixed(j)) continue;
+      const Vector3 d = position(j) - position(i);
+      const double length = d.norm();
+      if (!(length > 0)) continue;
+      const double difference = spring_difference(d / length, node_normals_[static_cast<std::size_t>(i)],
+                                                  node_normals_[static_cast<std::size_t>(j)]);
+      sums.energy += difference * difference;
+    }
+  }
+
+  // Turns across the edges from node i to nodes of a larger number.
+  void add_turns(Index i, Sums& sums) const {
+    const auto corners = incidence_.corners(i);
+    for (std::size_t a = 0; a < corners.size(); ++a) {
+      for (const bool forward_a : {true, false}) {
+        const Index j = end_of(corners[a], forward_a);
+        if (j < i) continue;
+        std::size_t others = 0;
+        std::size_t other = 0;
+        bool same_sense = false;
+        for (std::size_t b = 0; b < corners.size(); ++b) {
+          for (const bool forward_b : {true, false}) {
+            if ((b == a && forward_a == forward_b) || end_of(corners[b], forward_b) != j) continue;
+            ++others;
+            other = b;
+            same_sense = forward_a == forward_b;
+          }
+        }
+        if (others == 1 && other > a) add_turn(corners[a].face, corners[other].face, same_sense, sums);
+      }
+    }
+  }
+
+  [[nodiscard]] Index end_of(Corner corner, bool forward) const {
+    const auto face = mesh_.face(corner.face);
+    const auto place = static_cast<std::size_t>(corner.place);
+    return forward ? face[(place + 1) % face.size()] : face[(place + face.size() - 1) % face.size()];
+  }
+
+  void add_turn(Index a, Index b, bool same_sense, Sums& sums) const {
+    const Vector3& normal_a = face_normals_[static_cast<std::size_t>(a)];
+    const Vector3 normal_b = (same_sense ? -1.0 : 1.0) * face_normals_[static_cast<std::size_t>(b)];
+    if (normal_a.isZero(0) || normal_b.isZero(0)) return;
+    const double turn = std::atan2(normal_a.cross(normal_b).norm(), normal_a.dot(normal_b));
+    sums.greatest_turn = std::max(sums.greatest_turn, turn);
+    sums.squared_turns += turn * turn;
+    sums.turns += 1;
+  }
+
+  const PolygonMesh& mesh_;
+  const Constraints* constraints_;
+  ThreadTeam& team_;
+  Incidence incidence_;
+  std::vector<std::uint8_t> counted_;
+  std::vector<Vector3> positions_;
+  std::vector<Vector3> node_normals_;
+  std::vector<Vector3> face_normals_;
+};
+
+}  // namespace
+
+Fairness measure(const PolygonMesh& mesh, const Constraints* constraints, ThreadTeam& team) {
+  return Measurement(mesh, constraints, team).sum();
+}
+
+Fairness measure(const PolygonMesh& mesh, const Constraints* constraints) {
+  ThreadTeam alone(1);
+  return measure(mesh, constraints, alone);
+}
+
+}  // namespace vspring

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "shape/fan.hpp"
+
+namespace vspring {
+
+/// The links of many nodes, one after the other (CSR).
+class Rings {
+ public:
+  [[nodiscard]] std::size_t size() const noexcept { return begin_.size() - 1; }
+  [[nodiscard]] std::span<const Link> links(std::size_t node) const noexcept {
+    return {links_.data() + begin_[node], begin_[node + 1] - begin_[node]};
+  }
+  /// Place of the node's first link among all links.
+  [[nodiscard]] std::size_t begin(std::size_t node) const noexcept { return begin_[node]; }
+  [[nodiscard]] std::size_t link_count() const noexcept { return links_.size(); }
+
+  void reserve(std::size_t nodes, std::size_t links) {
+    begin_.reserve(nodes + 1);
+    links_.reserve(links);
+  }
+  void add(std::span<const Link> links) {
+    links_.insert(links_.end(), links.begin(), links.end());
+    begin_.push_back(static_cast<std::uint32_t>(links_.size()));
+  }
+
+ private:
+  std::vector<std::uint32_t> begin_ = {0};
+  std::vector<Link> links_;
+};
+
+}  // namespace vspring

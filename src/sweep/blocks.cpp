@@ -1,0 +1,51 @@
+#include "sweep/blocks.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+namespace vspring {
+
+namespace {
+
+// Small enough that a few hundred nodes make work for several threads, large enough that handing one out costs little
+// beside sweeping it and that most neighbours of a node lie in its own block.
+constexpr std::size_t smallest_block = 64;
+constexpr std::size_t largest_block = 4096;
+constexpr std::size_t blocks_wanted = 64;
+
+}  // namespace
+
+std::vector<std::vector<Block>> parallel_order(const Net& net) {
+  const std::size_t size = std::clamp(net.moving / blocks_wanted, smallest_block, largest_block);
+  const std::size_t count = (net.moving + size - 1) / size;
+  std::vector<std::vector<Block>> groups;
+  std::vector<std::size_t> group_of(count);
+  std::vector<std::size_t> taken_by;  // the last block that found a group taken by a neighbour
+  // A block and a later neighbour may see each other's edges from one side only where the mesh is not manifold, so both
+  // sides are noted.
+  std::vector<std::vector<std::size_t>> neighbours(count);
+  const auto note = [&](std::size_t a, std::size_t b) {
+    if (neighbours[a].empty() || neighbours[a].back() != b) neighbours[a].push_back(b);
+  };
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    for (const Link link : net.rings.links(i)) {
+      if (!link.spoke() || link.node() >= net.moving || link.node() / size == i / size) continue;
+      note(i / size, link.node() / size);
+      note(link.node() / size, i / size);
+    }
+  }
+  for (std::size_t b = 0; b < count; ++b) {
+    taken_by.assign(groups.size() + 1, count);
+    for (const std::size_t other : neighbours[b]) {
+      if (other < b) taken_by[group_of[other]] = b;
+    }
+    std::size_t group = 0;
+    while (taken_by[group] == b) ++group;
+    if (group == groups.size()) groups.emplace_back();
+    group_of[b] = group;
+    groups[group].push_back({b * size, std::min(net.moving, (b + 1) * size)});
+  }
+  return groups;
+}
+
+}  // namespace vspring

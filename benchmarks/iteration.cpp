@@ -1,0 +1,89 @@
+// Time of one iteration (normals and sweep) per node on 1 and 2 threads, beside the bytes that it has to move and the
+// time that copying as many bytes takes on this machine; and peak memory per node.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "spring/net.hpp"
+#include "sweep/sweep.hpp"
+#include "vspring/generate.hpp"
+#include "vspring/version.hpp"
+
+namespace {
+
+using namespace vspring;
+
+template <typename Call>
+double seconds(const Call& call) {
+  const auto begin = std::chrono::steady_clock::now();
+  call();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+template <typename Call>
+double best_of(int times, const Call& call) {
+  double best = seconds(call);
+  for (int k = 1; k < times; ++k) best = std::min(best, seconds(call));
+  return best;
+}
+
+/// Bytes a second that the machine moves when it copies arrays far larger than its caches, read and write counted.
+double copy_bandwidth(ThreadTeam& team) {
+  const std::size_t doubles = std::size_t{1} << 25;
+  std::vector<double> from(doubles, 1.0);
+  std::vector<double> to(doubles, 0.0);
+  const double time = best_of(5, [&] {
+    parallel_ranges(team, doubles, doubles / 16, [&](std::size_t begin, std::size_t end) {
+      std::memcpy(to.data() + begin, from.data() + begin, (end - begin) * sizeof(double));
+    });
+  });
+  return 2.0 * static_cast<double>(doubles * sizeof(double)) / time;
+}
+
+/// What one iteration cannot avoid moving if everything is read and written once in each of its two passes.
+double bytes_per_node(const Net& net) {
+  const auto nodes = static_cast<double>(net.moving);
+  const double rings = static_cast<double>(net.rings.link_count() * sizeof(Link)) / nodes + sizeof(std::uint32_t);
+  const double vector = sizeof(Vector3);
+  const double normals_pass = vector + rings + sizeof(std::uint8_t) +
+                              2 * vector;  // positions, rings, flags; normals written (and fetched to be)
+  const double sweep_pass = 2 * vector + vector + rings;  // positions in and out, normals, rings
+  return normals_pass + sweep_pass;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto nodes = static_cast<Index>(argc > 1 ? std::atoi(argv[1]) : 1000000);
+  const long long memory_before = peak_memory_bytes();
+  const PolygonMesh mesh = generate::cap({.nodes = nodes, .half_angle = 60, .jitter = 0.3});
+  Constraints constraints(mesh.node_count());
+  fix_boundary_positions(constraints, mesh);
+  Net net;
+  const double gathering = seconds([&] { net = gather_net(mesh, constraints); });
+  const auto memory = static_cast<double>(peak_memory_bytes() - memory_before) / nodes;
+  fmt::print("{} nodes, {} of them moving; gathering the net {:.0f} ns a node\n", nodes, net.moving,
+             1e9 * gathering / nodes);
+  fmt::print("peak memory {:.0f} bytes a node, the input mesh among them\n\n", memory);
+  fmt::print(
+      "| threads | normals, ns a node | iteration, ns a node | bytes moved a node | copying them, ns | ratio |\n");
+  fmt::print("|---|---|---|---|---|---|\n");
+  for (const int threads : {1, 2}) {
+    ThreadTeam team(threads);
+    const double bandwidth = copy_bandwidth(team);
+    Sweep sweep(net, PseudoNormals::link, Distribution::even, team);
+    sweep.iterate();
+    const double normals = best_of(5, [&] { update_normals(net, PseudoNormals::link, team); });
+    const double iteration = best_of(10, [&] { sweep.iterate(); });
+    const double per_node = 1e9 / static_cast<double>(net.moving);
+    const double copying = 1e9 * bytes_per_node(net) / bandwidth;
+    fmt::print("| {} | {:.1f} | {:.1f} | {:.0f} | {:.1f} | {:.1f} |\n", threads, normals * per_node,
+               iteration * per_node, bytes_per_node(net), copying, iteration * per_node / copying);
+  }
+  return 0;
+}

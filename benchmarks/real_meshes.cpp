@@ -1,0 +1,103 @@
+// Fairs regions of meshes that users have: for each mesh, spheres of 6 % and 12 % of the diagonal about three nodes,
+// the rest fixed. Prints the table of docs/real-meshes.md. With a folder as first argument before the meshes (--out
+// FOLDER) leaves the meshes before and after there, with a list of views for pictures.
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "base/random.hpp"
+#include "vspring/vspring.hpp"
+
+namespace {
+
+using namespace vspring;
+
+struct Region {
+  Vector3 centre;
+  double radius;
+  std::vector<Index> nodes;
+};
+
+Region region_about(const PolygonMesh& mesh, Index seed, double radius) {
+  Region region{mesh.position(seed), radius, {}};
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if ((mesh.position(i) - region.centre).norm() <= radius) region.nodes.push_back(i);
+  }
+  return region;
+}
+
+void add_view(std::ofstream& views, const std::string& name, const PolygonMesh& mesh, const Region& region,
+              Index seed) {
+  const Index nodes[] = {seed};
+  Vector3 normal = estimate_normals(mesh, nodes).front();
+  if (normal.isZero(0)) normal = Vector3(0, 0, 1);
+  const Vector3 up = std::abs(normal.y()) < 0.9 ? Vector3(0, 1, 0) : Vector3(0, 0, 1);
+  const Vector3 side = normal.cross(up).normalized();
+  const Vector3 eye = region.centre + region.radius * (4.5 * normal + 2.5 * side + 1.5 * up);
+  views << fmt::format("{} {},{},{} {},{},{} {},{},{}\n", name, eye.x(), eye.y(), eye.z(), region.centre.x(),
+                       region.centre.y(), region.centre.z(), up.x(), up.y(), up.z());
+}
+
+void run(const std::string& path, const std::filesystem::path& out, std::ofstream& views) {
+  const SurfaceFile file = read_surface(path);
+  const PolygonMesh& mesh = file.mesh;
+  Eigen::AlignedBox<double, 3> box;
+  for (const Vector3& position : mesh.positions()) box.extend(position);
+  const std::string stem = std::filesystem::path(path).stem();
+  for (const double share : {0.06, 0.12}) {
+    for (std::uint64_t run = 0; run < 3; ++run) {
+      Random random(run + 1);
+      const auto seed = static_cast<Index>(random.uniform() * mesh.node_count());
+      const Region region = region_about(mesh, seed, share * box.diagonal().norm());
+      Constraints constraints(mesh.node_count());
+      fix_boundary_positions(constraints, mesh);
+      const std::string row =
+          fmt::format("| {} | {:.0f} % | {} |", std::filesystem::path(path).filename().string(), 100 * share, seed);
+      try {
+        restrict_to_region(constraints, mesh, region.nodes);
+        const FairResult result = fair(mesh, constraints);
+        const FairReport& report = result.report;
+        fmt::print("{} {} | {} | {} | {:.3f} | {:.3g} → {:.3g} | {:.0f} → {:.0f} | {:.1f} → {:.1f} | {:.2f} % |\n", row,
+                   report.moving_nodes, name(report.outcome), report.iterations, report.seconds,
+                   report.before.vspring_energy, report.after.vspring_energy, report.before.greatest_turn,
+                   report.after.greatest_turn, report.before.mean_turn, report.after.mean_turn,
+                   100 * report.greatest_move / box.diagonal().norm());
+        if (!out.empty()) {
+          const std::string name = fmt::format("{}-{:.0f}-{}", stem, 100 * share, run + 1);
+          (void)write_surface(out / (name + "-before.ply"), mesh);
+          PolygonMesh faired = mesh;
+          faired.set_positions(result.positions);
+          (void)write_surface(out / (name + "-after.ply"), faired);
+          add_view(views, name, mesh, region, seed);
+        }
+      } catch (const Error& error) {
+        fmt::print("{} | refused: {} | | | | | | |\n", row, error.what());
+      }
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  int first = 1;
+  std::filesystem::path out;
+  if (argc > 2 && std::string(argv[1]) == "--out") {
+    out = argv[2];
+    std::filesystem::create_directories(out);
+    first = 3;
+  }
+  std::ofstream views;
+  if (!out.empty()) views.open(out / "views.txt");
+  fmt::print(
+      "| mesh | radius | seed node | moving nodes | outcome | iterations | seconds | V-Spring energy | greatest turn, "
+      "° | rms turn, ° | largest move, of the diagonal |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (int k = first; k < argc; ++k) run(argv[k], out, views);
+  return 0;
+}

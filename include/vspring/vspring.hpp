@@ -8,6 +8,7 @@
 #include "vspring/fairness.hpp"
 #include "vspring/generate.hpp"
 #include "vspring/model.hpp"
+#include "vspring/output_file.hpp"
 #include "vspring/polygon_mesh.hpp"
 #include "vspring/surface_file.hpp"
 #include "vspring/topology.hpp"

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+namespace vspring {
+
+/// A number at an address that need not be aligned. swapped: its bytes are in the other order than this machine's.
+template <typename Number>
+Number load(const char* from, bool swapped) {
+  std::array<char, sizeof(Number)> bytes;
+  for (std::size_t k = 0; k < sizeof(Number); ++k) bytes[k] = from[swapped ? sizeof(Number) - 1 - k : k];
+  return std::bit_cast<Number>(bytes);
+}
+
+template <typename Number>
+void store(char* to, Number number, bool swapped) {
+  const auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+  for (std::size_t k = 0; k < sizeof(Number); ++k) to[k] = bytes[swapped ? sizeof(Number) - 1 - k : k];
+}
+
+/// Whether numbers in this order have to be swapped on this machine.
+constexpr bool swapped_here(std::endian order) { return order != std::endian::native; }
+
+}  // namespace vspring

@@ -1,0 +1,110 @@
+#include "io/file_normals.hpp"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace vspring {
+namespace {
+
+/// The length in which edges are measured, so that products of lengths neither overflow nor vanish.
+double typical_length(std::span<const Vector3> positions) {
+  Vector3 low = Vector3::Constant(HUGE_VAL);
+  Vector3 high = Vector3::Constant(-HUGE_VAL);
+  for (const Vector3& position : positions) {
+    if (!position.allFinite()) continue;
+    low = low.cwiseMin(position);
+    high = high.cwiseMax(position);
+  }
+  const double length = (high - low).stableNorm();
+  return length > 0 && std::isfinite(length) ? length : 1;
+}
+
+class CornerSums {
+ public:
+  CornerSums(std::span<const Vector3> positions, std::size_t count)
+      : positions_(positions), length_(typical_length(positions)), sums_(count, Vector3::Zero()) {}
+
+  void add(std::span<const Index> face, std::size_t corner, Index normal) {
+    const Vector3& node = positions_[face[corner]];
+    const Vector3 to_next = positions_[face[(corner + 1) % face.size()]] - node;
+    const Vector3 to_previous = positions_[face[(corner + face.size() - 1) % face.size()]] - node;
+    const double next = to_next.stableNorm();
+    const double previous = to_previous.stableNorm();
+    if (!(next > 0) || !(previous > 0)) return;
+    sums_[normal] += (to_next / next).cross(to_previous / previous) * (length_ / next) * (length_ / previous);
+  }
+  [[nodiscard]] Vector3 unit(std::size_t normal) const { return unit_or_zero(sums_[normal]); }
+
+ private:
+  std::span<const Vector3> positions_;
+  double length_;
+  std::vector<Vector3> sums_;
+};
+
+}  // namespace
+
+Vector3 unit_or_zero(const Vector3& vector) {
+  const double length = vector.stableNorm();
+  if (!(length > 0) || !std::isfinite(length)) return Vector3::Zero();
+  const Vector3 unit = vector / length;
+  return unit.allFinite() ? unit : Vector3::Zero();
+}
+
+NewNormals compute_normals(const PolygonMesh& mesh, std::span<const Index> corner_normals,
+                           std::span<const Vector3> before, std::span<const Vector3> old_positions,
+                           std::span<const Vector3> positions, std::span<const std::uint8_t> moved) {
+  NewNormals result;
+  result.due.assign(before.size(), 0);
+  result.normals.assign(before.size(), Vector3::Zero());
+  const auto each_corner = [&](const auto& action) {
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      for (std::size_t k = 0; k < mesh.face(f).size(); ++k) {
+        const Index normal = corner_normals[mesh.face_begin()[f] + k];
+        if (normal >= 0) action(f, k, normal);
+      }
+    }
+  };
+  bool any = false;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    bool face_moved = false;
+    for (const Index node : mesh.face(f)) face_moved = face_moved || moved[node] != 0;
+    if (!face_moved) continue;
+    for (Index corner = mesh.face_begin()[f]; corner < mesh.face_begin()[f + 1]; ++corner) {
+      if (corner_normals[corner] < 0) continue;
+      result.due[corner_normals[corner]] = 1;
+      any = true;
+    }
+  }
+  if (!any) return result;
+
+  CornerSums old_sums(old_positions, before.size());
+  CornerSums new_sums(positions, before.size());
+  each_corner([&](Index f, std::size_t corner, Index normal) {
+    if (result.due[normal] == 0 || mesh.face(f).size() < 3) return;
+    old_sums.add(mesh.face(f), corner, normal);
+    new_sums.add(mesh.face(f), corner, normal);
+  });
+  double agreement = 0;
+  for (std::size_t n = 0; n < before.size(); ++n) {
+    if (result.due[n] == 0) continue;
+    agreement += unit_or_zero(before[n]).dot(old_sums.unit(n));
+    result.normals[n] = new_sums.unit(n);
+    result.due[n] = result.normals[n].isZero(0) ? 0 : 1;
+  }
+  if (agreement < 0) {
+    for (Vector3& normal : result.normals) normal = -normal;
+  }
+  return result;
+}
+
+std::vector<Vector3> node_normals(const PolygonMesh& mesh, std::span<const Index> corner_normals,
+                                  std::span<const Vector3> normals) {
+  std::vector<Vector3> sums(mesh.positions().size(), Vector3::Zero());
+  for (std::size_t corner = 0; corner < mesh.corners().size(); ++corner) {
+    if (corner_normals[corner] >= 0) sums[mesh.corners()[corner]] += normals[corner_normals[corner]];
+  }
+  for (Vector3& sum : sums) sum = unit_or_zero(sum);
+  return sums;
+}
+
+}  // namespace vspring

@@ -1,0 +1,117 @@
+#include "vspring/output_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <atomic>
+#include <cerrno>
+#include <filesystem>
+#include <optional>
+
+#include "io/file_descriptor.hpp"
+#include "io/system_fault.hpp"
+
+namespace vspring {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* written = "written";
+
+/// False with errno set where not all bytes could be written.
+bool write_all(int number, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(number, bytes.data(), bytes.size());
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      return false;
+    }
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+void write_directly(const std::string& path, std::string_view bytes) {
+  FileDescriptor target(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_TRUNC));
+  if (!target.valid() || !write_all(target.number(), bytes) || !target.close()) refuse_file(path, written, errno);
+}
+
+/// The file that symbolic links lead to, whether it exists or not; nothing where they lead into /proc, whose links
+/// stand for open files and not for paths.
+std::optional<fs::path> followed(const std::string& path) {
+  constexpr int most_links = 40;
+  fs::path place = path;
+  for (int links = 0; links < most_links; ++links) {
+    std::error_code fault;
+    if (!fs::is_symlink(fs::symlink_status(place, fault))) return place;
+    const fs::path folder = fs::canonical(place.has_parent_path() ? place.parent_path() : ".", fault);
+    if (!fault && folder.native().starts_with("/proc/")) return std::nullopt;
+    place = place.parent_path() / fs::read_symlink(place, fault);
+    if (fault) refuse_file(path, written, fault.value());
+  }
+  refuse_file(path, written, ELOOP);
+}
+
+/// A new file beside `target`, removed again unless it is moved to its place.
+class TemporaryFile {
+ public:
+  TemporaryFile(const fs::path& target, const std::string& name) {
+    static std::atomic<unsigned> counter = 0;
+    for (;;) {
+      path_ = target.parent_path() / fmt::format(".vspring-{}-{}.tmp", ::getpid(), counter++);
+      // The mode is what any new file gets: the system takes the umask off.
+      number_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (number_ >= 0) return;
+      if (errno != EEXIST) refuse_file(name, written, errno);
+    }
+  }
+  ~TemporaryFile() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  [[nodiscard]] int number() const noexcept { return number_; }
+  [[nodiscard]] bool move_to(const fs::path& target) {
+    if (::rename(path_.c_str(), target.c_str()) != 0) return false;
+    path_.clear();
+    return true;
+  }
+
+ private:
+  fs::path path_;
+  int number_ = -1;
+};
+
+void write_beside(const std::string& path, const fs::path& target, const struct stat* before, std::string_view bytes) {
+  TemporaryFile temporary(target, path);
+  FileDescriptor descriptor(temporary.number());
+  if (!write_all(descriptor.number(), bytes)) refuse_file(path, written, errno);
+  if (before != nullptr) {
+    // Another owner can be kept only by those who may give files away. Owner first: changing it can clear mode bits.
+    const bool owner_kept = ::fchown(descriptor.number(), before->st_uid, before->st_gid) == 0;
+    const mode_t mode = before->st_mode & (owner_kept ? 07777 : 0777);
+    if (::fchmod(descriptor.number(), mode) != 0) refuse_file(path, written, errno);
+  }
+  if (!descriptor.close() || !temporary.move_to(target)) refuse_file(path, written, errno);
+}
+
+}  // namespace
+
+void write_file(const std::string& path, std::string_view bytes) {
+  if (path == "-" || path == "/dev/stdout") {
+    if (!write_all(STDOUT_FILENO, bytes)) refuse_file("standard output", written, errno);
+    return;
+  }
+  struct stat status {};
+  const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) refuse_file(path, written, EISDIR);
+  const std::optional<fs::path> target = followed(path);
+  if (!target || (exists && !S_ISREG(status.st_mode))) return write_directly(path, bytes);
+  // Renaming would replace even a file that nobody may write to.
+  if (exists && ::access(path.c_str(), W_OK) != 0) refuse_file(path, written, errno);
+  write_beside(path, *target, exists ? &status : nullptr, bytes);
+}
+
+}  // namespace vspring

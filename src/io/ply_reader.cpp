@@ -1,0 +1,267 @@
+// PLY, the polygon file format: text and both byte orders, with any elements and properties.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "io/face_list.hpp"
+#include "io/file_normals.hpp"
+#include "io/ply_data.hpp"
+#include "io/ply_source.hpp"
+#include "vspring/error.hpp"
+
+namespace vspring {
+namespace {
+
+/// Data: PlyText or PlyBinary.
+template <typename Data>
+class PlyReader {
+ public:
+  PlyReader(const InputFile& file, PlySource& source)
+      : file_(file), source_(source), header_(source.header), data_(file, source.header) {}
+
+  void read();
+
+  std::vector<Vector3> positions;
+  std::vector<Vector3> normals;
+  FaceList faces;
+
+ private:
+  void check_count(const PlyElement& element) const;
+  std::uint64_t list_length(const PlyProperty& property, const PlyPlace& place);
+  void skip_property(const PlyProperty& property, const PlyPlace& place);
+  void skip_elements(const PlyElement& element);
+  void read_nodes(const PlyElement& element);
+  void read_faces(const PlyElement& element);
+  void read_strips(const PlyElement& element);
+  void add_face(std::span<const std::int64_t> nodes, const PlyPlace& place);
+  int corner_list(const PlyElement& element) const;
+
+  const InputFile& file_;
+  PlySource& source_;
+  const PlyHeader& header_;
+  Data data_;
+};
+
+template <typename Data>
+void PlyReader<Data>::check_count(const PlyElement& element) const {
+  const std::size_t size = element.least_size(header_.encoding);
+  if (size > 0 && element.count > data_.bytes_left() / size)
+    file_.refuse(
+        fmt::format("{} elements {} are promised, but the file is too short for them; correct the count or "
+                    "restore what is missing",
+                    element.count, in_quotes(element.name)));
+}
+
+template <typename Data>
+std::uint64_t PlyReader<Data>::list_length(const PlyProperty& property, const PlyPlace& place) {
+  const std::int64_t length = data_.whole(*property.count_type, place);
+  if (length < 0) data_.refuse(fmt::format("{}: a list of {} numbers; correct it", place.text(), length));
+  data_.check_room(property.type, static_cast<std::uint64_t>(length), place);
+  return static_cast<std::uint64_t>(length);
+}
+
+template <typename Data>
+void PlyReader<Data>::skip_property(const PlyProperty& property, const PlyPlace& place) {
+  data_.skip(property.type, property.count_type ? list_length(property, place) : 1, place);
+}
+
+template <typename Data>
+void PlyReader<Data>::skip_elements(const PlyElement& element) {
+  if (element.properties.empty()) return;
+  for (PlyPlace place{&element, 0}; place.number < element.count; ++place.number) {
+    for (const PlyProperty& property : element.properties) skip_property(property, place);
+  }
+}
+
+template <typename Data>
+void PlyReader<Data>::read_nodes(const PlyElement& element) {
+  positions.reserve(element.count);
+  if (source_.has_normals()) normals.reserve(element.count);
+  const bool keep_rows = header_.encoding == PlyEncoding::text || element.has_lists();
+  if (keep_rows) source_.rows.reserve(element.count);
+  // Which of the six fields each property is.
+  std::vector<int> field_of(element.properties.size(), -1);
+  for (int field = 0; field < 6; ++field) {
+    if (source_.fields[field] >= 0) field_of[source_.fields[field]] = field;
+  }
+  source_.first_row = data_.offset();
+  for (PlyPlace place{&element, 0}; place.number < element.count; ++place.number) {
+    data_.align();
+    if (keep_rows) source_.rows.push_back(data_.offset());
+    std::array<double, 6> values{};
+    for (std::size_t k = 0; k < element.properties.size(); ++k) {
+      const PlyProperty& property = element.properties[k];
+      if (field_of[k] >= 0)
+        values[field_of[k]] = data_.number(property.type, place);
+      else
+        skip_property(property, place);
+    }
+    positions.emplace_back(values[0], values[1], values[2]);
+    if (source_.has_normals()) normals.push_back(unit_or_zero(Vector3(values[3], values[4], values[5])));
+  }
+}
+
+template <typename Data>
+int PlyReader<Data>::corner_list(const PlyElement& element) const {
+  const int list = std::max(element.find("vertex_indices"), element.find("vertex_index"));
+  const PlyProperty* property = list < 0 ? nullptr : &element.properties[list];
+  if (property == nullptr || !property->count_type || !is_whole(property->type))
+    file_.refuse(fmt::format("element {} has no list vertex_indices of whole numbers; export the file again",
+                             in_quotes(element.name)));
+  return list;
+}
+
+template <typename Data>
+void PlyReader<Data>::add_face(std::span<const std::int64_t> nodes, const PlyPlace& place) {
+  if (faces.full()) data_.refuse("too many faces; split the file");
+  for (const std::int64_t node : nodes) {
+    if (node < 0) data_.refuse(fmt::format("{}: node {} does not exist; correct the face", place.text(), node));
+    faces.add_corner(node, data_.offset());
+  }
+  faces.end_face();
+}
+
+template <typename Data>
+void PlyReader<Data>::read_faces(const PlyElement& element) {
+  const int list = corner_list(element);
+  faces.reserve(element.count, std::min<std::uint64_t>(3 * element.count, data_.bytes_left()));
+  std::vector<std::int64_t> nodes;
+  for (PlyPlace place{&element, 0}; place.number < element.count; ++place.number) {
+    for (int k = 0; k < static_cast<int>(element.properties.size()); ++k) {
+      const PlyProperty& property = element.properties[k];
+      if (k != list) {
+        skip_property(property, place);
+        continue;
+      }
+      nodes.resize(list_length(property, place));
+      for (std::int64_t& node : nodes) node = data_.whole(property.type, place);
+      add_face(nodes, place);
+    }
+  }
+}
+
+/// Strips of triangles: each node makes one with the two before it, every other one turned; −1 ends a strip.
+template <typename Data>
+void PlyReader<Data>::read_strips(const PlyElement& element) {
+  const int list = corner_list(element);
+  for (PlyPlace place{&element, 0}; place.number < element.count; ++place.number) {
+    for (int k = 0; k < static_cast<int>(element.properties.size()); ++k) {
+      const PlyProperty& property = element.properties[k];
+      if (k != list) {
+        skip_property(property, place);
+        continue;
+      }
+      std::array<std::int64_t, 3> last{};
+      int run = 0;
+      for (std::uint64_t left = list_length(property, place); left > 0; --left) {
+        const std::int64_t node = data_.whole(property.type, place);
+        last = {last[1], last[2], node};
+        run = node == -1 ? 0 : run + 1;
+        // Strips turn corners with triangles that repeat a node; those are not faces.
+        if (run < 3 || last[0] == last[1] || last[1] == last[2] || last[0] == last[2]) continue;
+        const bool turned = run % 2 == 0;
+        add_face(std::array{last[turned ? 1 : 0], last[turned ? 0 : 1], last[2]}, place);
+      }
+    }
+  }
+}
+
+template <typename Data>
+void PlyReader<Data>::read() {
+  for (const PlyElement& element : header_.elements) {
+    check_count(element);
+    if (element.name == "vertex")
+      read_nodes(element);
+    else if (element.name == "face")
+      read_faces(element);
+    else if (element.name == "tristrips")
+      read_strips(element);
+    else
+      skip_elements(element);
+  }
+  if (!data_.only_padding_left())
+    data_.refuse("the file goes on after its last element; correct the counts in its header");
+  if (faces.highest() >= static_cast<std::int64_t>(positions.size()))
+    data_.refuse_at(faces.highest_where(),
+                    fmt::format("node {} does not exist, nodes go from 0 to {}; correct the face", faces.highest(),
+                                positions.size() - 1));
+}
+
+/// Finds the coordinates and normals among the properties of the nodes.
+void find_fields(const InputFile& file, PlySource& source) {
+  const PlyElement* element = source.header.find("vertex");
+  if (element == nullptr) file.refuse("its header has no element 'vertex'; choose the file of a surface");
+  if (element->count == 0) file.refuse("it has no nodes; choose the file of a surface");
+  if (element->count > static_cast<std::uint64_t>(most_nodes)) file.refuse("more than 2^30 nodes; split the file");
+  constexpr std::array names = {"x", "y", "z", "nx", "ny", "nz"};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const int property = element->find(names[k]);
+    if (property >= 0 && !element->properties[property].count_type) source.fields[k] = property;
+    if (k < 3 && source.fields[k] < 0)
+      file.refuse(fmt::format("its nodes have no property {}; export it again", names[k]));
+  }
+  if (source.fields[3] < 0 || source.fields[4] < 0 || source.fields[5] < 0)
+    source.fields[3] = source.fields[4] = source.fields[5] = -1;
+}
+
+/// What other formats are not given.
+std::vector<std::string> carried_by(const PlySource& source) {
+  static const std::set<std::string_view> colours = {"red",         "green",         "blue",        "alpha",
+                                                     "diffuse_red", "diffuse_green", "diffuse_blue"};
+  static const std::set<std::string_view> textures = {"s",         "t",         "u",        "v",
+                                                      "texture_u", "texture_v", "texcoord", "texnumber"};
+  std::set<std::string> carried;
+  if (source.header.comments) carried.insert("comments");
+  for (const PlyElement& element : source.header.elements) {
+    const bool face = element.name == "face";
+    if (element.name != "vertex" && !face && element.name != "tristrips") {
+      carried.insert(fmt::format("element {}", element.name));
+      continue;
+    }
+    for (int k = 0; k < static_cast<int>(element.properties.size()); ++k) {
+      const std::string& name = element.properties[k].name;
+      const bool known = element.name == "vertex"
+                             ? std::find(source.fields.begin(), source.fields.end(), k) != source.fields.end()
+                             : name == "vertex_indices" || name == "vertex_index";
+      if (known) continue;
+      if (colours.count(name) > 0)
+        carried.insert("colours");
+      else if (textures.count(name) > 0)
+        carried.insert("texture coordinates");
+      else
+        carried.insert(fmt::format("property {} of {}", name, element.name));
+    }
+  }
+  return {carried.begin(), carried.end()};
+}
+
+template <typename Data>
+void read_data(const InputFile& file, PlySource& source, SurfaceFile& surface) {
+  PlyReader<Data> reader(file, source);
+  reader.read();
+  source.positions = reader.positions;
+  source.corner_count = reader.faces.corner_count();
+  surface.mesh = reader.faces.take(std::move(reader.positions));
+  surface.normals = std::move(reader.normals);
+}
+
+}  // namespace
+
+SurfaceFile read_ply(InputFile file) {
+  const auto source = std::make_shared<PlySource>();
+  source->header = read_ply_header(file);
+  find_fields(file, *source);
+  SurfaceFile surface;
+  surface.format = SurfaceFormat::ply;
+  if (source->header.encoding == PlyEncoding::text)
+    read_data<PlyText>(file, *source, surface);
+  else
+    read_data<PlyBinary>(file, *source, surface);
+  source->carried = carried_by(*source);
+  source->file = std::move(file);
+  surface.source = source;
+  return surface;
+}
+
+}  // namespace vspring

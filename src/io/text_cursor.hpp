@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "io/input_file.hpp"
+
+namespace vspring {
+
+/// White space of every text format here; line ends are among it.
+constexpr bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+/// The length of a backslash and the line end behind it, which OBJ reads as a blank; 0 where there is none.
+inline std::size_t continuation_length(const char* p, const char* end) {
+  if (p == end || *p != '\\' || p + 1 == end) return 0;
+  if (p[1] == '\n') return 2;
+  if (p[1] != '\r') return 0;
+  return p + 2 != end && p[2] == '\n' ? 3 : 2;
+}
+
+/// Walks the words and lines of a file. Numbers mean the same in every locale.
+class TextCursor {
+ public:
+  /// continued: a backslash before a line end joins the next line to this one.
+  explicit TextCursor(const InputFile& file, std::size_t begin = 0, bool continued = false);
+
+  [[nodiscard]] std::size_t offset() const { return static_cast<std::size_t>(at_ - file_->bytes.data()); }
+  [[nodiscard]] std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
+  [[nodiscard]] bool at_end() const { return at_ == end_; }
+  [[nodiscard]] bool at_line_end() const { return at_ == end_ || *at_ == line_end_; }
+  /// The next character, or 0 at the end.
+  [[nodiscard]] char peek() const { return at_ == end_ ? '\0' : *at_; }
+  void skip(std::size_t count) { at_ += count; }
+
+  /// Skips blanks, not line ends.
+  void skip_blanks() {
+    for (;;) {
+      if (at_ != end_ && *at_ != line_end_ && is_space(*at_)) {
+        ++at_;
+      } else if (const std::size_t length = continued_ ? continuation_length(at_, end_) : 0; length > 0) {
+        at_ += length;
+      } else {
+        return;
+      }
+    }
+  }
+  /// Skips blanks and line ends.
+  void skip_space() {
+    for (skip_blanks(); at_ != end_ && *at_ == line_end_; skip_blanks()) ++at_;
+  }
+  /// Goes to the end of this line, over joined lines.
+  void skip_to_line_end();
+  /// Goes to the next line end, even where a backslash stands before it, as at the end of a comment.
+  void skip_comment();
+
+  /// Up to the next white space; empty at white space and at the end.
+  [[nodiscard]] std::string_view word();
+  [[nodiscard]] bool at_word_end() const {
+    return at_ == end_ || is_space(*at_) || (continued_ && continuation_length(at_, end_) > 0);
+  }
+
+  /// A number, up to the end of a word; "nan" and "inf" are numbers too. what: what it is, for the message.
+  [[nodiscard]] double number(const char* what);
+  /// A whole number with a sign or without; may stand at the front of a longer word.
+  [[nodiscard]] std::int64_t integer(const char* what);
+  /// A whole number that is a word of its own.
+  [[nodiscard]] std::int64_t whole_word(const char* what);
+
+  [[nodiscard]] const InputFile& file() const { return *file_; }
+  [[noreturn]] void refuse(std::string_view what) const { file_->refuse_line(offset(), what); }
+  /// Says that `what` belongs here, and what stands here.
+  [[noreturn]] void refuse_word(const char* what) const;
+
+ private:
+  const InputFile* file_;
+  const char* at_;
+  const char* end_;
+  bool continued_;
+  char line_end_;
+};
+
+}  // namespace vspring

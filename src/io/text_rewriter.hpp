@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace vspring {
+
+/// Appends the shortest text that reads back as the same number.
+void append_number(std::string& text, double value);
+void append_number(std::string& text, float value);
+
+/// A number to stand in place of a word. column: of the word, counted from the beginning of its row.
+struct NewNumber {
+  int column;
+  double value;
+  bool single = false;  ///< written in single precision
+};
+
+/// Copies bytes and puts numbers in the place of words. Places have to ascend.
+class TextRewriter {
+ public:
+  explicit TextRewriter(std::string_view bytes);
+
+  /// row: offset of the first word of a row; a row may go over line ends. numbers: ascending in column.
+  void replace_words(std::size_t row, std::span<const NewNumber> numbers);
+  void replace(std::size_t begin, std::size_t end, std::string_view text);
+  /// The rest as it is; the rewriter is spent.
+  [[nodiscard]] std::string finish();
+
+ private:
+  std::string_view bytes_;
+  std::string text_;
+  std::size_t copied_ = 0;
+};
+
+}  // namespace vspring

@@ -1,0 +1,176 @@
+#include <cmath>
+
+#include "unit/io/scratch.hpp"
+#include "vspring/surface_file.hpp"
+
+namespace vspring {
+namespace {
+
+class ObjFile : public Scratch {
+ protected:
+  SurfaceFile read(const std::string& text) const { return read_surface(put("in.obj", text)); }
+
+  /// The text after one node went to a place.
+  std::string moved(const std::string& text, Index node, const Vector3& place) const {
+    const SurfaceFile surface = read(text);
+    std::vector<Vector3> positions = surface.mesh.positions();
+    positions[static_cast<std::size_t>(node)] = place;
+    EXPECT_TRUE(write_surface(path("out.obj"), surface, positions).empty());
+    return get("out.obj");
+  }
+};
+
+std::vector<Index> face_of(const SurfaceFile& surface, Index face) {
+  const auto nodes = surface.mesh.face(face);
+  return {nodes.begin(), nodes.end()};
+}
+
+// Everything that a file may carry, lines ending in CR LF here and there.
+const std::string rich =
+    "# made by hand \\\n"
+    "mtllib things.mtl\n"
+    "o the roof\r\n"
+    "v  0.10 0 0 1 0.5 0.25\n"
+    "v\t1 0e0\t0   # right\n"
+    "vt 0 0\nvt 1 0.50\n"
+    "v +0 1 -0.0\r\n"
+    "v 0 \\\n  0 \\\r\n  1.50\n"
+    "g left wall\n"
+    "usemtl red\ns 1\n"
+    "f 1/1 2/2 3/1\n"
+    "g\n"
+    "f -4 -2 \\\n -1 # back\n"
+    "l 1 2 3\n"
+    "p 4\n"
+    "vp 0.5\n"
+    "strange 1 2 3\n"
+    "g wall\n"
+    "f 2/2/ 3// 4/1\n"
+    "\n"
+    "f 1 2";
+
+TEST_F(ObjFile, ReadsNodesAndFacesInTheirOrder) {
+  const SurfaceFile surface = read(rich + "\n");
+  ASSERT_EQ(surface.mesh.node_count(), 4);
+  EXPECT_EQ(surface.mesh.position(0), Vector3(0.1, 0, 0));
+  EXPECT_EQ(surface.mesh.position(1), Vector3(1, 0, 0));
+  EXPECT_EQ(surface.mesh.position(2), Vector3(0, 1, 0));
+  EXPECT_TRUE(std::signbit(surface.mesh.position(2).z()));
+  EXPECT_EQ(surface.mesh.position(3), Vector3(0, 0, 1.5));
+  ASSERT_EQ(surface.mesh.face_count(), 4);
+  EXPECT_EQ(face_of(surface, 0), (std::vector<Index>{0, 1, 2}));
+  EXPECT_EQ(face_of(surface, 1), (std::vector<Index>{0, 2, 3}));
+  EXPECT_EQ(face_of(surface, 2), (std::vector<Index>{1, 2, 3}));
+  EXPECT_EQ(face_of(surface, 3), (std::vector<Index>{0, 1}));
+  EXPECT_TRUE(surface.normals.empty());
+  EXPECT_EQ(surface.format, SurfaceFormat::obj);
+}
+
+TEST_F(ObjFile, GathersTheNodesOfGroupsAndObjects) {
+  const auto groups = read(rich + "\n").groups;
+  ASSERT_EQ(groups.size(), 3U);
+  EXPECT_EQ(groups.at("left"), (std::vector<Index>{0, 1, 2}));
+  EXPECT_EQ(groups.at("wall"), (std::vector<Index>{0, 1, 2, 3}));
+  EXPECT_EQ(groups.at("the roof"), (std::vector<Index>{0, 1, 2, 3}));
+}
+
+TEST_F(ObjFile, WarnsOfWhatItDoesNotKnow) {
+  const auto warnings = read(rich + "\n").warnings;
+  ASSERT_EQ(warnings.size(), 2U);
+  EXPECT_NE(warnings[0].find("free-form"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[1].find(":22: 'strange'"), std::string::npos) << warnings[1];
+}
+
+TEST_F(ObjFile, ComesOutByteForByteWhenNothingMoves) {
+  for (const std::string& text : {rich + "\n", rich + " 3", rich + "\r\n\n"}) {
+    const SurfaceFile surface = read(text);
+    EXPECT_TRUE(write_surface(path("out.obj"), surface, surface.mesh.positions()).empty());
+    EXPECT_EQ(get("out.obj"), text);
+  }
+}
+
+TEST_F(ObjFile, ChangesTheCoordinatesOfMovedNodesAndNothingElse) {
+  const std::string text = rich + "\n";
+  EXPECT_EQ(moved(text, 0, {0.1, 0.1 + 0.2, -1e-7}), replaced(text, "0.10 0 0 1", "0.1 0.30000000000000004 -1e-07 1"));
+  EXPECT_EQ(moved(text, 1, {2, 0, 0}), replaced(text, "1 0e0\t0   #", "2 0\t0   #"));
+  EXPECT_EQ(moved(text, 2, {0, 1, 0.0}), replaced(text, "+0 1 -0.0", "0 1 0"));
+  EXPECT_EQ(moved(text, 3, {1, 2, 3}), replaced(text, "v 0 \\\n  0 \\\r\n  1.50", "v 1 \\\n  2 \\\r\n  3"));
+}
+
+TEST_F(ObjFile, ReadsBackWhatItWrote) {
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  for (const double value : {1.0 / 3, 1e300, 5e-324, -1.7976931348623157e308, 123456789012345680.0, 0.1 + 0.7}) {
+    moved(text, 1, {value, -value, value});
+    EXPECT_EQ(read_surface(path("out.obj")).mesh.position(1), Vector3(value, -value, value));
+  }
+}
+
+TEST_F(ObjFile, TakesFacesBeforeTheirNodesAndOldLineEnds) {
+  const SurfaceFile surface = read("f 1 2 3\rv 0 0 0\rv 1 0 0\rv 0 1 0\r");
+  EXPECT_EQ(face_of(surface, 0), (std::vector<Index>{0, 1, 2}));
+  EXPECT_EQ(surface.mesh.position(1), Vector3(1, 0, 0));
+  const std::string crlf = "v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n";
+  EXPECT_EQ(moved(crlf, 2, {0, 3, 0}), replaced(crlf, "0 1 0", "0 3 0"));
+}
+
+TEST_F(ObjFile, KeepsPositionsThatAreNotFinite) {
+  const std::string text = "v 0 0 nan\nv 1 0 -inf\nv 0 1 1e999\nv 0 0 0\nf 1 2 4\n";
+  const SurfaceFile surface = read(text);
+  EXPECT_TRUE(std::isnan(surface.mesh.position(0).z()));
+  EXPECT_EQ(surface.mesh.position(1).z(), -HUGE_VAL);
+  EXPECT_EQ(surface.mesh.position(2).z(), HUGE_VAL);
+  EXPECT_EQ(moved(text, 3, {0, 0, 5}), replaced(text, "v 0 0 0", "v 0 0 5"));
+  EXPECT_EQ(message_of(
+                [&] {
+                  moved(text, 3, {0, 0, HUGE_VAL});
+                },
+                ErrorCode::invalid_argument),
+            "node 3: its position is not finite; only a position that was read so may be");
+}
+
+// A roof: the ridge (nodes 1 and 2) is sharp, so its nodes have a normal on each side.
+const std::string roof =
+    "vn 0 -0.6 0.8\nvn 0 0.6 0.8\n"
+    "v 0 0 3\nv 4 0 3\nv 0 4 0\nv 4 4 0\nv 0 -4 0\nv 4 -4 0\n"
+    "vn 0 0 1 # of nobody\n"
+    "f 1//2 2//2 4//2 3//2\n"
+    "f 2//1 1//1 5//1 6//1\n";
+
+TEST_F(ObjFile, SumsTheNormalsOfANodesCorners) {
+  const SurfaceFile surface = read(roof);
+  ASSERT_EQ(surface.normals.size(), 6U);
+  EXPECT_LT((surface.normals[0] - Vector3(0, 0, 1)).norm(), 1e-15);
+  EXPECT_LT((surface.normals[2] - Vector3(0, 0.6, 0.8)).norm(), 1e-15);
+  const SurfaceFile some = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 2\nf 1 2 3\nf 1//1 2 3//1\n");
+  EXPECT_EQ(some.normals[0], Vector3(0, 0, 1));
+  EXPECT_EQ(some.normals[1], Vector3(0, 0, 0));
+}
+
+TEST_F(ObjFile, ComputesNormalsOfFacesAnewOnEachSideOfASharpEdge) {
+  const SurfaceFile surface = read(roof);
+  std::vector<Vector3> positions = surface.mesh.positions();
+  // One side goes up until it is level with the ridge.
+  positions[2].z() = positions[3].z() = 3;
+  write_surface(path("out.obj"), surface, positions);
+  std::string expected = replaced(replaced(roof, "v 0 4 0", "v 0 4 3"), "v 4 4 0", "v 4 4 3");
+  EXPECT_EQ(get("out.obj"), replaced(expected, "vn 0 0.6 0.8", "vn 0 0 1"));
+}
+
+TEST_F(ObjFile, KeepsTheSideOfNormalsThatPointInward) {
+  std::string inward = replaced(replaced(roof, "vn 0 -0.6 0.8", "vn 0 0.6 -0.8"), "\nvn 0 0.6 0.8", "\nvn 0 -0.6 -0.8");
+  const SurfaceFile surface = read(inward);
+  std::vector<Vector3> positions = surface.mesh.positions();
+  positions[2].z() = positions[3].z() = 3;
+  write_surface(path("out.obj"), surface, positions);
+  EXPECT_LT((read_surface(path("out.obj")).normals[2] - Vector3(0, 0, -1)).norm(), 1e-15);
+}
+
+TEST_F(ObjFile, LeavesNormalsThatNoMovedFaceTouches) {
+  const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nvn 0 0 9\nf 1//1 2//1 3//1\n";
+  EXPECT_EQ(moved(text, 3, {6, 6, 6}), replaced(text, "v 5 5 5", "v 6 6 6"));
+  // A face that collapses gives no direction.
+  EXPECT_EQ(moved(text, 2, {2, 0, 0}), replaced(text, "v 0 1 0", "v 2 0 0"));
+}
+
+}  // namespace
+}  // namespace vspring

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
-#include <cstring>
+#include <cstdint>
 #include <filesystem>
 
 #include "io/file_normals.hpp"
@@ -37,7 +38,10 @@ SurfaceFormat format_to_write(const std::string& path, std::optional<SurfaceForm
                                 in_quotes(extension)));
 }
 
-bool same_bits(const Vector3& a, const Vector3& b) { return std::memcmp(a.data(), b.data(), 3 * sizeof(double)) == 0; }
+bool same_bits(const Vector3& a, const Vector3& b) {
+  using Bits = std::array<std::uint64_t, 3>;
+  return std::bit_cast<Bits>(std::array{a.x(), a.y(), a.z()}) == std::bit_cast<Bits>(std::array{b.x(), b.y(), b.z()});
+}
 
 /// Marks the nodes whose position is not `before`; refuses those that moved to nowhere.
 std::vector<std::uint8_t> moved_nodes(const std::vector<Vector3>& before, const std::vector<Vector3>& positions) {

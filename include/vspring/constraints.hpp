@@ -19,7 +19,8 @@ class Constraints {
 
   [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(flags_.size()); }
 
-  /// The node stays at `position`. Throws Error(unusable_constraint) naming the node unless it is finite.
+  /// The node stays at `position`. Whether it is finite is asked where a moving node looks at it, see
+  /// check_constraints().
   void fix_position(Index node, const Vector3& position);
   void free_position(Index node);
   [[nodiscard]] bool position_fixed(Index node) const { return (flags_[at(node)] & position_flag) != 0; }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "shape/face_geometry.hpp"
 #include "shape/fan.hpp"
 #include "shape/frame.hpp"
 #include "spring/pseudo_normal.hpp"
@@ -104,23 +105,9 @@ class Measurement {
     face_normals_.assign(static_cast<std::size_t>(mesh_.face_count()), Vector3::Zero());
     parallel_ranges(team_, face_normals_.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t f = begin; f < end; ++f) {
-        if (counted_[f] != 0) face_normals_[f] = face_normal(static_cast<Index>(f));
+        if (counted_[f] != 0) face_normals_[f] = unit_normal(mesh_.face(static_cast<Index>(f)), positions_);
       }
     });
-  }
-
-  [[nodiscard]] Vector3 face_normal(Index f) const {
-    const auto face = mesh_.face(f);
-    const Vector3& first = position(face[0]);
-    Vector3 sum = Vector3::Zero();
-    double scale = 0;
-    for (std::size_t k = 1; k + 1 < face.size(); ++k) {
-      const Vector3 a = position(face[k]) - first;
-      const Vector3 b = position(face[k + 1]) - first;
-      sum += a.cross(b);
-      scale += a.dot(a) + b.dot(b);
-    }
-    return direction(sum, scale);
   }
 
   [[nodiscard]] bool touches_counted(Index node) const {

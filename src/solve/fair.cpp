@@ -65,9 +65,6 @@ void FairOptions::validate() const {
 FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const FairOptions& options, Context& context) {
   const auto begin = std::chrono::steady_clock::now();
   options.validate();
-  if (constraints.node_count() != mesh.node_count())
-    throw Error(ErrorCode::invalid_argument, fmt::format("constraints for {} nodes given with a mesh of {}",
-                                                         constraints.node_count(), mesh.node_count()));
   FairResult result;
   FairReport& report = result.report;
   report.warnings = check_constraints(mesh, constraints);

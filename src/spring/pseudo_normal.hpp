@@ -12,20 +12,11 @@
 #include <cmath>
 #include <span>
 
+#include "shape/direction.hpp"
 #include "shape/fan.hpp"
 #include "vspring/types.hpp"
 
 namespace vspring {
-
-/// Below this share of its terms' size a sum of cross products is rounding, not a direction.
-inline constexpr double no_direction = 1e-10;
-
-/// Unit vector, or zero where `sum` is lost in the rounding of terms of size `scale` together.
-inline Vector3 direction(const Vector3& sum, double scale) {
-  const double length = std::sqrt(sum.dot(sum));
-  if (!(length > no_direction * scale)) return Vector3::Zero();
-  return sum / length;
-}
 
 /// Max's weights around the link.
 struct LinkNormal {

@@ -1,0 +1,260 @@
+// Whether a shape can be faired under its constraints, and whether they tell one result from all others.
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <string>
+
+#include "shape/fan.hpp"
+#include "shape/frame.hpp"
+#include "shape/node_graph.hpp"
+#include "vspring/constraints.hpp"
+#include "vspring/error.hpp"
+#include "vspring/topology.hpp"
+
+namespace vspring {
+
+namespace {
+
+constexpr std::size_t faults_named = 3;
+constexpr Index fewest_held_of_a_loop = 3;
+// Below this share of the largest, an eigenvalue of the system for the spheres through the data counts as none.
+constexpr double no_information = 1e-12;
+
+class Holding {
+ public:
+  Holding(const PolygonMesh& mesh, const Constraints& constraints)
+      : mesh_(mesh),
+        constraints_(constraints),
+        incidence_(mesh),
+        graph_(mesh, incidence_),
+        part_(static_cast<std::size_t>(mesh.node_count()), -1) {
+    for (Index i = 0; i < mesh.node_count(); ++i) {
+      if (moves(i)) part_[static_cast<std::size_t>(i)] = i;
+    }
+  }
+
+  void refuse_defects() {
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      const auto face = mesh_.face(f);
+      if (std::none_of(face.begin(), face.end(), [&](Index i) { return !constraints_.position_fixed(i); })) continue;
+      if (face.size() < 3) add_fault(Defect{.kind = Defect::Kind::too_few_nodes, .face = f}, face[0]);
+      for (const Index i : face) {
+        const Vector3& position = constraints_.position_fixed(i) ? constraints_.position(i) : mesh_.position(i);
+        if (!position.allFinite()) add_fault(Defect{.kind = Defect::Kind::not_finite, .node = i}, i);
+      }
+    }
+    FanWalker walker(mesh_, incidence_);
+    for (Index i = 0; i < mesh_.node_count(); ++i) {
+      if (moves(i)) check_fan(i, walker.walk(i));
+    }
+    if (faults_.empty()) return;
+    std::string text;
+    for (const std::string& fault : faults_) text += (text.empty() ? "" : "; ") + fault;
+    if (fault_count_ > faults_.size()) text += fmt::format("; and {} more", fault_count_ - faults_.size());
+    throw Error(
+        ErrorCode::unusable_mesh,
+        fmt::format("{}. Such places cannot move: mend the mesh, hold them by a rule (--constraints) such as "
+                    "{{\"nodes\": [{}], \"position\": \"fixed\"}} or {{\"nodes\": \"non-manifold\", \"position\": "
+                    "\"fixed\"}}, or let only a region without them move (--region)",
+                    text, fault_node_));
+  }
+
+  void refuse_unheld() {
+    join_parts();
+    const auto nodes = static_cast<std::size_t>(mesh_.node_count());
+    std::vector<Index> held(nodes, 0);
+    std::vector<Index> size(nodes, 0);
+    for (Index i = 0; i < mesh_.node_count(); ++i) {
+      if (!moves(i)) continue;
+      ++size[static_cast<std::size_t>(find(i))];
+      graph_.for_each_neighbour(i, [&](Index j) {
+        if (constraints_.position_fixed(j)) held[static_cast<std::size_t>(find(i))] = 1;
+      });
+    }
+    for (Index i = 0; i < mesh_.node_count(); ++i) {
+      if (moves(i) && find(i) == i && held[static_cast<std::size_t>(i)] == 0)
+        throw Error(
+            ErrorCode::unusable_constraint,
+            fmt::format("nothing holds the component of node {} ({} nodes): it would shrink to a point. Hold some of "
+                        "its nodes by rules (--constraints), its boundary if it has one (--fix boundary), or let "
+                        "only a region of it move (--region)",
+                        i, size[static_cast<std::size_t>(i)]));
+    }
+  }
+
+  void check_boundaries(std::vector<std::string>& warnings) {
+    Index free_nodes = 0;
+    Index first_free = -1;
+    const auto loops = boundary_loops(mesh_);
+    for (const auto& loop : loops) {
+      const auto held = static_cast<Index>(
+          std::count_if(loop.begin(), loop.end(), [&](Index i) { return constraints_.position_fixed(i); }));
+      const auto length = static_cast<Index>(loop.size());
+      if (held == length) continue;
+      const Index first =
+          *std::find_if(loop.begin(), loop.end(), [&](Index i) { return !constraints_.position_fixed(i); });
+      if (held < fewest_held_of_a_loop)
+        throw Error(
+            ErrorCode::unusable_constraint,
+            fmt::format("the boundary loop through node {} is free: {} of its {} nodes are held, and it would shrink. "
+                        "Hold it (--fix boundary, or a rule in --constraints), or let only a region move (--region)",
+                        first, held, length));
+      free_nodes += length - held;
+      if (first_free < 0) first_free = first;
+    }
+    if (free_nodes > 0)
+      warnings.push_back(
+          fmt::format("{} boundary node{} free and will be drawn in, node {} first; hold {} with --fix boundary",
+                      free_nodes, free_nodes == 1 ? " is" : "s are", first_free, free_nodes == 1 ? "it" : "them"));
+  }
+
+  /// Spheres and planes a|x|² + b·x + c = 0 are fair. If the positions and normals that hold a part without boundary
+  /// leave more than one of them, they leave a family of shapes.
+  void warn_of_families(std::vector<std::string>& warnings) {
+    using System = Eigen::Matrix<double, 5, 5>;
+    const auto boundary = boundary_nodes(mesh_);
+    Eigen::AlignedBox<double, 3> box;
+    for (Index i = 0; i < mesh_.node_count(); ++i) {
+      if (constraints_.position_fixed(i) && constraints_.position(i).allFinite()) box.extend(constraints_.position(i));
+    }
+    const Frame frame(box);
+    std::vector<Index> system_of(part_.size(), -1);
+    std::vector<System> systems;
+    std::vector<Index> first_node;
+    std::vector<std::uint8_t> bounded;
+    const auto system = [&](Index i) {
+      Index& number = system_of[static_cast<std::size_t>(find(i))];
+      if (number < 0) {
+        number = static_cast<Index>(systems.size());
+        systems.emplace_back(System::Zero());
+        first_node.push_back(i);
+        bounded.push_back(0);
+      }
+      return static_cast<std::size_t>(number);
+    };
+    std::vector<std::size_t> met;
+    for (Index j = 0; j < mesh_.node_count(); ++j) {
+      met.clear();
+      if (moves(j)) {
+        if (boundary[static_cast<std::size_t>(j)] != 0) bounded[system(j)] = 1;
+        (void)system(j);
+        continue;
+      }
+      graph_.for_each_neighbour(j, [&](Index i) {
+        if (moves(i) && std::find(met.begin(), met.end(), system(i)) == met.end()) met.push_back(system(i));
+      });
+      for (const std::size_t k : met) {
+        if (boundary[static_cast<std::size_t>(j)] != 0) bounded[k] = 1;
+        const Vector3 p = frame.to_local(constraints_.position(j));
+        const auto add = [&](double square, const Vector3& linear, double constant) {
+          Eigen::Matrix<double, 5, 1> row;
+          row << square, linear, constant;
+          systems[k] += row * row.transpose();
+        };
+        add(p.dot(p), p, 1);
+        if (!constraints_.normal_fixed(j)) continue;
+        // The gradient 2a p + b is along the normal: nothing of it lies across.
+        const Vector3 across = constraints_.normal(j).unitOrthogonal();
+        for (const Vector3& t : {across, Vector3(constraints_.normal(j).cross(across))}) add(2 * p.dot(t), t, 0);
+      }
+    }
+    for (std::size_t k = 0; k < systems.size(); ++k) {
+      if (bounded[k] != 0) continue;
+      const Eigen::SelfAdjointEigenSolver<System> eigen(systems[k], Eigen::EigenvaluesOnly);
+      const auto& values = eigen.eigenvalues();
+      if (values[1] > no_information * values[4]) continue;
+      warnings.push_back(
+          fmt::format("what holds the component of node {} leaves a family of shapes, and the result is one of them; "
+                      "hold more nodes, or normals, to choose",
+                      first_node[k]));
+    }
+  }
+
+ private:
+  [[nodiscard]] bool moves(Index i) const { return !constraints_.position_fixed(i) && !incidence_.corners(i).empty(); }
+
+  void add_fault(const Defect& defect, Index node) {
+    ++fault_count_;
+    if (fault_node_ < 0) fault_node_ = node;
+    const std::string message = defect.message();
+    if (std::find(faults_.begin(), faults_.end(), message) != faults_.end()) {
+      --fault_count_;
+    } else if (faults_.size() < faults_named) {
+      faults_.push_back(message);
+    }
+  }
+
+  void check_fan(Index i, const Fan& fan) {
+    if (fan.repeating_face >= 0)
+      return add_fault({.kind = Defect::Kind::repeated_node, .node = i, .face = fan.repeating_face}, i);
+    const auto corners = incidence_.corners(i);
+    if (fan.crowded_neighbour >= 0 || (fan.closed && corners.size() == 2)) {
+      for (std::size_t b = 1; b < corners.size(); ++b) {
+        for (std::size_t a = 0; a < b; ++a) {
+          if (same_nodes(corners[a].face, corners[b].face))
+            return add_fault({.kind = Defect::Kind::duplicate_face, .other = corners[a].face, .face = corners[b].face},
+                             i);
+        }
+      }
+    }
+    if (fan.crowded_neighbour >= 0) {
+      const auto [low, high] = std::minmax(i, fan.crowded_neighbour);
+      return add_fault({.kind = Defect::Kind::non_manifold_edge, .node = low, .other = high}, i);
+    }
+    if (!fan.manifold()) add_fault({.kind = Defect::Kind::non_manifold_node, .node = i}, i);
+  }
+
+  [[nodiscard]] bool same_nodes(Index a, Index b) const {
+    const auto face_a = mesh_.face(a);
+    const auto face_b = mesh_.face(b);
+    return face_a.size() == face_b.size() && std::is_permutation(face_a.begin(), face_a.end(), face_b.begin());
+  }
+
+  void join_parts() {
+    for (Index i = 0; i < mesh_.node_count(); ++i) {
+      if (!moves(i)) continue;
+      graph_.for_each_neighbour(i, [&](Index j) {
+        if (!moves(j)) return;
+        const auto [low, high] = std::minmax({find(i), find(j)});
+        part_[static_cast<std::size_t>(high)] = low;
+      });
+    }
+  }
+
+  Index find(Index i) {
+    while (part_[static_cast<std::size_t>(i)] != i) {
+      part_[static_cast<std::size_t>(i)] = part_[static_cast<std::size_t>(part_[static_cast<std::size_t>(i)])];
+      i = part_[static_cast<std::size_t>(i)];
+    }
+    return i;
+  }
+
+  const PolygonMesh& mesh_;
+  const Constraints& constraints_;
+  Incidence incidence_;
+  NodeGraph graph_;
+  std::vector<Index> part_;  // union-find over moving nodes
+  std::vector<std::string> faults_;
+  std::size_t fault_count_ = 0;
+  Index fault_node_ = -1;
+};
+
+}  // namespace
+
+std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints) {
+  if (constraints.node_count() != mesh.node_count())
+    throw Error(ErrorCode::invalid_argument, fmt::format("constraints for {} nodes given with a mesh of {}",
+                                                         constraints.node_count(), mesh.node_count()));
+  Holding holding(mesh, constraints);
+  std::vector<std::string> warnings;
+  holding.refuse_defects();
+  holding.refuse_unheld();
+  holding.check_boundaries(warnings);
+  holding.warn_of_families(warnings);
+  return warnings;
+}
+
+}  // namespace vspring

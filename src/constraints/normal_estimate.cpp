@@ -1,0 +1,154 @@
+// Normals of second order from the nodes around, also where these lie on one side only.
+//
+// For points of a sphere through the node, e·N = c|e|² holds exactly (e: from the node to the point); a smooth surface
+// adds a quadratic form without trace in the tangent plane and terms of third order. Least squares over these five
+// unknowns so reproduce planes and spheres and err by the square of the spacing elsewhere, where one-sided averages of
+// face normals err by the spacing.
+
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "shape/direction.hpp"
+#include "shape/frame.hpp"
+#include "shape/incidence.hpp"
+#include "vspring/constraints.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Two rings of nodes determine the five unknowns in most meshes; where faces are few, a third is looked at.
+constexpr std::size_t enough_nodes = 8;
+constexpr int most_rings = 3;
+// Below this ratio of the pivots, what the nodes say about an unknown is rounding or noise.
+constexpr double independent = 1e-3;
+constexpr int rounds = 3;
+
+class Estimator {
+ public:
+  Estimator(const PolygonMesh& mesh, std::span<const std::uint8_t> usable)
+      : mesh_(mesh), usable_(usable), incidence_(mesh), seen_(static_cast<std::size_t>(mesh.node_count()), 0) {
+    Eigen::AlignedBox<double, 3> box;
+    for (const Vector3& position : mesh.positions()) {
+      if (position.allFinite()) box.extend(position);
+    }
+    frame_ = Frame(box);
+  }
+
+  Vector3 at(Index node) {
+    const Vector3 first = corner_normal(node);
+    if (first.isZero(0)) return first;
+    collect(node);
+    Vector3 normal = first;
+    for (int round = 0; round < rounds; ++round) normal = fit(normal);
+    return normal.dot(first) < 0 ? Vector3(-normal) : normal;
+  }
+
+ private:
+  [[nodiscard]] Vector3 position(Index node) const { return frame_.to_local(mesh_.position(node)); }
+  [[nodiscard]] bool usable(Index face) const {
+    return usable_.empty() || usable_[static_cast<std::size_t>(face)] != 0;
+  }
+
+  /// Max's weights over the corners of the usable faces at the node; where these leave nothing, the sense of the faces
+  /// is lost too.
+  [[nodiscard]] Vector3 corner_normal(Index node) const {
+    Vector3 sum = Vector3::Zero();
+    double scale = 0;
+    for (const Corner corner : incidence_.corners(node)) {
+      if (!usable(corner.face)) continue;
+      const auto face = mesh_.face(corner.face);
+      Vector3 previous = Vector3::Zero();
+      for (std::size_t k = 1; k < face.size(); ++k) {
+        const Vector3 e = position(face[(static_cast<std::size_t>(corner.place) + k) % face.size()]) - position(node);
+        const double length2 = e.dot(e);
+        const Vector3 inverted = length2 > 0 ? Vector3(e / length2) : Vector3(Vector3::Zero());
+        if (length2 > 0) scale += 1 / length2;
+        sum += previous.cross(inverted);
+        previous = inverted;
+      }
+    }
+    return direction(sum, scale);
+  }
+
+  /// The nodes around over usable faces, ring by ring.
+  void collect(Index node) {
+    around_.assign(1, node);
+    seen_[static_cast<std::size_t>(node)] = 1;
+    std::size_t begin = 0;
+    for (int ring = 0; ring < most_rings && (ring < 2 || around_.size() <= enough_nodes); ++ring) {
+      const std::size_t end = around_.size();
+      for (; begin < end; ++begin) {
+        for (const Corner corner : incidence_.corners(around_[begin])) {
+          if (!usable(corner.face)) continue;
+          for (const Index j : mesh_.face(corner.face)) {
+            if (seen_[static_cast<std::size_t>(j)] != 0 || !mesh_.position(j).allFinite()) continue;
+            seen_[static_cast<std::size_t>(j)] = 1;
+            around_.push_back(j);
+          }
+        }
+      }
+    }
+    for (const Index j : around_) seen_[static_cast<std::size_t>(j)] = 0;
+    edges_.clear();
+    double squares = 0;
+    for (std::size_t k = 1; k < around_.size(); ++k) {
+      const Vector3 e = position(around_[k]) - position(node);
+      if (e.isZero(0)) continue;
+      edges_.push_back(e);
+      squares += e.dot(e);
+    }
+    const double size = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(edges_.size(), 1)));
+    for (Vector3& e : edges_) e /= size > 0 ? size : 1;
+  }
+
+  /// One least-squares fit in the frame of `normal`.
+  [[nodiscard]] Vector3 fit(const Vector3& normal) const {
+    const Vector3 x = normal.unitOrthogonal();
+    const Vector3 y = normal.cross(x);
+    const auto rows = static_cast<Eigen::Index>(edges_.size());
+    Eigen::Matrix<double, Eigen::Dynamic, 5> terms(rows, 5);
+    Eigen::VectorXd heights(rows);
+    for (Eigen::Index k = 0; k < rows; ++k) {
+      const Vector3& e = edges_[static_cast<std::size_t>(k)];
+      const double u = e.dot(x);
+      const double v = e.dot(y);
+      const double length2 = e.dot(e);
+      // Near nodes say more about the tangent plane than far ones: rows over |e|².
+      terms.row(k) << u / length2, v / length2, 1, (u * u - v * v) / length2, 2 * u * v / length2;
+      heights[k] = e.dot(normal) / length2;
+    }
+    for (const Eigen::Index unknowns : {5, 3, 2}) {
+      if (rows < unknowns) continue;
+      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(terms.leftCols(unknowns));
+      const auto pivots = qr.matrixR().diagonal().cwiseAbs();
+      if (!(pivots[unknowns - 1] > independent * pivots[0])) continue;
+      const Eigen::VectorXd solution = qr.solve(heights);
+      return (normal - solution[0] * x - solution[1] * y).normalized();
+    }
+    return normal;
+  }
+
+  const PolygonMesh& mesh_;
+  std::span<const std::uint8_t> usable_;
+  Incidence incidence_;
+  Frame frame_;
+  std::vector<std::uint8_t> seen_;
+  std::vector<Index> around_;
+  std::vector<Vector3> edges_;
+};
+
+}  // namespace
+
+std::vector<Vector3> estimate_normals(const PolygonMesh& mesh, std::span<const Index> nodes,
+                                      std::span<const std::uint8_t> usable_face) {
+  Estimator estimator(mesh, usable_face);
+  std::vector<Vector3> normals;
+  normals.reserve(nodes.size());
+  for (const Index node : nodes) normals.push_back(estimator.at(node));
+  return normals;
+}
+
+}  // namespace vspring

@@ -1,0 +1,202 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "vspring/constraints.hpp"
+#include "vspring/error.hpp"
+#include "vspring/topology.hpp"
+
+namespace vspring {
+
+namespace {
+
+using nlohmann::json;
+
+/// Applies the rules of one text. Every fault names the rule, counted from 1.
+class RuleReader {
+ public:
+  RuleReader(Constraints& constraints, const PolygonMesh& mesh, const RuleInput& input)
+      : constraints_(constraints), mesh_(mesh), input_(input) {}
+
+  void read(const json& text) {
+    if (!text.is_object() || !text.contains("rules") || !text["rules"].is_array())
+      throw fault("write {\"rules\": [{\"nodes\": …, \"position\": …, \"normal\": …}, …]}");
+    require_keys(text, {"rules"});
+    for (const json& rule : text["rules"]) {
+      ++rule_;
+      apply(rule);
+    }
+  }
+
+ private:
+  [[nodiscard]] Error fault(const std::string& what) const {
+    return {ErrorCode::unusable_constraint, rule_ > 0 ? fmt::format("rule {}: {}", rule_, what) : "rules: " + what};
+  }
+
+  void require_keys(const json& object, std::initializer_list<const char*> known) const {
+    for (const auto& [key, value] : object.items()) {
+      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+      std::string list;
+      for (const char* name : known) list += (list.empty() ? "" : ", ") + std::string(name);
+      throw fault(fmt::format("\"{}\" means nothing here; known: {}", key, list));
+    }
+  }
+
+  void apply(const json& rule) {
+    if (!rule.is_object())
+      throw fault(fmt::format("{} is no rule; write {{\"nodes\": …, \"position\": …}}", rule.dump()));
+    if (rule.contains("tangent")) throw fault("\"tangent\" is for curves; a surface takes \"normal\"");
+    require_keys(rule, {"nodes", "position", "normal"});
+    if (!rule.contains("nodes")) throw fault("it names no \"nodes\"");
+    if (!rule.contains("position") && !rule.contains("normal"))
+      throw fault("it has neither \"position\" nor \"normal\"");
+    const std::vector<Index> nodes = select(rule["nodes"]);
+    if (rule.contains("position")) apply_positions(nodes, rule["position"]);
+    if (rule.contains("normal")) apply_normals(nodes, rule["normal"]);
+  }
+
+  [[nodiscard]] std::vector<Index> nodes_where(const auto& holds) const {
+    std::vector<Index> nodes;
+    for (Index i = 0; i < mesh_.node_count(); ++i) {
+      if (holds(i)) nodes.push_back(i);
+    }
+    return nodes;
+  }
+
+  [[nodiscard]] std::vector<Index> select(const json& selection) const {
+    if (selection == "all") return nodes_where([](Index) { return true; });
+    if (selection == "boundary" || selection == "interior") {
+      const auto boundary = boundary_nodes(mesh_);
+      const std::uint8_t wanted = selection == "boundary" ? 1 : 0;
+      return nodes_where([&](Index i) { return boundary[static_cast<std::size_t>(i)] == wanted; });
+    }
+    if (selection == "non-manifold") return non_manifold_nodes();
+    if (selection.is_object() && selection.size() == 1 && selection.contains("group") && selection["group"].is_string())
+      return group(selection["group"].get<std::string>());
+    if (selection.is_object() && selection.size() == 1 && selection.contains("region") &&
+        selection["region"].is_string()) {
+      try {
+        return select_region(mesh_, selection["region"].get<std::string>(),
+                             input_.groups != nullptr ? *input_.groups : Groups());
+      } catch (const Error& error) {
+        throw Error(error.code(), fmt::format("rule {}: {}", rule_, error.what()));
+      }
+    }
+    if (selection.is_array()) return listed(selection);
+    throw fault(fmt::format(
+        "{} selects no nodes; write \"all\", \"boundary\", \"interior\", \"non-manifold\", {{\"group\": NAME}}, "
+        "{{\"region\": SPECIFICATION}} or a list of node numbers",
+        selection.dump()));
+  }
+
+  [[nodiscard]] std::vector<Index> non_manifold_nodes() const {
+    std::vector<std::uint8_t> wrong(static_cast<std::size_t>(mesh_.node_count()), 0);
+    for (const Defect& defect : check(mesh_)) {
+      const bool edge = defect.kind == Defect::Kind::non_manifold_edge;
+      if (!edge && defect.kind != Defect::Kind::non_manifold_node) continue;
+      wrong[static_cast<std::size_t>(defect.node)] = 1;
+      if (edge) wrong[static_cast<std::size_t>(defect.other)] = 1;
+    }
+    return nodes_where([&](Index i) { return wrong[static_cast<std::size_t>(i)] != 0; });
+  }
+
+  [[nodiscard]] std::vector<Index> group(const std::string& name) const {
+    if (input_.groups != nullptr) {
+      const auto found = input_.groups->find(name);
+      if (found != input_.groups->end()) return found->second;
+    }
+    throw fault(fmt::format("the shape has no group \"{}\"", name));
+  }
+
+  [[nodiscard]] std::vector<Index> listed(const json& list) const {
+    std::vector<Index> nodes;
+    for (const json& entry : list) {
+      if (!entry.is_number_integer() || entry.get<std::int64_t>() < 0 ||
+          entry.get<std::int64_t>() >= mesh_.node_count())
+        throw fault(fmt::format("{} is not a node; nodes go from 0 to {}", entry.dump(), mesh_.node_count() - 1));
+      nodes.push_back(entry.get<Index>());
+    }
+    std::vector<Index> sorted = nodes;
+    std::sort(sorted.begin(), sorted.end());
+    const auto repeated = std::adjacent_find(sorted.begin(), sorted.end());
+    if (repeated != sorted.end()) throw fault(fmt::format("node {} is named twice", *repeated));
+    return nodes;
+  }
+
+  [[nodiscard]] Vector3 vector(const json& value, const char* what) const {
+    if (!value.is_array() || value.size() != 3 ||
+        !std::all_of(value.begin(), value.end(), [](const json& x) { return x.is_number(); }))
+      throw fault(fmt::format("{} is no {}; write three numbers", value.dump(), what));
+    return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+  }
+
+  /// One vector for all nodes, or a list of them, one per node.
+  [[nodiscard]] std::vector<Vector3> vectors(const json& value, std::size_t count, const char* what) const {
+    if (!value.is_array() || value.empty() || !value[0].is_array())
+      return std::vector<Vector3>(count, vector(value, what));
+    if (value.size() != count) throw fault(fmt::format("{} {}s are given for {} nodes", value.size(), what, count));
+    std::vector<Vector3> all;
+    for (const json& entry : value) all.push_back(vector(entry, what));
+    return all;
+  }
+
+  void apply_positions(const std::vector<Index>& nodes, const json& value) {
+    if (value == "free") {
+      for (const Index i : nodes) constraints_.free_position(i);
+    } else if (value == "fixed") {
+      for (const Index i : nodes) constraints_.fix_position(i, mesh_.position(i));
+    } else if (value.is_string()) {
+      throw fault(fmt::format("{} is no position; write \"fixed\", \"free\" or three numbers", value.dump()));
+    } else {
+      const auto positions = vectors(value, nodes.size(), "position");
+      for (std::size_t k = 0; k < nodes.size(); ++k) constraints_.fix_position(nodes[k], positions[k]);
+    }
+  }
+
+  void apply_normals(const std::vector<Index>& nodes, const json& value) {
+    if (value == "free") {
+      for (const Index i : nodes) constraints_.free_normal(i);
+    } else if (value == "fixed") {
+      fix_normals(nodes, estimate_normals(mesh_, nodes), "no face gives it a normal");
+    } else if (value == "file") {
+      if (input_.normals == nullptr || input_.normals->empty()) throw fault("the file has no normals for \"file\"");
+      std::vector<Vector3> normals;
+      for (const Index i : nodes) normals.push_back((*input_.normals)[static_cast<std::size_t>(i)]);
+      fix_normals(nodes, normals, "the file gives it no normal");
+    } else if (value.is_string()) {
+      throw fault(fmt::format("{} is no normal; write \"fixed\", \"file\", \"free\" or three numbers", value.dump()));
+    } else {
+      fix_normals(nodes, vectors(value, nodes.size(), "normal"), "a normal of zero has no direction");
+    }
+  }
+
+  void fix_normals(const std::vector<Index>& nodes, const std::vector<Vector3>& normals, const char* without) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (normals[k].isZero(0)) throw fault(fmt::format("node {}: {}", nodes[k], without));
+      constraints_.fix_normal(nodes[k], normals[k]);
+    }
+  }
+
+  Constraints& constraints_;
+  const PolygonMesh& mesh_;
+  const RuleInput& input_;
+  int rule_ = 0;
+};
+
+}  // namespace
+
+void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view text, const RuleInput& input) {
+  json rules;
+  try {
+    rules = json::parse(text);
+  } catch (const json::exception& fault) {
+    throw Error(ErrorCode::unusable_constraint, fmt::format("rules: no JSON: {}", fault.what()));
+  }
+  Constraints changed = constraints;
+  RuleReader(changed, mesh, input).read(rules);
+  constraints = std::move(changed);
+}
+
+}  // namespace vspring

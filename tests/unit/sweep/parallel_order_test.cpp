@@ -33,7 +33,9 @@ TEST(Sweep, BlocksOfAGroupShareNoEdgeAndCoverEveryMovingNodeOnce) {
       for (std::size_t i = 0; i < net.moving; ++i) {
         if (block_of[i] < 0) continue;
         for (const Link link : net.rings.links(i)) {
-          if (link.spoke() && block_of[link.node()] >= 0) EXPECT_EQ(block_of[link.node()], block_of[i]);
+          if (link.spoke() && block_of[link.node()] >= 0) {
+            EXPECT_EQ(block_of[link.node()], block_of[i]);
+          }
         }
       }
     }

@@ -1,1 +1,70 @@
-int main() { return 0; }
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <exception>
+#include <functional>
+#include <new>
+
+#include "exit_status.hpp"
+#include "fair_command.hpp"
+#include "terminal.hpp"
+#include "vspring/error.hpp"
+#include "vspring/version.hpp"
+
+namespace {
+
+using namespace vspring;
+using namespace vspring::cli;
+
+int fail(const std::string& message, int status) {
+  const Terminal errors(2, Colour::automatic);
+  (void)errors.write(fmt::format("{} {}\n", errors.red("vspring: error:"), message));
+  return status;
+}
+
+int run_command(const std::function<int()>& run) {
+  try {
+    return run();
+  } catch (const Error& error) {
+    return fail(error.what(), exit_unusable);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", exit_unusable);
+  } catch (const std::exception& error) {
+    return fail(error.what(), exit_unusable);
+  }
+}
+
+/// Help and version are answers; all else is wrong use, in one line.
+int answer_or_refuse(const CLI::App& app, const CLI::ParseError& outcome) {
+  if (outcome.get_exit_code() == 0) return app.exit(outcome);
+  std::string what = outcome.what();
+  for (char& c : what) c = c == '\n' ? ' ' : c;
+  const auto used = app.get_subcommands();
+  return fail(fmt::format("{}; see vspring {}--help", what, used.empty() ? "" : used.front()->get_name() + " "),
+              exit_wrong_use);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A reader that goes away shows as a failed write, with its message, and not as a silent end.
+  std::signal(SIGPIPE, SIG_IGN);
+  CLI::App app("vspring: fair curves and surfaces by a discrete spring model", "vspring");
+  app.set_version_flag("--version", std::string("vspring ") + version());
+  app.require_subcommand(1);
+  app.footer(
+      "Example:\n  vspring generate annulus -o annulus.obj && vspring fair annulus.obj -o fair.obj --fix-normals "
+      "boundary\n\n"
+      "vspring COMMAND --help explains every option with its default and unit.");
+  std::function<int()> run;
+  add_fair_command(app, run);
+  return run_command([&] {
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& outcome) {
+      return answer_or_refuse(app, outcome);
+    }
+    return run();
+  });
+}

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "vspring/fair.hpp"
+
+namespace vspring::cli {
+
+// What scripts are promised.
+inline constexpr int exit_converged = 0;
+inline constexpr int exit_wrong_use = 1;
+inline constexpr int exit_unusable = 2;
+inline constexpr int exit_not_converged = 3;
+inline constexpr int exit_interrupted = 130;
+
+[[nodiscard]] inline int exit_status(Outcome outcome) noexcept {
+  switch (outcome) {
+    case Outcome::converged:
+      return exit_converged;
+    case Outcome::cancelled:
+      return exit_interrupted;
+    default:
+      return exit_not_converged;
+  }
+}
+
+}  // namespace vspring::cli

@@ -1,0 +1,71 @@
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+#include "vspring/version.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+nlohmann::ordered_json to_json(const Fairness& fairness) {
+  return {{"vspring_energy", fairness.vspring_energy},
+          {"greatest_turn", fairness.greatest_turn},
+          {"rms_turn", fairness.mean_turn}};
+}
+
+std::string outcome_line(const FairReport& report, const Terminal& terminal) {
+  switch (report.outcome) {
+    case Outcome::converged:
+      return terminal.green("converged");
+    case Outcome::iteration_limit:
+      return terminal.yellow("stopped at the limit of iterations (--max-iterations)");
+    case Outcome::stalled:
+      return terminal.yellow("stalled");
+    case Outcome::cancelled:
+      return terminal.yellow("interrupted: this is the shape so far");
+  }
+  return {};
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const FairReport& report) {
+  nlohmann::ordered_json json;
+  json["outcome"] = name(report.outcome);
+  json["iterations"] = report.iterations;
+  json["residual"] = report.residual;
+  // The step of the plain iteration says nothing about the distance from the final place.
+  json["expected_error"] = nullptr;
+  json["nodes"] = report.nodes;
+  json["faces"] = report.faces;
+  json["moving_nodes"] = report.moving_nodes;
+  json["fixed_positions"] = report.fixed_positions;
+  json["fixed_normals"] = report.fixed_normals;
+  json["greatest_move"] = report.greatest_move;
+  json["rms_move"] = report.mean_move;
+  json["seconds"] = report.seconds;
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  json["threads"] = report.threads;
+  json["version"] = version();
+  json["fairness"] = {{"before", to_json(report.before)}, {"after", to_json(report.after)}};
+  json["warnings"] = report.warnings;
+  json["history"] = report.history;
+  return json;
+}
+
+std::string summary(const FairReport& report, double diagonal, const Terminal& terminal) {
+  std::string text = fmt::format("{} after {} iterations, {:.2f} s\n", outcome_line(report, terminal),
+                                 report.iterations, report.seconds);
+  const double share = diagonal > 0 ? 100 / diagonal : 0;
+  text +=
+      fmt::format("{} of {} nodes moved, by up to {:.4g} ({:.2g} % of the size), root mean square {:.4g} ({:.2g} %)\n",
+                  report.moving_nodes, report.nodes, report.greatest_move, report.greatest_move * share,
+                  report.mean_move, report.mean_move * share);
+  text += fmt::format("V-Spring energy  {:.4g} → {:.4g}\n", report.before.vspring_energy, report.after.vspring_energy);
+  text += fmt::format("greatest turn    {:.1f}° → {:.1f}°\n", report.before.greatest_turn, report.after.greatest_turn);
+  text += fmt::format("rms turn         {:.2f}° → {:.2f}°\n", report.before.mean_turn, report.after.mean_turn);
+  return text;
+}
+
+}  // namespace vspring::cli

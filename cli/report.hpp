@@ -1,0 +1,18 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "terminal.hpp"
+#include "vspring/fair.hpp"
+
+namespace vspring::cli {
+
+/// The report of a run for scripts, with the keys that docs/command-line.md promises.
+[[nodiscard]] nlohmann::ordered_json to_json(const FairReport& report);
+
+/// What a person wants to know of a run, some lines. diagonal: of the box around the shape, for moves relative to it.
+[[nodiscard]] std::string summary(const FairReport& report, double diagonal, const Terminal& terminal);
+
+}  // namespace vspring::cli

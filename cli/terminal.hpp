@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace vspring::cli {
+
+enum class Colour { automatic, always, never };
+
+/// A stream of the terminal that may or may not show colours.
+class Terminal {
+ public:
+  /// descriptor: 1 for standard output, 2 for standard error. Automatic: coloured where it is a terminal, NO_COLOR is
+  /// empty or unset (https://no-color.org) and TERM is not "dumb".
+  Terminal(int descriptor, Colour colour);
+
+  [[nodiscard]] bool interactive() const noexcept { return interactive_; }
+  [[nodiscard]] std::string bold(std::string_view text) const { return styled("1", text); }
+  [[nodiscard]] std::string green(std::string_view text) const { return styled("32", text); }
+  [[nodiscard]] std::string yellow(std::string_view text) const { return styled("33", text); }
+  [[nodiscard]] std::string red(std::string_view text) const { return styled("31", text); }
+
+  /// Writes all of the text. False where the stream takes no more.
+  [[nodiscard]] bool write(std::string_view text) const;
+
+ private:
+  [[nodiscard]] std::string styled(const char* code, std::string_view text) const;
+
+  int descriptor_;
+  bool interactive_;
+  bool coloured_;
+};
+
+}  // namespace vspring::cli

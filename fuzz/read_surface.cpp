@@ -33,8 +33,12 @@ void write_again(const SurfaceFile& surface, SurfaceFile (*reader)(InputFile)) {
   require(again.mesh.positions() == places);
   require(again.mesh.corners() == surface.mesh.corners());
   std::vector<std::string> losses;
-  for (const SurfaceFormat format : {SurfaceFormat::obj, SurfaceFormat::off, SurfaceFormat::ply, SurfaceFormat::stl})
+  for (const SurfaceFormat format : {SurfaceFormat::obj, SurfaceFormat::off, SurfaceFormat::ply})
     require(!fresh_file(format, surface.mesh, places, surface.normals, losses).empty());
+  bool any_triangle = false;
+  for (Index face = 0; face < surface.mesh.face_count(); ++face)
+    any_triangle = any_triangle || surface.mesh.face(face).size() > 2;
+  if (any_triangle) require(!fresh_file(SurfaceFormat::stl, surface.mesh, places, {}, losses).empty());
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ struct SurfaceFile {
 /// Reads OBJ, OFF (with its N, C and ST variants), PLY (ASCII, both binary byte orders) or STL (ASCII, binary; equal
 /// positions are welded). path: a file, or "-" for standard input. The format is found from the content; `format`,
 /// where given, or the extension decide only where the content leaves it open. Throws Error(unusable_file) naming path
-/// and line (or byte) for anything that cannot be read whole. Cost: linear; the bytes of the file stay in memory.
+/// and line (or byte) for anything that cannot be read whole, and for a file without nodes. Cost: linear; the bytes of
+/// the file stay in memory.
 [[nodiscard]] SurfaceFile read_surface(const std::string& path, std::optional<SurfaceFormat> format = std::nullopt);
 
 /// Writes the surface with `positions` in place of its own. path: a file, or "-" for standard output. format: where
@@ -45,17 +46,20 @@ struct SurfaceFile {
 ///
 /// In the source's own format everything but positions is written as it was read, byte for byte; coordinates of nodes
 /// whose position is unchanged are too. Normals that the file gave are computed anew at nodes that moved and their
-/// neighbours. Single precision stays single. In another format: nodes and faces, and node normals where the source has
-/// them.
+/// neighbours, with Max's weights. Single precision stays single; whole-number coordinates of PLY become doubles once a
+/// node moves. In another format: nodes and faces, and node normals where the source has them; PLY is then binary in
+/// double precision, STL binary, of triangles cut from the first node of each face.
 ///
-/// The file appears whole or not at all: it is written beside its place and renamed. Throws Error(unusable_file) when
-/// it cannot be, and Error(invalid_argument) unless there is one finite position per node. Returns what the source
-/// carried and the output does not, one line each, empty when nothing is lost. Cost: linear.
+/// The file appears whole or not at all, see write_file(). Throws Error(unusable_file) when it cannot be, and
+/// Error(invalid_argument) unless there is one position per node, finite where it is not the one that was read, and
+/// within the range of what holds it; also for a mesh without triangles as STL. Returns what the source carried and the
+/// output does not, one line each, empty when nothing is lost. Cost: linear.
 std::vector<std::string> write_surface(const std::string& path, const SurfaceFile& surface,
                                        const std::vector<Vector3>& positions,
                                        std::optional<SurfaceFormat> format = std::nullopt);
 
-/// Writes a mesh that no file gave.
+/// Writes a mesh that no file gave. format: where not given, the extension's. Throws as above; every position has to be
+/// finite.
 void write_surface(const std::string& path, const PolygonMesh& mesh,
                    std::optional<SurfaceFormat> format = std::nullopt);
 

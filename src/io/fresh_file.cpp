@@ -10,6 +10,7 @@
 #include "io/single.hpp"
 #include "io/stl_source.hpp"
 #include "io/text_rewriter.hpp"
+#include "vspring/error.hpp"
 
 namespace vspring {
 namespace {
@@ -121,6 +122,9 @@ std::string fresh_stl(const PolygonMesh& mesh, std::span<const Vector3> position
     larger = larger || size > 3;
     smaller = smaller || size < 3;
   }
+  if (triangles == 0)
+    throw Error(ErrorCode::invalid_argument,
+                "STL holds nothing but triangles, and the mesh has no face of three nodes; write another format");
   if (larger) losses.emplace_back("faces of more than three nodes: they are cut into triangles from their first node");
   if (smaller) losses.emplace_back("faces of fewer than three nodes");
   std::vector<std::uint8_t> used(positions.size(), 0);

@@ -53,6 +53,14 @@ TEST_F(Conversion, CutsFacesIntoTrianglesForStlAndSaysSo) {
     EXPECT_EQ(again.mesh.position(node), surface.mesh.position(node).cast<float>().cast<double>());
 }
 
+TEST_F(Conversion, RefusesStlWithoutTriangles) {
+  const SurfaceFile points = read_surface(put("in.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n"));
+  EXPECT_EQ(
+      message_of([&] { write_surface(path("out.stl"), points, points.mesh.positions()); }, ErrorCode::invalid_argument),
+      "STL holds nothing but triangles, and the mesh has no face of three nodes; write another format");
+  EXPECT_EQ(files(), std::set<std::string>{"in.obj"});
+}
+
 TEST_F(Conversion, NamesEverythingThatIsLost) {
   const SurfaceFile obj =
       read_surface(put("in.obj",

@@ -87,7 +87,8 @@ TEST_F(OutputFile, NamesAFullDevice) {
   EXPECT_EQ(message_of([&] { write_file("/dev/full", "x"); }),
             "/dev/full: cannot be written: No space left on device; make room or choose another place");
   MeshBuilder builder;
-  builder.add_node({0, 0, 0});
+  for (int k = 0; k < 3; ++k) builder.add_node({1.0 * k, 1.0 * k * k, 0});
+  builder.add_face({0, 1, 2});
   const PolygonMesh mesh = builder.take();
   for (const SurfaceFormat format : {SurfaceFormat::obj, SurfaceFormat::off, SurfaceFormat::ply, SurfaceFormat::stl})
     EXPECT_NE(message_of([&] { write_surface("/dev/full", mesh, format); }).find("No space left"), std::string::npos);

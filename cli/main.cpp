@@ -27,7 +27,7 @@ int run_command(const std::function<int()>& run) {
   try {
     return run();
   } catch (const Error& error) {
-    return fail(error.what(), exit_unusable);
+    return fail(error.what(), error.code() == ErrorCode::invalid_argument ? exit_wrong_use : exit_unusable);
   } catch (const std::bad_alloc&) {
     return fail("out of memory", exit_unusable);
   } catch (const std::exception& error) {

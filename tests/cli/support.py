@@ -1,0 +1,93 @@
+"""Small inputs, and a way to run the program."""
+import json
+import math
+import os
+import pathlib
+import subprocess
+import tempfile
+import unittest
+
+PROGRAM = os.environ["VSPRING"]
+
+
+def run(*arguments, stdin=None, environment=None, timeout=120):
+    return subprocess.run([PROGRAM, *map(str, arguments)], input=stdin, capture_output=True, timeout=timeout,
+                          env={**os.environ, **(environment or {})})
+
+
+def hat(rings=4, sides=12):
+    """A paper hat as OBJ: a cone of triangles at the tip and quads below, with a comment, a group and texture coordinates."""
+    lines = ["# a hat", "v 0 0 1"]
+    for ring in range(1, rings + 1):
+        for k in range(sides):
+            angle = 2 * math.pi * k / sides
+            radius = ring / rings
+            lines.append(f"v {radius * math.cos(angle):.17g} {radius * math.sin(angle):.17g} {1 - radius:.17g}")
+    lines += ["vt 0 0", "g tip"]
+    at = lambda ring, k: 2 + (ring - 1) * sides + k % sides
+    lines += [f"f 1/1 {at(1, k)}/1 {at(1, k + 1)}/1" for k in range(sides)]
+    lines.append("g brim")
+    for ring in range(1, rings):
+        lines += [f"f {at(ring, k)}/1 {at(ring + 1, k)}/1 {at(ring + 1, k + 1)}/1 {at(ring, k + 1)}/1" for k in range(sides)]
+    return "\n".join(lines) + "\n"
+
+
+def grid(size):
+    """A square of triangles with bumps, as OBJ."""
+    lines = []
+    for y in range(size + 1):
+        for x in range(size + 1):
+            lines.append(f"v {x / size} {y / size} {0.3 * math.sin(9 * x / size) * math.sin(7 * y / size)}")
+    for y in range(size):
+        for x in range(size):
+            a = y * (size + 1) + x + 1
+            b = a + size + 1
+            lines += [f"f {a} {a + 1} {b + 1}", f"f {a} {b + 1} {b}"]
+    return "\n".join(lines) + "\n"
+
+
+OCTAHEDRON = """v 1 0 0
+v 0 1 0
+v -1 0 0
+v 0 -1 0
+v 0 0 1
+v 0 0 -1
+f 1 2 5
+f 2 3 5
+f 3 4 5
+f 4 1 5
+f 2 1 6
+f 3 2 6
+f 4 3 6
+f 1 4 6
+"""
+
+
+def vertex_lines(text):
+    return [line for line in text.splitlines() if line.startswith("v ")]
+
+
+class Case(unittest.TestCase):
+    """Each test has a folder of its own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode())
+        return path
+
+    def files(self):
+        return sorted(path.name for path in self.folder.iterdir())
+
+    def assert_one_line(self, result):
+        text = result.stderr.decode()
+        self.assertEqual(text.count("\n"), 1, text)
+        self.assertTrue(text.startswith("vspring: error: "), text)
+        return text
+
+    def read_json(self, name):
+        return json.loads((self.folder / name).read_text())

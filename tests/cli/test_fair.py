@@ -1,0 +1,179 @@
+"""What `vspring fair` does with good input."""
+import json
+import os
+import signal
+import subprocess
+import time
+
+import support
+from support import OCTAHEDRON, PROGRAM, Case, grid, hat, run, vertex_lines
+
+
+class Fair(Case):
+    def fair(self, *options, text=None, status=0):
+        before = self.write("in.obj", text or hat())
+        result = run("fair", before, "-o", self.folder / "out.obj", *options)
+        self.assertEqual(result.returncode, status, result.stderr.decode())
+        return result
+
+    def test_moves_the_inside_and_keeps_all_else(self):
+        self.fair()
+        before = hat().splitlines()
+        after = (self.folder / "out.obj").read_text().splitlines()
+        self.assertEqual(len(before), len(after))
+        changed = [k for k, (a, b) in enumerate(zip(before, after)) if a != b]
+        inner = range(1, 2 + 3 * 12)
+        self.assertTrue(changed)
+        self.assertTrue(set(changed) <= set(inner), "only nodes inside may change, the boundary bit for bit")
+
+    def test_report(self):
+        self.fair("--report", self.folder / "report.json", "--threads", "2")
+        report = self.read_json("report.json")
+        self.assertEqual(report["outcome"], "converged")
+        for key, kind in {"iterations": int, "residual": float, "nodes": int, "faces": int, "fixed_positions": int,
+                          "fixed_normals": int, "seconds": float, "peak_memory_bytes": int, "threads": int, "version": str,
+                          "greatest_move": float, "rms_move": float, "moving_nodes": int, "warnings": list}.items():
+            self.assertIsInstance(report[key], kind, key)
+        self.assertIn("expected_error", report)
+        self.assertEqual((report["nodes"], report["faces"], report["fixed_positions"]), (49, 48, 12))
+        self.assertEqual(report["threads"], 2)
+        self.assertLess(report["residual"], 1e-3)
+        before, after = report["fairness"]["before"], report["fairness"]["after"]
+        self.assertLess(after["vspring_energy"], before["vspring_energy"])
+        self.assertLess(after["greatest_turn"], before["greatest_turn"])
+
+    def test_standard_input_and_output(self):
+        result = run("fair", "-", "-o", "-", "--quiet", stdin=hat().encode())
+        self.assertEqual(result.returncode, 0)
+        self.fair("--quiet")
+        self.assertEqual(result.stdout, (self.folder / "out.obj").read_bytes())
+        self.assertEqual(result.stderr, b"")
+        off = run("fair", "-", "-o", "-", "--format", "obj", "--quiet", stdin=hat().encode())
+        self.assertEqual(off.stdout, result.stdout)
+
+    def test_summary_goes_beside_the_shape(self):
+        result = run("fair", "-", "-o", "-", stdin=hat().encode())
+        self.assertTrue(result.stdout.startswith(b"# a hat\n"))
+        self.assertIn("converged", result.stderr.decode())
+        result = self.fair()
+        self.assertIn("nodes moved", result.stdout.decode())
+
+    def test_strength_nought_gives_the_input_back(self):
+        self.fair("--strength", "0")
+        self.assertEqual((self.folder / "out.obj").read_bytes(), (self.folder / "in.obj").read_bytes())
+
+    def test_every_option_has_an_effect(self):
+        self.fair()
+        plain = (self.folder / "out.obj").read_bytes()
+        rules = self.write("rules.json", json.dumps({"rules": [{"nodes": [0], "position": [0, 0, 2]}]}))
+        for options in (["--fix-normals", "boundary"], ["--constraints", rules], ["--region", "sphere:0,0,1,0.6"],
+                        ["--step-tolerance", "1e-6"], ["--pseudo-normals", "area"], ["--pseudo-normals", "angle"], ["--paper"],
+                        ["--distribution", "keep"], ["--strength", "0.5"]):
+            self.fair(*options)
+            self.assertNotEqual((self.folder / "out.obj").read_bytes(), plain, options)
+        self.fair("--pseudo-normals", "average")
+        average = (self.folder / "out.obj").read_bytes()
+        self.fair("--paper")
+        self.assertEqual((self.folder / "out.obj").read_bytes(), average)
+
+    def test_region_by_group_box_and_list(self):
+        def moved():
+            before = vertex_lines((self.folder / "in.obj").read_text())
+            after = vertex_lines((self.folder / "out.obj").read_text())
+            return {k for k, (a, b) in enumerate(zip(before, after)) if a != b}
+
+        self.fair("--region", "group:tip")
+        self.assertEqual(moved(), set(range(13)))
+        self.fair("--region", "box:-0.3,-0.3,0,0.3,0.3,2")
+        self.assertEqual(moved(), set(range(13)))
+        nodes = self.write("nodes.json", "[0, 1, 2]")
+        self.fair("--region", nodes)
+        self.assertEqual(moved(), {0, 1, 2})
+
+    def test_rules_hold_nodes_where_they_say(self):
+        rules = {"rules": [{"nodes": "boundary", "position": "fixed", "normal": [0, 0, 1]},
+                           {"nodes": {"group": "tip"}, "normal": "fixed"},
+                           {"nodes": {"group": "tip"}, "normal": "free"},
+                           {"nodes": [0, 1], "position": [[0, 0, 1.25], [0.25, 0, 1]]}]}
+        self.write("rules.json", json.dumps(rules))
+        self.fair("--constraints", self.folder / "rules.json", "--report", self.folder / "report.json")
+        lines = vertex_lines((self.folder / "out.obj").read_text())
+        self.assertEqual(lines[0], "v 0 0 1.25")
+        self.assertEqual(lines[1], "v 0.25 0 1")
+        report = self.read_json("report.json")
+        self.assertEqual((report["fixed_positions"], report["fixed_normals"]), (14, 12))
+
+    def test_same_bytes_for_every_number_of_threads(self):
+        outputs = []
+        for threads in (1, 2, 3):
+            self.fair("--threads", threads, "--max-iterations", "20", text=grid(60), status=3)
+            outputs.append((self.folder / "out.obj").read_bytes())
+        self.assertEqual(outputs[0], outputs[1])
+        self.assertEqual(outputs[0], outputs[2])
+
+    def test_not_converged_is_written_and_told(self):
+        result = self.fair("--max-iterations", "2", "--report", self.folder / "report.json", status=3)
+        self.assertIn("limit of iterations", result.stdout.decode())
+        self.assertEqual(self.read_json("report.json")["outcome"], "iteration-limit")
+        self.assertEqual(len(vertex_lines((self.folder / "out.obj").read_text())), 49)
+
+    def test_other_formats(self):
+        for name in ("out.ply", "out.off", "out.stl"):
+            before = self.write("in.obj", hat())
+            result = run("fair", before, "-o", self.folder / name)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn("without", result.stderr.decode(), "what the format drops is told")
+            again = run("fair", self.folder / name, "-o", self.folder / "again.obj")
+            self.assertEqual(again.returncode, 0, again.stderr)
+
+    def test_overwrites_its_own_input(self):
+        path = self.write("in.obj", hat())
+        self.assertEqual(run("fair", path, "-o", path).returncode, 0)
+        self.assertNotEqual(path.read_text(), hat())
+        self.assertEqual(self.files(), ["in.obj"])
+
+    def test_what_would_vanish_is_refused_with_the_ways_out(self):
+        path = self.write("in.obj", OCTAHEDRON)
+        result = run("fair", path, "-o", self.folder / "out.obj")
+        self.assertEqual(result.returncode, 2)
+        line = self.assert_one_line(result)
+        for word in ("node 0", "--constraints", "--region"):
+            self.assertIn(word, line)
+        path = self.write("in.obj", hat())
+        result = run("fair", path, "-o", self.folder / "out.obj", "--fix", "none")
+        self.assertEqual(result.returncode, 2)
+        self.assert_one_line(result)
+        self.assertEqual(self.files(), ["in.obj"])
+
+    def test_a_family_of_shapes_ends_in_one_with_a_warning(self):
+        self.write("rules.json", json.dumps({"rules": [{"nodes": [0], "position": "fixed"}]}))
+        result = self.fair("--constraints", self.folder / "rules.json", text=OCTAHEDRON)
+        self.assertIn("family", result.stderr.decode())
+
+    def test_ctrl_c_writes_the_shape_so_far_whole(self):
+        path = self.write("in.obj", grid(120))
+        for name in (signal.SIGINT, signal.SIGTERM):
+            process = subprocess.Popen([PROGRAM, "fair", path, "-o", self.folder / "out.obj", "--step-tolerance", "1e-30",
+                                        "--max-iterations", "1000000000", "--report", self.folder / "report.json"],
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            time.sleep(2)
+            process.send_signal(name)
+            output, errors = process.communicate(timeout=60)
+            self.assertEqual(process.returncode, 130, errors)
+            self.assertIn("interrupted", output.decode())
+            self.assertEqual(self.read_json("report.json")["outcome"], "cancelled")
+            self.assertEqual(len(vertex_lines((self.folder / "out.obj").read_text())), 121 * 121)
+            self.assertEqual(self.files(), ["in.obj", "out.obj", "report.json"])
+
+    def test_version_and_help(self):
+        self.assertRegex(run("--version").stdout.decode(), r"^vspring \d+\.\d+\.\d+\n$")
+        text = run("fair", "--help").stdout.decode()
+        for option in ("--output", "--constraints", "--fix", "--fix-normals", "--region", "--method", "--step-tolerance",
+                       "--max-iterations", "--threads", "--pseudo-normals", "--paper", "--distribution", "--strength", "--report",
+                       "--quiet", "--format", "--color", "Example", "Exit status"):
+            self.assertIn(option, text)
+        self.assertIn("fair", run("--help").stdout.decode())
+
+
+if __name__ == "__main__":
+    support.unittest.main()

@@ -56,6 +56,7 @@ void run(const std::string& path, const std::filesystem::path& out, std::ofstrea
       const Region region = region_about(mesh, seed, share * box.diagonal().norm());
       Constraints constraints(mesh.node_count());
       fix_boundary_positions(constraints, mesh);
+      apply_rules(constraints, mesh, R"({"rules": [{"nodes": "non-manifold", "position": "fixed"}]})");
       const std::string row =
           fmt::format("| {} | {:.0f} % | {} |", std::filesystem::path(path).filename().string(), 100 * share, seed);
       try {

@@ -1,5 +1,6 @@
 // A program as a user would write it, against the installed library: a paper hat, its rim held with level normals,
 // becomes a round one.
+#include <cmath>
 #include <cstdio>
 #include <vspring/vspring.hpp>
 
@@ -27,7 +28,8 @@ int main() {
 
   Constraints constraints(hat.node_count());
   fix_boundary_positions(constraints, hat);
-  for (const Index node : boundary_loops(hat).front()) constraints.fix_normal(node, {0, 0, 1});
+  const auto loops = boundary_loops(hat);
+  for (const Index node : loops.front()) constraints.fix_normal(node, {0, 0, 1});
 
   const FairResult result = fair(hat, constraints);
   std::printf("%s: %s after %d iterations, greatest turn %.1f -> %.1f degrees\n", version(),

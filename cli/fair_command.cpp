@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "choice.hpp"
 #include "exit_status.hpp"
 #include "progress_bar.hpp"
 #include "report.hpp"
@@ -109,8 +110,6 @@ int run_fair(FairArguments arguments) {
   return exit_status(result.report.outcome);
 }
 
-const std::map<std::string, SurfaceFormat> formats = {
-    {"obj", SurfaceFormat::obj}, {"off", SurfaceFormat::off}, {"ply", SurfaceFormat::ply}, {"stl", SurfaceFormat::stl}};
 const std::map<std::string, Hold> holds = {{"boundary", Hold::boundary}, {"none", Hold::none}};
 const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNormals::link},
                                                              {"average", PseudoNormals::average},
@@ -120,24 +119,6 @@ const std::map<std::string, Distribution> distributions = {{"even", Distribution
 const std::map<std::string, Method> methods = {{"sweep", Method::sweep}};
 const std::map<std::string, Colour> colours = {
     {"auto", Colour::automatic}, {"always", Colour::always}, {"never", Colour::never}};
-
-/// An option whose values are words.
-template <typename Value, typename Target>
-CLI::Option* add_choice(CLI::App& command, const std::string& flag, Target& target,
-                        const std::map<std::string, Value>& choices, const std::string& help) {
-  std::string words;
-  for (const auto& [word, value] : choices) words += (words.empty() ? "" : "|") + word;
-  return command
-      .add_option_function<std::string>(
-          flag,
-          [&target, &choices, flag, words](const std::string& word) {
-            const auto choice = choices.find(word);
-            if (choice == choices.end()) throw CLI::ValidationError(flag, "\"" + word + "\" is not one of " + words);
-            target = choice->second;
-          },
-          help)
-      ->type_name(words);
-}
 
 void add_input_options(CLI::App& command, FairArguments& arguments) {
   command
@@ -149,7 +130,7 @@ void add_input_options(CLI::App& command, FairArguments& arguments) {
                   "Where the fair surface goes, format by extension; - for standard output")
       ->required()
       ->type_name("OUT");
-  add_choice(command, "--format", arguments.format, formats,
+  add_choice(command, "--format", arguments.format, surface_formats,
              "Format of - (default: found from the content; the input's)");
 }
 

@@ -8,6 +8,7 @@
 
 #include "exit_status.hpp"
 #include "fair_command.hpp"
+#include "generate_command.hpp"
 #include "terminal.hpp"
 #include "vspring/error.hpp"
 #include "vspring/version.hpp"
@@ -40,9 +41,10 @@ int answer_or_refuse(const CLI::App& app, const CLI::ParseError& outcome) {
   if (outcome.get_exit_code() == 0) return app.exit(outcome);
   std::string what = outcome.what();
   for (char& c : what) c = c == '\n' ? ' ' : c;
-  const auto used = app.get_subcommands();
-  return fail(fmt::format("{}; see vspring {}--help", what, used.empty() ? "" : used.front()->get_name() + " "),
-              exit_wrong_use);
+  std::string command = "vspring";
+  for (auto used = app.get_subcommands(); !used.empty(); used = used.front()->get_subcommands())
+    command += " " + used.front()->get_name();
+  return fail(fmt::format("{}; see {} --help", what, command), exit_wrong_use);
 }
 
 }  // namespace
@@ -59,6 +61,7 @@ int main(int argc, char** argv) {
       "vspring COMMAND --help explains every option with its default and unit.");
   std::function<int()> run;
   add_fair_command(app, run);
+  add_generate_command(app, run);
   return run_command([&] {
     try {
       app.parse(argc, argv);

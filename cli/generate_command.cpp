@@ -1,0 +1,84 @@
+#include "generate_command.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "choice.hpp"
+#include "exit_status.hpp"
+#include "shapes.hpp"
+#include "signals.hpp"
+#include "vspring/generate.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+/// What every shape takes beside its own options.
+struct GenerateArguments {
+  std::string output;
+  std::optional<SurfaceFormat> format;
+  double noise = 0;
+  bool noise_on_boundary = false;
+  bool shuffle = false;
+  std::uint64_t seed = 1;
+};
+
+int run_generate(const GenerateArguments& arguments, const MakeShape& make) {
+  PolygonMesh mesh = make(arguments.seed);
+  // Other seeds than the jitter's, so that nothing moves by the same random numbers twice.
+  if (arguments.noise != 0)
+    mesh = generate::add_noise(mesh, arguments.noise, arguments.seed + 1, arguments.noise_on_boundary);
+  if (arguments.shuffle) mesh = generate::shuffle(mesh, arguments.seed + 2).mesh;
+  const UninterruptedWhileWriting guard;
+  write_surface(arguments.output, mesh, arguments.format);
+  return exit_converged;
+}
+
+void add_common_options(CLI::App& command, GenerateArguments& arguments) {
+  command
+      .add_option("-o,--output", arguments.output, "Where the shape goes, format by extension; - for standard output")
+      ->required()
+      ->type_name("OUT");
+  add_choice(command, "--format", arguments.format, surface_formats, "Format of - (default: the extension's)");
+  const std::string group = "Disorder";
+  command
+      .add_option("--noise", arguments.noise,
+                  "Move every node inside by a random vector within a ball of this radius, a length (default: 0)")
+      ->type_name("LENGTH")
+      ->group(group);
+  command.add_flag("--noise-on-boundary", arguments.noise_on_boundary, "Also the nodes of the boundary (default: off)")
+      ->group(group);
+  command.add_flag("--shuffle", arguments.shuffle, "Nodes and faces in random order (default: off)")->group(group);
+  command
+      .add_option("--seed", arguments.seed, "Of all that is random: the same seed gives the same shape (default: 1)")
+      ->type_name("N")
+      ->group(group);
+}
+
+}  // namespace
+
+void add_generate_command(CLI::App& app, std::function<int()>& run) {
+  CLI::App& generate = *app.add_subcommand("generate", "Make a shape to try things on");
+  generate.require_subcommand(1);
+  generate.footer(
+      "Example: the start shape of the paper's Fig. 8, with noise\n"
+      "  vspring generate annulus --nodes 3644 --boundary-nodes 305 --noise 0.01 -o annulus.obj\n\n"
+      "vspring generate SHAPE --help explains the options of a shape with their defaults and units. Lengths are in the "
+      "units of the output.");
+  add_shapes([&](const std::string& name, const std::string& description, const std::string& example,
+                 MakeShape make) -> CLI::App& {
+    const auto arguments = std::make_shared<GenerateArguments>();
+    CLI::App& command = *generate.add_subcommand(name, description);
+    add_common_options(command, *arguments);
+    command.footer(fmt::format("Example:\n  vspring generate {} {}", name, example));
+    command.callback([arguments, make = std::move(make), &run] {
+      run = [arguments, make] { return run_generate(*arguments, make); };
+    });
+    return command;
+  });
+}
+
+}  // namespace vspring::cli

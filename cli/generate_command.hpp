@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace vspring::cli {
+
+/// Adds `vspring generate` with one command for each shape; see add_fair_command().
+void add_generate_command(CLI::App& app, std::function<int()>& run);
+
+}  // namespace vspring::cli

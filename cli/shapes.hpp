@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "vspring/polygon_mesh.hpp"
+
+namespace vspring::cli {
+
+/// Makes a shape with the options that were given.
+using MakeShape = std::function<PolygonMesh(std::uint64_t seed)>;
+
+/// Adds the command of one shape. example: the arguments of a use of it.
+using AddShape = std::function<CLI::App&(const std::string& name, const std::string& description,
+                                         const std::string& example, MakeShape make)>;
+
+/// Adds the commands of all shapes.
+void add_shapes(const AddShape& add);
+
+}  // namespace vspring::cli

@@ -1,0 +1,336 @@
+// What constraints mean, what is refused and what is warned of.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+
+#include "vspring/vspring.hpp"
+
+namespace vspring {
+namespace {
+
+using generate::Faces;
+
+std::string refusal(const std::function<void()>& call, ErrorCode code) {
+  try {
+    call();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), code) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line";
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was refused";
+  return "";
+}
+
+std::string refusal(const PolygonMesh& mesh, const Constraints& constraints, ErrorCode code) {
+  return refusal([&] { (void)fair(mesh, constraints); }, code);
+}
+
+bool says(const std::string& message, const std::string& part) { return message.find(part) != std::string::npos; }
+
+Constraints held_boundary(const PolygonMesh& mesh) {
+  Constraints constraints(mesh.node_count());
+  fix_boundary_positions(constraints, mesh);
+  return constraints;
+}
+
+// A mesh and a second one beside it, in one.
+PolygonMesh beside(const PolygonMesh& a, const PolygonMesh& b) {
+  MeshBuilder builder;
+  for (const Vector3& p : a.positions()) builder.add_node(p);
+  for (const Vector3& p : b.positions()) builder.add_node(p + Vector3(10, 0, 0));
+  for (Index f = 0; f < a.face_count(); ++f) builder.add_face(a.face(f));
+  for (Index f = 0; f < b.face_count(); ++f) {
+    std::vector<Index> face;
+    for (const Index i : b.face(f)) face.push_back(i + a.node_count());
+    builder.add_face(face);
+  }
+  return builder.take();
+}
+
+TEST(Constraints, NormalsAreMadeUnitLengthWhateverTheirSize) {
+  Constraints constraints(3);
+  for (const double size : {1.0, 1e-300, 1e300}) {
+    constraints.fix_normal(1, size * Vector3(3, 0, 4));
+    EXPECT_LT((constraints.normal(1) - Vector3(0.6, 0, 0.8)).norm(), 1e-15);
+  }
+  for (const Vector3& bad : {Vector3(0, 0, 0), Vector3(NAN, 0, 1), Vector3(INFINITY, 0, 0)}) {
+    EXPECT_TRUE(says(refusal([&] { constraints.fix_normal(2, bad); }, ErrorCode::unusable_constraint), "node 2"));
+    EXPECT_FALSE(constraints.normal_fixed(2));
+  }
+  EXPECT_TRUE(says(refusal([&] { constraints.fix_position(3, {0, 0, 0}); }, ErrorCode::unusable_constraint), "node 3"));
+  EXPECT_TRUE(says(refusal([&] { (void)constraints.position_fixed(-1); }, ErrorCode::unusable_constraint), "node -1"));
+}
+
+TEST(Constraints, AClosedComponentThatNothingHoldsIsRefused) {
+  const PolygonMesh torus = generate::torus();
+  const std::string message = refusal(torus, Constraints(torus.node_count()), ErrorCode::unusable_constraint);
+  for (const char* part : {"node 0", "(400 nodes)", "--constraints", "--region"})
+    EXPECT_TRUE(says(message, part)) << part;
+  // Beside one that is held, too.
+  const PolygonMesh both = beside(generate::plane(), torus);
+  EXPECT_TRUE(says(refusal(both, held_boundary(both), ErrorCode::unusable_constraint), "node 441"));
+}
+
+TEST(Constraints, AFreeBoundaryIsRefusedAndAPartlyFreeOneWarnedOf) {
+  const PolygonMesh mesh = generate::annulus({.nodes = 300});
+  const auto loops = boundary_loops(mesh);
+  ASSERT_EQ(loops.size(), 2U);
+  for (const auto& free_loop : loops) {
+    Constraints constraints = held_boundary(mesh);
+    for (const Index i : free_loop) constraints.free_position(i);
+    EXPECT_TRUE(says(refusal(mesh, constraints, ErrorCode::unusable_constraint), "boundary loop through node"));
+    for (int k = 0; k < 2; ++k) constraints.fix_position(free_loop[static_cast<std::size_t>(k)], {0, 0, 0});
+    EXPECT_TRUE(says(refusal(mesh, constraints, ErrorCode::unusable_constraint), "2 of its"));
+  }
+  Constraints constraints = held_boundary(mesh);
+  constraints.free_position(loops[0][3]);
+  const auto warnings = fair(mesh, constraints).report.warnings;
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_TRUE(says(warnings[0], "1 boundary node is free")) << warnings[0];
+  EXPECT_TRUE(fair(mesh, held_boundary(mesh)).report.warnings.empty());
+}
+
+TEST(Constraints, WhatLeavesAFamilyOfShapesIsWarnedOf) {
+  const PolygonMesh cube = generate::genus({.holes = 0, .cells = 2});
+  const auto warnings = [&](int positions, int normals) {
+    Constraints constraints(cube.node_count());
+    // Four corners that are not in a plane.
+    int held = 0;
+    for (const Vector3& corner : {Vector3(1, 1, 1), Vector3(-1, -1, 1), Vector3(-1, 1, -1), Vector3(1, -1, -1)}) {
+      Index best = 0;
+      for (Index i = 0; i < cube.node_count(); ++i) {
+        if (cube.position(i).dot(corner) > cube.position(best).dot(corner)) best = i;
+      }
+      if (held < positions) constraints.fix_position(best, cube.position(best));
+      if (held < normals) constraints.fix_normal(best, cube.position(best));
+      ++held;
+    }
+    return check_constraints(cube, constraints).size();
+  };
+  EXPECT_EQ(warnings(1, 0), 1U);
+  EXPECT_EQ(warnings(3, 0), 1U) << "a circle leaves the spheres through it";
+  EXPECT_EQ(warnings(4, 0), 0U);
+  EXPECT_EQ(warnings(1, 1), 1U) << "one tangent plane leaves the radius";
+  EXPECT_EQ(warnings(2, 2), 0U);
+}
+
+TEST(Constraints, AClosedSurfaceHeldAtOneNodeEndsInOneOfTheFamily) {
+  const PolygonMesh block = generate::genus({.holes = 0, .cells = 6});
+  Constraints constraints(block.node_count());
+  constraints.fix_position(0, block.position(0));
+  const FairResult result = fair(block, constraints);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.warnings.size(), 1U);
+  EXPECT_LT(result.report.after.greatest_turn, result.report.before.greatest_turn / 4);
+  EXPECT_LT(result.report.after.vspring_energy, result.report.before.vspring_energy / 100);
+}
+
+TEST(Constraints, WhatFallsApartIsStoppedAndItsBestShapeKept) {
+  // So coarse, and held by so little, that nodes drift to one side of the closed surface until it collapses.
+  const PolygonMesh block = generate::genus({.holes = 0, .cells = 3});
+  Constraints constraints(block.node_count());
+  constraints.fix_position(0, block.position(0));
+  const FairResult result = fair(block, constraints, {.step_tolerance = 1e-6, .max_iterations = 100000});
+  EXPECT_EQ(result.report.outcome, Outcome::stalled);
+  EXPECT_LT(result.report.iterations, 10000);
+  EXPECT_EQ(result.report.warnings.size(), 2U);
+  EXPECT_LT(result.report.residual, 0.01);
+  EXPECT_LT(result.report.after.greatest_turn, result.report.before.greatest_turn / 2);
+}
+
+TEST(Constraints, DefectsAreRefusedOnlyWhereTheyWouldMove) {
+  // A fin on an inner edge, a doubled face, a node used twice in a face, a coordinate that is no number, each in the
+  // middle of a plane.
+  const PolygonMesh plane = generate::plane({.columns = 6, .rows = 6, .faces = Faces::quads});
+  struct Broken {
+    const char* named;
+    std::function<void(std::vector<Vector3>&, std::vector<std::vector<Index>>&)> harm;
+  };
+  const std::vector<Broken> all = {{"edge 24–25: more than two faces",
+                                    [](auto& p, auto& f) {
+                                      p.emplace_back(0.5, 0.5, 1);
+                                      f.push_back({24, 25, 49});
+                                    }},
+                                   {"has the same nodes as face 15", [](auto&, auto& f) { f.push_back(f[15]); }},
+                                   {"node 24 occurs in it more than once",
+                                    [](auto&, auto& f) {
+                                      f[15] = {24, 25, 24, 31};
+                                    }},
+                                   {"fewer than three nodes",
+                                    [](auto&, auto& f) {
+                                      f.push_back({24, 25});
+                                    }},
+                                   {"node 24: a coordinate is not finite", [](auto& p, auto&) { p[24].z() = NAN; }},
+                                   {"node 24: its faces form more than one fan", [](auto& p, auto& f) {
+                                      p.emplace_back(0.5, 0.5, 1);
+                                      p.emplace_back(0.6, 0.5, 1);
+                                      f.push_back({24, 49, 50});
+                                    }}};
+  for (const Broken& broken : all) {
+    SCOPED_TRACE(broken.named);
+    std::vector<Vector3> positions = plane.positions();
+    std::vector<std::vector<Index>> faces;
+    for (Index f = 0; f < plane.face_count(); ++f) faces.emplace_back(plane.face(f).begin(), plane.face(f).end());
+    broken.harm(positions, faces);
+    MeshBuilder builder;
+    for (const Vector3& p : positions) builder.add_node(p);
+    for (const auto& face : faces) builder.add_face(face);
+    const PolygonMesh mesh = builder.take();
+    Constraints constraints = held_boundary(mesh);
+    constraints.free_position(24);
+    constraints.free_position(25);
+    EXPECT_TRUE(says(refusal(mesh, constraints, ErrorCode::unusable_mesh), broken.named));
+    // Far from it, the same mesh is faired.
+    Constraints elsewhere = held_boundary(mesh);
+    const std::vector<Index> region = {8};
+    restrict_to_region(elsewhere, mesh, region);
+    EXPECT_EQ(fair(mesh, elsewhere).report.outcome, Outcome::converged);
+  }
+}
+
+TEST(Constraints, InconsistentOrientationZeroLengthsAndIsolatedNodesAreFaired) {
+  const PolygonMesh cap = generate::sphere_patch({.columns = 8, .rows = 8}, 1, 60);
+  const auto held = [&](const PolygonMesh& mesh) {
+    Constraints constraints = held_boundary(mesh);
+    for (Index i = 0; i < cap.node_count(); ++i) {
+      if (constraints.position_fixed(i)) constraints.fix_normal(i, cap.position(i));
+    }
+    return constraints;
+  };
+  const FairOptions options{.step_tolerance = 1e-13, .max_iterations = 20000};
+  std::vector<Index> corners = cap.corners();
+  for (std::size_t f = 0; f < corners.size() / 3; f += 2) std::swap(corners[3 * f], corners[3 * f + 1]);
+  std::vector<Vector3> positions = generate::add_noise(cap, 0.02, 3).positions();
+  positions[40] = positions[41];
+  positions.emplace_back(7, 7, 7);
+  const PolygonMesh mesh(positions, cap.face_begin(), corners);
+  const FairResult result = fair(mesh, held(mesh), options);
+  for (Index i = 0; i < cap.node_count(); ++i)
+    EXPECT_NEAR(result.positions[static_cast<std::size_t>(i)].norm(), 1, 1e-9);
+  EXPECT_EQ(result.positions.back(), Vector3(7, 7, 7));
+}
+
+TEST(Constraints, AMoebiusStripIsFaired) {
+  MeshBuilder builder;
+  const Index around = 40;
+  const Index across = 5;
+  for (Index k = 0; k < around; ++k) {
+    const double angle = 2 * 3.14159265358979323846 * k / around;
+    for (Index j = 0; j < across; ++j) {
+      const double s = 0.4 * (j - 2.0) / 2 + (j > 0 && j + 1 < across ? 0.02 * std::sin(5.0 * k + j) : 0);
+      const double radius = 1 + s * std::cos(angle / 2);
+      builder.add_node({radius * std::cos(angle), radius * std::sin(angle), s * std::sin(angle / 2)});
+    }
+  }
+  for (Index k = 0; k < around; ++k) {
+    for (Index j = 0; j + 1 < across; ++j) {
+      const auto at = [&](Index ring, Index place) {
+        return ring < around ? ring * across + place : across - 1 - place;
+      };
+      builder.add_face({at(k, j), at(k + 1, j), at(k + 1, j + 1), at(k, j + 1)});
+    }
+  }
+  const PolygonMesh strip = builder.take();
+  const FairResult result = fair(strip, held_boundary(strip), {.step_tolerance = 1e-8});
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_LT(result.report.after.vspring_energy, result.report.before.vspring_energy / 5);
+}
+
+TEST(Region, ThePatchMeetsTheRestWithACommonTangentPlane) {
+  // A region of a cylinder, faired from a dent: the greater the nodes, the nearer to the cylinder.
+  const auto error = [](int cells) {
+    const PolygonMesh cylinder =
+        generate::cylinder_patch({.columns = cells, .rows = cells, .faces = Faces::quads}, 1, 150, 2.6);
+    std::vector<Vector3> dented = cylinder.positions();
+    std::vector<Index> region;
+    for (Index i = 0; i < cylinder.node_count(); ++i) {
+      const double distance = (cylinder.position(i) - Vector3(1, 0, 1.3)).norm();
+      if (distance > 0.6) continue;
+      region.push_back(i);
+      dented[static_cast<std::size_t>(i)].x() -= 0.3 * std::exp(-8 * distance * distance);
+    }
+    const PolygonMesh mesh(dented, cylinder.face_begin(), cylinder.corners());
+    Constraints constraints = held_boundary(mesh);
+    restrict_to_region(constraints, mesh, region);
+    const FairResult result = fair(mesh, constraints, {.step_tolerance = 1e-12, .max_iterations = 100000});
+    double greatest = 0;
+    for (const Vector3& p : result.positions) greatest = std::max(greatest, std::abs(std::hypot(p.x(), p.y()) - 1));
+    return greatest;
+  };
+  const double coarse = error(16);
+  EXPECT_LT(coarse, 0.01);
+  EXPECT_GT(coarse / error(32), 3);
+}
+
+TEST(Region, FixesEverythingOutsideAndRimNormalsOnly) {
+  const PolygonMesh mesh = generate::plane({.columns = 10, .rows = 10, .faces = Faces::quads});
+  const auto region = select_region(mesh, "sphere:0.5,0.5,0,0.25");
+  Constraints constraints(mesh.node_count());
+  restrict_to_region(constraints, mesh, region);
+  Index rim = 0;
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    const bool inside = std::find(region.begin(), region.end(), i) != region.end();
+    EXPECT_EQ(constraints.position_fixed(i), !inside);
+    rim += constraints.normal_fixed(i) ? 1 : 0;
+    EXPECT_FALSE(inside && constraints.normal_fixed(i));
+    if (constraints.normal_fixed(i)) {
+      EXPECT_LT(std::abs((mesh.position(i) - Vector3(0.5, 0.5, 0)).norm() - 0.3), 0.06);
+    }
+  }
+  EXPECT_EQ(region.size(), 21U);
+  EXPECT_EQ(rim, 16);
+}
+
+TEST(Region, ARimNodeWithNothingOutsideKeepsItsNormalFree) {
+  const PolygonMesh mesh = generate::plane({.columns = 10, .rows = 10, .faces = Faces::quads});
+  std::vector<Index> region;
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (i != 60) region.push_back(i);
+  }
+  Constraints constraints = held_boundary(mesh);
+  restrict_to_region(constraints, mesh, region);
+  EXPECT_TRUE(constraints.position_fixed(60));
+  EXPECT_FALSE(constraints.normal_fixed(60));
+  EXPECT_TRUE(constraints.position_fixed(0)) << "what was held before stays held";
+  EXPECT_EQ(fair(mesh, constraints).report.outcome, Outcome::converged);
+}
+
+TEST(Rules, ApplyInOrderAndAllOrNone) {
+  const PolygonMesh mesh = generate::plane({.columns = 4, .rows = 4});
+  Constraints constraints(mesh.node_count());
+  apply_rules(constraints, mesh, R"({"rules": [
+      {"nodes": "all", "position": "fixed", "normal": [0, 0, 3]},
+      {"nodes": "interior", "position": "free"},
+      {"nodes": {"region": "box:0.4,0.4,0,0.6,0.6,0"}, "position": [1, 2, 3], "normal": "free"}]})");
+  EXPECT_EQ(constraints.position(0), mesh.position(0));
+  EXPECT_EQ(constraints.normal(0), Vector3(0, 0, 1));
+  EXPECT_FALSE(constraints.position_fixed(6));
+  EXPECT_EQ(constraints.position(12), Vector3(1, 2, 3));
+  EXPECT_FALSE(constraints.normal_fixed(12));
+  const std::string message = refusal(
+      [&] {
+        apply_rules(constraints, mesh,
+                    R"({"rules": [{"nodes": "all", "position": "free"}, {"nodes": [77], "normal": "free"}]})");
+      },
+      ErrorCode::unusable_constraint);
+  EXPECT_TRUE(says(message, "rule 2") && says(message, "77")) << message;
+  EXPECT_TRUE(constraints.position_fixed(0)) << "the first rule must not have been applied";
+}
+
+TEST(Rules, NormalsOfTheInputAndOfTheFile) {
+  const PolygonMesh sphere = generate::sphere_patch({.columns = 6, .rows = 6, .jitter = 0.3}, 2, 70);
+  Constraints constraints(sphere.node_count());
+  apply_rules(constraints, sphere, R"({"rules": [{"nodes": "all", "normal": "fixed"}]})");
+  for (Index i = 0; i < sphere.node_count(); ++i)
+    EXPECT_LT((constraints.normal(i) - sphere.position(i) / 2).norm(), 1e-12);
+  const std::vector<Vector3> normals(static_cast<std::size_t>(sphere.node_count()), Vector3(0, 1, 0));
+  apply_rules(constraints, sphere, R"({"rules": [{"nodes": [3], "normal": "file"}]})", {.normals = &normals});
+  EXPECT_EQ(constraints.normal(3), Vector3(0, 1, 0));
+}
+
+}  // namespace
+}  // namespace vspring

@@ -47,11 +47,7 @@ int answer_or_refuse(const CLI::App& app, const CLI::ParseError& outcome) {
   return fail(fmt::format("{}; see {} --help", what, command), exit_wrong_use);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  // A reader that goes away shows as a failed write, with its message, and not as a silent end.
-  std::signal(SIGPIPE, SIG_IGN);
+int run_program(int argc, char** argv) {
   CLI::App app("vspring: fair curves and surfaces by a discrete spring model", "vspring");
   app.set_version_flag("--version", std::string("vspring ") + version());
   app.require_subcommand(1);
@@ -62,12 +58,22 @@ int main(int argc, char** argv) {
   std::function<int()> run;
   add_fair_command(app, run);
   add_generate_command(app, run);
-  return run_command([&] {
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::ParseError& outcome) {
-      return answer_or_refuse(app, outcome);
-    }
-    return run();
-  });
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& outcome) {
+    return answer_or_refuse(app, outcome);
+  }
+  return run_command(run);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A reader that goes away shows as a failed write, with its message, and not as a silent end.
+  std::signal(SIGPIPE, SIG_IGN);
+  try {
+    return run_program(argc, argv);
+  } catch (...) {
+    return exit_unusable;  // not even a message could be made
+  }
 }

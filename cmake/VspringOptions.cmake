@@ -20,3 +20,10 @@ if(VSPRING_SANITIZE)
   target_compile_options(vspring_options INTERFACE -fsanitize=${VSPRING_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(vspring_options INTERFACE -fsanitize=${VSPRING_SANITIZE})
 endif()
+
+# What nearly every source includes, read once: for builds that only run tests. The others find missing includes.
+function(vspring_precompile target)
+  if(VSPRING_PRECOMPILE_HEADERS)
+    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <functional> <string> <vector> ${ARGN})
+  endif()
+endfunction()

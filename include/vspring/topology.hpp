@@ -40,7 +40,8 @@ struct Defect {
   [[nodiscard]] std::string message() const;
 };
 
-/// Lists every defect of a mesh, ordered by kind, then by element. Cost: linear, apart from sorting what it finds.
+/// Lists every defect of a mesh, ordered by kind, then by element: by face where one is named, else by node. Each edge
+/// is named once, `node` the smaller of its ends. Cost: n log n in the faces.
 [[nodiscard]] std::vector<Defect> check(const PolygonMesh& mesh);
 
 }  // namespace vspring

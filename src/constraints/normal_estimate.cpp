@@ -39,9 +39,9 @@ class Estimator {
 
   Vector3 at(Index node) {
     const Vector3 first = corner_normal(node);
-    if (first.isZero(0)) return first;
-    collect(node);
     Vector3 normal = first;
+    if (first.isZero(0)) return normal;
+    collect(node);
     for (int round = 0; round < rounds; ++round) normal = fit(normal);
     return normal.dot(first) < 0 ? Vector3(-normal) : normal;
   }

@@ -163,6 +163,7 @@ class RuleReader {
     } else if (value == "file") {
       if (input_.normals == nullptr || input_.normals->empty()) throw fault("the file has no normals for \"file\"");
       std::vector<Vector3> normals;
+      normals.reserve(nodes.size());
       for (const Index i : nodes) normals.push_back((*input_.normals)[static_cast<std::size_t>(i)]);
       fix_normals(nodes, normals, "the file gives it no normal");
     } else if (value.is_string()) {

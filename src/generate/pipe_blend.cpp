@@ -45,6 +45,7 @@ void add_pipe(MeshBuilder& builder, const PipeBlendOptions& options, const CubeS
   const int around = 4 * options.cells;
   const int rows = pipe_rows(options);
   std::vector<Index> nodes;
+  nodes.reserve(static_cast<std::size_t>(around) * (rows + 1));
   for (int k = 0; k < around; ++k) nodes.push_back(cube.at(side.around(k)));
   for (int row = 1; row <= rows; ++row) {
     const double share = static_cast<double>(row) / rows;

@@ -35,7 +35,7 @@ class PolygonGrid {
     const double sector = 2 * std::numbers::pi / sides_;
     const double share = static_cast<double>(j) / edges(loop);
     const double angle = sector * (side + share);
-    const Vector3 circle(std::cos(angle), std::sin(angle), 0);
+    Vector3 circle(std::cos(angle), std::sin(angle), 0);
     if (loop == rings_) return circle;
     const Vector3 from(std::cos(sector * side), std::sin(sector * side), 0);
     const Vector3 to(std::cos(sector * (side + 1)), std::sin(sector * (side + 1)), 0);

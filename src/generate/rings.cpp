@@ -17,7 +17,7 @@ struct Ring {
   Index count;
   double shift;  // of its first node, in steps
 
-  [[nodiscard]] Index node(Index k) const { return first + k % count; }
+  [[nodiscard]] Index node(Index k) const { return count > 1 ? first + k % count : first; }
   /// Middle of the edge from node k to the next, in turns. Equal fractions give equal bits.
   [[nodiscard]] double middle(Index k) const { return (k + 0.5 + shift) / count; }
 };
@@ -52,7 +52,7 @@ void place_ring(MeshBuilder& builder, const ProfileCurve& curve, const RingLayou
 void zip(MeshBuilder& builder, const Ring& inner, const Ring& outer) {
   Index i = 0;
   Index o = 0;
-  const Index inner_edges = inner.count == 1 ? 0 : inner.count;
+  const Index inner_edges = inner.count > 1 ? inner.count : 0;
   while (i < inner_edges || o < outer.count) {
     if (o < outer.count && (i == inner_edges || outer.middle(o) <= inner.middle(i))) {
       builder.add_face({inner.node(i), outer.node(o), outer.node(o + 1)});

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "shape/edges.hpp"
 #include "shape/face_geometry.hpp"
 #include "shape/fan.hpp"
+#include "shape/frame.hpp"
 #include "vspring/topology.hpp"
 
 namespace vspring {
@@ -35,6 +35,21 @@ void find_duplicates(const PolygonMesh& mesh, std::vector<Defect>& defects) {
   }
 }
 
+/// In coordinates of the face's own, so that neither its size nor its distance from the others makes squares overflow
+/// or vanish.
+bool has_area(const PolygonMesh& mesh, std::span<const Index> face) {
+  Eigen::AlignedBox<double, 3> box;
+  for (const Index node : face) box.extend(mesh.position(node));
+  const Frame frame(box);
+  std::vector<Vector3> positions;
+  std::vector<Index> places;
+  for (const Index node : face) {
+    places.push_back(static_cast<Index>(places.size()));
+    positions.push_back(frame.to_local(mesh.position(node)));
+  }
+  return !unit_normal(places, positions).isZero(0);
+}
+
 void find_face_defects(const PolygonMesh& mesh, std::vector<Defect>& defects) {
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);
@@ -48,7 +63,7 @@ void find_face_defects(const PolygonMesh& mesh, std::vector<Defect>& defects) {
     if (repeated != nodes.end()) {
       defects.push_back({.kind = Defect::Kind::repeated_node, .node = *repeated, .face = f});
     } else if (std::all_of(face.begin(), face.end(), [&](Index i) { return mesh.position(i).allFinite(); }) &&
-               unit_normal(face, mesh.positions()).isZero(0)) {
+               !has_area(mesh, face)) {
       defects.push_back({.kind = Defect::Kind::zero_area_face, .face = f});
     }
   }

@@ -31,8 +31,8 @@ struct NodeForce {
 template <typename Positions>
 NodeForce node_force(std::size_t i, std::span<const Link> links, const Positions& positions, const Positions& normals,
                      std::span<const double> shares, double tiny) {
-  const Vector3 centre = positions[i];
-  const Vector3 normal = normals[i];
+  const Vector3& centre = positions[i];
+  const Vector3& normal = normals[i];
   double weights = 0;
   double differences = 0;
   double lengths = 0;

@@ -56,23 +56,7 @@ double bytes_per_node(const Net& net) {
   return normals_pass + sweep_pass;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const auto nodes = static_cast<Index>(argc > 1 ? std::atoi(argv[1]) : 1000000);
-  const long long memory_before = peak_memory_bytes();
-  const PolygonMesh mesh = generate::cap({.nodes = nodes, .half_angle = 60, .jitter = 0.3});
-  Constraints constraints(mesh.node_count());
-  fix_boundary_positions(constraints, mesh);
-  Net net;
-  const double gathering = seconds([&] { net = gather_net(mesh, constraints); });
-  const auto memory = static_cast<double>(peak_memory_bytes() - memory_before) / nodes;
-  fmt::print("{} nodes, {} of them moving; gathering the net {:.0f} ns a node\n", nodes, net.moving,
-             1e9 * gathering / nodes);
-  fmt::print("peak memory {:.0f} bytes a node, the input mesh among them\n\n", memory);
-  fmt::print(
-      "| threads | normals, ns a node | iteration, ns a node | bytes moved a node | copying them, ns | ratio |\n");
-  fmt::print("|---|---|---|---|---|---|\n");
+void print_iterations(const std::string& numbering, Net& net) {
   for (const int threads : {1, 2}) {
     ThreadTeam team(threads);
     const double bandwidth = copy_bandwidth(team);
@@ -82,8 +66,36 @@ int main(int argc, char** argv) {
     const double iteration = best_of(10, [&] { sweep.iterate(); });
     const double per_node = 1e9 / static_cast<double>(net.moving);
     const double copying = 1e9 * bytes_per_node(net) / bandwidth;
-    fmt::print("| {} | {:.1f} | {:.1f} | {:.0f} | {:.1f} | {:.1f} |\n", threads, normals * per_node,
+    fmt::print("| {} | {} | {:.1f} | {:.1f} | {:.0f} | {:.1f} | {:.1f} |\n", numbering, threads, normals * per_node,
                iteration * per_node, bytes_per_node(net), copying, iteration * per_node / copying);
   }
+}
+
+Net net_of(const PolygonMesh& mesh) {
+  Constraints constraints(mesh.node_count());
+  fix_boundary_positions(constraints, mesh);
+  return gather_net(mesh, constraints);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const auto nodes = static_cast<Index>(argc > 1 ? std::atoi(argv[1]) : 1000000);
+  const long long memory_before = peak_memory_bytes();
+  const PolygonMesh mesh = generate::cap({.nodes = nodes, .half_angle = 60, .jitter = 0.3});
+  Net net;
+  const double gathering = seconds([&] { net = net_of(mesh); });
+  const auto memory = static_cast<double>(peak_memory_bytes() - memory_before) / nodes;
+  const PolygonMesh shuffled = generate::shuffle(mesh).mesh;
+  Net shuffled_net;
+  const double gathering_shuffled = seconds([&] { shuffled_net = net_of(shuffled); });
+  fmt::print("{} nodes, {} of them moving; gathering the net {:.0f} ns a node, {:.0f} where numbered at random\n",
+             nodes, net.moving, 1e9 * gathering / nodes, 1e9 * gathering_shuffled / nodes);
+  fmt::print("peak memory {:.0f} bytes a node, the input mesh among them\n\n", memory);
+  fmt::print(
+      "| numbering of the input | threads | normals, ns a node | iteration, ns a node | bytes moved a node | copying "
+      "them, ns | ratio |\n|---|---|---|---|---|---|---|\n");
+  print_iterations("ring by ring", net);
+  print_iterations("at random", shuffled_net);
   return 0;
 }

@@ -1,5 +1,5 @@
 // The error of each kind of pseudo-normal on curved shapes of every kind of polygon, and how isotropic the V-Spring
-// operator is that it makes on a square grid. Prints the tables of docs/pseudo-normals.md.
+// operator is that it makes on a square grid. Prints the tables of docs/pseudo-normals.md and docs/constraints.md.
 
 #include <fmt/format.h>
 
@@ -121,10 +121,39 @@ void print_isotropy() {
   }
 }
 
+/// Greatest error, degrees, of the normals that the boundary is held by: "as in the input".
+void print_boundary() {
+  fmt::print("\n| boundary of | faces | 16 cells | 32 cells | 64 cells |\n|---|---|---|---|---|\n");
+  for (const auto& [name, faces] : {std::pair("triangles", Faces::triangles), std::pair("quads", Faces::quads),
+                                    std::pair("mixed", Faces::mixed), std::pair("hexagons", Faces::hexagons)}) {
+    for (const bool sphere : {true, false}) {
+      fmt::print("| a jittered {} | {} |", sphere ? "sphere" : "cylinder", name);
+      for (const int cells : {16, 32, 64}) {
+        const Grid grid{.columns = cells, .rows = cells, .faces = faces, .jitter = 0.3};
+        const PolygonMesh mesh =
+            sphere ? generate::sphere_patch(grid, 1, 45) : generate::cylinder_patch(grid, 1, 90, std::numbers::pi / 2);
+        Constraints constraints(mesh.node_count());
+        fix_boundary_normals(constraints, mesh);
+        double greatest = 0;
+        for (Index i = 0; i < mesh.node_count(); ++i) {
+          if (!constraints.normal_fixed(i)) continue;
+          const Vector3& p = mesh.position(i);
+          const Vector3 exact = sphere ? p.normalized() : Vector3(p.x(), p.y(), 0).normalized();
+          const Vector3& normal = constraints.normal(i);
+          greatest = std::max(greatest, std::atan2(normal.cross(exact).norm(), std::abs(normal.dot(exact))));
+        }
+        fmt::print(" {:.2g} |", greatest * 180 / std::numbers::pi);
+      }
+      fmt::print("\n");
+    }
+  }
+}
+
 }  // namespace
 
 int main() {
   print_errors();
   print_isotropy();
+  print_boundary();
   return 0;
 }

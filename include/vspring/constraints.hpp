@@ -95,8 +95,8 @@ void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_
 
 /// Refuses what would shrink, drift or vanish: throws Error(unusable_constraint), with the reason and the ways out, for
 /// a component with moving nodes that nothing holds, and for one with a boundary loop of which fewer than three nodes
-/// are fixed; Error(unusable_mesh) for a defect (see check()) at a place that would have to move. Returns warnings, one
-/// line each, for constraints that leave a family of shapes (a closed surface held by too little to tell one sphere
+/// are fixed; Error(unusable_shape) for a defect (see check()) at a place that would have to move. Returns warnings,
+/// one line each, for constraints that leave a family of shapes (a closed surface held by too little to tell one sphere
 /// from another) and for boundary nodes that are free to be drawn in. Cost: linear.
 std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints);
 

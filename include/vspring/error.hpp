@@ -8,7 +8,7 @@ namespace vspring {
 enum class ErrorCode {
   invalid_argument,    ///< an option or argument outside its range
   unusable_file,       ///< a file that cannot be opened, read, understood or written
-  unusable_mesh,       ///< connectivity or coordinates that cannot be faired where a node has to move
+  unusable_shape,      ///< connectivity or coordinates that cannot be faired where a node has to move
   unusable_constraint  ///< constraints that contradict themselves or leave the shape unheld
 };
 

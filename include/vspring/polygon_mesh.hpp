@@ -18,7 +18,7 @@ class PolygonMesh {
 
   /// positions: one per node. face_begin: faces + 1 ascending offsets into corners, the first 0 and the last
   /// corners.size(). corners: the nodes of each face in order around it.
-  /// Throws Error(unusable_mesh) naming the face when offsets do not ascend or a node number is out of range.
+  /// Throws Error(unusable_shape) naming the face when offsets do not ascend or a node number is out of range.
   /// Cost: linear.
   PolygonMesh(std::vector<Vector3> positions, std::vector<Index> face_begin, std::vector<Index> corners);
 

@@ -55,7 +55,7 @@ class Holding {
     for (const std::string& fault : faults_) text += (text.empty() ? "" : "; ") + fault;
     if (fault_count_ > faults_.size()) text += fmt::format("; and {} more", fault_count_ - faults_.size());
     throw Error(
-        ErrorCode::unusable_mesh,
+        ErrorCode::unusable_shape,
         fmt::format("{}. Such places cannot move: mend the mesh, hold them by a rule (--constraints) such as "
                     "{{\"nodes\": [{}], \"position\": \"fixed\"}} or {{\"nodes\": \"non-manifold\", \"position\": "
                     "\"fixed\"}}, or let only a region without them move (--region)",

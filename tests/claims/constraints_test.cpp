@@ -183,7 +183,7 @@ TEST(Constraints, DefectsAreRefusedOnlyWhereTheyWouldMove) {
     Constraints constraints = held_boundary(mesh);
     constraints.free_position(24);
     constraints.free_position(25);
-    EXPECT_TRUE(says(refusal(mesh, constraints, ErrorCode::unusable_mesh), broken.named));
+    EXPECT_TRUE(says(refusal(mesh, constraints, ErrorCode::unusable_shape), broken.named));
     // Far from it, the same mesh is faired.
     Constraints elsewhere = held_boundary(mesh);
     const std::vector<Index> region = {8};

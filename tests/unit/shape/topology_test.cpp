@@ -115,7 +115,7 @@ TEST(PolygonMesh, RefusesWhatIsNotSafe) {
     try {
       const PolygonMesh mesh(three, std::move(begin), std::move(corners));
     } catch (const Error& error) {
-      EXPECT_EQ(error.code(), ErrorCode::unusable_mesh);
+      EXPECT_EQ(error.code(), ErrorCode::unusable_shape);
       return error.what();
     }
     return "";

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "vspring/polygon_curve.hpp"
+
+namespace vspring {
+
+enum class CurveFormat { obj, csv, dat, xyz, svg };
+
+/// "obj", "csv", "dat", "xyz" or "svg" in any case, with or without a dot before it; empty for anything else.
+[[nodiscard]] std::optional<CurveFormat> curve_format(std::string_view extension);
+
+class CurveSource;  // the bytes of a file and where its coordinates are; private to the library
+
+/// A curve and all else that its file carried.
+struct CurveFile {
+  PolygonCurve curve;
+  /// Whether the file gives two coordinates per node; z is then 0.
+  bool planar = false;
+  /// Nodes of each named group (OBJ `g` and `o`: all nodes of the lines that follow), ascending.
+  std::map<std::string, std::vector<Index>> groups;
+  /// The name that the file gives the curve (first line of DAT), or empty.
+  std::string name;
+  CurveFormat format = CurveFormat::obj;
+  /// What a person should know: what was skipped or joined while reading.
+  std::vector<std::string> warnings;
+  /// Keeps what the format carried besides positions, for writing; null for a curve that no file gave.
+  std::shared_ptr<const CurveSource> source;
+};
+
+/// Reads a curve. path: a file, or "-" for standard input.
+///
+/// OBJ: `l` elements, several curves in one file, in any order of segments (see chains_of_segments()); nodes are all
+/// `v`, in file order; everything else is kept. CSV: one node per row, 2 or 3 columns x, y[, z] (found by a header that
+/// names them, else the first ones), separated by commas, semicolons, tabs or spaces; other columns, comments (#) and
+/// the header are kept; an empty row begins another chain. XYZ: the same without header, separated by white space.
+/// DAT: aerofoils, Selig (name, then x y around from the trailing edge) or Lednicer (name, numbers of points of upper
+/// and lower side, each from the leading edge on: one chain from the trailing edge over the upper side and back, the
+/// leading edge once where both sides give it; nodes in file order). A chain whose last node repeats the position of
+/// the first stays open, unless it has the same number (OBJ) or `closed` asks for it.
+///
+/// The format is found by the extension; for "-" or an unknown extension `format` says it, else it is found from the
+/// content. Throws Error(unusable_file) naming path and line for anything that cannot be read whole, and for a file
+/// without a curve. Cost: linear; the bytes of the file stay in memory.
+[[nodiscard]] CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format = std::nullopt);
+
+/// What a written picture shows.
+struct CurvePicture {
+  /// The curve before, drawn thin behind; empty draws none. One chain structure of its own.
+  const PolygonCurve* before = nullptr;
+};
+
+/// Writes the curve with `positions` in place of its own. path: a file, or "-" for standard output. format: where not
+/// given, the extension's, and without one the source's own.
+///
+/// In the source's own format everything but coordinates is written as it was read, byte for byte; coordinates of nodes
+/// whose position is unchanged are too, the others as the shortest decimals that read back the same. In another format:
+/// chains and positions; a planar curve stays one of two columns. SVG: a picture, the curve with its nodes and its
+/// curvature comb (lines along the curvature vector of the circle through three successive nodes), before and after,
+/// see CurvePicture; space curves are drawn as seen along the normal of their best plane.
+///
+/// The file appears whole or not at all, see write_file(). Throws Error(unusable_file) when it cannot be, and
+/// Error(invalid_argument) unless there is one position per node, finite where it is not the one that was read. Returns
+/// what the source carried and the output does not, one line each, empty when nothing is lost. Cost: linear.
+std::vector<std::string> write_curve(const std::string& path, const CurveFile& file,
+                                     const std::vector<Vector3>& positions,
+                                     std::optional<CurveFormat> format = std::nullopt,
+                                     const CurvePicture& picture = {});
+
+/// Writes a curve that no file gave. format: where not given, the extension's. planar: write two coordinates. Throws as
+/// above; every position has to be finite.
+void write_curve(const std::string& path, const PolygonCurve& curve, std::optional<CurveFormat> format = std::nullopt,
+                 bool planar = false);
+
+}  // namespace vspring

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "vspring/types.hpp"
+
+namespace vspring {
+
+/// A polygonal curve: node positions and the chains of nodes that run through them. Most curves are one chain, open
+/// or closed; a drawing has many, which may meet at nodes that stay in place.
+///
+/// Chains are fixed at construction; positions may change. Only memory safety is checked here: see check() for what can
+/// be wrong with a curve, and fair() for what is refused.
+class PolygonCurve {
+ public:
+  struct Chain {
+    std::vector<Index> nodes;  ///< in order; a closed chain does not repeat its first node at the end
+    bool closed = false;
+  };
+
+  PolygonCurve() = default;
+
+  /// One chain through all positions in order.
+  explicit PolygonCurve(std::vector<Vector3> positions, bool closed = false);
+
+  /// Throws Error(unusable_shape) naming the chain when it names a node out of range. Cost: linear.
+  PolygonCurve(std::vector<Vector3> positions, std::vector<Chain> chains);
+
+  [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(positions_.size()); }
+  [[nodiscard]] const std::vector<Chain>& chains() const noexcept { return chains_; }
+
+  [[nodiscard]] const std::vector<Vector3>& positions() const noexcept { return positions_; }
+  [[nodiscard]] const Vector3& position(Index node) const { return positions_[static_cast<std::size_t>(node)]; }
+  /// Throws Error(invalid_argument) unless there is one position per node.
+  void set_positions(std::vector<Vector3> positions);
+
+ private:
+  std::vector<Vector3> positions_;
+  std::vector<Chain> chains_;
+};
+
+/// The nodes where chains begin or end: 1, else 0; one entry per node. Closed chains have none. Cost: linear.
+[[nodiscard]] std::vector<std::uint8_t> boundary_nodes(const PolygonCurve& curve);
+
+/// Chains from segments between two nodes each, in any order and direction: maximal runs through nodes of two
+/// segments; other nodes end chains. Chains come in the order of their first segments and run in the direction of
+/// those. A segment from a node to itself is left out. Cost: linear.
+[[nodiscard]] std::vector<PolygonCurve::Chain> chains_of_segments(const std::vector<std::pair<Index, Index>>& segments,
+                                                                  Index node_count);
+
+}  // namespace vspring

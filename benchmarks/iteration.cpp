@@ -57,12 +57,13 @@ double bytes_per_node(const Net& net) {
 }
 
 void print_iterations(const std::string& numbering, Net& net) {
+  const auto model = surface_model(PseudoNormals::link);
   for (const int threads : {1, 2}) {
     ThreadTeam team(threads);
     const double bandwidth = copy_bandwidth(team);
-    Sweep sweep(net, PseudoNormals::link, Distribution::even, team);
+    Sweep sweep(net, *model, team);
     sweep.iterate();
-    const double normals = best_of(5, [&] { update_normals(net, PseudoNormals::link, team); });
+    const double normals = best_of(5, [&] { update_directions(net, *model, team); });
     const double iteration = best_of(10, [&] { sweep.iterate(); });
     const double per_node = 1e9 / static_cast<double>(net.moving);
     const double copying = 1e9 * bytes_per_node(net) / bandwidth;

@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "spring/net.hpp"
+#include "spring/model.hpp"
 #include "spring/v_spring.hpp"
-#include "sweep/sweep.hpp"
 #include "vspring/generate.hpp"
 
 namespace {
@@ -36,7 +35,7 @@ double greatest_error(const PolygonMesh& mesh, const std::function<Vector3(const
                       PseudoNormals kind) {
   Net net = net_of(mesh);
   ThreadTeam team(1);
-  update_normals(net, kind, team);
+  update_directions(net, *surface_model(kind), team);
   double greatest = 0;
   for (std::size_t i = 0; i < net.moving; ++i) {
     const Vector3 normal = exact(mesh.position(net.node[i]));
@@ -98,7 +97,7 @@ double response(PseudoNormals kind, bool through_spokes_only, const std::functio
   Net net = net_of(mesh);
   if (through_spokes_only) net.rings = spokes_of(net.rings);
   ThreadTeam team(1);
-  update_normals(net, kind, team);
+  update_directions(net, *surface_model(kind), team);
   for (std::size_t i = 0; i < net.moving; ++i) {
     if ((mesh.position(net.node[i]) - middle).norm() > 1e-3) continue;
     const auto force = node_force(i, net.rings.links(i), net.positions, net.normals, {}, net.tiny);

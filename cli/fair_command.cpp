@@ -62,7 +62,7 @@ Constraints make_constraints(const FairArguments& arguments, const SurfaceFile& 
     }
   }
   if (!arguments.region.empty())
-    restrict_to_region(constraints, file.mesh, select_region(file.mesh, arguments.region, file.groups));
+    restrict_to_region(constraints, file.mesh, select_region(file.mesh.positions(), arguments.region, file.groups));
   return constraints;
 }
 

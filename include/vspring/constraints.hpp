@@ -6,12 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
 namespace vspring {
 
 /// What each node of a shape may do (paper §4.5, direct constraints): its position fixed or free, its normal given or
-/// computed, in any combination.
+/// computed, in any combination. Nodes of curves may have a tangent given as well.
 class Constraints {
  public:
   /// All positions and normals free.
@@ -35,22 +36,36 @@ class Constraints {
   /// Unit length; meaningful where normal_fixed().
   [[nodiscard]] const Vector3& normal(Index node) const { return normals_[at(node)]; }
 
+  /// Of curves: the tangent at the node is `tangent`, made unit length, in the direction in which the curve runs.
+  /// Throws Error(unusable_constraint) naming the node when it is zero or not finite.
+  void fix_tangent(Index node, const Vector3& tangent);
+  void free_tangent(Index node);
+  [[nodiscard]] bool tangent_fixed(Index node) const { return (flags_[at(node)] & tangent_flag) != 0; }
+  /// Unit length; meaningful where tangent_fixed().
+  [[nodiscard]] const Vector3& tangent(Index node) const { return tangents_[at(node)]; }
+
  private:
   static constexpr std::uint8_t position_flag = 1;
   static constexpr std::uint8_t normal_flag = 2;
+  static constexpr std::uint8_t tangent_flag = 4;
   /// Throws Error(unusable_constraint) for a node number out of range.
   [[nodiscard]] std::size_t at(Index node) const;
 
   std::vector<std::uint8_t> flags_;
   std::vector<Vector3> positions_;
   std::vector<Vector3> normals_;
+  std::vector<Vector3> tangents_;  // empty until one is given
 };
 
-/// Fixes the boundary nodes of the mesh where they are. Cost: linear.
+/// Fixes the boundary nodes of the mesh, or the end nodes of the curve, where they are. Cost: linear.
 void fix_boundary_positions(Constraints& constraints, const PolygonMesh& mesh);
+void fix_boundary_positions(Constraints& constraints, const PolygonCurve& curve);
 
 /// Gives the boundary nodes the normals that the mesh has there, by estimate_normals(). Cost: linear.
 void fix_boundary_normals(Constraints& constraints, const PolygonMesh& mesh);
+
+/// Gives the end nodes of the curve the tangents that it has there, by estimate_tangents(). Cost: linear.
+void fix_boundary_tangents(Constraints& constraints, const PolygonCurve& curve);
 
 /// The normals of a mesh at some of its nodes, of second order in the node spacing on smooth shapes also at boundaries,
 /// where the nodes around lie on one side only, and exact on spheres and planes: a least-squares fit of
@@ -62,6 +77,20 @@ void fix_boundary_normals(Constraints& constraints, const PolygonMesh& mesh);
 [[nodiscard]] std::vector<Vector3> estimate_normals(const PolygonMesh& mesh, std::span<const Index> nodes,
                                                     std::span<const std::uint8_t> usable_face = {});
 
+/// The tangents of a curve at some of its nodes, of second order in the node spacing and exact on circles: of the
+/// circle through the node and its neighbours, or, at ends, the next two nodes; along the edge where there is no third
+/// node.
+///
+/// nodes: where. usable_node: one entry per node, 0 for nodes that must not be looked at; empty for all.
+/// Returns one unit vector per entry of nodes, along the first chain that has the node; zero where no edge gives a
+/// direction. Cost: linear.
+[[nodiscard]] std::vector<Vector3> estimate_tangents(const PolygonCurve& curve, std::span<const Index> nodes,
+                                                     std::span<const std::uint8_t> usable_node = {});
+
+/// The normals of a curve at some of its nodes: across estimate_tangents(), in the plane of a planar curve; along the
+/// principal normal of a space curve. Zero where a node has none. Cost: linear.
+[[nodiscard]] std::vector<Vector3> estimate_normals(const PolygonCurve& curve, std::span<const Index> nodes);
+
 /// Only the nodes of `region` may move: all others are fixed where the mesh has them. Their neighbours among
 /// the fixed nodes (the rim) get the tangent planes of the faces without a moving node, to second order, so that the
 /// faired patch meets the rest smoothly. A rim node without such a face keeps its normal free: the patch turns about
@@ -69,13 +98,16 @@ void fix_boundary_normals(Constraints& constraints, const PolygonMesh& mesh);
 /// out of range. Cost: linear.
 void restrict_to_region(Constraints& constraints, const PolygonMesh& mesh, std::span<const Index> region);
 
+/// The same for a curve: the rim gets the tangents of what lies outside.
+void restrict_to_region(Constraints& constraints, const PolygonCurve& curve, std::span<const Index> region);
+
 using Groups = std::map<std::string, std::vector<Index>>;
 
 /// The nodes that a region specification names, ascending: `sphere:x,y,z,r`, `box:x0,y0,z0,x1,y1,z1` (both include
 /// their surface), `group:NAME`, or the path of a JSON file with a list of node numbers.
 /// Throws Error(unusable_constraint) for a malformed or empty region, an unknown group or a node out of range, and
 /// Error(unusable_file) for a file that cannot be read.
-[[nodiscard]] std::vector<Index> select_region(const PolygonMesh& mesh, const std::string& specification,
+[[nodiscard]] std::vector<Index> select_region(const std::vector<Vector3>& positions, const std::string& specification,
                                                const Groups& groups = {});
 
 /// What rules may refer to beside the mesh.
@@ -93,11 +125,22 @@ struct RuleInput {
 /// are then unchanged. Cost: linear in the mesh, once, and in the nodes named.
 void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view json, const RuleInput& input = {});
 
+/// The same for a curve. "boundary" are the ends of its chains. Rules may also have "tangent": "fixed"
+/// (estimate_tangents() of the input), "free", [x, y, z] or a list; all vectors may have two numbers instead of three.
+void apply_rules(Constraints& constraints, const PolygonCurve& curve, std::string_view json,
+                 const RuleInput& input = {});
+
 /// Refuses what would shrink, drift or vanish: throws Error(unusable_constraint), with the reason and the ways out, for
 /// a component with moving nodes that nothing holds, and for one with a boundary loop of which fewer than three nodes
 /// are fixed; Error(unusable_shape) for a defect (see check()) at a place that would have to move. Returns warnings,
 /// one line each, for constraints that leave a family of shapes (a closed surface held by too little to tell one sphere
 /// from another) and for boundary nodes that are free to be drawn in. Cost: linear.
 std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints);
+
+/// The same for a curve: refuses ends that are free to be drawn in and closed chains of which nothing is held, with
+/// Error(unusable_constraint); with Error(unusable_shape) nodes that would have to move where chains meet, where
+/// a coordinate is not finite, or in a closed chain of fewer than three nodes. Warns of closed chains held by so little
+/// that a family of circles fits. Cost: linear.
+std::vector<std::string> check_constraints(const PolygonCurve& curve, const Constraints& constraints);
 
 }  // namespace vspring

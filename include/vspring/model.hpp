@@ -16,4 +16,34 @@ enum class Distribution {
   keep   ///< to the share between its neighbours that it has in the input
 };
 
+/// The tangent of a curve at a node (§4.8).
+enum class CurveTangents {
+  circle,  ///< of the circle through the node and its neighbours: exact on circles however uneven the spacing
+  chord    ///< along the chord of the neighbours, as in the paper: exact where spacing is even
+};
+
+/// What the neighbours of a node of a curve count, by the length ℓ of the edge to them.
+enum class CurveWeights {
+  inverse_cube,  ///< 1/ℓ³: the equilibrium does not depend on the spacing
+  inverse        ///< 1/ℓ, as in the paper (Eq. 8)
+};
+
+/// Along what the nodes of a space curve are sprung (§4.8).
+enum class NormalPlane {
+  full,      ///< the whole normal plane, along both N and B
+  principal  ///< the principal normal N only: the paper's own variant. Planar curves take their in-plane normal
+};
+
+/// The rules of the spring model for curves.
+struct CurveRules {
+  CurveTangents tangents = CurveTangents::circle;
+  CurveWeights weights = CurveWeights::inverse_cube;
+  NormalPlane normal_plane = NormalPlane::full;
+
+  /// The paper's own choices.
+  [[nodiscard]] static constexpr CurveRules paper() {
+    return {CurveTangents::chord, CurveWeights::inverse, NormalPlane::principal};
+  }
+};
+
 }  // namespace vspring

@@ -7,6 +7,20 @@
 
 namespace vspring {
 
+namespace {
+
+Vector3 unit(Index node, const Vector3& vector, const char* what) {
+  // Scaled first, so that lengths whose squares overflow or vanish are no special case.
+  const double greatest = vector.cwiseAbs().maxCoeff();
+  if (!vector.allFinite() || !(greatest > 0))
+    throw Error(ErrorCode::unusable_constraint,
+                fmt::format("node {}: the {} ({}, {}, {}) has no direction; give one of any length but zero", node,
+                            what, vector.x(), vector.y(), vector.z()));
+  return (vector / greatest).normalized();
+}
+
+}  // namespace
+
 Constraints::Constraints(Index node_count)
     : flags_(static_cast<std::size_t>(node_count), 0),
       positions_(static_cast<std::size_t>(node_count), Vector3::Zero()),
@@ -29,23 +43,38 @@ void Constraints::free_position(Index node) { flags_[at(node)] &= static_cast<st
 
 void Constraints::fix_normal(Index node, const Vector3& normal) {
   const std::size_t i = at(node);
-  // Scaled first, so that lengths whose squares overflow or vanish are no special case.
-  const double greatest = normal.cwiseAbs().maxCoeff();
-  if (!normal.allFinite() || !(greatest > 0))
-    throw Error(ErrorCode::unusable_constraint,
-                fmt::format("node {}: the normal ({}, {}, {}) has no direction; give one of any length but zero", node,
-                            normal.x(), normal.y(), normal.z()));
-  normals_[i] = (normal / greatest).normalized();
+  normals_[i] = unit(node, normal, "normal");
   flags_[i] |= normal_flag;
 }
 
 void Constraints::free_normal(Index node) { flags_[at(node)] &= static_cast<std::uint8_t>(~normal_flag); }
 
-void fix_boundary_positions(Constraints& constraints, const PolygonMesh& mesh) {
-  const auto boundary = boundary_nodes(mesh);
-  for (Index i = 0; i < mesh.node_count(); ++i) {
-    if (boundary[static_cast<std::size_t>(i)] != 0) constraints.fix_position(i, mesh.position(i));
+void Constraints::fix_tangent(Index node, const Vector3& tangent) {
+  const std::size_t i = at(node);
+  const Vector3 direction = unit(node, tangent, "tangent");
+  if (tangents_.empty()) tangents_.assign(flags_.size(), Vector3::Zero());
+  tangents_[i] = direction;
+  flags_[i] |= tangent_flag;
+}
+
+void Constraints::free_tangent(Index node) { flags_[at(node)] &= static_cast<std::uint8_t>(~tangent_flag); }
+
+namespace {
+
+template <typename Shape>
+void fix_boundary_of(Constraints& constraints, const Shape& shape) {
+  const auto boundary = boundary_nodes(shape);
+  for (Index i = 0; i < shape.node_count(); ++i) {
+    if (boundary[static_cast<std::size_t>(i)] != 0) constraints.fix_position(i, shape.position(i));
   }
+}
+
+}  // namespace
+
+void fix_boundary_positions(Constraints& constraints, const PolygonMesh& mesh) { fix_boundary_of(constraints, mesh); }
+
+void fix_boundary_positions(Constraints& constraints, const PolygonCurve& curve) {
+  fix_boundary_of(constraints, curve);
 }
 
 }  // namespace vspring

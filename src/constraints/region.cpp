@@ -55,15 +55,15 @@ std::vector<double> numbers(const std::string& specification, const std::string&
   return values;
 }
 
-std::vector<Index> nodes_within(const PolygonMesh& mesh, const auto& inside) {
+std::vector<Index> nodes_within(const std::vector<Vector3>& positions, const auto& inside) {
   std::vector<Index> nodes;
-  for (Index i = 0; i < mesh.node_count(); ++i) {
-    if (inside(mesh.position(i))) nodes.push_back(i);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (inside(positions[i])) nodes.push_back(static_cast<Index>(i));
   }
   return nodes;
 }
 
-std::vector<Index> nodes_of_file(const PolygonMesh& mesh, const std::string& path) {
+std::vector<Index> nodes_of_file(Index node_count, const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (!file.is_open() || file.bad() || text.empty())
@@ -84,9 +84,9 @@ std::vector<Index> nodes_of_file(const PolygonMesh& mesh, const std::string& pat
                 fmt::format("{}: write a list of node numbers, such as [1, 2, 3]", path));
   std::vector<Index> nodes;
   for (const auto& entry : json) {
-    if (!entry.is_number_integer() || entry.get<std::int64_t>() < 0 || entry.get<std::int64_t>() >= mesh.node_count())
-      throw Error(ErrorCode::unusable_constraint, fmt::format("{}: {} is not a node; nodes go from 0 to {}", path,
-                                                              entry.dump(), mesh.node_count() - 1));
+    if (!entry.is_number_integer() || entry.get<std::int64_t>() < 0 || entry.get<std::int64_t>() >= node_count)
+      throw Error(ErrorCode::unusable_constraint,
+                  fmt::format("{}: {} is not a node; nodes go from 0 to {}", path, entry.dump(), node_count - 1));
     nodes.push_back(entry.get<Index>());
   }
   std::sort(nodes.begin(), nodes.end());
@@ -133,7 +133,8 @@ void restrict_to_region(Constraints& constraints, const PolygonMesh& mesh, std::
   constraints = std::move(restricted);
 }
 
-std::vector<Index> select_region(const PolygonMesh& mesh, const std::string& specification, const Groups& groups) {
+std::vector<Index> select_region(const std::vector<Vector3>& positions, const std::string& specification,
+                                 const Groups& groups) {
   std::vector<Index> nodes;
   const std::size_t colon = specification.find(':');
   const std::string kind = specification.substr(0, colon);
@@ -142,12 +143,12 @@ std::vector<Index> select_region(const PolygonMesh& mesh, const std::string& spe
     const auto v = numbers(specification, rest, 4);
     if (!(v[3] >= 0)) throw malformed(specification, "the radius must not be negative");
     const Vector3 centre(v[0], v[1], v[2]);
-    nodes = nodes_within(mesh, [&](const Vector3& p) { return (p - centre).norm() <= v[3]; });
+    nodes = nodes_within(positions, [&](const Vector3& p) { return (p - centre).norm() <= v[3]; });
   } else if (kind == "box" && colon != std::string::npos) {
     const auto v = numbers(specification, rest, 6);
     const Eigen::AlignedBox<double, 3> box(Vector3(v[0], v[1], v[2]).cwiseMin(Vector3(v[3], v[4], v[5])),
                                            Vector3(v[0], v[1], v[2]).cwiseMax(Vector3(v[3], v[4], v[5])));
-    nodes = nodes_within(mesh, [&](const Vector3& p) { return box.contains(p); });
+    nodes = nodes_within(positions, [&](const Vector3& p) { return box.contains(p); });
   } else if (kind == "group" && colon != std::string::npos) {
     const auto group = groups.find(rest);
     if (group == groups.end()) {
@@ -159,7 +160,7 @@ std::vector<Index> select_region(const PolygonMesh& mesh, const std::string& spe
     }
     nodes = group->second;
   } else {
-    nodes = nodes_of_file(mesh, specification);
+    nodes = nodes_of_file(static_cast<Index>(positions.size()), specification);
   }
   if (nodes.empty())
     throw Error(ErrorCode::unusable_constraint, fmt::format("region \"{}\": no node lies in it", specification));

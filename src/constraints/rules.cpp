@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -14,11 +15,47 @@ namespace {
 
 using nlohmann::json;
 
+using Flags = std::vector<std::uint8_t>;
+using Directions = std::vector<Vector3>;
+
+/// What rules ask of a surface or a curve.
+struct RuledShape {
+  const std::vector<Vector3>& positions;
+  std::function<Flags()> boundary;
+  std::function<Flags()> non_manifold;
+  std::function<Directions(const std::vector<Index>&)> normals;
+  std::function<Directions(const std::vector<Index>&)> tangents;  ///< none for surfaces
+};
+
+Flags non_manifold_nodes(const PolygonMesh& mesh) {
+  Flags wrong(static_cast<std::size_t>(mesh.node_count()), 0);
+  for (const Defect& defect : check(mesh)) {
+    const bool edge = defect.kind == Defect::Kind::non_manifold_edge;
+    if (!edge && defect.kind != Defect::Kind::non_manifold_node) continue;
+    wrong[static_cast<std::size_t>(defect.node)] = 1;
+    if (edge) wrong[static_cast<std::size_t>(defect.other)] = 1;
+  }
+  return wrong;
+}
+
+/// Nodes where chains meet or cross.
+Flags non_manifold_nodes(const PolygonCurve& curve) {
+  Flags times(static_cast<std::size_t>(curve.node_count()), 0);
+  for (const auto& chain : curve.chains()) {
+    for (const Index node : chain.nodes) {
+      std::uint8_t& seen = times[static_cast<std::size_t>(node)];
+      seen = static_cast<std::uint8_t>(std::min(seen + 1, 2));
+    }
+  }
+  for (std::uint8_t& seen : times) seen = seen > 1 ? 1 : 0;
+  return times;
+}
+
 /// Applies the rules of one text. Every fault names the rule, counted from 1.
 class RuleReader {
  public:
-  RuleReader(Constraints& constraints, const PolygonMesh& mesh, const RuleInput& input)
-      : constraints_(constraints), mesh_(mesh), input_(input) {}
+  RuleReader(Constraints& constraints, const RuledShape& shape, const RuleInput& input)
+      : constraints_(constraints), shape_(shape), positions_(shape.positions), input_(input) {}
 
   void read(const json& text) {
     if (!text.is_object() || !text.contains("rules") || !text["rules"].is_array())
@@ -47,19 +84,26 @@ class RuleReader {
   void apply(const json& rule) {
     if (!rule.is_object())
       throw fault(fmt::format("{} is no rule; write {{\"nodes\": …, \"position\": …}}", rule.dump()));
-    if (rule.contains("tangent")) throw fault("\"tangent\" is for curves; a surface takes \"normal\"");
-    require_keys(rule, {"nodes", "position", "normal"});
+    if (rule.contains("tangent") && !curve()) throw fault("\"tangent\" is for curves; a surface takes \"normal\"");
+    if (curve()) {
+      require_keys(rule, {"nodes", "position", "normal", "tangent"});
+    } else {
+      require_keys(rule, {"nodes", "position", "normal"});
+    }
     if (!rule.contains("nodes")) throw fault("it names no \"nodes\"");
-    if (!rule.contains("position") && !rule.contains("normal"))
-      throw fault("it has neither \"position\" nor \"normal\"");
+    if (rule.size() < 2) throw fault("it has neither \"position\" nor \"normal\"");
     const std::vector<Index> nodes = select(rule["nodes"]);
     if (rule.contains("position")) apply_positions(nodes, rule["position"]);
     if (rule.contains("normal")) apply_normals(nodes, rule["normal"]);
+    if (rule.contains("tangent")) apply_tangents(nodes, rule["tangent"]);
   }
+
+  [[nodiscard]] bool curve() const { return shape_.tangents != nullptr; }
+  [[nodiscard]] Index node_count() const { return static_cast<Index>(positions_.size()); }
 
   [[nodiscard]] std::vector<Index> nodes_where(const auto& holds) const {
     std::vector<Index> nodes;
-    for (Index i = 0; i < mesh_.node_count(); ++i) {
+    for (Index i = 0; i < node_count(); ++i) {
       if (holds(i)) nodes.push_back(i);
     }
     return nodes;
@@ -68,17 +112,20 @@ class RuleReader {
   [[nodiscard]] std::vector<Index> select(const json& selection) const {
     if (selection == "all") return nodes_where([](Index) { return true; });
     if (selection == "boundary" || selection == "interior") {
-      const auto boundary = boundary_nodes(mesh_);
+      const Flags boundary = shape_.boundary();
       const std::uint8_t wanted = selection == "boundary" ? 1 : 0;
       return nodes_where([&](Index i) { return boundary[static_cast<std::size_t>(i)] == wanted; });
     }
-    if (selection == "non-manifold") return non_manifold_nodes();
+    if (selection == "non-manifold") {
+      const Flags wrong = shape_.non_manifold();
+      return nodes_where([&](Index i) { return wrong[static_cast<std::size_t>(i)] != 0; });
+    }
     if (selection.is_object() && selection.size() == 1 && selection.contains("group") && selection["group"].is_string())
       return group(selection["group"].get<std::string>());
     if (selection.is_object() && selection.size() == 1 && selection.contains("region") &&
         selection["region"].is_string()) {
       try {
-        return select_region(mesh_, selection["region"].get<std::string>(),
+        return select_region(positions_, selection["region"].get<std::string>(),
                              input_.groups != nullptr ? *input_.groups : Groups());
       } catch (const Error& error) {
         throw Error(error.code(), fmt::format("rule {}: {}", rule_, error.what()));
@@ -89,17 +136,6 @@ class RuleReader {
         "{} selects no nodes; write \"all\", \"boundary\", \"interior\", \"non-manifold\", {{\"group\": NAME}}, "
         "{{\"region\": SPECIFICATION}} or a list of node numbers",
         selection.dump()));
-  }
-
-  [[nodiscard]] std::vector<Index> non_manifold_nodes() const {
-    std::vector<std::uint8_t> wrong(static_cast<std::size_t>(mesh_.node_count()), 0);
-    for (const Defect& defect : check(mesh_)) {
-      const bool edge = defect.kind == Defect::Kind::non_manifold_edge;
-      if (!edge && defect.kind != Defect::Kind::non_manifold_node) continue;
-      wrong[static_cast<std::size_t>(defect.node)] = 1;
-      if (edge) wrong[static_cast<std::size_t>(defect.other)] = 1;
-    }
-    return nodes_where([&](Index i) { return wrong[static_cast<std::size_t>(i)] != 0; });
   }
 
   [[nodiscard]] std::vector<Index> group(const std::string& name) const {
@@ -113,9 +149,8 @@ class RuleReader {
   [[nodiscard]] std::vector<Index> listed(const json& list) const {
     std::vector<Index> nodes;
     for (const json& entry : list) {
-      if (!entry.is_number_integer() || entry.get<std::int64_t>() < 0 ||
-          entry.get<std::int64_t>() >= mesh_.node_count())
-        throw fault(fmt::format("{} is not a node; nodes go from 0 to {}", entry.dump(), mesh_.node_count() - 1));
+      if (!entry.is_number_integer() || entry.get<std::int64_t>() < 0 || entry.get<std::int64_t>() >= node_count())
+        throw fault(fmt::format("{} is not a node; nodes go from 0 to {}", entry.dump(), node_count() - 1));
       nodes.push_back(entry.get<Index>());
     }
     std::vector<Index> sorted = nodes;
@@ -126,10 +161,11 @@ class RuleReader {
   }
 
   [[nodiscard]] Vector3 vector(const json& value, const char* what) const {
-    if (!value.is_array() || value.size() != 3 ||
+    const bool size_fits = value.size() == 3 || (curve() && value.size() == 2);
+    if (!value.is_array() || !size_fits ||
         !std::all_of(value.begin(), value.end(), [](const json& x) { return x.is_number(); }))
-      throw fault(fmt::format("{} is no {}; write three numbers", value.dump(), what));
-    return {value[0].get<double>(), value[1].get<double>(), value[2].get<double>()};
+      throw fault(fmt::format("{} is no {}; write {}three numbers", value.dump(), what, curve() ? "two or " : ""));
+    return {value[0].get<double>(), value[1].get<double>(), value.size() == 3 ? value[2].get<double>() : 0};
   }
 
   /// One vector for all nodes, or a list of them, one per node.
@@ -146,7 +182,7 @@ class RuleReader {
     if (value == "free") {
       for (const Index i : nodes) constraints_.free_position(i);
     } else if (value == "fixed") {
-      for (const Index i : nodes) constraints_.fix_position(i, mesh_.position(i));
+      for (const Index i : nodes) constraints_.fix_position(i, positions_[static_cast<std::size_t>(i)]);
     } else if (value.is_string()) {
       throw fault(fmt::format("{} is no position; write \"fixed\", \"free\" or three numbers", value.dump()));
     } else {
@@ -159,7 +195,7 @@ class RuleReader {
     if (value == "free") {
       for (const Index i : nodes) constraints_.free_normal(i);
     } else if (value == "fixed") {
-      fix_normals(nodes, estimate_normals(mesh_, nodes), "no face gives it a normal");
+      fix_normals(nodes, shape_.normals(nodes), curve() ? no_normal : "no face gives it a normal");
     } else if (value == "file") {
       if (input_.normals == nullptr || input_.normals->empty()) throw fault("the file has no normals for \"file\"");
       std::vector<Vector3> normals;
@@ -173,6 +209,23 @@ class RuleReader {
     }
   }
 
+  void apply_tangents(const std::vector<Index>& nodes, const json& value) {
+    if (value == "free") {
+      for (const Index i : nodes) constraints_.free_tangent(i);
+      return;
+    }
+    if (value.is_string() && value != "fixed")
+      throw fault(fmt::format("{} is no tangent; write \"fixed\", \"free\" or two or three numbers", value.dump()));
+    const Directions tangents = value.is_string() ? shape_.tangents(nodes) : vectors(value, nodes.size(), "tangent");
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (tangents[k].isZero(0))
+        throw fault(
+            fmt::format("node {}: {}", nodes[k],
+                        value.is_string() ? "no edge gives it a tangent" : "a tangent of zero has no direction"));
+      constraints_.fix_tangent(nodes[k], tangents[k]);
+    }
+  }
+
   void fix_normals(const std::vector<Index>& nodes, const std::vector<Vector3>& normals, const char* without) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (normals[k].isZero(0)) throw fault(fmt::format("node {}: {}", nodes[k], without));
@@ -180,15 +233,16 @@ class RuleReader {
     }
   }
 
+  static constexpr const char* no_normal = "a straight run has no normal of its own; give its \"tangent\" instead";
+
   Constraints& constraints_;
-  const PolygonMesh& mesh_;
+  const RuledShape& shape_;
+  const std::vector<Vector3>& positions_;
   const RuleInput& input_;
   int rule_ = 0;
 };
 
-}  // namespace
-
-void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view text, const RuleInput& input) {
+void apply(Constraints& constraints, const RuledShape& shape, std::string_view text, const RuleInput& input) {
   json rules;
   try {
     rules = json::parse(text);
@@ -196,8 +250,28 @@ void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_
     throw Error(ErrorCode::unusable_constraint, fmt::format("rules: no JSON: {}", fault.what()));
   }
   Constraints changed = constraints;
-  RuleReader(changed, mesh, input).read(rules);
+  RuleReader(changed, shape, input).read(rules);
   constraints = std::move(changed);
+}
+
+}  // namespace
+
+void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view text, const RuleInput& input) {
+  const RuledShape shape{.positions = mesh.positions(),
+                         .boundary = [&] { return boundary_nodes(mesh); },
+                         .non_manifold = [&] { return non_manifold_nodes(mesh); },
+                         .normals = [&](const std::vector<Index>& nodes) { return estimate_normals(mesh, nodes); },
+                         .tangents = {}};
+  apply(constraints, shape, text, input);
+}
+
+void apply_rules(Constraints& constraints, const PolygonCurve& curve, std::string_view text, const RuleInput& input) {
+  const RuledShape shape{.positions = curve.positions(),
+                         .boundary = [&] { return boundary_nodes(curve); },
+                         .non_manifold = [&] { return non_manifold_nodes(curve); },
+                         .normals = [&](const std::vector<Index>& nodes) { return estimate_normals(curve, nodes); },
+                         .tangents = [&](const std::vector<Index>& nodes) { return estimate_tangents(curve, nodes); }};
+  apply(constraints, shape, text, input);
 }
 
 }  // namespace vspring

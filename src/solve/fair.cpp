@@ -77,9 +77,11 @@ FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const F
   count(mesh, constraints, net, report);
   report.before = measure(mesh, &constraints, team);
 
-  run_sweeps(net, options, team, context, progress, report);
+  const auto model = surface_model(options.pseudo_normals);
+  distribute(net, *model, options.distribution, team);
+  run_sweeps(net, *model, options, team, context, progress, report);
 
-  result.positions = scatter_positions(net, mesh, constraints, options.strength);
+  result.positions = scatter_positions(net, mesh.positions(), constraints, options.strength);
   measure_moves(mesh, net, result.positions, report);
   PolygonMesh faired = mesh;
   faired.set_positions(result.positions);

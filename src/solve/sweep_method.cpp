@@ -51,9 +51,9 @@ double share_done(double first, double now, double last) {
 
 }  // namespace
 
-void run_sweeps(Net& net, const FairOptions& options, ThreadTeam& team, Context& context, ProgressReporter& progress,
-                FairReport& report) {
-  Sweep sweep(net, options.pseudo_normals, options.distribution, team);
+void run_sweeps(Net& net, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
+                ProgressReporter& progress, FairReport& report) {
+  Sweep sweep(net, model, team);
   BestShape best(net);
   report.outcome = Outcome::iteration_limit;
   while (report.outcome == Outcome::iteration_limit && report.iterations < options.max_iterations) {

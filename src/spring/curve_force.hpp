@@ -28,33 +28,49 @@ inline Vector3 curve_spring(const Vector3& d, const Vector3& tangent_i, const Ve
   return (sum - sum.dot(tangent_i) * tangent_i) / denominator;
 }
 
-/// The average of the displacements by both neighbours, and the regularisation along the tangent.
-/// Weights 1/ℓ³: t_j − t_i is about −(ℓ³/12) times the derivative of the curvature towards j, so equal weights to equal
+/// 1/ℓ³: t_j − t_i is about −(ℓ³/12) times the derivative of the curvature towards j, so equal weights to equal
 /// derivatives need its inverse; with the paper's 1/ℓ the equilibrium depends on the spacing.
-/// shares, tiny: as for node_force(). A node without a tangent (zero) goes to the mean of its neighbours.
-template <typename Positions>
-NodeForce curve_force(std::size_t i, std::span<const Link> links, const Positions& positions, const Positions& tangents,
-                      std::span<const double> shares, double tiny) {
-  const Vector3 centre = positions[i];
-  const Vector3 tangent = tangents[i];
+struct InverseCubeWeight {
+  static double of(double length) { return 1 / (length * length * length); }
+};
+
+/// The paper's weight.
+struct InverseWeight {
+  static double of(double length) { return 1 / length; }
+};
+
+/// The average of the displacements spring(k, d) by the nodes k at the other ends of the links, and the regularisation
+/// along the tangent: to the mean of the neighbours (§4.4), or, with shares, to where the lengths of the edges before
+/// and after are as their opposite shares. A node without a tangent (zero) goes to the mean of its neighbours.
+/// tiny: as for node_force().
+template <typename Weight, typename Positions, typename Spring>
+NodeForce curve_force(std::size_t i, std::span<const Link> links, const Positions& positions, const Vector3& tangent,
+                      std::span<const double> shares, double tiny, const Spring& spring) {
+  const Vector3& centre = positions[i];
   NodeForce force;
   if (links.empty()) return force;
   double weights = 0;
+  double along = 0;
   Vector3 springs = Vector3::Zero();
   Vector3 mean = Vector3::Zero();
+  const double even = 1 / static_cast<double>(links.size());
   for (std::size_t k = 0; k < links.size(); ++k) {
     const std::size_t j = links[k].node();
     const Vector3 d = positions[j] - centre;
     const double length = std::sqrt(d.dot(d) + tiny);
-    const double weight = 1 / (length * length * length);
+    const double weight = Weight::of(length);
     weights += weight;
-    springs += weight * curve_spring(d, tangent, tangents[j]);
-    mean += (shares.empty() ? 1 / static_cast<double>(links.size()) : shares[k]) * d;
-    force.mean_edge += length / static_cast<double>(links.size());
+    springs += weight * spring(j, d);
+    mean += even * d;
+    if (!shares.empty()) along += links[k].start() ? -shares[k] * length : shares[k] * length;
+    force.mean_edge += even * length;
   }
-  const bool directed = tangent.dot(tangent) > 0;
-  if (directed) force.spring = springs / weights;
-  force.regularisation = directed ? Vector3(mean.dot(tangent) * tangent) : mean;
+  if (!(tangent.dot(tangent) > 0)) {
+    force.regularisation = mean;
+    return force;
+  }
+  force.spring = springs / weights;
+  force.regularisation = (shares.empty() ? mean.dot(tangent) : along) * tangent;
   return force;
 }
 

@@ -32,17 +32,6 @@ class Numbering {
   std::vector<Index> local_;
 };
 
-void place(Net& net, const PolygonMesh& mesh, const Constraints& constraints) {
-  const auto position = [&](Index node) {
-    return constraints.position_fixed(node) ? constraints.position(node) : mesh.position(node);
-  };
-  Eigen::AlignedBox<double, 3> box;
-  for (const Index node : net.node) box.extend(position(node));
-  net.frame = Frame(box);
-  net.positions.reserve(net.node.size());
-  for (const Index node : net.node) net.positions.push_back(net.frame.to_local(position(node)));
-}
-
 }  // namespace
 
 Net gather_net(const PolygonMesh& mesh, const Constraints& constraints) {
@@ -64,7 +53,6 @@ Net gather_net(const PolygonMesh& mesh, const Constraints& constraints) {
   net.computed = number.count();
 
   net.rings.reserve(net.computed, 7 * net.computed);
-  net.normal_fixed.resize(net.computed);
   std::vector<Link> links;
   for (std::size_t i = 0; i < net.computed; ++i) {
     links.clear();
@@ -73,17 +61,32 @@ Net gather_net(const PolygonMesh& mesh, const Constraints& constraints) {
       links.push_back({local | (link.code & ~Link::node_mask)});
     }
     net.rings.add(links);
-    net.normal_fixed[i] = constraints.normal_fixed(number.node(i)) ? 1 : 0;
   }
   net.node = std::move(number).take();
-  place(net, mesh, constraints);
+  place_net(net, mesh.positions(), constraints);
+  return net;
+}
+
+void place_net(Net& net, const std::vector<Vector3>& positions, const Constraints& constraints) {
+  const auto position = [&](Index node) {
+    return constraints.position_fixed(node) ? constraints.position(node) : positions[static_cast<std::size_t>(node)];
+  };
+  Eigen::AlignedBox<double, 3> box;
+  for (const Index node : net.node) box.extend(position(node));
+  net.frame = Frame(box);
+  net.positions.reserve(net.node.size());
+  for (const Index node : net.node) net.positions.push_back(net.frame.to_local(position(node)));
 
   net.normals.assign(net.node.size(), Vector3::Zero());
+  net.given.assign(net.node.size(), 0);
+  for (std::size_t i = 0; i < net.node.size(); ++i) {
+    if (!constraints.normal_fixed(net.node[i])) continue;
+    net.normals[i] = constraints.normal(net.node[i]);
+    net.given[i] |= Net::given_normal;
+  }
   double lengths = 0;
   std::size_t spokes = 0;
-  for (std::size_t i = 0; i < net.node.size(); ++i) {
-    if (constraints.normal_fixed(net.node[i])) net.normals[i] = constraints.normal(net.node[i]);
-    if (i >= net.computed) continue;
+  for (std::size_t i = 0; i < net.computed; ++i) {
     for (const Link link : net.rings.links(i)) {
       if (!link.spoke()) continue;
       lengths += (net.positions[link.node()] - net.positions[i]).norm();
@@ -93,13 +96,11 @@ Net gather_net(const PolygonMesh& mesh, const Constraints& constraints) {
   // Far below any length that matters, far above what underflows when squared and inverted.
   const double shortest = spokes > 0 ? 1e-9 * lengths / static_cast<double>(spokes) : 0;
   net.tiny = std::max(shortest * shortest, 1e-280);
-  return net;
 }
 
-std::vector<Vector3> scatter_positions(const Net& net, const PolygonMesh& mesh, const Constraints& constraints,
+std::vector<Vector3> scatter_positions(const Net& net, std::vector<Vector3> positions, const Constraints& constraints,
                                        double strength) {
-  std::vector<Vector3> positions = mesh.positions();
-  for (Index i = 0; i < mesh.node_count(); ++i) {
+  for (Index i = 0; i < constraints.node_count(); ++i) {
     if (constraints.position_fixed(i)) positions[static_cast<std::size_t>(i)] = constraints.position(i);
   }
   const double share = strength / net.frame.scale();

@@ -60,17 +60,13 @@ struct ChordTangent {
   }
 };
 
-/// The paper's principal normal N ∝ B × T, in the plane of the three nodes; zero where they lie on a line.
-template <typename Tangent>
-struct PrincipalNormal {
-  template <typename Positions>
-  Vector3 operator()(const Vector3& centre, std::span<const Link> links, const Positions& positions) const {
-    if (links.empty()) return Vector3::Zero();
-    const CurveEdges edges(centre, links, positions);
-    const Vector3 binormal = edges.before.cross(edges.after);
-    const Vector3 normal = binormal.cross(Tangent()(centre, links, positions));
-    return direction(normal, edges.before.norm() * edges.after.norm());
-  }
-};
+/// The paper's principal normal N ∝ B × T, B across the plane of the three nodes; zero where they lie on a line.
+template <typename Positions>
+Vector3 principal_normal(const Vector3& centre, std::span<const Link> links, const Positions& positions,
+                         const Vector3& tangent) {
+  if (links.empty()) return Vector3::Zero();
+  const CurveEdges edges(centre, links, positions);
+  return direction(edges.before.cross(edges.after).cross(tangent), edges.before.norm() * edges.after.norm());
+}
 
 }  // namespace vspring

@@ -2,15 +2,9 @@
 
 #include <vector>
 
-#include "spring/net.hpp"
+#include "spring/model.hpp"
 
 namespace vspring {
-
-/// A run of moving nodes that one thread sweeps in order.
-struct Block {
-  std::size_t begin;
-  std::size_t end;
-};
 
 /// The order of a Gauss–Seidel sweep (§4.1) that may run on any number of threads: blocks in groups, no two blocks of a
 /// group joined by an edge. Groups go one after the other, the blocks of a group side by side, nodes of a block in

@@ -268,7 +268,7 @@ TEST(Region, ThePatchMeetsTheRestWithACommonTangentPlane) {
 
 TEST(Region, FixesEverythingOutsideAndRimNormalsOnly) {
   const PolygonMesh mesh = generate::plane({.columns = 10, .rows = 10, .faces = Faces::quads});
-  const auto region = select_region(mesh, "sphere:0.5,0.5,0,0.25");
+  const auto region = select_region(mesh.positions(), "sphere:0.5,0.5,0,0.25");
   Constraints constraints(mesh.node_count());
   restrict_to_region(constraints, mesh, region);
   Index rim = 0;

@@ -60,7 +60,8 @@ TEST(SweepThreads, GiveTheSameBitsForEveryNumber) {
     Net net = net_of(generate::Faces::mixed, 60);
     for (std::size_t i = 0; i < net.moving; ++i) net.positions[i].z() = 0.01 * static_cast<double>(i % 7);
     ThreadTeam team(threads);
-    Sweep sweep(net, PseudoNormals::link, Distribution::even, team);
+    const auto model = surface_model(PseudoNormals::link);
+    Sweep sweep(net, *model, team);
     for (int k = 0; k < 20; ++k) sweep.iterate();
     return net.positions;
   };
@@ -71,19 +72,20 @@ TEST(SweepThreads, GiveTheSameBitsForEveryNumber) {
 
 TEST(Sweep, KeepingTheDistributionLeavesEveryNodeOfAPlaneInItsPlace) {
   Net net = net_of(generate::Faces::mixed, 20);
-  const auto start = net.positions;
   ThreadTeam team(1);
-  Sweep keep(net, PseudoNormals::link, Distribution::keep, team);
-  EXPECT_LT(keep.iterate(), 1e-12);
-  Sweep even(net, PseudoNormals::link, Distribution::even, team);
-  EXPECT_GT(even.iterate(), 1e-2);
+  const auto model = surface_model(PseudoNormals::link);
+  Sweep sweep(net, *model, team);
+  distribute(net, *model, Distribution::keep, team);
+  EXPECT_LT(sweep.iterate(), 1e-12);
+  distribute(net, *model, Distribution::even, team);
+  EXPECT_GT(sweep.iterate(), 1e-2);
 }
 
 TEST(Sweep, SharesAddUpToOneAndPointAtTheNode) {
   Net net = net_of(generate::Faces::triangles, 12);
   ThreadTeam team(1);
-  update_normals(net, PseudoNormals::link, team);
-  const auto shares = present_shares(net);
+  distribute(net, *surface_model(PseudoNormals::link), Distribution::keep, team);
+  const auto& shares = net.shares;
   for (std::size_t i = 0; i < net.moving; ++i) {
     double sum = 0;
     Vector3 mean = Vector3::Zero();

@@ -1,0 +1,120 @@
+// Whether a curve can be faired under its constraints, and whether they tell one result from all others.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "vspring/constraints.hpp"
+#include "vspring/error.hpp"
+
+namespace vspring {
+
+namespace {
+
+// A circle in space has six unknowns, three points or the like; a point with a tangent gives as much as two points.
+constexpr int data_for_a_circle = 3;
+
+class CurveHolding {
+ public:
+  CurveHolding(const PolygonCurve& curve, const Constraints& constraints) : curve_(curve), constraints_(constraints) {}
+
+  std::vector<std::string> check() {
+    refuse_meetings();
+    for (const auto& chain : curve_.chains()) {
+      const auto moving = std::find_if(chain.nodes.begin(), chain.nodes.end(), [&](Index i) { return moves(i); });
+      if (moving == chain.nodes.end()) continue;
+      refuse_defects(chain);
+      if (chain.closed) {
+        check_loop(chain, *moving);
+      } else {
+        for (const Index end : {chain.nodes.front(), chain.nodes.back()}) refuse_free_end(end);
+      }
+    }
+    return std::move(warnings_);
+  }
+
+ private:
+  [[nodiscard]] bool moves(Index node) const { return !constraints_.position_fixed(node); }
+
+  void refuse_meetings() const {
+    std::vector<std::uint8_t> seen(static_cast<std::size_t>(curve_.node_count()), 0);
+    for (const auto& chain : curve_.chains()) {
+      for (const Index node : chain.nodes) {
+        std::uint8_t& before = seen[static_cast<std::size_t>(node)];
+        if (before != 0 && moves(node))
+          throw Error(
+              ErrorCode::unusable_shape,
+              fmt::format("node {}: chains meet there, so it cannot move; hold it by a rule (--constraints) such "
+                          "as {{\"nodes\": [{}], \"position\": \"fixed\"}}",
+                          node, node));
+        before = 1;
+      }
+    }
+  }
+
+  void refuse_defects(const PolygonCurve::Chain& chain) const {
+    if (chain.closed && chain.nodes.size() < 3)
+      throw Error(ErrorCode::unusable_shape,
+                  fmt::format("node {}: a closed curve needs three nodes or more, this has {}", chain.nodes.front(),
+                              chain.nodes.size()));
+    const std::size_t count = chain.nodes.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const Index node = chain.nodes[k];
+      const Vector3& position = moves(node) ? curve_.position(node) : constraints_.position(node);
+      if (position.allFinite()) continue;
+      for (std::size_t step = 0; step <= 4; ++step) {
+        const std::size_t other = (k + count + step - 2) % count;
+        if ((chain.closed || (k + step >= 2 && k + step - 2 < count)) && moves(chain.nodes[other]))
+          throw Error(
+              ErrorCode::unusable_shape,
+              fmt::format("node {}: a coordinate is not finite; give it a position by a rule (--constraints), or "
+                          "let only a region away from it move (--region)",
+                          node));
+      }
+    }
+  }
+
+  void refuse_free_end(Index end) const {
+    if (moves(end))
+      throw Error(
+          ErrorCode::unusable_constraint,
+          fmt::format("the end node {} is free, and the curve would shrink. Hold it (--fix boundary, or a rule in "
+                      "--constraints), or let only a region move (--region)",
+                      end));
+  }
+
+  void check_loop(const PolygonCurve::Chain& chain, Index moving) {
+    int held = 0;
+    int data = 0;
+    for (const Index node : chain.nodes) {
+      held += moves(node) ? 0 : 1;
+      data += (moves(node) ? 0 : 1) + (constraints_.tangent_fixed(node) || constraints_.normal_fixed(node) ? 1 : 0);
+    }
+    if (held == 0)
+      throw Error(
+          ErrorCode::unusable_constraint,
+          fmt::format("nothing holds the closed curve through node {} ({} nodes). Hold some of its nodes by rules "
+                      "(--constraints), or let only a region of it move (--region)",
+                      moving, chain.nodes.size()));
+    if (data < data_for_a_circle)
+      warnings_.push_back(
+          fmt::format("what holds the closed curve through node {} leaves a family of shapes, and the result is one of "
+                      "them; hold more nodes, or tangents, to choose",
+                      moving));
+  }
+
+  const PolygonCurve& curve_;
+  const Constraints& constraints_;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace
+
+std::vector<std::string> check_constraints(const PolygonCurve& curve, const Constraints& constraints) {
+  if (constraints.node_count() != curve.node_count())
+    throw Error(ErrorCode::invalid_argument, fmt::format("constraints are for {} nodes, the curve has {}",
+                                                         constraints.node_count(), curve.node_count()));
+  return CurveHolding(curve, constraints).check();
+}
+
+}  // namespace vspring

@@ -1,0 +1,36 @@
+#include "shape/planarity.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "shape/frame.hpp"
+
+namespace vspring {
+
+std::optional<Vector3> plane_normal(std::span<const Vector3> positions) {
+  constexpr double flat = 1e-9;
+  Eigen::AlignedBox<double, 3> box;
+  for (const Vector3& position : positions) box.extend(position);
+  const Frame frame(box);
+  Vector3 mean = Vector3::Zero();
+  for (const Vector3& position : positions) mean += frame.to_local(position) / static_cast<double>(positions.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vector3& position : positions) {
+    const Vector3 from_mean = frame.to_local(position) - mean;
+    spread += from_mean * from_mean.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread);
+  const double largest = std::sqrt(std::max(eigen.eigenvalues()[2], 0.0));
+  if (!(std::sqrt(std::max(eigen.eigenvalues()[1], 0.0)) > flat * largest)) return std::nullopt;
+  Vector3 normal = eigen.eigenvectors().col(0).normalized();
+  // The eigenvalue knows the thickness to its square root's rounding only: it is measured.
+  for (const Vector3& position : positions) {
+    if (std::abs((frame.to_local(position) - mean).dot(normal)) > flat) return std::nullopt;
+  }
+  Eigen::Index greatest = 0;
+  normal.cwiseAbs().maxCoeff(&greatest);
+  return normal[greatest] < 0 ? Vector3(-normal) : normal;
+}
+
+}  // namespace vspring

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/threads.hpp"
+#include "spring/net.hpp"
+#include "spring/v_spring.hpp"
+#include "vspring/model.hpp"
+
+namespace vspring {
+
+/// A run of moving nodes that one thread works on in order.
+struct Block {
+  std::size_t begin;
+  std::size_t end;
+};
+
+/// The rules of the spring model for one kind of shape: all that the sweep and the solvers know of it.
+class Model {
+ public:
+  Model() = default;
+  virtual ~Model() = default;
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+
+  /// Step 1 of Fig. 3: normals or tangents of the nodes begin … end − 1, which have rings, where they are not given.
+  virtual void update_directions(Net& net, std::size_t begin, std::size_t end) const = 0;
+
+  /// What every link counts in the regularisation (§4.4) so that the present place of each node is where it is sent;
+  /// aligned with the links of the net. Needs directions.
+  [[nodiscard]] virtual std::vector<double> present_shares(const Net& net) const = 0;
+
+  /// Steps 2 and 3 of Fig. 3: moves the nodes of a block one after the other, each from the newest positions. Returns
+  /// the largest displacement relative to the mean length of the node's edges (§4.6).
+  virtual double move(Net& net, Block block) const = 0;
+
+  /// The same displacements for nodes that stay: forces[i] for the nodes i of the block.
+  virtual void find_forces(const Net& net, Block block, std::span<NodeForce> forces) const = 0;
+};
+
+[[nodiscard]] std::unique_ptr<const Model> surface_model(PseudoNormals pseudo_normals);
+[[nodiscard]] std::unique_ptr<const Model> curve_model(const CurveRules& rules);
+
+/// Directions of all nodes of the net that have rings.
+void update_directions(Net& net, const Model& model, ThreadTeam& team);
+
+/// Sets what the regularisation aims at: the net's shares, from its present places where they are to be kept.
+void distribute(Net& net, const Model& model, Distribution distribution, ThreadTeam& team);
+
+}  // namespace vspring

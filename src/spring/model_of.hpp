@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "spring/model.hpp"
+
+namespace vspring {
+
+/// A model from rules for one node:
+///   void update_direction(Net&, std::size_t node) const;
+///   NodeForce force(const Net&, std::size_t node) const;
+///   void present_shares(const Net&, std::size_t node, std::span<double> shares) const;
+template <typename Rules>
+class ModelOf final : public Model {
+ public:
+  ModelOf() = default;
+  explicit ModelOf(const Rules& rules) : rules_(rules) {}
+
+  void update_directions(Net& net, std::size_t begin, std::size_t end) const override {
+    for (std::size_t i = begin; i < end; ++i) rules_.update_direction(net, i);
+  }
+
+  [[nodiscard]] std::vector<double> present_shares(const Net& net) const override {
+    std::vector<double> shares(net.rings.link_count(), 0.0);
+    for (std::size_t i = 0; i < net.moving; ++i)
+      rules_.present_shares(net, i, std::span(shares).subspan(net.rings.begin(i), net.rings.links(i).size()));
+    return shares;
+  }
+
+  double move(Net& net, Block block) const override {
+    double greatest = 0;
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      const NodeForce force = rules_.force(net, i);
+      const Vector3 displacement = force.spring + force.regularisation;
+      net.positions[i] += displacement;
+      if (force.mean_edge > 0) greatest = std::max(greatest, displacement.norm() / force.mean_edge);
+    }
+    return greatest;
+  }
+
+  void find_forces(const Net& net, Block block, std::span<NodeForce> forces) const override {
+    for (std::size_t i = block.begin; i < block.end; ++i) forces[i] = rules_.force(net, i);
+  }
+
+ private:
+  Rules rules_;
+};
+
+}  // namespace vspring

@@ -1,0 +1,68 @@
+#include <Eigen/Dense>
+
+#include "spring/model_of.hpp"
+#include "spring/pseudo_normal.hpp"
+
+namespace vspring {
+
+namespace {
+
+/// Pseudo-normals of one kind, V-Spring along them, regularisation across.
+template <typename Normal>
+struct SurfaceRules {
+  void update_direction(Net& net, std::size_t i) const {
+    if (!net.normal_given(i)) net.normals[i] = Normal()(net.positions[i], net.rings.links(i), net.positions);
+  }
+
+  [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const {
+    return node_force(i, net.rings.links(i), net.positions, net.normals, net.shares_of(i), net.tiny);
+  }
+
+  /// Of all shares of sum 1 that leave the node in its place across the normal, those nearest to even ones: share_j =
+  /// 1/m − (d_j − mean)·a.
+  void present_shares(const Net& net, std::size_t i, std::span<double> shares) const {
+    const auto links = net.rings.links(i);
+    const Vector3& normal = net.normals[i];
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    Vector3 mean = Vector3::Zero();
+    double spokes = 0;
+    const auto across = [&](Link link) -> Vector3 {
+      const Vector3 d = net.positions[link.node()] - net.positions[i];
+      return d - d.dot(normal) * normal;
+    };
+    for (const Link link : links) {
+      if (!link.spoke()) continue;
+      mean += across(link);
+      spokes += 1;
+    }
+    mean /= std::max(spokes, 1.0);
+    for (const Link link : links) {
+      if (link.spoke()) spread += (across(link) - mean) * (across(link) - mean).transpose();
+    }
+    spread += spread.trace() * normal * normal.transpose();
+    // Neighbours all on a line or at a point leave directions open; the smallest solution is meant, so they get none of
+    // it.
+    const Vector3 a = spread.completeOrthogonalDecomposition().solve(mean);
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      if (links[k].spoke()) shares[k] = 1 / spokes - (across(links[k]) - mean).dot(a);
+    }
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<const Model> surface_model(PseudoNormals pseudo_normals) {
+  switch (pseudo_normals) {
+    case PseudoNormals::link:
+      return std::make_unique<ModelOf<SurfaceRules<LinkNormal>>>();
+    case PseudoNormals::average:
+      return std::make_unique<ModelOf<SurfaceRules<AverageNormal>>>();
+    case PseudoNormals::area:
+      return std::make_unique<ModelOf<SurfaceRules<AreaNormal>>>();
+    case PseudoNormals::angle:
+      return std::make_unique<ModelOf<SurfaceRules<AngleNormal>>>();
+  }
+  return nullptr;
+}
+
+}  // namespace vspring

@@ -166,9 +166,7 @@ void add_method_options(CLI::App& command, FairArguments& arguments) {
       ->type_name("E")
       ->check(CLI::PositiveNumber)
       ->group(group);
-  command
-      .add_option("--max-iterations", options.max_iterations,
-                  fmt::format("Stop after this many iterations (default: {})", options.max_iterations))
+  command.add_option("--max-iterations", options.max_iterations, "Stop after this many iterations (default: 10000)")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->group(group);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,22 +8,32 @@
 #include "vspring/context.hpp"
 #include "vspring/fairness.hpp"
 #include "vspring/model.hpp"
+#include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
 namespace vspring {
 
 enum class Method {
-  sweep  ///< the paper's plain iteration (§4.1)
+  equilibrium,  ///< the accelerated solver that goes to the true equilibrium; curves only so far
+  sweep         ///< the paper's plain iteration (§4.1)
 };
 
 struct FairOptions {
-  Method method = Method::sweep;
+  /// Where not given: equilibrium for curves, sweep for surfaces.
+  std::optional<Method> method = std::nullopt;
+  /// Of surfaces.
   PseudoNormals pseudo_normals = PseudoNormals::link;
+  /// Of curves.
+  CurveRules curve = {};
   Distribution distribution = Distribution::even;
-  /// The paper's e (§4.6): stop when no node moves further in one iteration than this share of the mean length of its
-  /// edges.
+  /// Equilibrium: stop when no node is expected to be further than this share of the diagonal of the box around the
+  /// moving nodes and their rim from its final place.
+  double tolerance = 1e-5;
+  /// Sweep: the paper's e (§4.6): stop when no node moves further in one iteration than this share of the mean length
+  /// of its edges.
   double step_tolerance = 1e-3;
-  int max_iterations = 10000;
+  /// Where not given: 10,000 sweeps; 200 iterations of the equilibrium solver on each of its levels.
+  std::optional<int> max_iterations = std::nullopt;
   /// result = input + strength × (fair − input) for moving nodes; 0 to 1.
   double strength = 1;
 
@@ -35,18 +46,33 @@ enum class Outcome { converged, iteration_limit, stalled, cancelled };
 /// "converged", "iteration-limit", "stalled" or "cancelled".
 [[nodiscard]] const char* name(Outcome outcome) noexcept;
 
+/// The work on one level of the hierarchy, the coarsest first.
+struct LevelReport {
+  Index moving_nodes = 0;
+  int iterations = 0;
+  double seconds = 0;
+};
+
 struct FairReport {
   Outcome outcome = Outcome::converged;
+  Method method = Method::sweep;
   int iterations = 0;
-  /// Largest displacement of the last iteration, relative to the mean edge length at its node (§4.6).
+  /// Sweep: largest displacement of the last iteration, relative to the mean edge length at its node (§4.6).
+  /// Equilibrium: predicted largest distance of a node from its final place, relative to the diagonal of the box.
   double residual = 0;
-  /// That figure for every iteration.
+  /// That figure for every iteration, over all levels.
   std::vector<double> history;
+  /// Predicted largest distance of a node from its final place, relative to the diagonal of the box around the moving
+  /// nodes and their rim; none where the method cannot tell.
+  std::optional<double> expected_error;
+  /// What was done on coarser versions of the shape and at last on itself.
+  std::vector<LevelReport> levels;
   Index nodes = 0;
   Index faces = 0;
   Index moving_nodes = 0;
   Index fixed_positions = 0;
   Index fixed_normals = 0;
+  Index fixed_tangents = 0;
   /// How far nodes moved from the input: largest, and root mean square over the moving nodes; in units of the input.
   double greatest_move = 0;
   double mean_move = 0;
@@ -62,7 +88,11 @@ struct FairResult {
   FairReport report;
 };
 
-/// Fairs a polygonal surface under constraints (paper §4.1, Fig. 3).
+/// Fairs a polygonal surface or curve under constraints (paper §4.1 and Fig. 3; §4.8 for curves).
+///
+/// Curves go to the equilibrium of the V-Spring equations: between constraints curvature is linear in arc length, an
+/// Euler spiral; see docs/curves.md. An end without a tangent is free to turn. A given normal leaves the tangent free
+/// to turn about it; on a planar curve it gives the tangent.
 ///
 /// Nodes with a fixed position come out exactly at it; isolated nodes stay. Nothing is silently lost: throws as
 /// check_constraints() does for what cannot be faired; Error(invalid_argument) for options out of range or constraints
@@ -72,5 +102,9 @@ struct FairResult {
 [[nodiscard]] FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const FairOptions& options,
                               Context& context);
 [[nodiscard]] FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const FairOptions& options = {});
+[[nodiscard]] FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const FairOptions& options,
+                              Context& context);
+[[nodiscard]] FairResult fair(const PolygonCurve& curve, const Constraints& constraints,
+                              const FairOptions& options = {});
 
 }  // namespace vspring

@@ -3,22 +3,28 @@
 #include <vector>
 
 #include "vspring/constraints.hpp"
+#include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
 namespace vspring {
 
-/// Figures of fairness of a surface. All are free of scale.
+/// Figures of fairness of a surface or a curve. All are free of scale.
 struct Fairness {
   /// Σ over edges ((t_j − t_i)/ℓ)²: the springs' disagreement (Eq. 4) relative to the edge length ℓ.
   double vspring_energy = 0;
-  /// Largest angle between the normals of two faces that share an edge, degrees.
+  /// Largest angle between the normals of two faces that share an edge, or between successive edges of a curve,
+  /// degrees.
   double greatest_turn = 0;
-  /// Root mean square of that angle over all edges between two faces, degrees.
+  /// Root mean square of that angle over all edges between two faces, or over all inner nodes, degrees.
   double mean_turn = 0;
 };
 
 /// Measures a surface. Pseudo-normals are Max's around the link, or the given ones where a constraint fixes them.
 /// Faces without area and edges without two faces are left out. Cost: linear.
 [[nodiscard]] Fairness measure(const PolygonMesh& mesh, const Constraints* constraints = nullptr);
+
+/// Measures a curve, with the tangents of the circles through successive nodes, or the given ones where a constraint
+/// fixes them; with constraints only what lies at moving nodes. Cost: linear.
+[[nodiscard]] Fairness measure(const PolygonCurve& curve, const Constraints* constraints = nullptr);
 
 }  // namespace vspring

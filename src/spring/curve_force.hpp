@@ -2,30 +2,58 @@
 
 // V-Spring for curves, in the whole normal plane (§4.8: "along both N_i and B_i").
 //
-// Let R be the rotation of least angle that takes T_i to T_j: it carries a frame along the edge without spin. Eq. 4 for
-// any normal N of T_i and its companion R N is N·(d + Rᵀd)/(1 + T_i·T_j), where d = P_j − P_i; so the displacement of
-// node i by node j is the part of d + Rᵀd across T_i, over 1 + T_i·T_j, whatever frame is chosen. On a planar curve
-// that is Eq. 5 with the in-plane normals, through straight runs and inflections too.
+// Let R take a frame along the edge from i to j without spin, T_i to T_j (double reflection: W. Wang, B. Jüttler, D.
+// Zheng, Y. Liu, "Computation of rotation minimizing frames", ACM Trans. Graph. 27(1), 2008). Eq. 4 for a normal N of
+// T_i and its companion R N is N·(d + Rᵀd)/(1 + T_i·T_j), where d = P_j − P_i; so the displacement of node i by node j
+// is the part of d + Rᵀd across T_i, over 1 + T_i·T_j, whatever frame is chosen. With b_i, the part of d across T_i,
+// and b_j, the part of −d across T_j, that is (b_i − Rᵀ b_j)/(1 + T_i·T_j). On a planar curve it is Eq. 5 with the
+// in-plane normals, through straight runs and inflections too. With the circle's tangent b_i = (ℓ²/2) k_i, k the
+// curvature vector.
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <span>
 
 #include "shape/fan.hpp"
+#include "spring/net.hpp"
 #include "spring/v_spring.hpp"
 #include "vspring/types.hpp"
 
 namespace vspring {
 
-/// Displacement of node i by its neighbour j. Zero where the tangents are opposite: no least rotation joins them.
-inline Vector3 curve_spring(const Vector3& d, const Vector3& tangent_i, const Vector3& tangent_j) {
+/// Carries a vector along an edge d (or −d) from where the tangent is `from` to where it is `to`, without spin.
+inline Vector3 carried(const Vector3& vector, const Vector3& d, const Vector3& from, const Vector3& to) {
+  const double factor = 2 / d.dot(d);
+  const Vector3 mirrored = vector - (factor * d.dot(vector)) * d;
+  const Vector3 mirror = to - from + (factor * d.dot(from)) * d;
+  const double length2 = mirror.dot(mirror);
+  // Where the mirrored tangent is already the other one, there is nothing to turn.
+  if (!(length2 > 1e-24)) return mirrored;
+  return mirrored - (2 * mirror.dot(mirrored) / length2) * mirror;
+}
+
+/// Displacement of node i by its neighbour j, with d = P_j − P_i not zero. bend_i: the part of d across T_i; bend_j:
+/// the part of −d across T_j. Zero where the tangents are opposite: no carrying without spin joins them.
+inline Vector3 curve_spring(const Vector3& bend_i, const Vector3& bend_j, const Vector3& d, const Vector3& tangent_i,
+                            const Vector3& tangent_j) {
   const double denominator = 1 + tangent_i.dot(tangent_j);
   if (!(denominator > 1e-12)) return Vector3::Zero();
-  // Rᵀ turns about the same axis by the opposite angle; Rodrigues' formula with sin and cos from cross and dot product.
-  const Vector3 axis = tangent_j.cross(tangent_i);
-  const Vector3 turned = (denominator - 1) * d + axis.cross(d) + axis * (axis.dot(d) / denominator);
-  const Vector3 sum = d + turned;
-  return (sum - sum.dot(tangent_i) * tangent_i) / denominator;
+  return (bend_i - carried(bend_j, d, tangent_j, tangent_i)) / denominator;
+}
+
+/// The part of d, an edge from node i, across the tangent of i: from the curvature where the tangent is that of the
+/// circle, which is more precise.
+inline Vector3 bend(const Net& net, std::size_t i, const Vector3& d) {
+  if (!net.curvatures.empty() && net.given[i] == 0) return (0.5 * d.dot(d)) * net.curvatures[i];
+  const Vector3& tangent = net.tangents[i];
+  return d - d.dot(tangent) * tangent;
+}
+
+/// Displacement of node i of a net by its neighbour j.
+inline Vector3 curve_spring(const Net& net, std::size_t i, std::size_t j) {
+  const Vector3 d = net.positions[j] - net.positions[i];
+  if (!(d.dot(d) > net.tiny)) return Vector3::Zero();
+  return curve_spring(bend(net, i, d), bend(net, j, -d), d, net.tangents[i], net.tangents[j]);
 }
 
 /// 1/ℓ³: t_j − t_i is about −(ℓ³/12) times the derivative of the curvature towards j, so equal weights to equal
@@ -39,14 +67,14 @@ struct InverseWeight {
   static double of(double length) { return 1 / length; }
 };
 
-/// The average of the displacements spring(k, d) by the nodes k at the other ends of the links, and the regularisation
-/// along the tangent: to the mean of the neighbours (§4.4), or, with shares, to where the lengths of the edges before
-/// and after are as their opposite shares. A node without a tangent (zero) goes to the mean of its neighbours.
-/// tiny: as for node_force().
-template <typename Weight, typename Positions, typename Spring>
-NodeForce curve_force(std::size_t i, std::span<const Link> links, const Positions& positions, const Vector3& tangent,
-                      std::span<const double> shares, double tiny, const Spring& spring) {
-  const Vector3& centre = positions[i];
+/// The average of the displacements spring(j) by the neighbours j of node i, and the regularisation along the tangent:
+/// to the mean of the neighbours (§4.4), or, with shares, to where the lengths of the edges before and after are as
+/// their opposite shares. A node without a tangent (zero) goes to the mean of its neighbours.
+template <typename Weight, typename Spring>
+NodeForce curve_force(const Net& net, std::size_t i, const Spring& spring) {
+  const auto links = net.rings.links(i);
+  const auto shares = net.shares_of(i);
+  const Vector3& tangent = net.tangents[i];
   NodeForce force;
   if (links.empty()) return force;
   double weights = 0;
@@ -56,11 +84,11 @@ NodeForce curve_force(std::size_t i, std::span<const Link> links, const Position
   const double even = 1 / static_cast<double>(links.size());
   for (std::size_t k = 0; k < links.size(); ++k) {
     const std::size_t j = links[k].node();
-    const Vector3 d = positions[j] - centre;
-    const double length = std::sqrt(d.dot(d) + tiny);
+    const Vector3 d = net.positions[j] - net.positions[i];
+    const double length = std::sqrt(d.dot(d) + net.tiny);
     const double weight = Weight::of(length);
     weights += weight;
-    springs += weight * spring(j, d);
+    springs += weight * spring(j);
     mean += even * d;
     if (!shares.empty()) along += links[k].start() ? -shares[k] * length : shares[k] * length;
     force.mean_edge += even * length;

@@ -1,3 +1,5 @@
+#include <type_traits>
+
 #include "spring/curve_force.hpp"
 #include "spring/model_of.hpp"
 #include "spring/tangent.hpp"
@@ -9,19 +11,28 @@ namespace {
 /// Tangents, and V-Spring in the whole normal plane.
 template <typename Tangent, typename Weight>
 struct CurveRulesOf {
+  static constexpr bool on_circle = std::is_same_v<Tangent, CircleTangent>;
+
+  static void prepare(Net& net) {
+    if (on_circle) net.curvatures.resize(net.positions.size(), Vector3::Zero());
+  }
+
   void update_direction(Net& net, std::size_t i) const {
     if (net.tangent_given(i)) return;
-    const Vector3 tangent = Tangent()(net.positions[i], net.rings.links(i), net.positions);
+    const auto links = net.rings.links(i);
+    const Vector3 tangent = Tangent()(net.positions[i], links, net.positions);
     const Vector3& normal = net.normals[i];
-    // A given normal takes one direction out of those that the tangent may have.
-    net.tangents[i] = net.normal_given(i) ? direction(tangent - tangent.dot(normal) * normal, 1) : tangent;
+    if (net.normal_given(i)) {
+      // A given normal takes one direction out of those that the tangent may have.
+      net.tangents[i] = direction(tangent - tangent.dot(normal) * normal, 1);
+      return;
+    }
+    net.tangents[i] = tangent;
+    if constexpr (on_circle) net.curvatures[i] = circle_curvature(net.positions[i], links, net.positions, tangent);
   }
 
   [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const {
-    const Vector3& tangent = net.tangents[i];
-    return curve_force<Weight>(
-        i, net.rings.links(i), net.positions, tangent, net.shares_of(i), net.tiny,
-        [&](std::size_t j, const Vector3& d) { return curve_spring(d, tangent, net.tangents[j]); });
+    return curve_force<Weight>(net, i, [&](std::size_t j) { return curve_spring(net, i, j); });
   }
 
   /// By the lengths of the edges, which noise does not turn round as it does the edges themselves.
@@ -47,15 +58,14 @@ struct PrincipalRulesOf : CurveRulesOf<Tangent, Weight> {
   }
 
   [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const {
-    const Vector3& tangent = net.tangents[i];
     const Vector3& normal = net.normals[i];
-    const auto spring = [&](std::size_t j, const Vector3& d) -> Vector3 {
+    return curve_force<Weight>(net, i, [&](std::size_t j) -> Vector3 {
       // A neighbour without a principal normal (an end, a node of a straight run) takes this one's, carried over.
-      const double difference = net.normals[j].isZero(0) ? normal.dot(curve_spring(d, tangent, net.tangents[j]))
-                                                         : spring_difference(d, normal, net.normals[j]);
+      const double difference = net.normals[j].isZero(0)
+                                    ? normal.dot(curve_spring(net, i, j))
+                                    : spring_difference(net.positions[j] - net.positions[i], normal, net.normals[j]);
       return difference * normal;
-    };
-    return curve_force<Weight>(i, net.rings.links(i), net.positions, tangent, net.shares_of(i), net.tiny, spring);
+    });
   }
 };
 

@@ -41,7 +41,7 @@ class Gathering {
     for (const auto& chain : curve_.chains()) cut(chain);
     number_moving();
     number_held();
-    add_rings();
+    add_rings(result_.net, result_.strands);
     place_net(result_.net, curve_.positions(), constraints_);
     take_tangents();
     return std::move(result_);
@@ -85,7 +85,6 @@ class Gathering {
 
   void number(std::size_t strand, std::size_t place) {
     result_.strands[strand].nodes[place] = static_cast<std::uint32_t>(result_.net.node.size());
-    place_.push_back({strand, place});
     result_.net.node.push_back(nodes_[strand][place]);
   }
 
@@ -119,22 +118,6 @@ class Gathering {
     }
   }
 
-  void add_rings() {
-    Net& net = result_.net;
-    net.rings.reserve(net.computed, 2 * net.computed);
-    std::vector<Link> links;
-    for (std::size_t i = 0; i < net.computed; ++i) {
-      const auto [s, k] = place_[i];
-      const auto& nodes = result_.strands[s].nodes;
-      const bool closed = result_.strands[s].closed;
-      links.clear();
-      if (k > 0 || closed)
-        links.push_back({nodes[(k + nodes.size() - 1) % nodes.size()] | Link::spoke_bit | Link::start_bit});
-      if (k + 1 < nodes.size() || closed) links.push_back({nodes[(k + 1) % nodes.size()] | Link::spoke_bit});
-      net.rings.add(links);
-    }
-  }
-
   void take_tangents() {
     Net& net = result_.net;
     net.tangents.assign(net.node.size(), Vector3::Zero());
@@ -145,19 +128,29 @@ class Gathering {
     }
   }
 
-  struct Place {
-    std::size_t strand;
-    std::size_t place;
-  };
-
   const PolygonCurve& curve_;
   const Constraints& constraints_;
   CurveNet result_;
   std::vector<std::vector<Index>> nodes_;  // of every strand, by their numbers in the curve
-  std::vector<Place> place_;               // of every local node
 };
 
 }  // namespace
+
+void add_rings(Net& net, const std::vector<Strand>& strands) {
+  std::vector<std::vector<Link>> links(net.computed);
+  for (const Strand& strand : strands) {
+    const auto& nodes = strand.nodes;
+    const std::size_t count = nodes.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      if (nodes[k] >= net.computed) continue;
+      auto& ring = links[nodes[k]];
+      if (k > 0 || strand.closed) ring.push_back({nodes[(k + count - 1) % count] | Link::spoke_bit | Link::start_bit});
+      if (k + 1 < count || strand.closed) ring.push_back({nodes[(k + 1) % count] | Link::spoke_bit});
+    }
+  }
+  net.rings.reserve(net.computed, 2 * net.computed);
+  for (const auto& ring : links) net.rings.add(ring);
+}
 
 CurveNet gather_net(const PolygonCurve& curve, const Constraints& constraints) {
   return Gathering(curve, constraints).gather();

@@ -21,6 +21,9 @@ struct CurveNet {
   std::vector<Strand> strands;
 };
 
+/// Adds the rings of nodes 0 … computed − 1 to a net: the previous node of their strand, then the next.
+void add_rings(Net& net, const std::vector<Strand>& strands);
+
 /// Gathers the net of a curve under constraints; the curve must have passed check_constraints(). A held node that
 /// several chains share is one local node for each of them. Cost: linear.
 CurveNet gather_net(const PolygonCurve& curve, const Constraints& constraints);

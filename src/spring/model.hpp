@@ -25,6 +25,9 @@ class Model {
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
+  /// Makes room in the net for what the model keeps of every node. Nothing where there is room already.
+  virtual void prepare(Net& net) const = 0;
+
   /// Step 1 of Fig. 3: normals or tangents of the nodes begin … end − 1, which have rings, where they are not given.
   virtual void update_directions(Net& net, std::size_t begin, std::size_t end) const = 0;
 

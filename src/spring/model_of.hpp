@@ -8,6 +8,7 @@
 namespace vspring {
 
 /// A model from rules for one node:
+///   static void prepare(Net&);
 ///   void update_direction(Net&, std::size_t node) const;
 ///   NodeForce force(const Net&, std::size_t node) const;
 ///   void present_shares(const Net&, std::size_t node, std::span<double> shares) const;
@@ -16,6 +17,8 @@ class ModelOf final : public Model {
  public:
   ModelOf() = default;
   explicit ModelOf(const Rules& rules) : rules_(rules) {}
+
+  void prepare(Net& net) const override { Rules::prepare(net); }
 
   void update_directions(Net& net, std::size_t begin, std::size_t end) const override {
     for (std::size_t i = begin; i < end; ++i) rules_.update_direction(net, i);

@@ -10,6 +10,8 @@ namespace {
 /// Pseudo-normals of one kind, V-Spring along them, regularisation across.
 template <typename Normal>
 struct SurfaceRules {
+  static void prepare(Net& /*net*/) {}
+
   void update_direction(Net& net, std::size_t i) const {
     if (!net.normal_given(i)) net.normals[i] = Normal()(net.positions[i], net.rings.links(i), net.positions);
   }

@@ -60,6 +60,39 @@ struct ChordTangent {
   }
 };
 
+/// The rounding error of a product: a × b = p + product_error(a, b, p) exactly (T. J. Dekker, "A floating-point
+/// technique for extending the available precision", Numer. Math. 18, 1971).
+inline double product_error(double a, double b, double p) {
+  constexpr double split = 134217729;  // 2^27 + 1
+  const double a_high = split * a - (split * a - a);
+  const double b_high = split * b - (split * b - b);
+  const double a_low = a - a_high;
+  const double b_low = b - b_high;
+  return a_low * b_low - (((p - a_high * b_high) - a_low * b_high) - a_high * b_low);
+}
+
+/// The curvature vector of the circle through the three nodes, across its tangent at the middle one; zero at ends,
+/// whose chord is straight. Its relative error is that of rounding: edges are nearly parallel, so their cross product
+/// is taken of one and of its difference from the other. Along n nodes that makes errors smaller n times.
+template <typename Positions>
+Vector3 circle_curvature(const Vector3& centre, std::span<const Link> links, const Positions& positions,
+                         const Vector3& tangent) {
+  if (links.size() < 2) return Vector3::Zero();
+  const CurveEdges edges(centre, links, positions);
+  const double before = edges.before.norm();
+  const double after = edges.after.norm();
+  const double chord = (edges.before + edges.after).norm();
+  const double product = before * after * chord;
+  if (!(product > 0)) return Vector3::Zero();
+  const double ratio = after / before;
+  Vector3 difference;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double scaled = ratio * edges.before[k];
+    difference[k] = (edges.after[k] - scaled) - product_error(ratio, edges.before[k], scaled);
+  }
+  return (2 / product) * edges.before.cross(difference).cross(tangent);
+}
+
 /// The paper's principal normal N ∝ B × T, B across the plane of the three nodes; zero where they lie on a line.
 template <typename Positions>
 Vector3 principal_normal(const Vector3& centre, std::span<const Link> links, const Positions& positions,

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "spring/curve_net.hpp"
+#include "spring/model.hpp"
 #include "spring/tangent.hpp"
 
 namespace vspring {
@@ -28,9 +30,24 @@ Vector3 circle_tangent(double angle) {
   return -std::sin(angle) * a + std::cos(angle) * b;
 }
 
-Vector3 spring_at(std::uint32_t i, const std::vector<Vector3>& nodes, const std::vector<Vector3>& tangents) {
-  const auto spring = [&](std::size_t j, const Vector3& d) { return curve_spring(d, tangents[i], tangents[j]); };
-  return curve_force<InverseCubeWeight>(i, inner_links(i), nodes, tangents[i], {}, 1e-30, spring).spring;
+Net net_of(const std::vector<Vector3>& nodes) {
+  const PolygonCurve curve(nodes);
+  Constraints constraints(curve.node_count());
+  fix_boundary_positions(constraints, curve);
+  Net net = gather_net(curve, constraints).net;
+  ThreadTeam alone(1);
+  update_directions(net, *curve_model({}), alone);
+  return net;
+}
+
+/// V-Spring displacements of the inner nodes, in the units of the curve.
+std::vector<Vector3> springs(const Net& net) {
+  std::vector<Vector3> all;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const auto spring = [&](std::size_t j) { return curve_spring(net, i, j); };
+    all.emplace_back(curve_force<InverseCubeWeight>(net, i, spring).spring / net.frame.scale());
+  }
+  return all;
 }
 
 const std::vector<double> uneven = {0.1, 0.13, 0.5, 0.52, 1.7, 1.9, 2.6};
@@ -56,12 +73,22 @@ TEST(Tangent, OfAnEndIsItsChord) {
 
 TEST(CurveForce, IsNoneOnACircleHoweverUnevenTheNodes) {
   std::vector<Vector3> nodes;
-  std::vector<Vector3> tangents;
-  for (const double angle : uneven) {
-    nodes.push_back(on_circle(angle));
-    tangents.push_back(circle_tangent(angle));
+  for (const double angle : uneven) nodes.push_back(on_circle(angle));
+  const auto all = springs(net_of(nodes));
+  // The first and the last feel the ends, which are free to turn.
+  for (std::size_t i = 1; i + 1 < all.size(); ++i) EXPECT_LT(all[i].norm(), 1e-14);
+  EXPECT_GT(all.front().norm(), 1e-4);
+}
+
+TEST(CurveForce, CurvatureIsThatOfTheCircleToRounding) {
+  // Far from the origin of the circle's angle, so that nothing cancels by luck.
+  for (const double step : {1e-1, 1e-3, 1e-5}) {
+    const Net net = net_of({on_circle(1), on_circle(1 + step), on_circle(1 + 2.5 * step)});
+    const double curvature = net.curvatures[0].norm() * net.frame.scale();
+    // Positions are known to 1e-16, and the curvature follows from their second differences.
+    EXPECT_NEAR(3 * curvature, 1, 20 * 1e-16 / (step * step) + 1e-15);
+    EXPECT_LT(std::abs(net.curvatures[0].dot(net.tangents[0])), 1e-15 * net.curvatures[0].norm() / step + 1e-15);
   }
-  for (std::uint32_t i = 1; i + 1 < nodes.size(); ++i) EXPECT_LT(spring_at(i, nodes, tangents).norm(), 1e-13);
 }
 
 TEST(CurveForce, OnAPlanarCurveIsEquationFiveWithTheInPlaneNormal) {
@@ -71,7 +98,24 @@ TEST(CurveForce, OnAPlanarCurveIsEquationFiveWithTheInPlaneNormal) {
   const Vector3 normal_j(-std::sin(1.2), std::cos(1.2), 0);
   const Vector3 d(0.8, 0.9, 0);
   const Vector3 expected = spring_difference(d, normal_i, normal_j) * normal_i;
-  EXPECT_LT((curve_spring(d, tangent_i, tangent_j) - expected).norm(), 1e-15);
+  const Vector3 bend_i = d.dot(normal_i) * normal_i;
+  const Vector3 bend_j = -d.dot(normal_j) * normal_j;
+  EXPECT_LT((curve_spring(bend_i, bend_j, d, tangent_i, tangent_j) - expected).norm(), 1e-15);
+}
+
+TEST(CurveForce, FramesAreCarriedWithoutSpin) {
+  const Vector3 from = Vector3(1, 2, 3).normalized();
+  const Vector3 to = Vector3(2, 2, 2.5).normalized();
+  const Vector3 d(0.3, 0.5, 0.5);
+  EXPECT_LT((carried(from, d, from, to) - to).norm(), 1e-15);
+  const Vector3 normal = from.cross(Vector3(0, 0, 1));
+  EXPECT_LT((carried(carried(normal, d, from, to), -d, to, from) - normal).norm(), 1e-15);
+  EXPECT_NEAR(carried(normal, d, from, to).norm(), normal.norm(), 1e-15);
+  // In a plane the carried normal is the turned one.
+  const Vector3 flat = carried({0, 1, 0}, {1, 0.2, 0}, {1, 0, 0}, {std::cos(0.5), std::sin(0.5), 0});
+  EXPECT_LT((flat - Vector3(-std::sin(0.5), std::cos(0.5), 0)).norm(), 1e-15);
+  EXPECT_LT((carried({0, 0, 1}, {1, 0.2, 0}, {1, 0, 0}, {std::cos(0.5), std::sin(0.5), 0}) - Vector3(0, 0, 1)).norm(),
+            1e-15);
 }
 
 TEST(CurveForce, OnAHelixHasTheSizeThatItsTorsionPredicts) {
@@ -83,13 +127,11 @@ TEST(CurveForce, OnAHelixHasTheSizeThatItsTorsionPredicts) {
   double before = 0;
   for (const double spacing : {0.1, 0.05}) {
     std::vector<Vector3> nodes;
-    for (int k = -2; k <= 2; ++k) {
+    for (int k = -3; k <= 3; ++k) {
       const double s = k * spacing;
       nodes.emplace_back(a * std::cos(s / c), a * std::sin(s / c), b * s / c);
     }
-    std::vector<Vector3> tangents(nodes.size(), Vector3::Zero());
-    for (std::uint32_t i = 1; i < 4; ++i) tangents[i] = CircleTangent()(nodes[i], inner_links(i), nodes);
-    const double force = spring_at(2, nodes, tangents).norm();
+    const double force = springs(net_of(nodes))[2].norm();
     const double predicted = std::pow(spacing, 4) * (a / (c * c)) * std::pow(b / (c * c), 2) / 8;
     const double error = std::abs(force / predicted - 1);
     EXPECT_LT(error, 0.02);
@@ -101,11 +143,9 @@ TEST(CurveForce, OnAHelixHasTheSizeThatItsTorsionPredicts) {
 }
 
 TEST(CurveForce, IsFiniteWhereTangentsAreOppositeOrMissing) {
-  EXPECT_EQ(curve_spring({1, 0, 0}, {1, 0, 0}, {-1, 0, 0}), Vector3::Zero());
-  const std::vector<Vector3> nodes = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-  const std::vector<Vector3> tangents(3, Vector3::Zero());
-  EXPECT_TRUE(spring_at(1, nodes, tangents).allFinite());
-  EXPECT_EQ(CircleTangent()(nodes[1], inner_links(1), nodes), Vector3::Zero());
+  EXPECT_EQ(curve_spring(Vector3::Zero(), Vector3::Zero(), {1, 0, 0}, {1, 0, 0}, {-1, 0, 0}), Vector3::Zero());
+  for (const Vector3& force : springs(net_of(std::vector<Vector3>(5, Vector3(1, 2, 3)))))
+    EXPECT_TRUE(force.allFinite());
 }
 
 }  // namespace

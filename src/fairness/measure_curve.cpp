@@ -1,0 +1,59 @@
+#include <cmath>
+#include <numbers>
+
+#include "base/threads.hpp"
+#include "spring/curve_force.hpp"
+#include "spring/curve_net.hpp"
+#include "spring/model.hpp"
+#include "vspring/fairness.hpp"
+
+namespace vspring {
+
+namespace {
+
+/// The same constraints, but fixed nodes where the curve has them.
+Constraints at_present(const PolygonCurve& curve, const Constraints* constraints) {
+  Constraints present = constraints != nullptr ? *constraints : Constraints(curve.node_count());
+  for (Index i = 0; i < curve.node_count(); ++i) {
+    if (present.position_fixed(i)) present.fix_position(i, curve.position(i));
+  }
+  return present;
+}
+
+}  // namespace
+
+Fairness measure(const PolygonCurve& curve, const Constraints* constraints) {
+  Net net = gather_net(curve, at_present(curve, constraints)).net;
+  ThreadTeam alone(1);
+  update_directions(net, *curve_model({}), alone);
+  double energy = 0;
+  double squared_turns = 0;
+  double greatest_turn = 0;
+  double turns = 0;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const auto links = net.rings.links(i);
+    for (const Link link : links) {
+      const std::size_t j = link.node();
+      if (j < net.moving && j < i) continue;
+      const Vector3 d = net.positions[j] - net.positions[i];
+      const double length = d.norm();
+      if (length > 0) energy += (curve_spring(net, i, j) / length).squaredNorm();
+    }
+    if (links.size() < 2) continue;
+    const Vector3 before = net.positions[i] - net.positions[links[0].node()];
+    const Vector3 after = net.positions[links[1].node()] - net.positions[i];
+    const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
+    if (!std::isfinite(turn)) continue;
+    squared_turns += turn * turn;
+    greatest_turn = std::max(greatest_turn, turn);
+    turns += 1;
+  }
+  constexpr double degrees = 180 / std::numbers::pi;
+  Fairness fairness;
+  fairness.vspring_energy = energy;
+  fairness.greatest_turn = degrees * greatest_turn;
+  fairness.mean_turn = turns > 0 ? degrees * std::sqrt(squared_turns / turns) : 0;
+  return fairness;
+}
+
+}  // namespace vspring

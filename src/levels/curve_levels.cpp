@@ -1,0 +1,168 @@
+#include "levels/curve_levels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vspring {
+
+namespace {
+
+// Edges between two anchors below which no node is left out: enough for a full turn or two.
+constexpr std::size_t enough_edges = 48;
+// With Distribution::keep, an edge is aimed at no less than this share of the mean edge of its strand.
+constexpr double least_share = 1e-6;
+
+std::vector<std::vector<double>> places_along(const CurveNet& curve, Distribution distribution) {
+  std::vector<std::vector<double>> along;
+  for (const Strand& strand : curve.strands) {
+    const std::size_t count = strand.nodes.size();
+    const std::size_t edges = strand.closed ? count : count - 1;
+    std::vector<double> lengths(edges, 1);
+    if (distribution == Distribution::keep) {
+      double mean = 0;
+      for (std::size_t k = 0; k < edges; ++k) {
+        const Vector3 d = curve.net.positions[strand.nodes[(k + 1) % count]] - curve.net.positions[strand.nodes[k]];
+        lengths[k] = std::sqrt(d.dot(d) + curve.net.tiny);
+        mean += lengths[k] / static_cast<double>(edges);
+      }
+      for (double& length : lengths) length = std::max(length, least_share * mean);
+    }
+    std::vector<double> at(1, 0);
+    at.reserve(edges + 1);
+    for (const double length : lengths) at.push_back(at.back() + length);
+    along.push_back(std::move(at));
+  }
+  return along;
+}
+
+/// Shares that make the lengths of edges go by the places along the strands.
+void set_shares(CurveLevel& level) {
+  Net& net = level.curve.net;
+  net.shares.assign(net.rings.link_count(), 0);
+  for (std::size_t s = 0; s < level.curve.strands.size(); ++s) {
+    const auto& nodes = level.curve.strands[s].nodes;
+    const auto& at = level.along[s];
+    for (std::size_t k = 1; k < nodes.size() && k + 1 < at.size(); ++k) {
+      if (nodes[k] >= net.moving) continue;
+      const std::size_t first = net.rings.begin(nodes[k]);
+      net.shares[first] = (at[k + 1] - at[k]) / (at[k + 1] - at[k - 1]);
+      net.shares[first + 1] = 1 - net.shares[first];
+    }
+  }
+}
+
+/// The places of a strand that the next coarser level keeps.
+std::vector<std::uint32_t> kept_places(const Strand& strand, const Net& net) {
+  const std::size_t count = strand.nodes.size();
+  const auto anchor = [&](std::size_t k) {
+    return k == count || strand.nodes[k] >= net.moving || net.given[strand.nodes[k]] != 0;
+  };
+  std::vector<std::uint32_t> kept = {0};
+  const std::size_t end = strand.closed ? count : count - 1;
+  for (std::size_t from = 0; from < end;) {
+    std::size_t to = from + 1;
+    while (to < end && !anchor(to)) ++to;
+    const std::size_t stride = to - from >= enough_edges ? 2 : 1;
+    for (std::size_t k = from + stride; k < to; k += stride) kept.push_back(static_cast<std::uint32_t>(k));
+    if (to < count) kept.push_back(static_cast<std::uint32_t>(to));
+    from = to;
+  }
+  return kept;
+}
+
+/// The net of the places kept; nodes keep their order.
+CurveLevel coarser(const CurveLevel& fine, std::vector<std::vector<std::uint32_t>> kept) {
+  const Net& from = fine.curve.net;
+  constexpr auto left_out = static_cast<std::uint32_t>(-1);
+  CurveLevel level;
+  Net& net = level.curve.net;
+  // Local numbers keep their order, so moving nodes still come first, then held ones with rings.
+  std::vector<std::uint32_t> number(from.positions.size(), left_out);
+  for (std::size_t s = 0; s < kept.size(); ++s) {
+    for (const std::uint32_t k : kept[s]) number[fine.curve.strands[s].nodes[k]] = 0;
+  }
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] == left_out) continue;
+    number[i] = static_cast<std::uint32_t>(net.node.size());
+    net.node.push_back(from.node[i]);
+    net.positions.push_back(from.positions[i]);
+    net.normals.push_back(from.normals[i]);
+    net.tangents.push_back(from.tangents[i]);
+    net.given.push_back(from.given[i]);
+    if (i < from.moving) net.moving = net.node.size();
+    if (i < from.computed) net.computed = net.node.size();
+  }
+  net.frame = from.frame;
+  net.tiny = from.tiny;
+  for (std::size_t s = 0; s < kept.size(); ++s) {
+    const Strand& strand = fine.curve.strands[s];
+    Strand& coarse = level.curve.strands.emplace_back();
+    coarse.closed = strand.closed;
+    std::vector<double>& at = level.along.emplace_back();
+    for (const std::uint32_t k : kept[s]) {
+      coarse.nodes.push_back(number[strand.nodes[k]]);
+      at.push_back(fine.along[s][k]);
+    }
+    if (strand.closed) at.push_back(fine.along[s].back());
+  }
+  add_rings(net, level.curve.strands);
+  level.finer = std::move(kept);
+  set_shares(level);
+  return level;
+}
+
+}  // namespace
+
+std::vector<CurveLevel> curve_levels(CurveNet curve, Distribution distribution) {
+  std::vector<CurveLevel> levels(1);
+  levels[0].along = places_along(curve, distribution);
+  levels[0].curve = std::move(curve);
+  if (distribution == Distribution::keep) set_shares(levels[0]);
+  for (;;) {
+    const CurveLevel& fine = levels.back();
+    std::vector<std::vector<std::uint32_t>> kept;
+    bool smaller = false;
+    for (const Strand& strand : fine.curve.strands) {
+      kept.push_back(kept_places(strand, fine.curve.net));
+      smaller = smaller || kept.back().size() < strand.nodes.size();
+    }
+    if (!smaller) break;
+    levels.push_back(coarser(fine, std::move(kept)));
+  }
+  std::reverse(levels.begin(), levels.end());
+  return levels;
+}
+
+void prolong(const CurveLevel& coarse, CurveLevel& fine) {
+  const Net& from = coarse.curve.net;
+  Net& to = fine.curve.net;
+  for (std::size_t s = 0; s < coarse.curve.strands.size(); ++s) {
+    const auto& nodes = coarse.curve.strands[s].nodes;
+    const auto& fine_nodes = fine.curve.strands[s].nodes;
+    const auto& places = coarse.finer[s];
+    const auto& at = fine.along[s];
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (nodes[k] < from.moving) to.positions[fine_nodes[places[k]]] = from.positions[nodes[k]];
+      const std::size_t begin = places[k];
+      const std::size_t end = k + 1 < nodes.size() ? places[k + 1] : fine_nodes.size();
+      if (end - begin < 2) continue;
+      const std::size_t next = nodes[(k + 1) % nodes.size()];
+      const Vector3& start = from.positions[nodes[k]];
+      const Vector3 chord = from.positions[next] - start;
+      const double cosine = std::clamp(from.tangents[nodes[k]].dot(from.tangents[next]), -1.0, 1.0);
+      // The cubic nearest to the circle through both ends with these tangents, turning by an angle θ, leaves with a
+      // speed of chord / cos²(θ/4).
+      const double speed = 2 * chord.norm() / (1 + std::sqrt((1 + cosine) / 2));
+      const Vector3 leaving = speed * from.tangents[nodes[k]];
+      const Vector3 arriving = speed * from.tangents[next];
+      for (std::size_t place = begin + 1; place < end; ++place) {
+        const double v = (at[place] - at[begin]) / (at[end] - at[begin]);
+        const double w = 1 - v;
+        to.positions[fine_nodes[place]] =
+            start + v * v * (3 - 2 * v) * chord + v * w * w * leaving - v * v * w * arriving;
+      }
+    }
+  }
+}
+
+}  // namespace vspring

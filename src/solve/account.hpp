@@ -1,0 +1,15 @@
+#pragma once
+
+#include "spring/net.hpp"
+#include "vspring/fair.hpp"
+
+namespace vspring {
+
+/// Fills the counts of a report.
+void count_nodes(const Net& net, const Constraints& constraints, FairReport& report);
+
+/// Fills how far nodes moved between the shape that went in and the one that comes out.
+void measure_moves(const Net& net, const std::vector<Vector3>& before, const std::vector<Vector3>& after,
+                   FairReport& report);
+
+}  // namespace vspring

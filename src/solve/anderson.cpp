@@ -1,0 +1,73 @@
+#include "solve/anderson.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+namespace vspring {
+
+namespace {
+
+// Sums are taken range by range and then over the ranges in order, so that they do not depend on the number of threads.
+constexpr std::size_t vectors_per_task = 8192;
+
+}  // namespace
+
+void Anderson::accelerate(std::vector<Vector3>& correction) {
+  const bool remembers = !last_step_.empty();
+  if (corrections_.empty()) {
+    corrections_.assign(depth_, std::vector<Vector3>(size_));
+    steps_.assign(depth_, std::vector<Vector3>(size_));
+  }
+  if (remembers) used_ = std::min(used_ + 1, depth_);
+  const auto columns = static_cast<Eigen::Index>(used_);
+  const std::size_t newest = next_;
+
+  // The products of all columns with each other and with the correction; the newest column is made on the way.
+  const std::size_t tasks = (size_ + vectors_per_task - 1) / vectors_per_task;
+  std::vector<Eigen::MatrixXd> parts(tasks, Eigen::MatrixXd::Zero(columns, columns + 1));
+  parallel_ranges(*team_, size_, vectors_per_task, [&](std::size_t begin, std::size_t end) {
+    Eigen::MatrixXd& part = parts[begin / vectors_per_task];
+    if (remembers) {
+      for (std::size_t i = begin; i < end; ++i) {
+        corrections_[newest][i] = correction[i] - last_correction_[i];
+        steps_[newest][i] = last_step_[i];
+      }
+    }
+    for (Eigen::Index a = 0; a < columns; ++a) {
+      const auto& column_a = corrections_[static_cast<std::size_t>(a)];
+      for (Eigen::Index b = 0; b <= a; ++b) {
+        const auto& column_b = corrections_[static_cast<std::size_t>(b)];
+        double sum = 0;
+        for (std::size_t i = begin; i < end; ++i) sum += column_a[i].dot(column_b[i]);
+        part(a, b) = sum;
+      }
+      double sum = 0;
+      for (std::size_t i = begin; i < end; ++i) sum += column_a[i].dot(correction[i]);
+      part(a, columns) = sum;
+    }
+  });
+  if (remembers) next_ = (next_ + 1) % depth_;
+  last_correction_ = correction;
+  if (columns > 0) {
+    Eigen::MatrixXd products = Eigen::MatrixXd::Zero(columns, columns + 1);
+    for (const Eigen::MatrixXd& part : parts) products += part;
+    Eigen::MatrixXd gram = products.leftCols(columns).selfadjointView<Eigen::Lower>();
+    // Columns of one length, and a trace of damping where they hardly differ.
+    const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+    gram = scale.asDiagonal() * gram * scale.asDiagonal();
+    gram.diagonal().array() += 1e-12;
+    const Eigen::VectorXd shares =
+        scale.asDiagonal() * gram.ldlt().solve(Eigen::VectorXd(scale.asDiagonal() * products.col(columns)));
+    if (shares.allFinite()) {
+      parallel_ranges(*team_, size_, vectors_per_task, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t a = 0; a < used_; ++a) {
+          const double share = shares[static_cast<Eigen::Index>(a)];
+          for (std::size_t i = begin; i < end; ++i) correction[i] -= share * (corrections_[a][i] + steps_[a][i]);
+        }
+      });
+    }
+  }
+  last_step_ = correction;
+}
+
+}  // namespace vspring

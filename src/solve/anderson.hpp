@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/threads.hpp"
+#include "vspring/types.hpp"
+
+namespace vspring {
+
+/// Anderson acceleration (D. G. Anderson, "Iterative procedures for nonlinear integral equations", J. ACM 12(4), 1965;
+/// H. Walker, P. Ni, SIAM J. Numer. Anal. 49(4), 2011): of an iteration x ← x + c(x) it takes the combination of the
+/// last iterates whose c is smallest, so that for nearly linear c it converges as conjugate-residual methods do.
+class Anderson {
+ public:
+  /// depth: how many earlier iterates are looked at. size: number of vectors of x.
+  Anderson(std::size_t depth, std::size_t size, ThreadTeam& team) : depth_(depth), size_(size), team_(&team) {}
+
+  /// Turns correction, that is c(x), into the step to take from x; remembers both. The same bits for every team.
+  /// Cost: linear in size and depth.
+  void accelerate(std::vector<Vector3>& correction);
+
+  /// The step was not taken as it was given, but this share of the correction: what was remembered does not fit any
+  /// more.
+  void forget() {
+    used_ = 0;
+    last_step_.clear();
+  }
+
+ private:
+  std::size_t depth_;
+  std::size_t size_;
+  ThreadTeam* team_;
+  std::size_t used_ = 0;                           // columns in use
+  std::size_t next_ = 0;                           // the column to be overwritten
+  std::vector<std::vector<Vector3>> corrections_;  // differences of successive corrections
+  std::vector<std::vector<Vector3>> steps_;        // differences of successive iterates
+  std::vector<Vector3> last_correction_;
+  std::vector<Vector3> last_step_;
+};
+
+}  // namespace vspring

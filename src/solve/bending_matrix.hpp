@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace vspring {
+
+/// The matrix Gᵀ G of a banded G with at most three entries per row, and perhaps one row that joins two far columns;
+/// kept as the triangle of its orthogonal factorisation. Forming Gᵀ G squares the condition of G, which is n² where
+/// rows are curvatures along n nodes; the triangle never does, so it still solves where Gᵀ G in double precision is no
+/// longer definite.
+class BendingMatrix {
+ public:
+  static constexpr std::size_t width = 3;
+
+  /// size: number of columns.
+  explicit BendingMatrix(std::size_t size) : rows_(size, std::array<double, width>{}) {}
+
+  [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
+
+  /// Adds a row with entries at columns first, first + 1, first + 2; those beyond the last must be zero. Rows come with
+  /// `first` never descending. Cost: at most three rotations (Givens).
+  void add_row(std::size_t first, std::array<double, width> entries);
+
+  /// Adds the row that joins the first column with the last. Once at most, after all others. Cost: linear.
+  void add_closing_row(double first, double last);
+
+  /// Solves in place, for two right-hand sides at once. Cost: linear.
+  void solve(std::span<Eigen::Vector2d> right) const;
+
+ private:
+  template <typename Value>
+  void solve_banded(std::span<Value> right) const;
+
+  std::vector<std::array<double, width>> rows_;  // of the triangle: the diagonal and the two entries right of it
+  double closing_first_ = 0;
+  double closing_last_ = 0;
+  double closing_denominator_ = 1;
+  std::vector<double> closing_solution_;  // of the banded part, with the closing row as right-hand side
+};
+
+}  // namespace vspring

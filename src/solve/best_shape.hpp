@@ -1,0 +1,43 @@
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "spring/net.hpp"
+
+namespace vspring {
+
+/// Keeps the shape of the smallest residual, in case it gets worse.
+class BestShape {
+ public:
+  /// lost_factor: a shape is lost while its residual is more than this much larger than the best.
+  BestShape(Net& net, double lost_factor) : net_(&net), lost_factor_(lost_factor) {}
+
+  void look(double residual) {
+    lost_for_ = residual > lost_factor_ * residual_ ? lost_for_ + 1 : 0;
+    // Shapes hardly better than the one kept are not worth a copy.
+    if (!(residual < 0.7 * residual_)) return;
+    residual_ = residual;
+    positions_ = net_->positions;
+    lost_for_ = 0;
+  }
+
+  /// For how many looks in a row the shape has been lost.
+  [[nodiscard]] int lost_for() const noexcept { return lost_for_; }
+  [[nodiscard]] double residual() const noexcept { return residual_; }
+
+  /// Puts the shape back; returns its residual.
+  double restore() {
+    if (!positions_.empty()) net_->positions = positions_;
+    return residual_;
+  }
+
+ private:
+  Net* net_;
+  double lost_factor_;
+  double residual_ = std::numeric_limits<double>::infinity();
+  std::vector<Vector3> positions_;
+  int lost_for_ = 0;
+};
+
+}  // namespace vspring

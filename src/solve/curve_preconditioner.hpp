@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "solve/bending_matrix.hpp"
+#include "solve/preconditioner.hpp"
+#include "spring/curve_net.hpp"
+
+namespace vspring {
+
+/// For curves. Where slopes are small, with K the second difference and W_i = Σ 1/ℓ³, the V-Spring displacement with
+/// the circle's tangent is exactly −½ W⁻¹ Gᵀ G y, G y the curvatures √(h/4) κ, κ_i = (2/h_i) (Δy₊/ℓ₊ − Δy₋/ℓ₋) over the
+/// length h_i = ℓ₋ + ℓ₊: whatever the spacing. A node with a given direction has a curvature on each side; an end
+/// without has none. Along the curve, the regularisation is the second difference with the net's shares.
+class CurvePreconditioner final : public Preconditioner {
+ public:
+  explicit CurvePreconditioner(const CurveNet& curve) : curve_(&curve) {}
+
+  void build() override;
+  void correct(std::span<const NodeForce> forces, std::vector<Vector3>& correction) override;
+
+ private:
+  /// The moving nodes of one strand: a run of local numbers.
+  struct Run {
+    std::size_t begin;
+    BendingMatrix bending;
+  };
+  void build_bending(const Strand& strand);
+  void build_spreading();
+  void carry_frames();
+
+  const CurveNet* curve_;
+  std::vector<Run> runs_;
+  std::vector<double> weight_;  // 2 W of every moving node
+  // The elimination of the second differences along the curve: what node i takes of node i − 1, and leaves to i + 1.
+  std::vector<double> below_;
+  std::vector<double> above_;
+  std::vector<double> pivot_;
+  std::vector<Vector3> axis_;            // the frame's first axis across the curve at every node
+  std::vector<Eigen::Vector2d> across_;  // the correction in that frame
+};
+
+}  // namespace vspring

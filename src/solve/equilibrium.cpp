@@ -1,0 +1,172 @@
+#include "solve/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solve/anderson.hpp"
+#include "solve/best_shape.hpp"
+
+namespace vspring {
+
+namespace {
+
+constexpr std::size_t depth = 6;
+constexpr std::size_t nodes_per_task = 2048;
+// No edge may turn or stretch by more than about this in one step: the equations are near to linear up to there.
+constexpr double greatest_turn = 0.3;
+// The preconditioner is built anew where an edge's length has changed by more than this share.
+constexpr double greatest_stretch = 0.3;
+// Iterations that do not get nearer, with steps of full length, before rounding is taken to have the last word.
+constexpr int patience = 12;
+
+class Solver {
+ public:
+  Solver(Net& net, const Model& model, Preconditioner& preconditioner, ThreadTeam& team)
+      : net_(net),
+        model_(model),
+        preconditioner_(preconditioner),
+        team_(team),
+        anderson_(depth, net.moving, team),
+        forces_(net.moving) {}
+
+  EquilibriumResult run(const EquilibriumTask& task, Context& context) {
+    EquilibriumResult result;
+    BestShape best(net_, 1);
+    double before = 0;
+    int without_gain = 0;
+    while (result.iterations < task.max_iterations) {
+      if (context.cancelled()) {
+        result.outcome = Outcome::cancelled;
+        break;
+      }
+      find_correction();
+      ++result.iterations;
+      const double size = largest_correction();
+      if (!std::isfinite(size)) {
+        result.outcome = Outcome::stalled;
+        break;
+      }
+      // Corrections shrink about geometrically: what is left after this one is a share of it.
+      const double expected = size / (1 - std::min(0.75, before > 0 ? size / before : 0.5));
+      without_gain = expected < 0.7 * best.residual() ? 0 : without_gain + 1;
+      best.look(expected);
+      if (task.on_iteration) task.on_iteration(expected);
+      const bool limited = take_step();
+      if (limited) without_gain = 0;
+      if (expected < task.tolerance && !limited) {
+        result.outcome = Outcome::converged;
+        result.expected_error = expected;
+        return result;
+      }
+      before = limited ? 0 : size;
+      if (without_gain >= patience) {
+        result.outcome = Outcome::stalled;
+        break;
+      }
+    }
+    result.expected_error = best.restore();
+    return result;
+  }
+
+ private:
+  void find_correction() {
+    update_directions(net_, model_, team_);
+    parallel_ranges(team_, net_.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      model_.find_forces(net_, {begin, end}, forces_);
+    });
+    if (lengths_changed()) {
+      preconditioner_.build();
+      anderson_.forget();
+    }
+    preconditioner_.correct(forces_, correction_);
+  }
+
+  /// Whether edges have changed so much that the preconditioner does not fit any more. Remembers the lengths if so.
+  bool lengths_changed() {
+    if (!mean_edge_.empty()) {
+      const double worst = greatest_over_nodes([&](std::size_t i) {
+        return std::abs(forces_[i].mean_edge - mean_edge_[i]) / std::max(mean_edge_[i], std::sqrt(net_.tiny));
+      });
+      if (worst < greatest_stretch) return false;
+    }
+    mean_edge_.resize(net_.moving);
+    for (std::size_t i = 0; i < net_.moving; ++i) mean_edge_[i] = forces_[i].mean_edge;
+    return true;
+  }
+
+  template <typename Value>
+  double greatest_over_nodes(const Value& value) {
+    greatest_.assign((net_.moving + nodes_per_task - 1) / nodes_per_task, 0);
+    parallel_ranges(team_, net_.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      double greatest = 0;
+      bool finite = true;
+      for (std::size_t i = begin; i < end; ++i) {
+        const double one = value(i);
+        finite = finite && std::isfinite(one);
+        greatest = std::max(greatest, one);
+      }
+      greatest_[begin / nodes_per_task] = finite ? greatest : std::numeric_limits<double>::infinity();
+    });
+    return greatest_.empty() ? 0 : *std::max_element(greatest_.begin(), greatest_.end());
+  }
+
+  double largest_correction() {
+    return std::sqrt(greatest_over_nodes([&](std::size_t i) { return correction_[i].squaredNorm(); }));
+  }
+
+  /// The largest turn or stretch of an edge by the step in correction_.
+  double largest_turn() {
+    return greatest_over_nodes([&](std::size_t i) {
+      double greatest = 0;
+      for (const Link link : net_.rings.links(i)) {
+        if (!link.spoke()) continue;
+        const std::size_t j = link.node();
+        const Vector3 difference = (j < net_.moving ? correction_[j] : Vector3(Vector3::Zero())) - correction_[i];
+        const Vector3 edge = net_.positions[j] - net_.positions[i];
+        // An edge far shorter than its neighbours is out of place, and has to turn.
+        const double length = std::max(edge.norm(), 0.25 * forces_[i].mean_edge);
+        greatest = std::max(greatest, difference.norm() / length);
+      }
+      return greatest;
+    });
+  }
+
+  /// Moves the nodes. True where the step had to be shortened.
+  bool take_step() {
+    const double turn = largest_turn();
+    double share = 1;
+    if (turn > greatest_turn) {
+      anderson_.forget();
+      share = greatest_turn / turn;
+    } else {
+      anderson_.accelerate(correction_);
+      const double accelerated = largest_turn();
+      if (accelerated > greatest_turn) {
+        anderson_.forget();
+        share = greatest_turn / accelerated;
+      }
+    }
+    for (std::size_t i = 0; i < net_.moving; ++i) net_.positions[i] += share * correction_[i];
+    return share < 1;
+  }
+
+  Net& net_;
+  const Model& model_;
+  Preconditioner& preconditioner_;
+  ThreadTeam& team_;
+  Anderson anderson_;
+  std::vector<NodeForce> forces_;
+  std::vector<Vector3> correction_;
+  std::vector<double> mean_edge_;
+  std::vector<double> greatest_;
+};
+
+}  // namespace
+
+EquilibriumResult go_to_equilibrium(Net& net, const Model& model, Preconditioner& preconditioner,
+                                    const EquilibriumTask& task, ThreadTeam& team, Context& context) {
+  return Solver(net, model, preconditioner, team).run(task, context);
+}
+
+}  // namespace vspring

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+
+#include "base/progress.hpp"
+#include "base/threads.hpp"
+#include "solve/preconditioner.hpp"
+#include "spring/model.hpp"
+#include "vspring/fair.hpp"
+
+namespace vspring {
+
+/// How one level goes to its equilibrium.
+struct EquilibriumTask {
+  double tolerance = 1e-5;  ///< expected largest distance of a node from its final place, in the net's coordinates
+  int max_iterations = 200;
+  /// Called after every iteration with the expected distance.
+  std::function<void(double)> on_iteration;
+};
+
+struct EquilibriumResult {
+  Outcome outcome = Outcome::iteration_limit;
+  int iterations = 0;
+  double expected_error = 0;  ///< in the net's coordinates
+};
+
+/// Goes to where all displacements of the model vanish: corrections by the preconditioner, Anderson acceleration, steps
+/// so short that no edge turns much. Ends with the shape of the smallest expected error. See docs/solver.md.
+EquilibriumResult go_to_equilibrium(Net& net, const Model& model, Preconditioner& preconditioner,
+                                    const EquilibriumTask& task, ThreadTeam& team, Context& context);
+
+}  // namespace vspring

@@ -1,0 +1,49 @@
+#include <chrono>
+
+#include "base/progress.hpp"
+#include "base/threads.hpp"
+#include "fairness/measure.hpp"
+#include "solve/account.hpp"
+#include "solve/sweep_method.hpp"
+#include "vspring/error.hpp"
+#include "vspring/fair.hpp"
+
+namespace vspring {
+
+FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const FairOptions& options, Context& context) {
+  const auto begin = std::chrono::steady_clock::now();
+  options.validate();
+  if (options.method.value_or(Method::sweep) != Method::sweep)
+    throw Error(ErrorCode::invalid_argument, "surfaces are faired by the method sweep only so far");
+  FairResult result;
+  FairReport& report = result.report;
+  report.warnings = check_constraints(mesh, constraints);
+
+  ProgressReporter progress(context);
+  progress.report("preparing", 0);
+  ThreadTeam team(context.thread_count());
+  report.threads = team.size();
+  Net net = gather_net(mesh, constraints);
+  count_nodes(net, constraints, report);
+  report.faces = mesh.face_count();
+  report.before = measure(mesh, &constraints, team);
+
+  const auto model = surface_model(options.pseudo_normals);
+  distribute(net, *model, options.distribution, team);
+  run_sweeps(net, *model, options, team, context, progress, report);
+
+  result.positions = scatter_positions(net, mesh.positions(), constraints, options.strength);
+  measure_moves(net, mesh.positions(), result.positions, report);
+  PolygonMesh faired = mesh;
+  faired.set_positions(result.positions);
+  report.after = measure(faired, &constraints, team);
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const FairOptions& options) {
+  Context context;
+  return fair(mesh, constraints, options, context);
+}
+
+}  // namespace vspring

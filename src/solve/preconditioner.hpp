@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "spring/v_spring.hpp"
+#include "vspring/types.hpp"
+
+namespace vspring {
+
+/// Turns displacements that the model asks for into the correction that would bring about equilibrium if the equations
+/// were linear: an approximate inverse of their derivative.
+class Preconditioner {
+ public:
+  Preconditioner() = default;
+  virtual ~Preconditioner() = default;
+  Preconditioner(const Preconditioner&) = delete;
+  Preconditioner& operator=(const Preconditioner&) = delete;
+
+  /// Looks at the shape as it is now.
+  virtual void build() = 0;
+
+  /// The correction of every moving node for the forces on them.
+  virtual void correct(std::span<const NodeForce> forces, std::vector<Vector3>& correction) = 0;
+};
+
+}  // namespace vspring

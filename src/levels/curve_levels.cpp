@@ -11,6 +11,24 @@ namespace {
 constexpr std::size_t enough_edges = 48;
 // With Distribution::keep, an edge is aimed at no less than this share of the mean edge of its strand.
 constexpr double least_share = 1e-6;
+// Turns of up to about 60° tell the shape; sharper ones are noise, and too far from linear to start with.
+constexpr double sharp_cosine = 0.5;
+constexpr int most_passes = 100;
+
+/// A node that coarser levels keep, and that averages leave alone.
+bool is_anchor(const Net& net, std::size_t node) { return node >= net.moving || net.given[node] != 0; }
+
+/// A quarter of each neighbour and half of itself for every node that is no anchor.
+std::vector<Vector3> averaged(const CurveNet& curve) {
+  const Net& net = curve.net;
+  std::vector<Vector3> positions = net.positions;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const auto links = net.rings.links(i);
+    if (is_anchor(net, i) || links.size() < 2) continue;
+    positions[i] = 0.5 * net.positions[i] + 0.25 * (net.positions[links[0].node()] + net.positions[links[1].node()]);
+  }
+  return positions;
+}
 
 std::vector<std::vector<double>> places_along(const CurveNet& curve, Distribution distribution) {
   std::vector<std::vector<double>> along;
@@ -54,9 +72,7 @@ void set_shares(CurveLevel& level) {
 /// The places of a strand that the next coarser level keeps.
 std::vector<std::uint32_t> kept_places(const Strand& strand, const Net& net) {
   const std::size_t count = strand.nodes.size();
-  const auto anchor = [&](std::size_t k) {
-    return k == count || strand.nodes[k] >= net.moving || net.given[strand.nodes[k]] != 0;
-  };
+  const auto anchor = [&](std::size_t k) { return k == count || is_anchor(net, strand.nodes[k]); };
   std::vector<std::uint32_t> kept = {0};
   const std::size_t end = strand.closed ? count : count - 1;
   for (std::size_t from = 0; from < end;) {
@@ -81,11 +97,12 @@ CurveLevel coarser(const CurveLevel& fine, std::vector<std::vector<std::uint32_t
   for (std::size_t s = 0; s < kept.size(); ++s) {
     for (const std::uint32_t k : kept[s]) number[fine.curve.strands[s].nodes[k]] = 0;
   }
+  const std::vector<Vector3> positions = averaged(fine.curve);
   for (std::size_t i = 0; i < number.size(); ++i) {
     if (number[i] == left_out) continue;
     number[i] = static_cast<std::uint32_t>(net.node.size());
     net.node.push_back(from.node[i]);
-    net.positions.push_back(from.positions[i]);
+    net.positions.push_back(positions[i]);
     net.normals.push_back(from.normals[i]);
     net.tangents.push_back(from.tangents[i]);
     net.given.push_back(from.given[i]);
@@ -131,6 +148,23 @@ std::vector<CurveLevel> curve_levels(CurveNet curve, Distribution distribution) 
   }
   std::reverse(levels.begin(), levels.end());
   return levels;
+}
+
+void untangle(CurveLevel& level) {
+  Net& net = level.curve.net;
+  const auto sharp = [&](std::size_t i) {
+    const auto links = net.rings.links(i);
+    if (is_anchor(net, i) || links.size() < 2) return false;
+    const Vector3 before = net.positions[i] - net.positions[links[0].node()];
+    const Vector3 after = net.positions[links[1].node()] - net.positions[i];
+    return before.dot(after) < sharp_cosine * before.norm() * after.norm();
+  };
+  for (int pass = 0; pass < most_passes; ++pass) {
+    bool tangled = false;
+    for (std::size_t i = 0; i < net.moving && !tangled; ++i) tangled = sharp(i);
+    if (!tangled) return;
+    net.positions = averaged(level.curve);
+  }
 }
 
 void prolong(const CurveLevel& coarse, CurveLevel& fine) {

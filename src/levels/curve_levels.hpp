@@ -24,6 +24,10 @@ struct CurveLevel {
 /// linear.
 std::vector<CurveLevel> curve_levels(CurveNet curve, Distribution distribution);
 
+/// Makes a shape fit to start from: averages neighbours until no node turns the curve sharply. Held nodes and nodes
+/// with a given direction stay, and may be corners.
+void untangle(CurveLevel& level);
+
 /// Hands the shape of a level up to the next finer one: nodes that it lacks go on the cubic with the tangents of their
 /// neighbours, whose error on a circle falls with the sixth power of the spacing. Needs directions on the coarse level.
 void prolong(const CurveLevel& coarse, CurveLevel& fine);

@@ -14,11 +14,11 @@ constexpr std::size_t vectors_per_task = 8192;
 
 void Anderson::accelerate(std::vector<Vector3>& correction) {
   const bool remembers = !last_step_.empty();
-  if (corrections_.empty()) {
-    corrections_.assign(depth_, std::vector<Vector3>(size_));
-    steps_.assign(depth_, std::vector<Vector3>(size_));
-  }
   if (remembers) used_ = std::min(used_ + 1, depth_);
+  if (corrections_.size() < used_) {
+    corrections_.emplace_back(size_);
+    steps_.emplace_back(size_);
+  }
   const auto columns = static_cast<Eigen::Index>(used_);
   const std::size_t newest = next_;
 

@@ -24,6 +24,7 @@ class Anderson {
   /// more.
   void forget() {
     used_ = 0;
+    next_ = 0;
     last_step_.clear();
   }
 

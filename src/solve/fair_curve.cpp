@@ -38,42 +38,75 @@ double diagonal(const Net& net) {
   return box.isEmpty() ? 1 : box.diagonal().norm();
 }
 
-/// Coarse levels first, each to its equilibrium, each the start of the next finer one.
-void run_equilibrium(CurveNet& curve, const Model& model, const FairOptions& options, ThreadTeam& team,
-                     Context& context, ProgressReporter& progress, FairReport& report) {
-  const double size = diagonal(curve.net);
-  auto levels = curve_levels(std::move(curve), options.distribution);
-  const auto finest_nodes = static_cast<double>(levels.back().curve.net.moving);
-  for (std::size_t k = 0; k < levels.size(); ++k) {
+class EquilibriumRun {
+ public:
+  EquilibriumRun(const Model& model, const FairOptions& options, double size, ThreadTeam& team, Context& context,
+                 ProgressReporter& progress, FairReport& report)
+      : model_(model),
+        options_(options),
+        size_(size),
+        team_(team),
+        context_(context),
+        progress_(progress),
+        report_(report) {}
+
+  /// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the curve
+  /// is at its equilibrium already.
+  void run(CurveNet& curve) {
+    auto levels = curve_levels(std::move(curve), options_.distribution);
+    CurveLevel& finest = levels.back();
+    const std::vector<Vector3> start = finest.curve.net.positions;
+    if (options_.max_iterations.value_or(1) > 0 && relax(finest, true, 1, 1) != Outcome::converged && levels.size() > 1)
+      finest.curve.net.positions = start;
+    if (report_.outcome == Outcome::iteration_limit) go_down(levels);
+    curve = std::move(finest.curve);
+  }
+
+ private:
+  void go_down(std::vector<CurveLevel>& levels) {
+    untangle(levels.front());
+    const auto finest_nodes = static_cast<double>(levels.back().curve.net.moving);
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      const double share = static_cast<double>(levels[k].curve.net.moving) / finest_nodes;
+      (void)relax(levels[k], k + 1 == levels.size(), options_.max_iterations.value_or(default_limit), share);
+      if (k + 1 == levels.size()) break;
+      update_directions(levels[k].curve.net, model_, team_);
+      prolong(levels[k], levels[k + 1]);
+    }
+  }
+
+  Outcome relax(CurveLevel& level, bool finest, int max_iterations, double share) {
     const auto begin = Clock::now();
-    CurveLevel& level = levels[k];
-    const bool finest = k + 1 == levels.size();
     CurvePreconditioner preconditioner(level.curve);
     EquilibriumTask task;
     // What a coarse level leaves undone, the finer ones have to do with more nodes.
-    task.tolerance = options.tolerance * size * (finest ? 1 : 0.3);
-    task.max_iterations = options.max_iterations.value_or(task.max_iterations);
-    const double share = static_cast<double>(level.curve.net.moving) / finest_nodes;
+    task.tolerance = options_.tolerance * size_ * (finest ? 1 : 0.3);
+    task.max_iterations = max_iterations;
     task.on_iteration = [&](double expected) {
-      report.history.push_back(expected / size);
-      progress.report("fairing", share / 2, static_cast<int>(report.history.size()), expected / size);
+      report_.history.push_back(expected / size_);
+      progress_.report("fairing", share / 2, static_cast<int>(report_.history.size()), expected / size_);
     };
-    const EquilibriumResult result = go_to_equilibrium(level.curve.net, model, preconditioner, task, team, context);
-    report.iterations += result.iterations;
-    report.levels.push_back({.moving_nodes = static_cast<Index>(level.curve.net.moving),
-                             .iterations = result.iterations,
-                             .seconds = seconds_since(begin)});
-    if (finest) {
-      report.outcome = result.outcome;
-      report.residual = result.expected_error / size;
-      report.expected_error = report.residual;
-    } else {
-      update_directions(level.curve.net, model, team);
-      prolong(level, levels[k + 1]);
-    }
+    const EquilibriumResult result = go_to_equilibrium(level.curve.net, model_, preconditioner, task, team_, context_);
+    report_.iterations += result.iterations;
+    report_.levels.push_back({.moving_nodes = static_cast<Index>(level.curve.net.moving),
+                              .iterations = result.iterations,
+                              .seconds = seconds_since(begin)});
+    report_.outcome = result.outcome;
+    report_.residual = result.expected_error / size_;
+    report_.expected_error = report_.residual;
+    return result.outcome;
   }
-  curve = std::move(levels.back().curve);
-}
+
+  static constexpr int default_limit = 200;
+
+  const Model& model_;
+  const FairOptions& options_;
+  double size_;  // diagonal of the box around the net
+  ThreadTeam& team_;
+  Context& context_;
+  ProgressReporter& progress_;
+  FairReport& report_;
+};
 
 }  // namespace
 
@@ -98,7 +131,7 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
   if (is_planar(gathered.net)) rules.normal_plane = NormalPlane::full;
   const auto model = curve_model(rules);
   if (report.method == Method::equilibrium) {
-    run_equilibrium(gathered, *model, options, team, context, progress, report);
+    EquilibriumRun(*model, options, diagonal(gathered.net), team, context, progress, report).run(gathered);
   } else {
     distribute(gathered.net, *model, options.distribution, team);
     run_sweeps(gathered.net, *model, options, team, context, progress, report);

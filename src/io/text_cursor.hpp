@@ -18,6 +18,11 @@ inline std::size_t continuation_length(const char* p, const char* end) {
   return p + 2 != end && p[2] == '\n' ? 3 : 2;
 }
 
+/// Of the mark that some programs put before UTF-8 text; 0 where there is none.
+constexpr std::size_t byte_order_mark_length(std::string_view bytes) {
+  return bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+}
+
 /// Walks the words and lines of a file. Numbers mean the same in every locale.
 class TextCursor {
  public:

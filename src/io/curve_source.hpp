@@ -26,6 +26,9 @@ class CurveSource {
   std::vector<std::string> carried;  ///< what other formats are not given, one line each
 };
 
+/// What is carried where a file names its curve, which DAT can hold.
+inline constexpr const char* name_carried = "the name";
+
 /// Each reads the whole of a file that is said to be of its format. They throw Error(unusable_file).
 CurveFile read_obj_curve(InputFile file);
 CurveFile read_csv_curve(InputFile file);

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "vspring/polygon_curve.hpp"
+
+namespace vspring {
+
+/// A curve at given positions.
+struct DrawnCurve {
+  const std::vector<PolygonCurve::Chain>& chains;
+  std::span<const Vector3> positions;
+};
+
+/// A picture of a curve with its nodes and its curvature comb; before, where it is not null, thin behind it. The comb
+/// stands on the outer side of the bends: from every node a line away from the centre of the circle through the node
+/// and its two neighbours, as long as the circle's curvature. Curves in space are drawn as seen along the normal of
+/// their best plane. Positions that are not finite are left out. Cost: linear.
+std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, const std::string& title);
+
+}  // namespace vspring

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -13,136 +11,10 @@
 namespace vspring {
 namespace {
 
-using Vector2 = Eigen::Vector2d;
-
-constexpr double drawing_size = 1000;         ///< of the longer side, without margins
+constexpr double drawing_size = 1000;         ///< of the longer side, in pixels
 constexpr double longest_tooth = 0.15;        ///< of the comb, in diagonals of the drawing
 constexpr double longest_tooth_behind = 0.4;  ///< where that of the curve before is cut off
 constexpr std::size_t most_dots = 400;        ///< more nodes than this would hide the curve
-
-/// What is drawn of one curve, in the coordinates of the picture but for scale.
-struct Drawing {
-  struct Run {
-    std::vector<Vector2> nodes;
-    std::vector<Vector2> curvatures;  ///< zero where there is none, as at ends
-    bool closed;
-  };
-  std::vector<Run> runs;
-  double sharpest = 0;
-};
-
-/// Shows positions in the plane of the picture, at a size near one so that squares neither overflow nor vanish.
-class View {
- public:
-  explicit View(const DrawnCurve& curve) {
-    for (const Vector3& p : curve.positions) {
-      if (p.allFinite()) size_ = std::max(size_, p.cwiseAbs().maxCoeff());
-    }
-    if (size_ == 0) size_ = 1;
-    double count = 0;
-    for_each(curve, [&](const Vector3& p) { centre_ += p, ++count; });
-    if (count > 0) centre_ /= count;
-    double extent = 0;
-    for_each(curve, [&](const Vector3& p) { extent = std::max(extent, (p - centre_).cwiseAbs().maxCoeff()); });
-    if (extent > 0) extent_ = extent;
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for_each(curve, [&](const Vector3& p) { spread += (p - centre_) * (p - centre_).transpose() / square(extent_); });
-    // What lies in a plane of x and y is drawn as it lies.
-    if (spread(2, 2) > 0) turn(spread);
-  }
-
-  [[nodiscard]] Vector3 normalized(const Vector3& position) const { return (position / size_ - centre_) / extent_; }
-  [[nodiscard]] Vector2 flat(const Vector3& vector) const { return {across_.dot(vector), up_.dot(vector)}; }
-
- private:
-  static double square(double value) { return value * value; }
-
-  template <typename Action>
-  void for_each(const DrawnCurve& curve, const Action& action) const {
-    for (const PolygonCurve::Chain& chain : curve.chains) {
-      for (const Index node : chain.nodes) {
-        const Vector3& position = curve.positions[static_cast<std::size_t>(node)];
-        if (position.allFinite()) action(position / size_);
-      }
-    }
-  }
-
-  void turn(const Eigen::Matrix3d& spread) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-    across_ = forward(solver.eigenvectors().col(2));
-    up_ = forward(solver.eigenvectors().col(1));
-  }
-
-  /// Of the two senses of a direction the one whose largest component is positive.
-  static Vector3 forward(const Vector3& direction) {
-    Eigen::Index largest = 0;
-    direction.cwiseAbs().maxCoeff(&largest);
-    return direction[largest] < 0 ? -direction : direction;
-  }
-
-  double size_ = 0;
-  Vector3 centre_ = Vector3::Zero();
-  double extent_ = 1;
-  Vector3 across_ = Vector3::UnitX();
-  Vector3 up_ = Vector3::UnitY();
-};
-
-/// Towards the centre of the circle through three points, seen from the second, and as long as its curvature.
-Vector3 curvature_at(const Vector3& before, const Vector3& here, const Vector3& after) {
-  const Vector3 back = before - here;
-  const Vector3 forth = after - here;
-  if (back.squaredNorm() == 0 || forth.squaredNorm() == 0) return Vector3::Zero();
-  // Inversion makes the circle a line, half its curvature away.
-  const Vector3 p = back / back.squaredNorm();
-  const Vector3 along = forth / forth.squaredNorm() - p;
-  if (along.squaredNorm() == 0) return Vector3::Zero();
-  const Vector3 curvature = 2 * (p - along * (p.dot(along) / along.squaredNorm()));
-  return curvature.allFinite() ? curvature : Vector3::Zero();
-}
-
-/// A run of finite nodes. chain: all of a closed chain, or a part of one.
-Drawing::Run run_of(const std::vector<Vector3>& nodes, bool closed, const View& view) {
-  Drawing::Run run;
-  run.closed = closed;
-  const std::size_t count = nodes.size();
-  run.nodes.reserve(count);
-  run.curvatures.reserve(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    const bool inner = closed || (k > 0 && k + 1 < count);
-    run.nodes.push_back(view.flat(nodes[k]));
-    run.curvatures.push_back(
-        inner ? view.flat(curvature_at(nodes[(k + count - 1) % count], nodes[k], nodes[(k + 1) % count]))
-              : Vector2(Vector2::Zero()));
-  }
-  return run;
-}
-
-Drawing drawing_of(const DrawnCurve& curve, const View& view) {
-  Drawing drawing;
-  for (const PolygonCurve::Chain& chain : curve.chains) {
-    std::vector<Vector3> nodes;
-    nodes.reserve(chain.nodes.size());
-    bool whole = true;
-    const auto end_run = [&] {
-      if (!nodes.empty()) drawing.runs.push_back(run_of(nodes, chain.closed && whole, view));
-      nodes.clear();
-    };
-    for (const Index node : chain.nodes) {
-      const Vector3 position = view.normalized(curve.positions[static_cast<std::size_t>(node)]);
-      if (position.allFinite()) {
-        nodes.push_back(position);
-      } else {
-        whole = false;
-        end_run();
-      }
-    }
-    end_run();
-  }
-  for (const Drawing::Run& run : drawing.runs) {
-    for (const Vector2& curvature : run.curvatures) drawing.sharpest = std::max(drawing.sharpest, curvature.norm());
-  }
-  return drawing;
-}
 
 /// The tips of a run's teeth, not longer than `longest`.
 std::vector<Vector2> tips_of(const Drawing::Run& run, double scale, double longest) {
@@ -255,7 +127,7 @@ void draw(std::string& text, Pen& pen, const Layer& layer, const char* name, con
 }  // namespace
 
 std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, const std::string& title) {
-  const View view(curve);
+  const CurveView view(curve);
   Layer after{drawing_of(curve, view), {}};
   Layer behind{before != nullptr ? drawing_of(*before, view) : Drawing(), {}};
   Box box;

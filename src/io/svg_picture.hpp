@@ -1,17 +1,10 @@
 #pragma once
 
-#include <span>
 #include <string>
 
-#include "vspring/polygon_curve.hpp"
+#include "io/curve_drawing.hpp"
 
 namespace vspring {
-
-/// A curve at given positions.
-struct DrawnCurve {
-  const std::vector<PolygonCurve::Chain>& chains;
-  std::span<const Vector3> positions;
-};
 
 /// A picture of a curve with its nodes and its curvature comb; before, where it is not null, thin behind it. The comb
 /// stands on the outer side of the bends: from every node a line away from the centre of the circle through the node

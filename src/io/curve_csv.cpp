@@ -37,15 +37,13 @@ bool is_two_numbers(std::string_view cell) {
   });
 }
 
-[[noreturn]] void refuse_decimal_comma(const InputFile& file, const TableLine& row) {
-  file.refuse_line(row.offset, "its numbers have decimal commas; write decimal points");
-}
+constexpr std::array delimiters = {';', '\t', ',', ' '};
 
 /// The delimiter that leaves two numbers in most rows; the first of them where several do.
 CellCutter find_cutter(const InputFile& file, const std::vector<TableLine>& rows) {
   char best = ' ';
   std::size_t most = 0;
-  for (const char delimiter : {';', '\t', ',', ' '}) {
+  for (const char delimiter : delimiters) {
     CellCutter cutter(delimiter, true);
     const auto fitting = static_cast<std::size_t>(std::count_if(
         rows.begin(), rows.end(), [&](const TableLine& row) { return count_numbers(cutter.cut(row.text)) > 1; }));
@@ -53,14 +51,17 @@ CellCutter find_cutter(const InputFile& file, const std::vector<TableLine>& rows
     most = fitting;
     best = delimiter;
   }
-  CellCutter cutter(best, true);
-  for (const TableLine& row : rows) {
-    const Cells& cells = cutter.cut(row.text);
-    const bool foreign = most == 0 ? std::any_of(cells.begin(), cells.end(), has_decimal_comma)
-                                   : best == ',' && std::any_of(cells.begin(), cells.end(), is_two_numbers);
-    if (foreign) refuse_decimal_comma(file, row);
+  // With decimal commas no delimiter leaves numbers, or the commas themselves do.
+  for (const char delimiter : delimiters) {
+    if (most > 0 && (delimiter != ',' || best != ',')) continue;
+    CellCutter cutter(delimiter, true);
+    for (const TableLine& row : rows) {
+      const Cells& cells = cutter.cut(row.text);
+      if (std::any_of(cells.begin(), cells.end(), most > 0 ? is_two_numbers : has_decimal_comma))
+        file.refuse_line(row.offset, "its numbers have decimal commas; write decimal points");
+    }
   }
-  return cutter;
+  return {best, true};
 }
 
 /// The column of the name, or the number of cells.

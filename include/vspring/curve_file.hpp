@@ -37,22 +37,23 @@ struct CurveFile {
 /// Reads a curve. path: a file, or "-" for standard input.
 ///
 /// OBJ: `l` elements, several curves in one file, in any order of segments (see chains_of_segments()); nodes are all
-/// `v`, in file order; everything else is kept. CSV: one node per row, 2 or 3 columns x, y[, z] (found by a header that
-/// names them, else the first ones), separated by commas, semicolons, tabs or spaces; other columns, comments (#) and
-/// the header are kept; an empty row begins another chain. XYZ: the same without header, separated by white space.
-/// DAT: aerofoils, Selig (name, then x y around from the trailing edge) or Lednicer (name, numbers of points of upper
-/// and lower side, each from the leading edge on: one chain from the trailing edge over the upper side and back, the
-/// leading edge once where both sides give it; nodes in file order). A chain whose last node repeats the position of
-/// the first stays open, unless it has the same number (OBJ) or `closed` asks for it.
+/// `v`, in file order; a segment given twice counts once; everything else is kept. CSV: one node per row, 2 or 3
+/// columns x, y[, z] (found by a header that names them, else the first ones that hold numbers), separated by commas,
+/// semicolons, tabs or spaces; other columns, comments (#) and the header are kept; an empty row begins another chain.
+/// XYZ: the same without header, separated by white space, the coordinates first. DAT: aerofoils, Selig (name, then x y
+/// around from the trailing edge) or Lednicer (name, numbers of points of upper and lower side, each from the leading
+/// edge on: one chain from the trailing edge over the upper side and back; nodes in file order, the leading edge one
+/// node where both sides give it). A chain whose last node repeats the position of the first stays open; only the same
+/// number (OBJ) closes it.
 ///
-/// The format is found by the extension; for "-" or an unknown extension `format` says it, else it is found from the
-/// content. Throws Error(unusable_file) naming path and line for anything that cannot be read whole, and for a file
-/// without a curve. Cost: linear; the bytes of the file stay in memory.
+/// The format is `format`, else the extension's; for "-" or an unknown extension it is found from the content. Throws
+/// Error(unusable_file) naming path and line for anything that cannot be read whole, and for a file without a curve.
+/// Cost: linear; the bytes of the file stay in memory.
 [[nodiscard]] CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format = std::nullopt);
 
 /// What a written picture shows.
 struct CurvePicture {
-  /// The curve before, drawn thin behind; empty draws none. One chain structure of its own.
+  /// The curve before, drawn thin behind; null draws none. One chain structure of its own.
   const PolygonCurve* before = nullptr;
 };
 
@@ -61,13 +62,16 @@ struct CurvePicture {
 ///
 /// In the source's own format everything but coordinates is written as it was read, byte for byte; coordinates of nodes
 /// whose position is unchanged are too, the others as the shortest decimals that read back the same. In another format:
-/// chains and positions; a planar curve stays one of two columns. SVG: a picture, the curve with its nodes and its
-/// curvature comb (lines along the curvature vector of the circle through three successive nodes), before and after,
-/// see CurvePicture; space curves are drawn as seen along the normal of their best plane.
+/// chains and positions; a planar curve stays one of two columns while it stays in its plane; CSV, XYZ and DAT have the
+/// nodes along the chains, and the first node of a closed chain once more at its end. SVG: a picture, the curve with
+/// its nodes and its curvature comb (lines along the curvature vector of the circle through three successive nodes),
+/// before and after, see CurvePicture; space curves are drawn as seen along the normal of their best plane.
 ///
 /// The file appears whole or not at all, see write_file(). Throws Error(unusable_file) when it cannot be, and
-/// Error(invalid_argument) unless there is one position per node, finite where it is not the one that was read. Returns
-/// what the source carried and the output does not, one line each, empty when nothing is lost. Cost: linear.
+/// Error(invalid_argument) unless there is one position per node, finite where it is not the one that was read; also
+/// for a node that leaves z = 0 in a file of two columns, and for several chains or a curve in space as DAT. Returns
+/// what the source carried and the output does not, one line each, empty when nothing is lost and for a picture. Cost:
+/// linear.
 std::vector<std::string> write_curve(const std::string& path, const CurveFile& file,
                                      const std::vector<Vector3>& positions,
                                      std::optional<CurveFormat> format = std::nullopt,

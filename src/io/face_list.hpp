@@ -12,8 +12,8 @@ namespace vspring {
 /// More nodes than this are refused.
 constexpr std::int64_t most_nodes = std::int64_t{1} << 30;
 
-/// Collects faces whose nodes may come later in the file, and remembers where the highest node number stands, so that
-/// one that does not exist can be named once all nodes are known.
+/// Collects faces, or lines of a curve, whose nodes may come later in the file, and remembers where the highest node
+/// number stands, so that one that does not exist can be named once all nodes are known.
 class FaceList {
  public:
   /// node: 0-based, not negative. where: what locates it in a message, such as an offset.

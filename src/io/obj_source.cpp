@@ -1,17 +1,9 @@
 #include "io/obj_source.hpp"
 
-#include <array>
-
 #include "io/file_normals.hpp"
 #include "io/text_rewriter.hpp"
 
 namespace vspring {
-namespace {
-
-std::array<NewNumber, 3> row_of(const Vector3& vector) { return {{{0, vector.x()}, {1, vector.y()}, {2, vector.z()}}}; }
-
-}  // namespace
-
 std::string ObjSource::rewritten(Rewrite& rewrite) const {
   NewNormals fresh;
   if (!corner_normals.empty())

@@ -2,15 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <bit>
-#include <cctype>
-#include <cstdint>
-#include <filesystem>
 
 #include "io/file_normals.hpp"
+#include "io/format_choice.hpp"
 #include "io/fresh_file.hpp"
+#include "io/moved_nodes.hpp"
 #include "io/sniff.hpp"
 #include "io/surface_source.hpp"
 #include "vspring/error.hpp"
@@ -19,42 +16,8 @@
 namespace vspring {
 namespace {
 
-std::string extension_of(const std::string& path) {
-  return path == "-" ? "" : std::filesystem::path(path).extension().string();
-}
-
-/// The format to write: asked for, of the extension, or `own` where there is no extension.
-SurfaceFormat format_to_write(const std::string& path, std::optional<SurfaceFormat> asked,
-                              std::optional<SurfaceFormat> own) {
-  if (asked) return *asked;
-  const std::string extension = extension_of(path);
-  if (const auto format = surface_format(extension)) return *format;
-  if (extension.empty() && own) return *own;
-  const std::string name = path == "-" ? "standard output" : path;
-  throw Error(ErrorCode::invalid_argument,
-              extension.empty()
-                  ? fmt::format("{}: without an extension it shows no format; name OBJ, OFF, PLY or STL", name)
-                  : fmt::format("{}: {} is no format; use .obj, .off, .ply or .stl, or name one of them", name,
-                                in_quotes(extension)));
-}
-
-bool same_bits(const Vector3& a, const Vector3& b) {
-  using Bits = std::array<std::uint64_t, 3>;
-  return std::bit_cast<Bits>(std::array{a.x(), a.y(), a.z()}) == std::bit_cast<Bits>(std::array{b.x(), b.y(), b.z()});
-}
-
-/// Marks the nodes whose position is not `before`; refuses those that moved to nowhere.
-std::vector<std::uint8_t> moved_nodes(const std::vector<Vector3>& before, const std::vector<Vector3>& positions) {
-  std::vector<std::uint8_t> moved(positions.size(), 0);
-  for (std::size_t node = 0; node < positions.size(); ++node) {
-    if (same_bits(before[node], positions[node])) continue;
-    moved[node] = 1;
-    if (!positions[node].allFinite())
-      throw Error(ErrorCode::invalid_argument,
-                  fmt::format("node {}: its position is not finite; only a position that was read so may be", node));
-  }
-  return moved;
-}
+constexpr std::array names = {"obj", "off", "ply", "stl"};
+constexpr Formats<SurfaceFormat> formats(names);
 
 /// A file in another format than the source's, or of a mesh that no file gave.
 std::string converted(SurfaceFormat format, const Rewrite& rewrite, std::vector<std::string>& losses) {
@@ -78,15 +41,7 @@ std::string converted(SurfaceFormat format, const Rewrite& rewrite, std::vector<
 
 }  // namespace
 
-std::optional<SurfaceFormat> surface_format(std::string_view extension) {
-  if (extension.starts_with('.')) extension.remove_prefix(1);
-  std::string lower(extension);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  constexpr std::array names = {"obj", "off", "ply", "stl"};
-  const auto found = std::find(names.begin(), names.end(), lower);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<SurfaceFormat>(found - names.begin());
-}
+std::optional<SurfaceFormat> surface_format(std::string_view extension) { return formats.of_extension(extension); }
 
 SurfaceFile read_surface(const std::string& path, std::optional<SurfaceFormat> format) {
   InputFile file = read_input(path);
@@ -111,7 +66,7 @@ std::vector<std::string> write_surface(const std::string& path, const SurfaceFil
   if (positions.size() != surface.mesh.positions().size())
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("{} positions given for {} nodes", positions.size(), surface.mesh.node_count()));
-  const SurfaceFormat target = format_to_write(path, format, surface.format);
+  const SurfaceFormat target = formats.to_write(path, format, surface.format);
   const SurfaceSource* source = surface.source.get();
   if (source != nullptr &&
       (source->positions.size() != positions.size() || source->corner_count != surface.mesh.corners().size()))
@@ -130,7 +85,7 @@ std::vector<std::string> write_surface(const std::string& path, const SurfaceFil
 }
 
 void write_surface(const std::string& path, const PolygonMesh& mesh, std::optional<SurfaceFormat> format) {
-  const SurfaceFormat target = format_to_write(path, format, std::nullopt);
+  const SurfaceFormat target = formats.to_write(path, format, std::nullopt);
   for (Index node = 0; node < mesh.node_count(); ++node) {
     if (!mesh.position(node).allFinite())
       throw Error(ErrorCode::invalid_argument, fmt::format("node {}: its position is not finite", node));

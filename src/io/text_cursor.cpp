@@ -8,6 +8,12 @@
 
 namespace vspring {
 
+const char* parse_number(const char* begin, const char* end, double& value) {
+  if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
+  const auto [stop, fault] = fast_float::from_chars(begin, end, value);
+  return fault == std::errc() || fault == std::errc::result_out_of_range ? stop : nullptr;
+}
+
 TextCursor::TextCursor(const InputFile& file, std::size_t begin, bool continued)
     : file_(&file),
       at_(file.bytes.data() + begin),
@@ -38,11 +44,9 @@ std::string_view TextCursor::word() {
 }
 
 double TextCursor::number(const char* what) {
-  const char* begin = at_;
-  if (end_ - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
   double value = 0;
-  const auto [stop, fault] = fast_float::from_chars(begin, end_, value);
-  if (fault != std::errc() && fault != std::errc::result_out_of_range) refuse_word(what);
+  const char* const stop = parse_number(at_, end_, value);
+  if (stop == nullptr) refuse_word(what);
   const char* const start = at_;
   at_ = stop;
   if (at_word_end()) return value;

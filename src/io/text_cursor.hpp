@@ -18,6 +18,14 @@ inline std::size_t continuation_length(const char* p, const char* end) {
   return p + 2 != end && p[2] == '\n' ? 3 : 2;
 }
 
+/// Of the mark that some programs put before UTF-8 text; 0 where there is none.
+constexpr std::size_t byte_order_mark_length(std::string_view bytes) {
+  return bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+}
+
+/// Reads a number as far as it goes and returns its end, or null where none begins. "nan" and "inf" are numbers too.
+const char* parse_number(const char* begin, const char* end, double& value);
+
 /// Walks the words and lines of a file. Numbers mean the same in every locale.
 class TextCursor {
  public:
@@ -59,7 +67,7 @@ class TextCursor {
     return at_ == end_ || is_space(*at_) || (continued_ && continuation_length(at_, end_) > 0);
   }
 
-  /// A number, up to the end of a word; "nan" and "inf" are numbers too. what: what it is, for the message.
+  /// A number, up to the end of a word. what: what it is, for the message.
   [[nodiscard]] double number(const char* what);
   /// A whole number with a sign or without; may stand at the front of a longer word.
   [[nodiscard]] std::int64_t integer(const char* what);

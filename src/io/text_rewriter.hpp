@@ -1,8 +1,11 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "vspring/types.hpp"
 
 namespace vspring {
 
@@ -16,6 +19,11 @@ struct NewNumber {
   double value;
   bool single = false;  ///< written in single precision
 };
+
+/// The numbers of a row that begins with three coordinates or components.
+inline std::array<NewNumber, 3> row_of(const Vector3& vector) {
+  return {{{0, vector.x()}, {1, vector.y()}, {2, vector.z()}}};
+}
 
 /// Copies bytes and puts numbers in the place of words. Places have to ascend.
 class TextRewriter {

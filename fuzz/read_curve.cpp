@@ -1,0 +1,72 @@
+// Feeds any bytes to the readers of curves. What they take is written again: as it is, it has to come out as it came
+// in; with every node moved, it has to read back with the same nodes and chains.
+//   fuzz_read_curve -max_total_time=60 FOLDER     the first byte of an input modulo 4: OBJ, CSV, DAT, XYZ
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "io/curve_sniff.hpp"
+#include "io/curve_source.hpp"
+#include "io/fresh_curve.hpp"
+#include "io/svg_picture.hpp"
+#include "vspring/error.hpp"
+
+using namespace vspring;
+
+namespace {
+
+void require(bool held) {
+  if (!held) std::abort();
+}
+
+bool same_chains(const PolygonCurve& a, const PolygonCurve& b) {
+  if (a.chains().size() != b.chains().size()) return false;
+  for (std::size_t c = 0; c < a.chains().size(); ++c) {
+    if (a.chains()[c].nodes != b.chains()[c].nodes || a.chains()[c].closed != b.chains()[c].closed) return false;
+  }
+  return true;
+}
+
+void write_again(const CurveFile& file, CurveFile (*reader)(InputFile)) {
+  const std::vector<Vector3>& read = file.curve.positions();
+  require(file.source->rewritten(read, std::vector<std::uint8_t>(read.size(), 0)) == file.source->file.bytes);
+
+  // Below 1, so that they are not counts of an aerofoil.
+  std::vector<Vector3> places;
+  for (std::size_t node = 0; node < read.size(); ++node)
+    places.emplace_back(1 / (static_cast<double>(node) + 1.5), 0.25, file.planar ? 0 : 1);
+  const CurveFile again = reader({"again", file.source->rewritten(places, std::vector<std::uint8_t>(read.size(), 1))});
+  require(again.curve.positions() == places);
+  require(same_chains(again.curve, file.curve));
+  std::vector<std::string> losses;
+  for (const CurveFormat format : {CurveFormat::obj, CurveFormat::csv, CurveFormat::xyz})
+    require(!fresh_curve(format, {file.curve.chains(), places, file.planar, file.name}, losses).empty());
+  const DrawnCurve before{file.curve.chains(), read};
+  require(!svg_picture({file.curve.chains(), places}, &before, file.name).empty());
+}
+
+/// False where the action refuses what it is given; it has to say why in one line.
+template <typename Action>
+bool is_taken(const Action& action) {
+  try {
+    action();
+    return true;
+  } catch (const Error& error) {
+    require(error.code() == ErrorCode::unusable_file && std::string(error.what()).find('\n') == std::string::npos);
+    return false;
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  constexpr std::array readers = {read_obj_curve, read_csv_curve, read_dat_curve, read_xyz_curve};
+  if (size < 2) return 0;
+  const auto reader = readers[data[0] % readers.size()];
+  const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
+  static_cast<void>(is_taken([&] { static_cast<void>(curve_format_of_content({"fuzz", bytes})); }));
+  CurveFile file;
+  if (is_taken([&] { file = reader({"fuzz", bytes}); })) write_again(file, reader);
+  return 0;
+}

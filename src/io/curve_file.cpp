@@ -1,0 +1,121 @@
+#include "vspring/curve_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "io/curve_sniff.hpp"
+#include "io/curve_source.hpp"
+#include "io/format_choice.hpp"
+#include "io/fresh_curve.hpp"
+#include "io/moved_nodes.hpp"
+#include "io/svg_picture.hpp"
+#include "vspring/error.hpp"
+#include "vspring/output_file.hpp"
+
+namespace vspring {
+namespace {
+
+constexpr std::array names = {"obj", "csv", "dat", "xyz", "svg"};
+constexpr Formats<CurveFormat> formats(names);
+
+void require_plane(std::span<const Vector3> positions) {
+  if (const std::size_t node = first_off_plane(positions); node < positions.size())
+    throw Error(
+        ErrorCode::invalid_argument,
+        fmt::format("node {}: it left the plane z = 0, and the file has only x and y; write another format", node));
+}
+
+/// The title of a picture.
+std::string title_of(const CurveFile& file) {
+  if (!file.name.empty()) return file.name;
+  if (file.source) return std::filesystem::path(file.source->file.name).filename().string();
+  return "curve";
+}
+
+std::string picture_of(const CurveFile& file, const std::vector<Vector3>& positions, const PolygonCurve* before) {
+  const DrawnCurve after{file.curve.chains(), positions};
+  if (before == nullptr) return svg_picture(after, nullptr, title_of(file));
+  const DrawnCurve behind{before->chains(), before->positions()};
+  return svg_picture(after, &behind, title_of(file));
+}
+
+/// A file in another format than the source's, or of a curve that no file gave.
+std::string converted(CurveFormat format, const CurveFile& file, const std::vector<Vector3>& positions,
+                      std::vector<std::string>& losses) {
+  if (file.source) {
+    for (const std::string& what : file.source->carried) {
+      if (format != CurveFormat::dat || what != name_carried) losses.push_back(what);
+    }
+  } else if (!file.groups.empty()) {
+    losses.emplace_back("groups");
+  }
+  const bool planar = file.planar && first_off_plane(positions) == positions.size();
+  return fresh_curve(format, {file.curve.chains(), positions, planar, file.name}, losses);
+}
+
+}  // namespace
+
+std::optional<CurveFormat> curve_format(std::string_view extension) { return formats.of_extension(extension); }
+
+CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format) {
+  InputFile file = read_input(path);
+  const std::optional<CurveFormat> said = format ? format : curve_format(extension_of(path));
+  switch (said ? *said : curve_format_of_content(file)) {
+    case CurveFormat::obj:
+      return read_obj_curve(std::move(file));
+    case CurveFormat::csv:
+      return read_csv_curve(std::move(file));
+    case CurveFormat::dat:
+      return read_dat_curve(std::move(file));
+    case CurveFormat::xyz:
+      return read_xyz_curve(std::move(file));
+    case CurveFormat::svg:
+      break;
+  }
+  file.refuse("SVG is a picture, it can only be written; choose a file of OBJ, CSV, DAT or XYZ");
+}
+
+std::vector<std::string> write_curve(const std::string& path, const CurveFile& file,
+                                     const std::vector<Vector3>& positions, std::optional<CurveFormat> format,
+                                     const CurvePicture& picture) {
+  if (positions.size() != file.curve.positions().size())
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} positions given for {} nodes", positions.size(), file.curve.node_count()));
+  const std::optional<CurveFormat> own = file.format == CurveFormat::svg ? std::nullopt : std::optional(file.format);
+  const CurveFormat target = formats.to_write(path, format, own);
+  const CurveSource* source = file.source.get();
+  if (source != nullptr && source->positions.size() != positions.size())
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("the curve is not the one that {} gave; reset the source to write it on its own",
+                            source->file.name));
+  const std::vector<std::uint8_t> moved =
+      moved_nodes(source != nullptr ? source->positions : file.curve.positions(), positions);
+  std::vector<std::string> losses;
+  if (target == CurveFormat::svg) {
+    write_file(path, picture_of(file, positions, picture.before));
+  } else if (source != nullptr && target == file.format) {
+    if (file.planar) require_plane(positions);
+    write_file(path, source->rewritten(positions, moved));
+  } else {
+    write_file(path, converted(target, file, positions, losses));
+  }
+  return losses;
+}
+
+void write_curve(const std::string& path, const PolygonCurve& curve, std::optional<CurveFormat> format, bool planar) {
+  CurveFile file;
+  file.format = formats.to_write(path, format, std::nullopt);
+  file.planar = planar;
+  for (Index node = 0; node < curve.node_count(); ++node) {
+    if (!curve.position(node).allFinite())
+      throw Error(ErrorCode::invalid_argument, fmt::format("node {}: its position is not finite", node));
+  }
+  if (planar) require_plane(curve.positions());
+  file.curve = curve;
+  write_curve(path, file, curve.positions(), file.format);
+}
+
+}  // namespace vspring

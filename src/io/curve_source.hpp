@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/input_file.hpp"
+#include "vspring/curve_file.hpp"
+
+namespace vspring {
+
+/// The bytes of a file and, in the formats that derive from it, where its coordinates are.
+class CurveSource {
+ public:
+  CurveSource() = default;
+  virtual ~CurveSource() = default;
+  CurveSource(const CurveSource&) = delete;
+  CurveSource& operator=(const CurveSource&) = delete;
+
+  /// The bytes with the coordinates of moved nodes. Cost: linear.
+  [[nodiscard]] virtual std::string rewritten(const std::vector<Vector3>& places,
+                                              const std::vector<std::uint8_t>& moved) const = 0;
+
+  InputFile file;
+  std::vector<Vector3> positions;    ///< as the file gives them
+  std::vector<std::string> carried;  ///< what other formats are not given, one line each
+};
+
+/// What is carried where a file names its curve, which DAT can hold.
+inline constexpr const char* name_carried = "the name";
+
+/// Each reads the whole of a file that is said to be of its format. They throw Error(unusable_file).
+CurveFile read_obj_curve(InputFile file);
+CurveFile read_csv_curve(InputFile file);
+CurveFile read_dat_curve(InputFile file);
+CurveFile read_xyz_curve(InputFile file);
+
+}  // namespace vspring

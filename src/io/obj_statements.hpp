@@ -1,0 +1,60 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/face_list.hpp"
+#include "io/obj_groups.hpp"
+#include "io/text_cursor.hpp"
+
+namespace vspring {
+
+/// Reads the statements of an OBJ file: nodes and groups here, elements (faces or lines) in a class that derives from
+/// this one. What neither takes is named in what is carried, and kept as it stands.
+class ObjStatements {
+ public:
+  explicit ObjStatements(const InputFile& file)
+      : file_(file), cursor_(file, byte_order_mark_length(file.bytes), /*continued=*/true) {}
+  virtual ~ObjStatements() = default;
+  ObjStatements(const ObjStatements&) = delete;
+  ObjStatements& operator=(const ObjStatements&) = delete;
+
+  void read();
+
+ protected:
+  /// Reads what follows the keyword of an element; false where it is none.
+  virtual bool read_element(std::string_view keyword) = 0;
+
+  /// A node of an element, its number only.
+  void read_node_number();
+  /// Counts from 1, or back from the latest with negative numbers. kind: what is counted, for the message.
+  Index number_of(std::int64_t number, std::size_t count, std::size_t where, const char* kind) const;
+  /// Refuses elements of nodes that do not exist.
+  void check_node_numbers() const;
+  /// file: the one that was read, which may have moved since.
+  [[nodiscard]] std::vector<std::string> take_warnings(const InputFile& file);
+
+  const InputFile& file_;
+  TextCursor cursor_;
+  std::vector<Vector3> positions_;
+  std::vector<std::size_t> node_rows_;  ///< offset of the first coordinate of each node
+  FaceList elements_;
+  ObjGroups groups_;
+  std::set<std::string> carried_;
+  std::vector<std::string> warnings_;
+
+ private:
+  void skip_rest_of_numbers(int already);
+  void read_node();
+  void read_groups();
+  void read_object();
+  void read_other(std::string_view keyword, std::size_t where);
+
+  std::size_t unknown_count_ = 0;
+  std::size_t unknown_where_ = 0;
+  std::string unknown_word_;
+};
+
+}  // namespace vspring

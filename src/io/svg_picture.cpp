@@ -1,0 +1,178 @@
+#include "io/svg_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "io/xml_text.hpp"
+
+namespace vspring {
+namespace {
+
+constexpr double drawing_size = 1000;         ///< of the longer side, in pixels
+constexpr double longest_tooth = 0.15;        ///< of the comb, in diagonals of the drawing
+constexpr double longest_tooth_behind = 0.4;  ///< where that of the curve before is cut off
+constexpr std::size_t most_dots = 400;        ///< more nodes than this would hide the curve
+
+/// The tips of a run's teeth, not longer than `longest`.
+std::vector<Vector2> tips_of(const Drawing::Run& run, double scale, double longest) {
+  std::vector<Vector2> tips;
+  tips.reserve(run.nodes.size());
+  for (std::size_t k = 0; k < run.nodes.size(); ++k) {
+    const Vector2 tooth = scale * run.curvatures[k];
+    const double length = tooth.norm();
+    tips.push_back(run.nodes[k] - (length > longest ? Vector2(tooth * (longest / length)) : tooth));
+  }
+  return tips;
+}
+
+/// The box around what is drawn.
+class Box {
+ public:
+  void add(const std::vector<Vector2>& points) {
+    for (const Vector2& p : points) {
+      low_ = low_.cwiseMin(p);
+      high_ = high_.cwiseMax(p);
+    }
+  }
+  [[nodiscard]] bool empty() const { return !(low_.x() <= high_.x()); }
+  [[nodiscard]] Vector2 size() const { return empty() ? Vector2(Vector2::Zero()) : Vector2(high_ - low_); }
+  [[nodiscard]] Vector2 upper_left() const { return empty() ? Vector2(Vector2::Zero()) : Vector2(low_.x(), high_.y()); }
+
+ private:
+  Vector2 low_ = Vector2::Constant(HUGE_VAL);
+  Vector2 high_ = Vector2::Constant(-HUGE_VAL);
+};
+
+/// Writes shapes in the pixels of the picture.
+class Pen {
+ public:
+  Pen(std::string& text, const Vector2& upper_left, double pixels)
+      : text_(text), upper_left_(upper_left), pixels_(pixels) {}
+
+  void line(const std::vector<Vector2>& points, bool closed) {
+    if (points.size() < 2) return;
+    text_ += closed ? "<polygon points=\"" : "<polyline points=\"";
+    for (const Vector2& p : points) append("{:.2f},{:.2f} ", p);
+    text_.back() = '"';
+    text_ += "/>\n";
+  }
+  void teeth(const std::vector<Vector2>& roots, const std::vector<Vector2>& tips) {
+    const std::size_t begin = text_.size();
+    text_ += "<path d=\"";
+    const std::size_t empty = text_.size();
+    for (std::size_t k = 0; k < roots.size(); ++k) {
+      if (roots[k] == tips[k]) continue;
+      append("M{:.2f} {:.2f}", roots[k]);
+      append("L{:.2f} {:.2f}", tips[k]);
+    }
+    if (text_.size() == empty)
+      text_.resize(begin);
+    else
+      text_ += "\"/>\n";
+  }
+  void dots(const std::vector<Vector2>& points) {
+    for (const Vector2& p : points) append("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"1.8\"/>\n", p);
+  }
+
+ private:
+  void append(fmt::format_string<double, double> form, const Vector2& p) {
+    fmt::format_to(std::back_inserter(text_), form, pixels_ * (p.x() - upper_left_.x()),
+                   pixels_ * (upper_left_.y() - p.y()));
+  }
+
+  std::string& text_;
+  Vector2 upper_left_;
+  double pixels_;
+};
+
+/// A curve and its comb as they are drawn.
+struct Layer {
+  Drawing drawing;
+  std::vector<std::vector<Vector2>> tips;
+
+  void set_tips(double scale, double longest) {
+    tips.reserve(drawing.runs.size());
+    for (const Drawing::Run& run : drawing.runs) tips.push_back(tips_of(run, scale, longest));
+  }
+};
+
+struct Style {
+  const char* curve;
+  const char* teeth;
+  const char* tips;
+};
+
+constexpr Style strong = {"stroke=\"#1b3a6b\" stroke-width=\"1.8\"", "stroke=\"#e08a5b\" stroke-width=\"0.6\"",
+                          "stroke=\"#c8461e\" stroke-width=\"1\""};
+constexpr Style thin = {"stroke=\"#8a8a8a\" stroke-width=\"1\"", "stroke=\"#d4d4d4\" stroke-width=\"0.6\"",
+                        "stroke=\"#bcbcbc\" stroke-width=\"0.8\""};
+
+void draw(std::string& text, Pen& pen, const Layer& layer, const char* name, const Style& style) {
+  const auto& runs = layer.drawing.runs;
+  const auto group = [&](const char* look, const auto& draw_run) {
+    text += fmt::format("<g {}>\n", look);
+    for (std::size_t r = 0; r < runs.size(); ++r) draw_run(runs[r], layer.tips[r]);
+    text += "</g>\n";
+  };
+  text += fmt::format("<g id=\"{}\">\n", name);
+  group(style.teeth, [&](const auto& run, const auto& tips) { pen.teeth(run.nodes, tips); });
+  group(style.tips, [&](const auto& run, const auto& tips) { pen.line(tips, run.closed); });
+  group(style.curve, [&](const auto& run, const auto&) { pen.line(run.nodes, run.closed); });
+  text += "</g>\n";
+}
+
+}  // namespace
+
+std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, const std::string& title) {
+  const CurveView view(curve);
+  Layer after{drawing_of(curve, view), {}};
+  Layer behind{before != nullptr ? drawing_of(*before, view) : Drawing(), {}};
+  Box box;
+  std::size_t node_count = 0;
+  for (const Drawing::Run& run : after.drawing.runs) {
+    box.add(run.nodes);
+    node_count += run.nodes.size();
+  }
+  for (const Drawing::Run& run : behind.drawing.runs) box.add(run.nodes);
+  const double diagonal = box.empty() || box.size().norm() == 0 ? 1 : box.size().norm();
+
+  // A straight curve has no comb to take the scale from, then the one before it gives it.
+  constexpr double straight = 1e-9;
+  const double longest = longest_tooth_behind * diagonal;
+  double scale = 0;
+  if (after.drawing.sharpest * diagonal > straight)
+    scale = longest_tooth * diagonal / after.drawing.sharpest;
+  else if (behind.drawing.sharpest * diagonal > straight)
+    scale = longest / behind.drawing.sharpest;
+  for (Layer* layer : {&after, &behind}) {
+    layer->set_tips(scale, longest);
+    for (const std::vector<Vector2>& tips : layer->tips) box.add(tips);
+  }
+
+  const Vector2 margin = Vector2::Constant(0.03 * std::max(box.size().norm(), diagonal));
+  const Vector2 size = box.size() + 2 * margin;
+  const double pixels = drawing_size / size.maxCoeff();
+  std::string text = fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" "
+      "height=\"{1:.0f}\" viewBox=\"0 0 {0:.2f} {1:.2f}\">\n<title>{2}</title>\n"
+      "<style>polyline, polygon, path {{ vector-effect: non-scaling-stroke }}</style>\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+      "<g fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n",
+      pixels * size.x(), pixels * size.y(), xml_text(title));
+  Pen pen(text, box.upper_left() + Vector2(-margin.x(), margin.y()), pixels);
+  if (before != nullptr) draw(text, pen, behind, "before", thin);
+  draw(text, pen, after, "curve", strong);
+  text += "</g>\n";
+  if (node_count < most_dots) {
+    text += "<g id=\"nodes\" fill=\"#1b3a6b\">\n";
+    for (const Drawing::Run& run : after.drawing.runs) pen.dots(run.nodes);
+    text += "</g>\n";
+  }
+  text += "</svg>\n";
+  return text;
+}
+
+}  // namespace vspring

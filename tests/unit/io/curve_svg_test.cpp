@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+#include "unit/io/curve_round_trip.hpp"
+
+namespace vspring {
+namespace {
+
+class CurveSvg : public CurveScratch {
+ protected:
+  std::string picture(const CurveFile& file, const PolygonCurve* before = nullptr) const {
+    EXPECT_TRUE(write_curve(path("out.svg"), file, file.curve.positions(), {}, {.before = before}).empty());
+    return get("out.svg");
+  }
+};
+
+/// Whether every tag is closed in its order and no value is without quotes.
+testing::AssertionResult is_balanced(const std::string& xml) {
+  std::vector<std::string> open;
+  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
+    const std::size_t end = xml.find('>', at);
+    if (end == std::string::npos) return testing::AssertionFailure() << "a tag does not end";
+    const std::string tag = xml.substr(at + 1, end - at - 1);
+    if (tag.starts_with("?")) continue;
+    if (std::count(tag.begin(), tag.end(), '"') % 2 != 0) return testing::AssertionFailure() << "quotes: " << tag;
+    if (tag.starts_with("/")) {
+      if (open.empty() || open.back() != tag.substr(1)) return testing::AssertionFailure() << "closed early: " << tag;
+      open.pop_back();
+    } else if (!tag.ends_with("/")) {
+      open.push_back(tag.substr(0, tag.find(' ')));
+    }
+  }
+  if (!open.empty()) return testing::AssertionFailure() << "never closed: " << open.back();
+  return testing::AssertionSuccess();
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+struct Tooth {
+  double root_x, root_y, tip_x, tip_y;
+};
+
+/// The teeth of the group that begins with `id`.
+std::vector<Tooth> teeth_of(const std::string& text, const std::string& id) {
+  const std::size_t path = text.find("<path d=\"", text.find("id=\"" + id + "\"")) + 9;
+  std::string data = text.substr(path, text.find('"', path) - path);
+  for (char& c : data) {
+    if (c == 'M' || c == 'L') c = ' ';
+  }
+  std::istringstream stream(data);
+  std::vector<Tooth> teeth;
+  for (Tooth tooth{}; stream >> tooth.root_x >> tooth.root_y >> tooth.tip_x >> tooth.tip_y;) teeth.push_back(tooth);
+  return teeth;
+}
+
+PolygonCurve circle(int count, double radius, bool closed) {
+  std::vector<Vector3> nodes;
+  for (int k = 0; k < count; ++k) {
+    const double turn = 2 * std::numbers::pi * k / count;
+    nodes.emplace_back(5 + radius * std::cos(turn), radius * std::sin(turn), 0);
+  }
+  return PolygonCurve(nodes, closed);
+}
+
+TEST_F(CurveSvg, HasATitleNodesAndAComb) {
+  CurveFile file;
+  file.curve = circle(12, 2, true);
+  file.name = "a < b & \"c\" \xC3\xA9\xFF";
+  const std::string text = picture(file);
+  EXPECT_TRUE(is_balanced(text));
+  EXPECT_NE(text.find("<title>a &lt; b &amp; &quot;c&quot; \xC3\xA9?</title>"), std::string::npos);
+  EXPECT_EQ(count(text, "<circle"), 12U);
+  EXPECT_EQ(count(text, "<polygon"), 2U);
+  EXPECT_EQ(teeth_of(text, "curve").size(), 12U);
+}
+
+// The comb of a circle is a larger circle; 15 % of the diagonal of the box around the nodes is a tooth.
+TEST_F(CurveSvg, TheCombStandsOutsideAndIsAsLongAsItShould) {
+  CurveFile file;
+  file.curve = circle(40, 2, true);
+  const std::string text = picture(file);
+  double left = HUGE_VAL;
+  double right = -HUGE_VAL;
+  const std::vector<Tooth> teeth = teeth_of(text, "curve");
+  for (const Tooth& tooth : teeth) {
+    left = std::min(left, tooth.root_x);
+    right = std::max(right, tooth.root_x);
+  }
+  const double centre = (left + right) / 2;
+  const double radius = (right - left) / 2;
+  for (const Tooth& tooth : teeth) {
+    EXPECT_NEAR(std::hypot(tooth.root_x - centre, tooth.root_y - 500), radius, 0.05);
+    EXPECT_NEAR(std::hypot(tooth.tip_x - centre, tooth.tip_y - 500), radius + 0.15 * std::sqrt(8) * radius, 0.05);
+  }
+}
+
+TEST_F(CurveSvg, DrawsTheCurveBeforeBehindItWithItsTeethCutOff) {
+  CurveFile file;
+  file.curve = circle(20, 2, false);
+  PolygonCurve before = file.curve;
+  std::vector<Vector3> positions = before.positions();
+  positions[10].x() += 0.6;
+  before.set_positions(positions);
+  const std::string text = picture(file, &before);
+  EXPECT_TRUE(is_balanced(text));
+  EXPECT_LT(text.find("id=\"before\""), text.find("id=\"curve\""));
+  EXPECT_EQ(teeth_of(text, "before").size(), 18U);
+  double after_longest = 0;
+  for (const Tooth& t : teeth_of(text, "curve"))
+    after_longest = std::max(after_longest, std::hypot(t.tip_x - t.root_x, t.tip_y - t.root_y));
+  double longest = 0;
+  for (const Tooth& t : teeth_of(text, "before"))
+    longest = std::max(longest, std::hypot(t.tip_x - t.root_x, t.tip_y - t.root_y));
+  EXPECT_NEAR(longest / after_longest, 0.4 / 0.15, 0.01);
+}
+
+TEST_F(CurveSvg, ShowsACurveInSpaceFromTheFront) {
+  // A circle that stands upright and is turned; seen along its normal, it is as wide as high.
+  std::vector<Vector3> nodes;
+  const PolygonCurve lying = circle(36, 2, true);
+  for (const Vector3& p : lying.positions())
+    nodes.push_back(Vector3(3, 1, 7) + (p.x() - 5) * Vector3(0.6, 0, 0.8) + p.y() * Vector3(0, 1, 0));
+  CurveFile file;
+  file.curve = PolygonCurve(nodes, true);
+  const std::string text = picture(file);
+  EXPECT_NE(text.find("width=\"1000\" height=\"1000\""), std::string::npos) << text.substr(0, 200);
+}
+
+TEST_F(CurveSvg, DrawsWhateverTheNodesAre) {
+  const std::vector<std::vector<Vector3>> shapes = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}},
+                                                    {{1, 1, 1}, {1, 1, 1}, {1, 1, 1}},
+                                                    {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {1, 1, 0}},
+                                                    {{1e300, 0, 0}, {0, 1e300, 0}, {-1e300, 0, 5}},
+                                                    {{1e-300, 0, 0}, {0, 1e-300, 0}, {-1e-300, 0, 0}},
+                                                    {{0, 0, 0}},
+                                                    {}};
+  for (const auto& nodes : shapes) {
+    CurveFile file;
+    file.curve = PolygonCurve(nodes);
+    const std::string text = picture(file, &file.curve);
+    EXPECT_TRUE(is_balanced(text));
+    EXPECT_EQ(text.find("nan"), std::string::npos);
+    EXPECT_EQ(text.find("inf"), std::string::npos);
+  }
+  const CurveFile holed = read("0 0\n1 1\nnan 0\n2 0\n3 1\n4 0\n", "xyz");
+  const std::string text = picture(holed);
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+  EXPECT_EQ(count(text, "<circle"), 5U);
+  EXPECT_NE(text.find("<title>in.xyz</title>"), std::string::npos);
+}
+
+TEST_F(CurveSvg, LeavesOutTheDotsOfManyNodes) {
+  CurveFile file;
+  file.curve = circle(400, 2, true);
+  EXPECT_EQ(count(picture(file), "<circle"), 0U);
+}
+
+}  // namespace
+}  // namespace vspring

@@ -41,6 +41,9 @@ struct FairOptions {
   void validate() const;
 };
 
+/// "equilibrium" or "sweep".
+[[nodiscard]] const char* name(Method method) noexcept;
+
 enum class Outcome { converged, iteration_limit, stalled, cancelled };
 
 /// "converged", "iteration-limit", "stalled" or "cancelled".

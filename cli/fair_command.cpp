@@ -72,6 +72,11 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
   add_choice(command, "--format", arguments->format, surface_formats,
              "Format of - (default: found from the content; the input's)");
   add_constraint_options(command, *arguments, words);
+  command
+      .add_flag("--fair-boundary", arguments->options.fair_boundary,
+                "Fair the boundary loops first, as curves between their nodes that rules hold, then the surface that "
+                "they bound; in place of --fix boundary (default: off)")
+      ->group(holding_group);
   add_method_options(command, *arguments, words);
   add_run_options(command, *arguments);
   command.footer(

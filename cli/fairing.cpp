@@ -10,6 +10,7 @@
 #include "report.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
+#include "vspring/topology.hpp"
 
 namespace vspring::cli {
 
@@ -38,10 +39,19 @@ void fix_boundary_directions(Constraints& constraints, const PolygonCurve& curve
   fix_boundary_tangents(constraints, curve);
 }
 
+/// A boundary that is faired goes on smoothly outside the region.
+void restrict_boundary(Constraints& constraints, const PolygonMesh& mesh, const std::vector<Index>& region,
+                       const FairingArguments& arguments) {
+  if (arguments.options.fair_boundary) restrict_to_region(constraints, boundary_curve(mesh), region);
+}
+
+void restrict_boundary(Constraints& /*constraints*/, const PolygonCurve& /*curve*/,
+                       const std::vector<Index>& /*region*/, const FairingArguments& /*arguments*/) {}
+
 template <typename Shape>
 Constraints constraints_of(const FairingArguments& arguments, const Shape& shape, const RuleInput& input) {
   Constraints constraints(shape.node_count());
-  if (arguments.fix == Hold::boundary) fix_boundary_positions(constraints, shape);
+  if (arguments.fix == Hold::boundary && !arguments.options.fair_boundary) fix_boundary_positions(constraints, shape);
   if (arguments.fix_directions == Hold::boundary) fix_boundary_directions(constraints, shape);
   if (!arguments.rules.empty()) {
     try {
@@ -51,8 +61,11 @@ Constraints constraints_of(const FairingArguments& arguments, const Shape& shape
       throw Error(error.code(), arguments.rules + ": " + error.what());
     }
   }
-  if (!arguments.region.empty())
-    restrict_to_region(constraints, shape, select_region(shape.positions(), arguments.region, *input.groups));
+  if (!arguments.region.empty()) {
+    const auto region = select_region(shape.positions(), arguments.region, *input.groups);
+    restrict_boundary(constraints, shape, region, arguments);
+    restrict_to_region(constraints, shape, region);
+  }
   return constraints;
 }
 

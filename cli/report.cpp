@@ -51,6 +51,14 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   json["threads"] = report.threads;
   json["version"] = version();
   json["fairness"] = {{"before", to_json(report.before)}, {"after", to_json(report.after)}};
+  if (report.boundary) {
+    json["boundary"] = {
+        {"outcome", name(report.boundary->outcome)},
+        {"iterations", report.boundary->iterations},
+        {"expected_error", *report.boundary->expected_error},
+        {"moving_nodes", report.boundary->moving_nodes},
+        {"fairness", {{"before", to_json(report.boundary->before)}, {"after", to_json(report.boundary->after)}}}};
+  }
   json["warnings"] = report.warnings;
   json["history"] = report.history;
   json["levels"] = nlohmann::ordered_json::array();

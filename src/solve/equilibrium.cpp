@@ -15,8 +15,9 @@ constexpr std::size_t depth = 6;
 constexpr std::size_t nodes_per_task = 2048;
 // No edge may turn or stretch by more than about this in one step: the equations are near to linear up to there.
 constexpr double greatest_turn = 0.3;
-// The preconditioner is built anew where an edge's length has changed by more than this share.
-constexpr double greatest_stretch = 0.3;
+// The preconditioner is built anew where the length of an edge has changed by more than this share: it goes by cubes of
+// lengths, and one that fits badly takes the shape in circles.
+constexpr double greatest_stretch = 0.03;
 // Iterations that do not get nearer, with steps of full length, before rounding is taken to have the last word.
 constexpr int patience = 12;
 
@@ -82,17 +83,30 @@ class Solver {
     preconditioner_.correct(forces_, correction_);
   }
 
-  /// Whether edges have changed so much that the preconditioner does not fit any more. Remembers the lengths if so.
+  /// Whether an edge has changed so much that the preconditioner does not fit any more. Remembers the lengths if so.
   bool lengths_changed() {
-    if (!mean_edge_.empty()) {
+    const double shortest = std::sqrt(net_.tiny);
+    if (!edge_.empty()) {
       const double worst = greatest_over_nodes([&](std::size_t i) {
-        return std::abs(forces_[i].mean_edge - mean_edge_[i]) / std::max(mean_edge_[i], std::sqrt(net_.tiny));
+        double greatest = 0;
+        for (std::size_t k = 0; k < net_.rings.links(i).size(); ++k) {
+          const double before = edge_[net_.rings.begin(i) + k];
+          greatest = std::max(greatest, std::abs(length(i, k) - before) / std::max(before, shortest));
+        }
+        return greatest;
       });
       if (worst < greatest_stretch) return false;
     }
-    mean_edge_.resize(net_.moving);
-    for (std::size_t i = 0; i < net_.moving; ++i) mean_edge_[i] = forces_[i].mean_edge;
+    edge_.resize(net_.rings.link_count());
+    for (std::size_t i = 0; i < net_.moving; ++i) {
+      for (std::size_t k = 0; k < net_.rings.links(i).size(); ++k) edge_[net_.rings.begin(i) + k] = length(i, k);
+    }
     return true;
+  }
+
+  [[nodiscard]] double length(std::size_t i, std::size_t link) const {
+    const Link to = net_.rings.links(i)[link];
+    return to.spoke() ? (net_.positions[to.node()] - net_.positions[i]).norm() : 0;
   }
 
   template <typename Value>
@@ -158,7 +172,7 @@ class Solver {
   Anderson anderson_;
   std::vector<NodeForce> forces_;
   std::vector<Vector3> correction_;
-  std::vector<double> mean_edge_;
+  std::vector<double> edge_;  // the lengths of all spokes when the preconditioner was built
   std::vector<double> greatest_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace vspring {
 
@@ -14,6 +15,10 @@ constexpr double least_share = 1e-6;
 // Turns of up to about 60° tell the shape; sharper ones are noise, and too far from linear to start with.
 constexpr double sharp_cosine = 0.5;
 constexpr int most_passes = 100;
+// Edges whose lengths have a ratio further than this from the one aimed at tell of nodes left behind where others were
+// put elsewhere; unless the curve is so much longer than its chord that it has to go round.
+constexpr double most_uneven = 3;
+constexpr double least_chord = 0.3;
 
 /// A node that coarser levels keep, and that averages leave alone.
 bool is_anchor(const Net& net, std::size_t node) { return node >= net.moving || net.given[node] != 0; }
@@ -128,6 +133,45 @@ CurveLevel coarser(const CurveLevel& fine, std::vector<std::vector<std::uint32_t
   return level;
 }
 
+void average_until_smooth(CurveLevel& level) {
+  Net& net = level.curve.net;
+  const auto sharp = [&](std::size_t i) {
+    const auto links = net.rings.links(i);
+    if (is_anchor(net, i) || links.size() < 2) return false;
+    const Vector3 before = net.positions[i] - net.positions[links[0].node()];
+    const Vector3 after = net.positions[links[1].node()] - net.positions[i];
+    return before.dot(after) < sharp_cosine * before.norm() * after.norm();
+  };
+  for (int pass = 0; pass < most_passes; ++pass) {
+    bool tangled = false;
+    for (std::size_t i = 0; i < net.moving && !tangled; ++i) tangled = sharp(i);
+    if (!tangled) return;
+    net.positions = averaged(level.curve);
+  }
+}
+
+/// Puts the nodes of a strand between two anchors on the chord, where their edges are far from the lengths aimed at.
+void straighten(CurveLevel& level, std::size_t s, std::size_t begin, std::size_t end) {
+  const auto& nodes = level.curve.strands[s].nodes;
+  const auto& at = level.along[s];
+  auto& positions = level.curve.net.positions;
+  const auto position = [&](std::size_t place) -> Vector3& { return positions[nodes[place % nodes.size()]]; };
+  double length = 0;
+  double shortest = std::numeric_limits<double>::infinity();
+  double longest = 0;
+  for (std::size_t k = begin; k < end; ++k) {
+    const double edge = (position(k + 1) - position(k)).norm();
+    length += edge;
+    shortest = std::min(shortest, edge / (at[k + 1] - at[k]));
+    longest = std::max(longest, edge / (at[k + 1] - at[k]));
+  }
+  const Vector3 start = position(begin);
+  const Vector3 chord = position(end) - start;
+  if (longest < most_uneven * shortest || !(chord.norm() > least_chord * length)) return;
+  for (std::size_t k = begin + 1; k < end; ++k)
+    position(k) = start + (at[k] - at[begin]) / (at[end] - at[begin]) * chord;
+}
+
 }  // namespace
 
 std::vector<CurveLevel> curve_levels(CurveNet curve, Distribution distribution) {
@@ -151,19 +195,16 @@ std::vector<CurveLevel> curve_levels(CurveNet curve, Distribution distribution) 
 }
 
 void untangle(CurveLevel& level) {
-  Net& net = level.curve.net;
-  const auto sharp = [&](std::size_t i) {
-    const auto links = net.rings.links(i);
-    if (is_anchor(net, i) || links.size() < 2) return false;
-    const Vector3 before = net.positions[i] - net.positions[links[0].node()];
-    const Vector3 after = net.positions[links[1].node()] - net.positions[i];
-    return before.dot(after) < sharp_cosine * before.norm() * after.norm();
-  };
-  for (int pass = 0; pass < most_passes; ++pass) {
-    bool tangled = false;
-    for (std::size_t i = 0; i < net.moving && !tangled; ++i) tangled = sharp(i);
-    if (!tangled) return;
-    net.positions = averaged(level.curve);
+  average_until_smooth(level);
+  for (std::size_t s = 0; s < level.curve.strands.size(); ++s) {
+    const Strand& strand = level.curve.strands[s];
+    const std::size_t last = strand.closed ? strand.nodes.size() : strand.nodes.size() - 1;
+    std::size_t begin = 0;
+    for (std::size_t k = 1; k <= last; ++k) {
+      if (k < last && !is_anchor(level.curve.net, strand.nodes[k])) continue;
+      straighten(level, s, begin, k);
+      begin = k;
+    }
   }
 }
 

@@ -24,8 +24,9 @@ struct CurveLevel {
 /// linear.
 std::vector<CurveLevel> curve_levels(CurveNet curve, Distribution distribution);
 
-/// Makes a shape fit to start from: averages neighbours until no node turns the curve sharply. Held nodes and nodes
-/// with a given direction stay, and may be corners.
+/// Makes a shape fit to start from: averages neighbours until no node turns the curve sharply, and puts nodes that were
+/// left behind, where a held one was put elsewhere, on the chord between the nodes that stay. Those are the held ones
+/// and those with a given direction, which may be corners.
 void untangle(CurveLevel& level);
 
 /// Hands the shape of a level up to the next finer one: nodes that it lacks go on the cubic with the tangents of their

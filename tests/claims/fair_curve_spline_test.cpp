@@ -133,6 +133,29 @@ TEST(FairCurveSpline, CurvatureIsContinuousAtFixedNodesAndLinearBetween) {
   }
 }
 
+TEST(FairCurveSpline, FixedNodesMayBePutFarFromWhereTheInputHasThem) {
+  // A straight start, most of whose nodes have been left behind, gives what the polygon through the points gives.
+  for (const int edges : {20, 100, 500, 3000}) {
+    for (const double height : {0.02, 0.1, 0.3, 0.6}) {
+      SCOPED_TRACE(fmt::format("{} edges, height {}", edges, height));
+      const auto start = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, edges));
+      Constraints constraints = held_ends(start);
+      const std::vector<Vector3> points = {{0, 0, 0}, {0.3, height, 0}, {0.55, height / 2, 0}, {1, 0, 0}};
+      const std::vector<Index> joints = {0, edges / 3, edges / 2, edges};
+      std::vector<Vector3> polygon;
+      for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        constraints.fix_position(joints[k], points[k]);
+        const auto span = straight(points[k], points[k + 1], places(Spacing::even, joints[k + 1] - joints[k]));
+        polygon.insert(polygon.end(), span.begin(), span.end() - 1);
+      }
+      polygon.push_back(points.back());
+      const FairResult result = fair(PolygonCurve(start), constraints, to_the_end(Distribution::even, 1e-10));
+      EXPECT_EQ(result.report.outcome, Outcome::converged);
+      EXPECT_LT(greatest_distance(result.positions, faired(polygon, constraints)), 1e-9);
+    }
+  }
+}
+
 TEST(FairCurveSpline, ATangentAtAFixedNodeAllowsAJumpOfCurvature) {
   // Two arcs of one tangent: each span is on its own.
   std::vector<Vector3> nodes = straight({-1, 0, 0}, {0, 1, 0}, places(Spacing::even, 40));

@@ -193,6 +193,17 @@ TEST(FairCurveReport, TheExpectedErrorCanBeBelieved) {
   }
 }
 
+TEST(FairCurveReport, TheExpectedErrorCanBeBelievedAfterHeavyNoise) {
+  // It is a prediction: the best there is to say is that it is hardly ever off by more than a small factor.
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const auto line = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 29));
+    const Constraints ends = held_ends(line);
+    const Believed worst = believed(noisy(line, ends, 1.0 / 29, seed, seed % 2 == 0), ends);
+    EXPECT_LT(worst.of_expected, 3) << seed;
+    EXPECT_LT(worst.of_tolerance, 2) << seed;
+  }
+}
+
 TEST(FairCurveReport, TellsHowItWent) {
   const auto start = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 400));
   const Constraints constraints = held_ends(start, heading(1), heading(-1));

@@ -1,6 +1,7 @@
 #include "levels/patch_mesh.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace vspring {
 
@@ -52,17 +53,18 @@ class EarCutter {
       face.resize(left);
     }
     while (face.size() > 3) {
-      const std::size_t size = face.size();
+      const std::size_t last = face.size() - 1;
+      const auto before = [&](std::size_t k) { return face[k > 0 ? k - 1 : last]; };
+      const auto after = [&](std::size_t k) { return face[k < last ? k + 1 : 0]; };
       std::size_t best = 0;
-      long lowest = 0;
-      for (std::size_t k = 0; k < size; ++k) {
-        const long cost = edges(face[(k + size - 1) % size]) + edges(face[(k + 1) % size]) - edges(face[k]);
-        if (k == 0 || cost < lowest) {
-          lowest = cost;
-          best = k;
-        }
+      long lowest = std::numeric_limits<long>::max();
+      for (std::size_t k = 0; k <= last; ++k) {
+        const long cost = edges(before(k)) + edges(after(k)) - edges(face[k]);
+        if (cost >= lowest) continue;
+        lowest = cost;
+        best = k;
       }
-      add(face[(best + size - 1) % size], face[best], face[(best + 1) % size]);
+      add(before(best), face[best], after(best));
       face.erase(face.begin() + static_cast<std::ptrdiff_t>(best));
     }
     add_triangle(face[0], face[1], face[2]);

@@ -10,7 +10,9 @@ namespace vspring {
 namespace {
 
 // Moving nodes of the coarsest level: the sweep alone takes few iterations there, and shapes are still told apart.
-constexpr std::size_t few_enough = 20;
+constexpr std::size_t few_enough = 24;
+// With fewer they tell no shape.
+constexpr std::size_t too_few = 6;
 // A level that keeps more of the nodes than this is not worth having.
 constexpr double worthwhile = 0.85;
 
@@ -84,7 +86,7 @@ std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distributi
     std::vector<Removals> removals = coarsen(triangulation, kept, team);
     Selection selection = select(fine, triangulation, kept);
     const bool smaller = static_cast<double>(selection.nodes.size()) <= worthwhile * static_cast<double>(kept.size());
-    if (!smaller || selection.moving == 0) break;
+    if (!smaller || selection.moving < too_few) break;
     triangulation = Triangulation(triangulation, selection.nodes, selection.number, team);
     SurfaceLevel level{coarse_net(fine, selection, triangulation), std::move(selection.nodes), std::move(removals)};
     distribute(level.net, model, distribution, team);

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t nodes_per_task = 16384;
 // Passes over a shape that was handed up until its nodes lie about as the regularisation (§4.4) wants them: a sweep
 // would move them along their tangent planes, off curved surfaces, by the square of how far they have to go.
-constexpr int passes = 2;
+constexpr int passes = 3;
 
 struct Place {
   Vector3 position;

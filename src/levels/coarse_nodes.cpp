@@ -1,9 +1,7 @@
 #include "levels/coarse_nodes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
-#include <utility>
 
 namespace vspring {
 
@@ -13,18 +11,15 @@ using Kind = Triangulation::Kind;
 
 // Nodes that a boundary loop keeps, if it has them: with fewer it is no smooth curve any more.
 constexpr std::size_t least_loop = 6;
-// Nodes rated worse than this are all the same.
-constexpr std::size_t worst_rating = 31;
 // Nodes of more neighbours are kept: no neighbour could take over so many.
 constexpr std::size_t many_neighbours = 12;
+// Nodes of fewer neighbours are kept where no other will do: of a mesh of fours and eights the fours would be half.
+constexpr std::size_t few_neighbours = 6;
 
 class Chooser {
  public:
   explicit Chooser(const Triangulation& triangulation)
-      : triangulation_(triangulation),
-        state_(triangulation.size(), State::free),
-        rating_(triangulation.size(), 0),
-        ways_(triangulation.size(), 0) {}
+      : triangulation_(triangulation), state_(triangulation.size(), State::free) {}
 
   void keep_fixed() {
     for (std::size_t i = 0; i < triangulation_.size(); ++i) {
@@ -37,7 +32,7 @@ class Chooser {
   void keep_constrained(const std::vector<std::uint8_t>& constrained) {
     for (std::size_t i = 0; i < triangulation_.size(); ++i) {
       const bool wanted = constrained[i] != 0 || triangulation_.ring(i).size() > many_neighbours;
-      if (wanted && triangulation_.kind(i) == Kind::closed && state_[i] == State::free) keep(i);
+      if (wanted && triangulation_.kind(i) == Kind::closed && is_free(i)) keep(i);
     }
   }
 
@@ -54,7 +49,7 @@ class Chooser {
   void keep_rest() {
     advance();
     for (std::size_t i = 0; i < triangulation_.size(); ++i) {
-      if (state_[i] != State::free) continue;
+      if (!is_free(i)) continue;
       keep(i);
       advance();
     }
@@ -68,49 +63,35 @@ class Chooser {
   }
 
  private:
-  enum class State : std::uint8_t { free, covered, kept };
+  /// waiting: free, and two steps from a node that is kept.
+  enum class State : std::uint8_t { free, waiting, covered, kept };
 
-  /// Nodes waiting to be looked at, first come, first served.
-  struct Queue {
-    std::vector<std::uint32_t> nodes;
-    std::size_t next = 0;
-  };
+  [[nodiscard]] bool is_free(std::size_t i) const { return state_[i] == State::free || state_[i] == State::waiting; }
 
   void keep(std::size_t i) {
     if (state_[i] == State::kept) return;
     state_[i] = State::kept;
     triangulation_.for_each_neighbour(i, [&](std::size_t j) {
-      if (state_[j] == State::free) state_[j] = State::covered;
+      if (state_[j] != State::kept) state_[j] = State::covered;
     });
-    // A node two steps away along a straight line is reached in one way, one in between in two. The squares of the
-    // numbers of ways are summed, so the straight ones come first and rows go on.
-    reached_.clear();
     triangulation_.for_each_neighbour(i, [&](std::size_t j) {
       if (triangulation_.ring(j).size() > many_neighbours) return;
       triangulation_.for_each_neighbour(j, [&](std::size_t k) {
         if (state_[k] != State::free) return;
-        if (ways_[k]++ == 0) reached_.push_back(static_cast<std::uint32_t>(k));
+        state_[k] = State::waiting;
+        (triangulation_.ring(k).size() < few_neighbours ? later_ : front_).push_back(static_cast<std::uint32_t>(k));
       });
     });
-    for (const std::uint32_t k : reached_) {
-      const std::size_t ways = std::exchange(ways_[k], 0U);
-      rating_[k] = static_cast<std::uint8_t>(std::min(worst_rating, rating_[k] + ways * ways));
-      queues_[rating_[k]].nodes.push_back(k);
-      lowest_ = std::min<std::size_t>(lowest_, rating_[k]);
-    }
   }
 
+  /// First come, first kept: one in four, as many sixes among the valences as with any other order that was tried at
+  /// this rate. Nodes that the kept ones reach in most ways first leaves more sixes, but one in three and a half.
   void advance() {
-    while (lowest_ <= worst_rating) {
-      Queue& queue = queues_[lowest_];
-      if (queue.next == queue.nodes.size()) {
-        queue.nodes.clear();
-        queue.next = 0;
-        ++lowest_;
-        continue;
-      }
-      const std::uint32_t i = queue.nodes[queue.next++];
-      if (state_[i] == State::free && rating_[i] == lowest_) keep(i);
+    for (;;) {
+      const bool later = next_ == front_.size();
+      if (later && next_later_ == later_.size()) return;
+      const std::uint32_t i = later ? later_[next_later_++] : front_[next_++];
+      if (state_[i] == State::waiting) keep(i);
     }
   }
 
@@ -145,12 +126,11 @@ class Chooser {
 
   const Triangulation& triangulation_;
   std::vector<State> state_;
-  std::vector<std::uint8_t> rating_;
-  std::vector<std::uint32_t> ways_;
-  std::vector<std::uint32_t> reached_;
+  std::vector<std::uint32_t> front_;
+  std::size_t next_ = 0;
+  std::vector<std::uint32_t> later_;
+  std::size_t next_later_ = 0;
   std::vector<std::uint32_t> loop_;
-  std::array<Queue, worst_rating + 1> queues_;
-  std::size_t lowest_ = worst_rating + 1;
 };
 
 }  // namespace

@@ -1,0 +1,150 @@
+#include "levels/coarsening.hpp"
+
+#include <algorithm>
+
+namespace vspring {
+
+namespace {
+
+using Kind = Triangulation::Kind;
+
+constexpr std::size_t least_piece = 4096;
+constexpr std::size_t pieces_wanted = 16;
+constexpr int most_passes = 4;
+constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+class Coarsening {
+ public:
+  Coarsening(Triangulation& triangulation, std::vector<std::uint8_t>& kept)
+      : triangulation_(triangulation), kept_(kept) {}
+
+  /// Removes the nodes of a run whose neighbours all lie in the run. Returns those left.
+  std::vector<std::uint32_t> remove_within(std::size_t begin, std::size_t end, Removals& removals) {
+    std::vector<std::uint32_t> waiting;
+    std::vector<std::uint32_t> outside;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (kept_[i] == 0) waiting.push_back(static_cast<std::uint32_t>(i));
+    }
+    remove(waiting, removals, [&](std::uint32_t i) {
+      const auto ring = triangulation_.ring(i);
+      const bool inside = std::all_of(ring.begin(), ring.end(), [&](std::uint32_t j) { return j >= begin && j < end; });
+      if (!inside) outside.push_back(i);
+      return inside;
+    });
+    outside.insert(outside.end(), waiting.begin(), waiting.end());
+    std::sort(outside.begin(), outside.end());
+    return outside;
+  }
+
+  void remove_rest(std::vector<std::uint32_t>& waiting, Removals& removals) {
+    remove(waiting, removals, [](std::uint32_t) { return true; });
+    for (const std::uint32_t i : waiting) kept_[i] = 1;
+  }
+
+  void even_out() {
+    for (int pass = 0; pass < most_passes; ++pass) {
+      std::size_t flips = 0;
+      for (std::size_t i = 0; i < triangulation_.size(); ++i) {
+        if (kept_[i] != 0 && triangulation_.kind(i) != Kind::fixed) flips += flip_around(i);
+      }
+      if (flips == 0) return;
+    }
+  }
+
+ private:
+  template <typename Allowed>
+  void remove(std::vector<std::uint32_t>& waiting, Removals& removals, const Allowed& allowed) {
+    for (int pass = 0; pass < most_passes; ++pass) {
+      std::size_t left = 0;
+      const std::size_t before = waiting.size();
+      for (const std::uint32_t i : waiting) {
+        if (!allowed(i)) continue;
+        const std::size_t place = best_place(i, pass > 0);
+        if (place == none) {
+          waiting[left++] = i;
+          continue;
+        }
+        removals.add(i, triangulation_.ring(i));
+        triangulation_.collapse(i, place);
+      }
+      waiting.resize(left);
+      if (left == 0 || left == before) return;
+    }
+  }
+
+  /// The neighbour to draw a node into: one that stays, so that edges of the coarse level go from cell to cell of nodes
+  /// drawn together; of those the one of fewest neighbours.
+  [[nodiscard]] std::size_t best_place(std::uint32_t i, bool any) const {
+    const auto ring = triangulation_.ring(i);
+    std::size_t best = none;
+    std::size_t fewest = none;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const std::size_t neighbours = triangulation_.ring(ring[k]).size() + (kept_[ring[k]] != 0 ? 0 : 1000);
+      if ((kept_[ring[k]] == 0 && !any) || neighbours >= fewest || !triangulation_.can_collapse(i, k)) continue;
+      fewest = neighbours;
+      best = k;
+    }
+    return best;
+  }
+
+  /// How many neighbours more than it should have.
+  [[nodiscard]] long excess(std::uint32_t i) const {
+    return static_cast<long>(triangulation_.ring(i).size()) - (triangulation_.kind(i) == Kind::closed ? 6 : 4);
+  }
+
+  std::size_t flip_around(std::size_t i) {
+    std::size_t flips = 0;
+    for (std::size_t k = 0; k < triangulation_.ring(i).size(); ++k) {
+      if (!worth_flipping(i, k)) continue;
+      triangulation_.flip(i, k);
+      ++flips;
+    }
+    return flips;
+  }
+
+  [[nodiscard]] bool worth_flipping(std::size_t i, std::size_t place) const {
+    const auto ring = triangulation_.ring(i);
+    const std::size_t size = ring.size();
+    const bool open = triangulation_.kind(i) == Kind::open;
+    if (ring[place] < i || (open && (place == 0 || place + 1 == size))) return false;
+    const auto a = static_cast<std::uint32_t>(i);
+    const std::uint32_t b = ring[place];
+    const std::uint32_t c = ring[place > 0 ? place - 1 : size - 1];
+    const std::uint32_t d = ring[place + 1 < size ? place + 1 : 0];
+    for (const std::uint32_t j : {b, c, d}) {
+      if (triangulation_.kind(j) == Kind::fixed) return false;
+    }
+    // The sum of squares falls.
+    if (excess(a) + excess(b) - excess(c) - excess(d) <= 2) return false;
+    if (triangulation_.kind(c) == Kind::open && triangulation_.kind(d) == Kind::open) return false;
+    const auto can_lose_one = [&](std::uint32_t j) {
+      return triangulation_.ring(j).size() > Triangulation::fewest(triangulation_.kind(j));
+    };
+    const auto can_gain_one = [&](std::uint32_t j) { return triangulation_.ring(j).size() < triangulation_.room(j); };
+    return can_lose_one(a) && can_lose_one(b) && can_gain_one(c) && can_gain_one(d) && !triangulation_.joined(c, d);
+  }
+
+  Triangulation& triangulation_;
+  std::vector<std::uint8_t>& kept_;
+};
+
+}  // namespace
+
+std::vector<Removals> coarsen(Triangulation& triangulation, std::vector<std::uint8_t>& kept, ThreadTeam& team) {
+  const std::size_t nodes = triangulation.size();
+  const std::size_t piece = std::max(least_piece, (nodes + pieces_wanted - 1) / pieces_wanted);
+  const std::size_t pieces = (nodes + piece - 1) / piece;
+  std::vector<Removals> removals(pieces + 1);
+  std::vector<std::vector<std::uint32_t>> left(pieces);
+  Coarsening coarsening(triangulation, kept);
+  parallel_ranges(team, nodes, piece, [&](std::size_t begin, std::size_t end) {
+    left[begin / piece] = coarsening.remove_within(begin, end, removals[begin / piece]);
+  });
+  std::vector<std::uint32_t> rest;
+  for (const auto& part : left) rest.insert(rest.end(), part.begin(), part.end());
+  coarsening.remove_rest(rest, removals.back());
+  coarsening.even_out();
+  return removals;
+}
+
+}  // namespace vspring

@@ -1,0 +1,100 @@
+#include "levels/surface_levels.hpp"
+
+#include <algorithm>
+
+#include "levels/coarse_nodes.hpp"
+#include "levels/patch_mesh.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Moving nodes of the coarsest level: the sweep alone takes few iterations there, and shapes are still told apart.
+constexpr std::size_t few_enough = 24;
+// With fewer they tell no shape.
+constexpr std::size_t too_few = 6;
+// A level that keeps more of the nodes than this is not worth having.
+constexpr double worthwhile = 0.85;
+
+/// The nodes of a finer net that a coarser one keeps, in its order: moving ones, held ones whose normal is to be
+/// computed, others.
+struct Selection {
+  std::vector<std::uint32_t> nodes;
+  std::vector<std::uint32_t> number;  ///< by the finer net's numbers
+  std::size_t moving = 0;
+  std::size_t computed = 0;
+};
+
+Selection select(const Net& fine, const Triangulation& triangulation, const std::vector<std::uint8_t>& kept) {
+  Selection selection;
+  selection.number.resize(kept.size(), 0);
+  std::vector<std::uint32_t> others;
+  for (std::size_t i = 0; i < fine.moving; ++i) {
+    if (kept[i] != 0) selection.nodes.push_back(static_cast<std::uint32_t>(i));
+  }
+  selection.moving = selection.nodes.size();
+  for (std::size_t i = fine.moving; i < kept.size(); ++i) {
+    if (kept[i] == 0) continue;
+    bool beside_moving = false;
+    triangulation.for_each_neighbour(i, [&](std::size_t j) { beside_moving = beside_moving || j < fine.moving; });
+    (beside_moving && !fine.normal_given(i) ? selection.nodes : others).push_back(static_cast<std::uint32_t>(i));
+  }
+  selection.computed = selection.nodes.size();
+  selection.nodes.insert(selection.nodes.end(), others.begin(), others.end());
+  for (std::size_t k = 0; k < selection.nodes.size(); ++k)
+    selection.number[selection.nodes[k]] = static_cast<std::uint32_t>(k);
+  return selection;
+}
+
+Net coarse_net(const Net& fine, const Selection& selection, const Triangulation& coarse) {
+  Net net;
+  const std::size_t nodes = selection.nodes.size();
+  net.moving = selection.moving;
+  net.computed = selection.computed;
+  net.positions.reserve(nodes);
+  net.normals.reserve(nodes);
+  net.given.reserve(nodes);
+  net.node.reserve(nodes);
+  for (const std::uint32_t i : selection.nodes) {
+    net.positions.push_back(fine.positions[i]);
+    net.normals.push_back(fine.normals[i]);
+    net.given.push_back(fine.given[i]);
+    net.node.push_back(fine.node[i]);
+  }
+  net.rings.reserve(net.computed, 7 * net.computed);
+  std::vector<Link> links;
+  for (std::size_t i = 0; i < net.computed; ++i) coarse.add_links(i, links, net.rings);
+  net.frame = fine.frame;
+  net.tiny = fine.tiny;
+  return net;
+}
+
+}  // namespace
+
+std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distribution distribution, ThreadTeam& team) {
+  distribute(net, model, distribution, team);
+  std::vector<SurfaceLevel> levels(1);
+  levels[0].net = std::move(net);
+  if (levels[0].net.moving <= few_enough) return levels;
+  Triangulation triangulation(triangulated_patch(levels[0].net), team);
+  for (;;) {
+    const Net& fine = levels.back().net;
+    std::vector<std::uint8_t> constrained(fine.given.size());
+    for (std::size_t i = 0; i < constrained.size(); ++i)
+      constrained[i] = static_cast<std::uint8_t>(i >= fine.moving || fine.given[i] != 0);
+    std::vector<std::uint8_t> kept = choose_coarse_nodes(triangulation, constrained);
+    std::vector<Removals> removals = coarsen(triangulation, kept, team);
+    Selection selection = select(fine, triangulation, kept);
+    const bool smaller = static_cast<double>(selection.nodes.size()) <= worthwhile * static_cast<double>(kept.size());
+    if (!smaller || selection.moving < too_few) break;
+    triangulation = Triangulation(triangulation, selection.nodes, selection.number, team);
+    SurfaceLevel level{coarse_net(fine, selection, triangulation), std::move(selection.nodes), std::move(removals)};
+    distribute(level.net, model, distribution, team);
+    levels.push_back(std::move(level));
+    if (levels.back().net.moving <= few_enough) break;
+  }
+  std::reverse(levels.begin(), levels.end());
+  return levels;
+}
+
+}  // namespace vspring

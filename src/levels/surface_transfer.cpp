@@ -1,0 +1,104 @@
+#include <algorithm>
+
+#include "levels/surface_levels.hpp"
+#include "shape/direction.hpp"
+#include "spring/v_spring.hpp"
+
+namespace vspring {
+
+namespace {
+
+constexpr std::size_t nodes_per_task = 16384;
+// Passes over a shape that was handed up until its nodes lie about as the regularisation (§4.4) wants them: a sweep
+// would move them along their tangent planes, off curved surfaces, by the square of how far they have to go.
+constexpr int passes = 3;
+
+struct Place {
+  Vector3 position;
+  Vector3 normal;
+};
+
+/// Where the V-Springs (Eq. 4) to other nodes j balance. for_each(use) calls use(j, weight), weights of sum 1. Of a
+/// sphere, the weighted means q of positions and n of normals lie on one ray from the centre, and each V-Spring from q
+/// along n ends on the sphere: d·(n + N) / (1 + n·N) is the same for all nodes. On other surfaces the error of n counts
+/// little because the weighted mean of all d is zero.
+template <typename ForEach>
+Place balance(const Net& net, const ForEach& for_each) {
+  Place place = {Vector3::Zero(), Vector3::Zero()};
+  for_each([&](std::size_t j, double weight) {
+    place.position += weight * net.positions[j];
+    place.normal += (place.normal.dot(net.normals[j]) < 0 ? -weight : weight) * net.normals[j];
+  });
+  place.normal = direction(place.normal, 1);
+  double lift = 0;
+  for_each([&](std::size_t j, double weight) {
+    lift += weight * spring_difference(net.positions[j] - place.position, place.normal, net.normals[j]);
+  });
+  place.position += lift * place.normal;
+  return place;
+}
+
+void put(Net& net, std::size_t i, const Place& place) {
+  if (i < net.moving) net.positions[i] = place.position;
+  if (!net.normal_given(i)) net.normals[i] = place.normal;
+}
+
+/// Places what a coarser level lacks.
+void place_removed(Net& net, const Removals& removals) {
+  for (std::size_t k = removals.size(); k-- > 0;) {
+    const auto parents = removals.parents_of(k);
+    const double weight = 1 / static_cast<double>(parents.size());
+    const Place place = balance(net, [&](const auto& use) {
+      for (const std::uint32_t j : parents) use(j, weight);
+    });
+    put(net, removals.nodes[k], place);
+  }
+}
+
+/// Places every moving node anew between its neighbours, itself counted as one more of them.
+void relax(Net& net, std::vector<Place>& places, ThreadTeam& team) {
+  places.resize(net.moving);
+  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto links = net.rings.links(i);
+      const auto shares = net.shares_of(i);
+      const auto spokes =
+          static_cast<double>(std::count_if(links.begin(), links.end(), [](Link link) { return link.spoke(); }));
+      const double own = 1 / (spokes + 1);
+      places[i] = balance(net, [&](const auto& use) {
+        use(i, own);
+        for (std::size_t k = 0; k < links.size(); ++k) {
+          if (links[k].spoke()) use(links[k].node(), shares.empty() ? own : (1 - own) * shares[k]);
+        }
+      });
+    }
+  });
+  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) put(net, i, places[i]);
+  });
+}
+
+}  // namespace
+
+void restrict_shape(const SurfaceLevel& fine, SurfaceLevel& coarse) {
+  for (std::size_t k = 0; k < coarse.net.moving; ++k) coarse.net.positions[k] = fine.net.positions[coarse.finer[k]];
+}
+
+void prolong(const SurfaceLevel& coarse, SurfaceLevel& fine, ThreadTeam& team) {
+  const Net& from = coarse.net;
+  Net& to = fine.net;
+  parallel_ranges(team, coarse.finer.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = coarse.finer[k];
+      if (k < from.moving) to.positions[i] = from.positions[k];
+      if (!to.normal_given(i)) to.normals[i] = from.normals[k];
+    }
+  });
+  place_removed(to, coarse.removals.back());
+  const std::size_t groups = coarse.removals.size() - 1;
+  team.run(groups, [&](std::size_t g) { place_removed(to, coarse.removals[g]); });
+  std::vector<Place> places;
+  for (int pass = 0; pass < passes; ++pass) relax(to, places, team);
+}
+
+}  // namespace vspring

@@ -93,7 +93,8 @@ const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::o
                                                           {"dat", CurveFormat::dat},
                                                           {"xyz", CurveFormat::xyz},
                                                           {"svg", CurveFormat::svg}};
-const std::map<std::string, Method> methods = {{"equilibrium", Method::equilibrium}, {"sweep", Method::sweep}};
+const std::map<std::string, Method> methods = {
+    {"equilibrium", Method::equilibrium}, {"multigrid", Method::multigrid}, {"sweep", Method::sweep}};
 const std::map<std::string, NormalPlane> normal_planes = {{"full", NormalPlane::full},
                                                           {"principal", NormalPlane::principal}};
 
@@ -123,9 +124,10 @@ void add_node_options(CLI::App& command, CurveArguments& arguments) {
 
 void add_method_options(CLI::App& command, CurveArguments& arguments, const FairingWords& words) {
   FairOptions& options = arguments.options;
-  add_choice(command, "--method", options.method, methods,
-             "The accelerated solver that goes to the true equilibrium, or the paper's plain iteration (default: "
-             "equilibrium)")
+  add_choice(
+      command, "--method", options.method, methods,
+      "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
+      "plain iteration (default: equilibrium)")
       ->group(fairing_group);
   command
       .add_option("--tolerance", options.tolerance,
@@ -135,7 +137,7 @@ void add_method_options(CLI::App& command, CurveArguments& arguments, const Fair
       ->type_name("X")
       ->check(CLI::PositiveNumber)
       ->group(fairing_group);
-  add_stopping_options(command, arguments, "200 for each level of equilibrium, 10000 for sweep");
+  add_stopping_options(command, arguments, "on each level: 200 for equilibrium, 10000 for the others");
   CLI::Option* plane =
       add_choice(command, "--normal-plane", options.curve.normal_plane, normal_planes,
                  "Curves in space are sprung in the whole normal plane, or along the principal normal only, as in the "

@@ -55,12 +55,29 @@ void add_constraint_options(CLI::App& command, FairingArguments& arguments, cons
 void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& limits) {
   FairOptions& options = arguments.options;
   command
-      .add_option("--step-tolerance", options.step_tolerance,
-                  fmt::format("sweep: stop when no node moves further in an iteration than this share of its mean edge "
-                              "length (default: {})",
-                              options.step_tolerance))
+      .add_option(
+          "--step-tolerance", options.step_tolerance,
+          fmt::format(
+              "multigrid, sweep: stop when no node moves further in an iteration than this share of its mean edge "
+              "length (default: {})",
+              options.step_tolerance))
       ->type_name("E")
       ->check(CLI::PositiveNumber)
+      ->group(fairing_group);
+  command
+      .add_option(
+          "--levels", options.levels,
+          "multigrid: number of levels, fewer where there are too few nodes (default: 6, more where the coarsest "
+          "would be large)")
+      ->type_name("L")
+      ->check(CLI::Range(1, 64))
+      ->group(fairing_group);
+  command
+      .add_option(
+          "--pre-smoothing", options.pre_smoothing,
+          fmt::format("multigrid: iterations on each level on the way down (default: {})", options.pre_smoothing))
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
       ->group(fairing_group);
   command
       .add_option("--max-iterations", options.max_iterations,

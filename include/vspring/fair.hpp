@@ -16,6 +16,7 @@ namespace vspring {
 
 enum class Method {
   equilibrium,  ///< the accelerated solver that goes to the true equilibrium; curves only so far
+  multigrid,    ///< the paper's V-cycle over coarser levels (§4.7)
   sweep         ///< the paper's plain iteration (§4.1)
 };
 
@@ -33,11 +34,17 @@ struct FairOptions {
   /// Equilibrium: stop when no node is expected to be further than this share of the diagonal of the box around the
   /// moving nodes and their rim from its final place.
   double tolerance = 1e-5;
-  /// Sweep: the paper's e (§4.6): stop when no node moves further in one iteration than this share of the mean length
-  /// of its edges.
+  /// Multigrid and sweep: the paper's e (§4.6): stop when no node moves further in one iteration than this share of the
+  /// mean length of its edges.
   double step_tolerance = 1e-3;
-  /// Where not given: 10,000 sweeps; 200 iterations of the equilibrium solver on each of its levels.
+  /// Where not given: 10,000 sweeps, with multigrid on each level; 200 iterations of the equilibrium solver on each of
+  /// its levels.
   std::optional<int> max_iterations = std::nullopt;
+  /// Multigrid: levels, the shape itself among them; fewer where that has too few nodes. Where not given: 6, and more
+  /// until the coarsest has no more than 150 moving nodes.
+  std::optional<int> levels = std::nullopt;
+  /// Multigrid: iterations on each level on the way down.
+  int pre_smoothing = 5;
   /// result = input + strength × (fair − input) for moving nodes; 0 to 1.
   double strength = 1;
 
@@ -45,7 +52,7 @@ struct FairOptions {
   void validate() const;
 };
 
-/// "equilibrium" or "sweep".
+/// "equilibrium", "multigrid" or "sweep".
 [[nodiscard]] const char* name(Method method) noexcept;
 
 enum class Outcome { converged, iteration_limit, stalled, cancelled };
@@ -64,8 +71,9 @@ struct FairReport {
   Outcome outcome = Outcome::converged;
   Method method = Method::sweep;
   int iterations = 0;
-  /// Sweep: largest displacement of the last iteration, relative to the mean edge length at its node (§4.6).
-  /// Equilibrium: predicted largest distance of a node from its final place, relative to the diagonal of the box.
+  /// Multigrid and sweep: largest displacement of the last iteration, relative to the mean edge length at its node
+  /// (§4.6). Equilibrium: predicted largest distance of a node from its final place, relative to the diagonal of the
+  /// box.
   double residual = 0;
   /// That figure for every iteration, over all levels.
   std::vector<double> history;

@@ -196,6 +196,17 @@ void straighten(CurveLevel& level) {
   }
 }
 
+void restrict_shape(const CurveLevel& fine, CurveLevel& coarse) {
+  Net& to = coarse.curve.net;
+  for (std::size_t s = 0; s < coarse.curve.strands.size(); ++s) {
+    const auto& nodes = coarse.curve.strands[s].nodes;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (nodes[k] < to.moving)
+        to.positions[nodes[k]] = fine.curve.net.positions[fine.curve.strands[s].nodes[coarse.finer[s][k]]];
+    }
+  }
+}
+
 void prolong(const CurveLevel& coarse, CurveLevel& fine) {
   const Net& from = coarse.curve.net;
   Net& to = fine.curve.net;

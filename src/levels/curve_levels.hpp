@@ -32,6 +32,9 @@ void untangle(CurveLevel& level);
 /// a given direction. What has fewer than two of those stays.
 void straighten(CurveLevel& level);
 
+/// Hands the shape of a level down to the next coarser one: its nodes stay where they are.
+void restrict_shape(const CurveLevel& fine, CurveLevel& coarse);
+
 /// Hands the shape of a level up to the next finer one: nodes that it lacks go on the cubic with the tangents of their
 /// neighbours, whose error on a circle falls with the sixth power of the spacing. Needs directions on the coarse level.
 void prolong(const CurveLevel& coarse, CurveLevel& fine);

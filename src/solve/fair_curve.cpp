@@ -8,8 +8,10 @@
 #include "levels/curve_levels.hpp"
 #include "shape/planarity.hpp"
 #include "solve/account.hpp"
+#include "solve/curve_hierarchy.hpp"
 #include "solve/curve_preconditioner.hpp"
 #include "solve/equilibrium.hpp"
+#include "solve/multigrid_method.hpp"
 #include "solve/sweep_method.hpp"
 #include "vspring/fair.hpp"
 
@@ -145,6 +147,10 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
   const auto model = curve_model(rules);
   if (report.method == Method::equilibrium) {
     EquilibriumRun(*model, options, diagonal(gathered.net), team, context, progress, report).run(gathered);
+  } else if (report.method == Method::multigrid) {
+    CurveHierarchy hierarchy(curve_levels(std::move(gathered), options.distribution));
+    run_multigrid(hierarchy, *model, options, team, context, progress, report);
+    gathered.net = std::move(hierarchy.net(hierarchy.size() - 1));
   } else {
     distribute(gathered.net, *model, options.distribution, team);
     run_sweeps(gathered.net, *model, options, team, context, progress, report);

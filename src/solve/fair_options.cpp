@@ -11,6 +11,8 @@ const char* name(Method method) noexcept {
   switch (method) {
     case Method::equilibrium:
       return "equilibrium";
+    case Method::multigrid:
+      return "multigrid";
     case Method::sweep:
       return "sweep";
   }
@@ -38,6 +40,8 @@ void FairOptions::validate() const {
   require(tolerance > 0 && std::isfinite(tolerance), "tolerance", "greater than 0", tolerance);
   require(step_tolerance > 0 && std::isfinite(step_tolerance), "step tolerance", "greater than 0", step_tolerance);
   require(max_iterations.value_or(0) >= 0, "maximum of iterations", "0 or more", max_iterations.value_or(0));
+  require(levels.value_or(1) >= 1, "number of levels", "1 or more", levels.value_or(1));
+  require(pre_smoothing >= 0, "pre-smoothing", "0 or more", pre_smoothing);
   require(strength >= 0 && strength <= 1, "strength", "from 0 to 1", strength);
 }
 

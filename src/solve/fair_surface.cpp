@@ -5,6 +5,8 @@
 #include "fairness/measure.hpp"
 #include "solve/account.hpp"
 #include "solve/fair_boundary.hpp"
+#include "solve/multigrid_method.hpp"
+#include "solve/surface_hierarchy.hpp"
 #include "solve/sweep_method.hpp"
 #include "vspring/error.hpp"
 #include "vspring/fair.hpp"
@@ -19,10 +21,11 @@ FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const F
     result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;
   }
-  if (options.method.value_or(Method::sweep) != Method::sweep)
-    throw Error(ErrorCode::invalid_argument, "surfaces are faired by the method sweep only so far");
+  if (options.method == Method::equilibrium)
+    throw Error(ErrorCode::invalid_argument, "surfaces are faired by the methods multigrid and sweep only so far");
   FairResult result;
   FairReport& report = result.report;
+  report.method = options.method.value_or(Method::sweep);
   report.warnings = check_constraints(mesh, constraints);
 
   ProgressReporter progress(context);
@@ -35,8 +38,14 @@ FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const F
   report.before = measure(mesh, &constraints, team);
 
   const auto model = surface_model(options.pseudo_normals);
-  distribute(net, *model, options.distribution, team);
-  run_sweeps(net, *model, options, team, context, progress, report);
+  if (report.method == Method::multigrid) {
+    SurfaceHierarchy hierarchy(surface_levels(std::move(net), *model, options.distribution, team));
+    run_multigrid(hierarchy, *model, options, team, context, progress, report);
+    net = std::move(hierarchy.net(hierarchy.size() - 1));
+  } else {
+    distribute(net, *model, options.distribution, team);
+    run_sweeps(net, *model, options, team, context, progress, report);
+  }
 
   result.positions = scatter_positions(net, mesh.positions(), constraints, options.strength);
   measure_moves(net, mesh.positions(), result.positions, report);

@@ -1,5 +1,6 @@
 #include "solve/sweep_method.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solve/best_shape.hpp"
@@ -14,8 +15,6 @@ namespace {
 constexpr double lost_factor = 10;
 constexpr int patience = 500;
 
-constexpr int default_limit = 10000;
-
 /// Steps fall about geometrically, so the logarithm of the step tells how much of the way is done.
 double share_done(double first, double now, double last) {
   if (now <= last) return 1;
@@ -24,37 +23,47 @@ double share_done(double first, double now, double last) {
 
 }  // namespace
 
-void run_sweeps(Net& net, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
-                ProgressReporter& progress, FairReport& report) {
+SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& task, ThreadTeam& team, Context& context) {
   Sweep sweep(net, model, team);
   BestShape best(net, lost_factor);
-  report.outcome = Outcome::iteration_limit;
-  const int limit = options.max_iterations.value_or(default_limit);
-  while (report.outcome == Outcome::iteration_limit && report.iterations < limit) {
+  SweepResult result;
+  while (result.outcome == Outcome::iteration_limit && result.iterations < task.max_iterations) {
     if (context.cancelled()) {
-      report.outcome = Outcome::cancelled;
+      result.outcome = Outcome::cancelled;
       break;
     }
-    report.residual = sweep.iterate();
-    ++report.iterations;
-    report.history.push_back(report.residual);
-    best.look(report.residual);
-    progress.report("fairing",
-                    std::max(share_done(report.history.front(), report.residual, options.step_tolerance),
-                             static_cast<double>(report.iterations) / limit),
-                    report.iterations, report.residual);
-    if (report.residual < options.step_tolerance) {
-      report.outcome = Outcome::converged;
+    result.residual = sweep.iterate();
+    ++result.iterations;
+    best.look(result.residual);
+    if (task.on_iteration) task.on_iteration(result.residual);
+    if (result.residual < task.step_tolerance) {
+      result.outcome = Outcome::converged;
     } else if (best.lost_for() >= patience) {
-      report.outcome = Outcome::stalled;
+      result.outcome = Outcome::stalled;
     }
   }
-  if (best.lost_for() > 0) {
-    report.residual = best.restore();
-    report.warnings.emplace_back(
-        "the steps grew again, so the shape has no equilibrium that the iteration can reach: the one with the smallest "
-        "steps is kept; hold more nodes, or normals, or let a smaller region move");
-  }
+  result.lost = best.lost_for() > 0 && task.step_tolerance > 0;
+  if (result.lost) result.residual = best.restore();
+  return result;
+}
+
+void run_sweeps(Net& net, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
+                ProgressReporter& progress, FairReport& report) {
+  SweepTask task{.step_tolerance = options.step_tolerance,
+                 .max_iterations = options.max_iterations.value_or(SweepTask().max_iterations)};
+  task.on_iteration = [&](double residual) {
+    report.history.push_back(residual);
+    const auto iterations = static_cast<int>(report.history.size());
+    progress.report("fairing",
+                    std::max(share_done(report.history.front(), residual, task.step_tolerance),
+                             static_cast<double>(iterations) / task.max_iterations),
+                    iterations, residual);
+  };
+  const SweepResult result = sweep_until_still(net, model, task, team, context);
+  report.outcome = result.outcome;
+  report.iterations = result.iterations;
+  report.residual = result.residual;
+  if (result.lost) report.warnings.emplace_back(lost_warning);
 }
 
 }  // namespace vspring

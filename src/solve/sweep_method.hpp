@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "base/progress.hpp"
 #include "base/threads.hpp"
 #include "spring/model.hpp"
@@ -7,8 +9,31 @@
 
 namespace vspring {
 
-/// The paper's plain iteration (Fig. 3) until the termination condition of §4.6 holds. Fills outcome, iterations,
-/// residual and history.
+/// When plain iterations over one net end.
+struct SweepTask {
+  double step_tolerance = 1e-3;  ///< e of §4.6; 0 for as many iterations as there may be
+  int max_iterations = 10000;
+  /// Called after every iteration with its largest displacement relative to the mean edge length.
+  std::function<void(double)> on_iteration = nullptr;
+};
+
+struct SweepResult {
+  Outcome outcome = Outcome::iteration_limit;
+  int iterations = 0;
+  double residual = 0;
+  /// Whether the steps grew again; the shape is then the one with the smallest steps.
+  bool lost = false;
+};
+
+/// The paper's plain iteration (Fig. 3) until the termination condition of §4.6 holds.
+SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& task, ThreadTeam& team, Context& context);
+
+/// A warning for people where the steps grew again.
+inline constexpr const char* lost_warning =
+    "the steps grew again, so the shape has no equilibrium that the iteration can reach: the one with the smallest "
+    "steps is kept; hold more nodes, or normals, or let a smaller region move";
+
+/// The plain iteration on the shape itself. Fills outcome, iterations, residual and history.
 void run_sweeps(Net& net, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
                 ProgressReporter& progress, FairReport& report);
 

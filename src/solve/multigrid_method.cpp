@@ -1,0 +1,99 @@
+#include "solve/multigrid_method.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "solve/sweep_method.hpp"
+
+namespace vspring {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Where no number of levels is asked for: as many as the paper had, and more until the coarsest has no more moving
+// nodes than this, for which the plain iteration goes to the equilibrium at once.
+constexpr std::size_t papers_levels = 6;
+constexpr std::size_t few_enough = 150;
+// The coarsest level goes on until steps are this much smaller than on the others.
+constexpr double coarsest_share = 1e-3;
+
+std::size_t default_levels(Hierarchy& hierarchy) {
+  std::size_t levels = std::min(papers_levels, hierarchy.size());
+  while (levels < hierarchy.size() && hierarchy.net(hierarchy.size() - levels).moving > few_enough) ++levels;
+  return levels;
+}
+
+class Cycle {
+ public:
+  Cycle(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
+        ProgressReporter& progress, FairReport& report)
+      : hierarchy_(hierarchy),
+        model_(model),
+        options_(options),
+        team_(team),
+        context_(context),
+        progress_(progress),
+        report_(report) {}
+
+  void run() {
+    hierarchy_.limit(options_.levels ? static_cast<std::size_t>(*options_.levels) : default_levels(hierarchy_));
+    const std::size_t finest = hierarchy_.size() - 1;
+    report_.levels.resize(hierarchy_.size());
+    for (std::size_t k = 0; k <= finest; ++k)
+      report_.levels[k].moving_nodes = static_cast<Index>(hierarchy_.net(k).moving);
+    for (std::size_t k = finest; k > 0; --k) {
+      report_.outcome = iterate(k, 0, options_.pre_smoothing).outcome;
+      if (report_.outcome == Outcome::cancelled) return;
+      hierarchy_.restrict_from(k);
+    }
+    const int limit = options_.max_iterations.value_or(SweepTask().max_iterations);
+    for (std::size_t k = 0;; ++k) {
+      const double share = k == 0 && finest > 0 ? coarsest_share : 1;
+      const SweepResult result = iterate(k, share * options_.step_tolerance, limit);
+      report_.outcome = result.outcome;
+      report_.residual = result.residual;
+      if (result.lost) lost_ = true;
+      if (k == finest) break;
+      update_directions(hierarchy_.net(k), model_, team_);
+      hierarchy_.prolong_from(k, team_);
+    }
+    if (lost_) report_.warnings.emplace_back(lost_warning);
+  }
+
+ private:
+  SweepResult iterate(std::size_t level, double step_tolerance, int max_iterations) {
+    const auto begin = Clock::now();
+    SweepTask task{.step_tolerance = step_tolerance, .max_iterations = max_iterations};
+    const auto nodes = static_cast<double>(hierarchy_.net(level).moving);
+    const double share = nodes / static_cast<double>(hierarchy_.net(hierarchy_.size() - 1).moving);
+    task.on_iteration = [&](double residual) {
+      report_.history.push_back(residual);
+      ++report_.iterations;
+      // A level's work goes with its nodes, and all coarser ones together are a third of it.
+      progress_.report("fairing", step_tolerance > 0 ? share * 0.7 : 0, report_.iterations, residual);
+    };
+    const SweepResult result = sweep_until_still(hierarchy_.net(level), model_, task, team_, context_);
+    report_.levels[level].iterations += result.iterations;
+    report_.levels[level].seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+    return result;
+  }
+
+  Hierarchy& hierarchy_;
+  const Model& model_;
+  const FairOptions& options_;
+  ThreadTeam& team_;
+  Context& context_;
+  ProgressReporter& progress_;
+  FairReport& report_;
+  bool lost_ = false;
+};
+
+}  // namespace
+
+void run_multigrid(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
+                   Context& context, ProgressReporter& progress, FairReport& report) {
+  Cycle(hierarchy, model, options, team, context, progress, report).run();
+}
+
+}  // namespace vspring

@@ -3,6 +3,7 @@
 /// All of the library.
 #include "vspring/constraints.hpp"
 #include "vspring/context.hpp"
+#include "vspring/curvature.hpp"
 #include "vspring/curve_file.hpp"
 #include "vspring/distance.hpp"
 #include "vspring/error.hpp"

@@ -9,6 +9,7 @@
 #include "vspring/error.hpp"
 #include "vspring/fair.hpp"
 #include "vspring/fairness.hpp"
+#include "vspring/figures.hpp"
 #include "vspring/generate.hpp"
 #include "vspring/model.hpp"
 #include "vspring/output_file.hpp"

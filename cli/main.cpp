@@ -6,6 +6,7 @@
 #include <functional>
 #include <new>
 
+#include "curve_command.hpp"
 #include "exit_status.hpp"
 #include "fair_command.hpp"
 #include "generate_command.hpp"
@@ -57,6 +58,7 @@ int run_program(int argc, char** argv) {
       "vspring COMMAND --help explains every option with its default and unit.");
   std::function<int()> run;
   add_fair_command(app, run);
+  add_curve_command(app, run);
   add_generate_command(app, run);
   try {
     app.parse(argc, argv);

@@ -33,15 +33,17 @@ std::string outcome_line(const FairReport& report, const Terminal& terminal) {
 nlohmann::ordered_json to_json(const FairReport& report) {
   nlohmann::ordered_json json;
   json["outcome"] = name(report.outcome);
+  json["method"] = name(report.method);
   json["iterations"] = report.iterations;
   json["residual"] = report.residual;
   // The step of the plain iteration says nothing about the distance from the final place.
-  json["expected_error"] = nullptr;
+  json["expected_error"] = report.expected_error ? nlohmann::ordered_json(*report.expected_error) : nullptr;
   json["nodes"] = report.nodes;
   json["faces"] = report.faces;
   json["moving_nodes"] = report.moving_nodes;
   json["fixed_positions"] = report.fixed_positions;
   json["fixed_normals"] = report.fixed_normals;
+  json["fixed_tangents"] = report.fixed_tangents;
   json["greatest_move"] = report.greatest_move;
   json["rms_move"] = report.mean_move;
   json["seconds"] = report.seconds;
@@ -49,14 +51,28 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   json["threads"] = report.threads;
   json["version"] = version();
   json["fairness"] = {{"before", to_json(report.before)}, {"after", to_json(report.after)}};
+  if (report.boundary) {
+    json["boundary"] = {
+        {"outcome", name(report.boundary->outcome)},
+        {"iterations", report.boundary->iterations},
+        {"expected_error", *report.boundary->expected_error},
+        {"moving_nodes", report.boundary->moving_nodes},
+        {"fairness", {{"before", to_json(report.boundary->before)}, {"after", to_json(report.boundary->after)}}}};
+  }
   json["warnings"] = report.warnings;
   json["history"] = report.history;
+  json["levels"] = nlohmann::ordered_json::array();
+  for (const LevelReport& level : report.levels)
+    json["levels"].push_back(
+        {{"moving_nodes", level.moving_nodes}, {"iterations", level.iterations}, {"seconds", level.seconds}});
   return json;
 }
 
 std::string summary(const FairReport& report, double diagonal, const Terminal& terminal) {
-  std::string text = fmt::format("{} after {} iterations, {:.2f} s\n", outcome_line(report, terminal),
-                                 report.iterations, report.seconds);
+  std::string text = fmt::format("{} after {} iterations, {:.2f} s", outcome_line(report, terminal), report.iterations,
+                                 report.seconds);
+  if (report.expected_error) text += fmt::format(", expected error {:.1g} % of the size", 100 * *report.expected_error);
+  text += "\n";
   const double share = diagonal > 0 ? 100 / diagonal : 0;
   text +=
       fmt::format("{} of {} nodes moved, by up to {:.4g} ({:.2g} % of the size), root mean square {:.4g} ({:.2g} %)\n",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,9 @@ struct FairOptions {
   /// Of curves.
   CurveRules curve = {};
   Distribution distribution = Distribution::even;
+  /// Of surfaces: boundary nodes whose position is free are faired first, as the closed curves that they form between
+  /// the held ones (§4.5), and stay there while the surface follows. Else they are drawn in with the surface.
+  bool fair_boundary = false;
   /// Equilibrium: stop when no node is expected to be further than this share of the diagonal of the box around the
   /// moving nodes and their rim from its final place.
   double tolerance = 1e-5;
@@ -40,6 +44,9 @@ struct FairOptions {
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
 };
+
+/// "equilibrium" or "sweep".
+[[nodiscard]] const char* name(Method method) noexcept;
 
 enum class Outcome { converged, iteration_limit, stalled, cancelled };
 
@@ -80,6 +87,8 @@ struct FairReport {
   int threads = 1;
   Fairness before;
   Fairness after;
+  /// Of the boundary's own fairing, where it was asked for.
+  std::shared_ptr<const FairReport> boundary;
   std::vector<std::string> warnings;
 };
 
@@ -93,6 +102,9 @@ struct FairResult {
 /// Curves go to the equilibrium of the V-Spring equations: between constraints curvature is linear in arc length, an
 /// Euler spiral; see docs/curves.md. An end without a tangent is free to turn. A given normal leaves the tangent free
 /// to turn about it; on a planar curve it gives the tangent.
+///
+/// With options.fair_boundary the boundary of a surface is faired first as a curve, under the positions and tangents
+/// that the constraints give there (normals act on the surface), always to its equilibrium; throws as for a curve.
 ///
 /// Nodes with a fixed position come out exactly at it; isolated nodes stay. Nothing is silently lost: throws as
 /// check_constraints() does for what cannot be faired; Error(invalid_argument) for options out of range or constraints

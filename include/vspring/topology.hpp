@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
 namespace vspring {
@@ -13,6 +14,9 @@ namespace vspring {
 /// Chains of boundary edges, each a list of nodes in order; the first node is not repeated at the end. At a node
 /// where more than two boundary edges meet, loops are told apart by the faces between them. Cost: linear.
 [[nodiscard]] std::vector<std::vector<Index>> boundary_loops(const PolygonMesh& mesh);
+
+/// The boundary loops as closed chains of a curve that has all nodes of the mesh under their numbers. Cost: linear.
+[[nodiscard]] PolygonCurve boundary_curve(const PolygonMesh& mesh);
 
 /// The component of every node (nodes that share a face are in one component), numbered from 0 in the order of their
 /// first nodes. An isolated node is a component of its own. Cost: linear.

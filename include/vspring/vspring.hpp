@@ -15,6 +15,7 @@
 #include "vspring/output_file.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
+#include "vspring/resample.hpp"
 #include "vspring/self_intersections.hpp"
 #include "vspring/surface_file.hpp"
 #include "vspring/topology.hpp"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shape/cubic.hpp"
+
 namespace vspring {
 
 namespace {
@@ -167,6 +169,33 @@ void untangle(CurveLevel& level) {
   }
 }
 
+void straighten(CurveLevel& level) {
+  Net& net = level.curve.net;
+  for (std::size_t s = 0; s < level.curve.strands.size(); ++s) {
+    const Strand& strand = level.curve.strands[s];
+    const auto& at = level.along[s];
+    const std::size_t count = strand.nodes.size();
+    std::vector<std::size_t> anchors;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (is_anchor(net, strand.nodes[k])) anchors.push_back(k);
+    }
+    if (anchors.size() < 2) continue;
+    const std::size_t pieces = strand.closed ? anchors.size() : anchors.size() - 1;
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+      const std::size_t from = anchors[piece];
+      const std::size_t to = anchors[(piece + 1) % anchors.size()];
+      const double once_around = to > from ? 0 : at.back();
+      const Vector3 start = net.positions[strand.nodes[from]];
+      const Vector3 chord = net.positions[strand.nodes[to]] - start;
+      if (!(chord.dot(chord) > net.tiny)) continue;
+      for (std::size_t k = (from + 1) % count; k != to; k = (k + 1) % count) {
+        const double along = at[k] - at[from] + (k > from ? 0 : once_around);
+        net.positions[strand.nodes[k]] = start + along / (at[to] - at[from] + once_around) * chord;
+      }
+    }
+  }
+}
+
 void prolong(const CurveLevel& coarse, CurveLevel& fine) {
   const Net& from = coarse.curve.net;
   Net& to = fine.curve.net;
@@ -183,17 +212,9 @@ void prolong(const CurveLevel& coarse, CurveLevel& fine) {
       const std::size_t next = nodes[(k + 1) % nodes.size()];
       const Vector3& start = from.positions[nodes[k]];
       const Vector3 chord = from.positions[next] - start;
-      const double cosine = std::clamp(from.tangents[nodes[k]].dot(from.tangents[next]), -1.0, 1.0);
-      // The cubic nearest to the circle through both ends with these tangents, turning by an angle θ, leaves with a
-      // speed of chord / cos²(θ/4).
-      const double speed = 2 * chord.norm() / (1 + std::sqrt((1 + cosine) / 2));
-      const Vector3 leaving = speed * from.tangents[nodes[k]];
-      const Vector3 arriving = speed * from.tangents[next];
       for (std::size_t place = begin + 1; place < end; ++place) {
         const double v = (at[place] - at[begin]) / (at[end] - at[begin]);
-        const double w = 1 - v;
-        to.positions[fine_nodes[place]] =
-            start + v * v * (3 - 2 * v) * chord + v * w * w * leaving - v * v * w * arriving;
+        to.positions[fine_nodes[place]] = on_cubic(start, chord, from.tangents[nodes[k]], from.tangents[next], v);
       }
     }
   }

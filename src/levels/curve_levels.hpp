@@ -28,6 +28,10 @@ std::vector<CurveLevel> curve_levels(CurveNet curve, Distribution distribution);
 /// with a given direction stay, and may be corners.
 void untangle(CurveLevel& level);
 
+/// The start of last resort, which forgets the shape: nodes go on the straight lines between held nodes and nodes with
+/// a given direction. What has fewer than two of those stays.
+void straighten(CurveLevel& level);
+
 /// Hands the shape of a level up to the next finer one: nodes that it lacks go on the cubic with the tangents of their
 /// neighbours, whose error on a circle falls with the sixth power of the spacing. Needs directions on the coarse level.
 void prolong(const CurveLevel& coarse, CurveLevel& fine);

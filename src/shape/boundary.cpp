@@ -138,4 +138,10 @@ std::vector<Index> components(const PolygonMesh& mesh) {
   return component;
 }
 
+PolygonCurve boundary_curve(const PolygonMesh& mesh) {
+  std::vector<PolygonCurve::Chain> chains;
+  for (std::vector<Index>& loop : boundary_loops(mesh)) chains.push_back({.nodes = std::move(loop), .closed = true});
+  return {mesh.positions(), std::move(chains)};
+}
+
 }  // namespace vspring

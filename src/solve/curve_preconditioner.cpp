@@ -7,11 +7,39 @@
 
 namespace vspring {
 
-void CurvePreconditioner::build() {
+namespace {
+
+// Of the weights 1/ℓ³: where lengths have changed by some 10 %, corrections are off by a third.
+constexpr double greatest_change = 1.3;
+
+}  // namespace
+
+bool CurvePreconditioner::refresh() {
+  weigh();
+  bool fits = !built_weight_.empty();
+  for (std::size_t i = 0; i < weight_.size() && fits; ++i) {
+    const double change = weight_[i] / built_weight_[i];
+    fits = change < greatest_change && change * greatest_change > 1;
+  }
+  if (fits) return false;
+  built_weight_ = weight_;
   runs_.clear();
-  weight_.assign(curve_->net.moving, 0);
   for (const Strand& strand : curve_->strands) build_bending(strand);
   build_spreading();
+  return true;
+}
+
+void CurvePreconditioner::weigh() {
+  const Net& net = curve_->net;
+  weight_.resize(net.moving);
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    weight_[i] = 0;
+    for (const Link link : net.rings.links(i)) {
+      const Vector3 d = net.positions[link.node()] - net.positions[i];
+      const double inverse2 = 1 / (d.dot(d) + net.tiny);
+      weight_[i] += 2 * inverse2 * std::sqrt(inverse2);
+    }
+  }
 }
 
 void CurvePreconditioner::build_bending(const Strand& strand) {
@@ -82,12 +110,6 @@ void CurvePreconditioner::build_bending(const Strand& strand) {
         add(std::array{std::pair(before, entry_before), std::pair(k, -entry_before - entry_after),
                        std::pair(after, entry_after)});
       }
-    }
-    if (moves(k)) {
-      const double inverse_before = has_before ? 1 / length_before : 0;
-      const double inverse_after = has_after ? 1 / length_after : 0;
-      weight_[i] =
-          2 * (inverse_before * inverse_before * inverse_before + inverse_after * inverse_after * inverse_after);
     }
   }
   if (closing_first != 0 || closing_last != 0) bending.add_closing_row(closing_first, closing_last);

@@ -16,7 +16,7 @@ class CurvePreconditioner final : public Preconditioner {
  public:
   explicit CurvePreconditioner(const CurveNet& curve) : curve_(&curve) {}
 
-  void build() override;
+  bool refresh() override;
   void correct(std::span<const NodeForce> forces, std::vector<Vector3>& correction) override;
 
  private:
@@ -25,13 +25,16 @@ class CurvePreconditioner final : public Preconditioner {
     std::size_t begin;
     BendingMatrix bending;
   };
+  void weigh();
   void build_bending(const Strand& strand);
   void build_spreading();
   void carry_frames();
-
   const CurveNet* curve_;
   std::vector<Run> runs_;
-  std::vector<double> weight_;  // 2 W of every moving node
+  /// 2 W of every moving node by the lengths that its edges have now: then the forces along a strand are differences of
+  /// what passes between neighbours, and what is rough in them leaves no trace in long waves.
+  std::vector<double> weight_;
+  std::vector<double> built_weight_;  // and by those when all was built
   // The elimination of the second differences along the curve: what node i takes of node i − 1, and leaves to i + 1.
   std::vector<double> below_;
   std::vector<double> above_;

@@ -15,8 +15,6 @@ constexpr std::size_t depth = 6;
 constexpr std::size_t nodes_per_task = 2048;
 // No edge may turn or stretch by more than about this in one step: the equations are near to linear up to there.
 constexpr double greatest_turn = 0.3;
-// The preconditioner is built anew where an edge's length has changed by more than this share.
-constexpr double greatest_stretch = 0.3;
 // Iterations that do not get nearer, with steps of full length, before rounding is taken to have the last word.
 constexpr int patience = 12;
 
@@ -28,7 +26,9 @@ class Solver {
         preconditioner_(preconditioner),
         team_(team),
         anderson_(depth, net.moving, team),
-        forces_(net.moving) {}
+        forces_(net.moving) {
+    model.prepare(net);
+  }
 
   EquilibriumResult run(const EquilibriumTask& task, Context& context) {
     EquilibriumResult result;
@@ -75,24 +75,8 @@ class Solver {
     parallel_ranges(team_, net_.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
       model_.find_forces(net_, {begin, end}, forces_);
     });
-    if (lengths_changed()) {
-      preconditioner_.build();
-      anderson_.forget();
-    }
+    if (preconditioner_.refresh()) anderson_.forget();
     preconditioner_.correct(forces_, correction_);
-  }
-
-  /// Whether edges have changed so much that the preconditioner does not fit any more. Remembers the lengths if so.
-  bool lengths_changed() {
-    if (!mean_edge_.empty()) {
-      const double worst = greatest_over_nodes([&](std::size_t i) {
-        return std::abs(forces_[i].mean_edge - mean_edge_[i]) / std::max(mean_edge_[i], std::sqrt(net_.tiny));
-      });
-      if (worst < greatest_stretch) return false;
-    }
-    mean_edge_.resize(net_.moving);
-    for (std::size_t i = 0; i < net_.moving; ++i) mean_edge_[i] = forces_[i].mean_edge;
-    return true;
   }
 
   template <typename Value>
@@ -158,7 +142,6 @@ class Solver {
   Anderson anderson_;
   std::vector<NodeForce> forces_;
   std::vector<Vector3> correction_;
-  std::vector<double> mean_edge_;
   std::vector<double> greatest_;
 };
 

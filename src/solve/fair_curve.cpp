@@ -64,15 +64,25 @@ class EquilibriumRun {
 
  private:
   void go_down(std::vector<CurveLevel>& levels) {
-    untangle(levels.front());
+    const int limit = options_.max_iterations.value_or(default_limit);
     const auto finest_nodes = static_cast<double>(levels.back().curve.net.moving);
+    untangle(levels.front());
     for (std::size_t k = 0; k < levels.size(); ++k) {
+      const bool finest = k + 1 == levels.size();
       const double share = static_cast<double>(levels[k].curve.net.moving) / finest_nodes;
-      (void)relax(levels[k], k + 1 == levels.size(), options_.max_iterations.value_or(default_limit), share);
-      if (k + 1 == levels.size()) break;
+      (void)relax(levels[k], finest, k == 0 ? std::min(limit, first_try) : limit, share);
+      if (k == 0 && limit > first_try && unfinished()) {
+        if (report_.residual > lost_at) straighten(levels[k]);
+        (void)relax(levels[k], finest, limit, share);
+      }
+      if (finest) break;
       update_directions(levels[k].curve.net, model_, team_);
       prolong(levels[k], levels[k + 1]);
     }
+  }
+
+  [[nodiscard]] bool unfinished() const {
+    return report_.outcome == Outcome::iteration_limit || report_.outcome == Outcome::stalled;
   }
 
   Outcome relax(CurveLevel& level, bool finest, int max_iterations, double share) {
@@ -98,6 +108,9 @@ class EquilibriumRun {
   }
 
   static constexpr int default_limit = 200;
+  // The coarsest level needs 10 to 40 iterations from any shape that is not tangled up.
+  static constexpr int first_try = 80;
+  static constexpr double lost_at = 1e-3;
 
   const Model& model_;
   const FairOptions& options_;

@@ -7,6 +7,16 @@
 
 namespace vspring {
 
+const char* name(Method method) noexcept {
+  switch (method) {
+    case Method::equilibrium:
+      return "equilibrium";
+    case Method::sweep:
+      return "sweep";
+  }
+  return "";
+}
+
 const char* name(Outcome outcome) noexcept {
   switch (outcome) {
     case Outcome::converged:

@@ -4,6 +4,7 @@
 #include "base/threads.hpp"
 #include "fairness/measure.hpp"
 #include "solve/account.hpp"
+#include "solve/fair_boundary.hpp"
 #include "solve/sweep_method.hpp"
 #include "vspring/error.hpp"
 #include "vspring/fair.hpp"
@@ -13,6 +14,11 @@ namespace vspring {
 FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const FairOptions& options, Context& context) {
   const auto begin = std::chrono::steady_clock::now();
   options.validate();
+  if (options.fair_boundary) {
+    FairResult result = fair_boundary_first(mesh, constraints, options, context);
+    result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+  }
   if (options.method.value_or(Method::sweep) != Method::sweep)
     throw Error(ErrorCode::invalid_argument, "surfaces are faired by the method sweep only so far");
   FairResult result;

@@ -17,8 +17,8 @@ class Preconditioner {
   Preconditioner(const Preconditioner&) = delete;
   Preconditioner& operator=(const Preconditioner&) = delete;
 
-  /// Looks at the shape as it is now.
-  virtual void build() = 0;
+  /// Looks at the shape as it is now. True where that has changed so much that all was built anew.
+  virtual bool refresh() = 0;
 
   /// The correction of every moving node for the forces on them.
   virtual void correct(std::span<const NodeForce> forces, std::vector<Vector3>& correction) = 0;

@@ -24,12 +24,12 @@ namespace vspring {
 /// Carries a vector along an edge d (or −d) from where the tangent is `from` to where it is `to`, without spin.
 inline Vector3 carried(const Vector3& vector, const Vector3& d, const Vector3& from, const Vector3& to) {
   const double factor = 2 / d.dot(d);
-  const Vector3 mirrored = vector - (factor * d.dot(vector)) * d;
+  Vector3 mirrored = vector - (factor * d.dot(vector)) * d;
   const Vector3 mirror = to - from + (factor * d.dot(from)) * d;
   const double length2 = mirror.dot(mirror);
   // Where the mirrored tangent is already the other one, there is nothing to turn.
-  if (!(length2 > 1e-24)) return mirrored;
-  return mirrored - (2 * mirror.dot(mirrored) / length2) * mirror;
+  if (length2 > 1e-24) mirrored -= (2 * mirror.dot(mirrored) / length2) * mirror;
+  return mirrored;
 }
 
 /// Displacement of node i by its neighbour j, with d = P_j − P_i not zero. bend_i: the part of d across T_i; bend_j:

@@ -28,7 +28,8 @@ struct CurveRulesOf {
       return;
     }
     net.tangents[i] = tangent;
-    if constexpr (on_circle) net.curvatures[i] = circle_curvature(net.positions[i], links, net.positions, tangent);
+    if (on_circle && !net.curvatures.empty())
+      net.curvatures[i] = circle_curvature(net.positions[i], links, net.positions, tangent);
   }
 
   [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const {

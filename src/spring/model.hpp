@@ -25,7 +25,8 @@ class Model {
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
 
-  /// Makes room in the net for what the model keeps of every node. Nothing where there is room already.
+  /// Makes room in the net for what find_forces() takes from every node beside its place and direction; move() must do
+  /// without, as that is not of the newest positions. Nothing where there is room already.
   virtual void prepare(Net& net) const = 0;
 
   /// Step 1 of Fig. 3: normals or tangents of the nodes begin … end − 1, which have rings, where they are not given.

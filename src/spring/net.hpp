@@ -25,7 +25,7 @@ struct Net {
   std::vector<Vector3> positions;
   std::vector<Vector3> normals;     ///< unit, or zero where there is none; of curves only where a rule needs them
   std::vector<Vector3> tangents;    ///< of curves, unit or zero; empty for surfaces
-  std::vector<Vector3> curvatures;  ///< of curves with the circle's tangent, where it is not given; else empty
+  std::vector<Vector3> curvatures;  ///< of curves, where Model::prepare() asks for them; else empty
   std::size_t moving = 0;           ///< nodes 0 … moving − 1 move
   std::size_t computed = 0;         ///< nodes 0 … computed − 1 have rings; directions are computed where not given
   std::vector<std::uint8_t> given;  ///< which directions constraints give, for every node

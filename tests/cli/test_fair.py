@@ -1,5 +1,6 @@
 """What `vspring fair` does with good input."""
 import json
+import math
 import os
 import signal
 import subprocess
@@ -177,3 +178,31 @@ class Fair(Case):
 
 if __name__ == "__main__":
     support.unittest.main()
+
+
+class FairBoundary(Case):
+    def test_loops_are_faired_between_held_nodes_then_the_surface(self):
+        lines = hat().splitlines()
+        rim = range(38, 50)  # lines of the outer ring
+        held = [37 + k for k in range(0, 12, 3)]
+        for k, line in enumerate(lines):
+            if k in rim and (k - 1) not in held:
+                x, y, z = map(float, line.split()[1:])
+                lines[k] = f"v {1.1 * x} {1.1 * y} {z + 0.1}"
+        before = self.write("in.obj", "\n".join(lines) + "\n")
+        rules = self.write("held.json", json.dumps({"rules": [{"nodes": held, "position": "fixed"}]}))
+        result = run("fair", before, "-o", self.folder / "out.obj", "--fair-boundary", "--constraints", rules, "--report",
+                     self.folder / "r.json")
+        self.assertEqual(result.returncode, 0, result.stderr.decode())
+        after = [tuple(map(float, line.split()[1:])) for line in vertex_lines((self.folder / "out.obj").read_text())]
+        # Four held nodes of a circle, at even distances: the closed curve through them is that circle.
+        for x, y, z in after[37:49]:
+            self.assertAlmostEqual(math.hypot(x, y), 1, places=3)
+            self.assertAlmostEqual(z, 0, places=3)
+        report = self.read_json("r.json")
+        self.assertEqual(report["boundary"]["moving_nodes"], 8)
+        self.assertEqual(report["fixed_positions"], 4)
+        for option in ([], ["--constraints", self.write("none.json", '{"rules": []}')]):
+            refused = run("fair", before, "-o", self.folder / "no.obj", "--fair-boundary", *option)
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn("nothing holds", self.assert_one_line(refused))

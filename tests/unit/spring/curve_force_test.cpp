@@ -36,7 +36,9 @@ Net net_of(const std::vector<Vector3>& nodes) {
   fix_boundary_positions(constraints, curve);
   Net net = gather_net(curve, constraints).net;
   ThreadTeam alone(1);
-  update_directions(net, *curve_model({}), alone);
+  const auto model = curve_model({});
+  model->prepare(net);
+  update_directions(net, *model, alone);
   return net;
 }
 

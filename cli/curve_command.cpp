@@ -1,0 +1,183 @@
+#include "curve_command.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "choice.hpp"
+#include "fairing.hpp"
+#include "vspring/vspring.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+struct CurveArguments : FairingArguments {
+  std::optional<CurveFormat> format;
+  bool closed = false;
+  Resampling resampling;
+  std::string picture;
+};
+
+/// A node that repeats the position of another one and goes where that goes.
+struct Repeat {
+  Index node;
+  Index of;
+};
+
+/// Joins the last node of every open chain to its first. A last node at the very place of the first is left out, and
+/// follows it.
+std::vector<Repeat> close_chains(PolygonCurve& curve) {
+  std::vector<Repeat> repeats;
+  std::vector<PolygonCurve::Chain> chains = curve.chains();
+  for (auto& chain : chains) {
+    if (chain.closed || chain.nodes.size() < 2) continue;
+    const Repeat repeat{.node = chain.nodes.back(), .of = chain.nodes.front()};
+    chain.closed = true;
+    if (curve.position(repeat.node) != curve.position(repeat.of)) continue;
+    chain.nodes.pop_back();
+    if (repeat.node != repeat.of) repeats.push_back(repeat);
+  }
+  curve = PolygonCurve(curve.positions(), std::move(chains));
+  return repeats;
+}
+
+void refuse_other_pictures(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  if (!path.empty() && curve_format(extension) != CurveFormat::svg)
+    throw Error(ErrorCode::invalid_argument, path + ": pictures of curves are SVG; name it .svg");
+}
+
+int run_curve(CurveArguments arguments) {
+  if (arguments.paper) {
+    arguments.options.curve = CurveRules::paper();
+    if (!arguments.options.method) arguments.options.method = Method::sweep;
+  }
+  refuse_other_pictures(arguments.picture);
+  Fairing fairing(arguments);
+  CurveFile file = read_curve(arguments.input, arguments.format);
+  std::vector<std::string> warnings = file.warnings;
+  const std::vector<Repeat> repeats = arguments.closed ? close_chains(file.curve) : std::vector<Repeat>{};
+  const PolygonCurve before = file.curve;
+  Constraints constraints = make_constraints(arguments, file.curve, {.groups = &file.groups});
+
+  if (arguments.resampling.nodes || arguments.resampling.spacing) {
+    Resampled resampled = resample(file.curve, constraints, arguments.resampling);
+    file.curve = std::move(resampled.curve);
+    constraints = std::move(resampled.constraints);
+    // What the file carried belongs to nodes that are no longer there.
+    file.source = nullptr;
+    file.groups.clear();
+  }
+  FairResult result = fair(file.curve, constraints, arguments.options, fairing.context());
+  if (file.source) {
+    for (const Repeat& repeat : repeats)
+      result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
+  }
+  return fairing.finish(result.report, before.positions(), std::move(warnings), [&] {
+    std::vector<std::string> lost_warnings;
+    for (const std::string& lost : write_curve(arguments.output, file, result.positions, arguments.format))
+      lost_warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
+    if (!arguments.picture.empty())
+      write_curve(arguments.picture, file, result.positions, CurveFormat::svg, {.before = &before});
+    return lost_warnings;
+  });
+}
+
+const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj},
+                                                          {"csv", CurveFormat::csv},
+                                                          {"dat", CurveFormat::dat},
+                                                          {"xyz", CurveFormat::xyz},
+                                                          {"svg", CurveFormat::svg}};
+const std::map<std::string, Method> methods = {{"equilibrium", Method::equilibrium}, {"sweep", Method::sweep}};
+const std::map<std::string, NormalPlane> normal_planes = {{"full", NormalPlane::full},
+                                                          {"principal", NormalPlane::principal}};
+
+void add_node_options(CLI::App& command, CurveArguments& arguments) {
+  const std::string group = "Its nodes";
+  command
+      .add_flag("--closed", arguments.closed,
+                "The last node of every chain joins the first; one at the same place becomes one with it (default: "
+                "from the file)")
+      ->group(group);
+  CLI::Option* number =
+      command
+          .add_option("--resample", arguments.resampling.nodes,
+                      "Even nodes between those that are held, N in all (default: the nodes of the input)")
+          ->type_name("N")
+          ->check(CLI::PositiveNumber)
+          ->group(group);
+  command
+      .add_option("--spacing", arguments.resampling.spacing,
+                  "Even nodes between those that are held, about H apart, units of the input (default: the nodes of "
+                  "the input)")
+      ->type_name("H")
+      ->check(CLI::PositiveNumber)
+      ->excludes(number)
+      ->group(group);
+}
+
+void add_method_options(CLI::App& command, CurveArguments& arguments, const FairingWords& words) {
+  FairOptions& options = arguments.options;
+  add_choice(command, "--method", options.method, methods,
+             "The accelerated solver that goes to the true equilibrium, or the paper's plain iteration (default: "
+             "equilibrium)")
+      ->group(fairing_group);
+  command
+      .add_option("--tolerance", options.tolerance,
+                  fmt::format("equilibrium: stop when no node is expected to be further from its final place than "
+                              "this share of the diagonal of the box around the moving nodes (default: {})",
+                              options.tolerance))
+      ->type_name("X")
+      ->check(CLI::PositiveNumber)
+      ->group(fairing_group);
+  add_stopping_options(command, arguments, "200 for each level of equilibrium, 10000 for sweep");
+  CLI::Option* plane =
+      add_choice(command, "--normal-plane", options.curve.normal_plane, normal_planes,
+                 "Curves in space are sprung in the whole normal plane, or along the principal normal only, as in the "
+                 "paper (default: full)")
+          ->group(fairing_group);
+  command
+      .add_flag("--paper", arguments.paper,
+                "The paper's own choices throughout: chord tangents, weights 1/length, along the principal normal, and "
+                "the method sweep unless --method says another (default: off)")
+      ->excludes(plane)
+      ->group(fairing_group);
+  add_shaping_options(command, arguments, words);
+}
+
+}  // namespace
+
+void add_curve_command(CLI::App& app, std::function<int()>& run) {
+  const FairingWords words = {.shape = "curve",
+                              .input = ".obj (l elements), .csv, .dat (aerofoils) or .xyz",
+                              .ends = "End nodes",
+                              .directions = "tangents",
+                              .rim = "tangents",
+                              .rules = "positions, tangents and normals"};
+  const auto arguments = std::make_shared<CurveArguments>();
+  CLI::App& command = *app.add_subcommand("curve", "Fair a polygonal curve");
+  add_files(command, *arguments, words);
+  add_choice(command, "--format", arguments->format, curve_formats,
+             "Format of - (default: found from the content; the input's). svg, with its curvature comb, only for the "
+             "output");
+  command
+      .add_option("--picture", arguments->picture, "Draw the curve with its curvature comb, before and after, as .svg")
+      ->type_name("OUT.svg");
+  add_constraint_options(command, *arguments, words);
+  add_node_options(command, *arguments);
+  add_method_options(command, *arguments, words);
+  add_run_options(command, *arguments);
+  command.footer(
+      "Example: an aerofoil of 200 even nodes, its trailing edge held with the tangents that it has\n"
+      "  vspring curve SD7003.dat -o fair.dat --constraints held.json --resample 200 --picture fair.svg\n\n"
+      "Exit status: 0 converged; 1 wrong use; 2 unusable input or output; 3 written, but not converged; 130 "
+      "interrupted.");
+  command.callback([arguments, &run] { run = [arguments] { return run_curve(*arguments); }; });
+}
+
+}  // namespace vspring::cli

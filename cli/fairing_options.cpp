@@ -1,0 +1,103 @@
+#include "fairing_options.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "choice.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+const std::map<std::string, Hold> holds = {{"boundary", Hold::boundary}, {"none", Hold::none}};
+const std::map<std::string, Distribution> distributions = {{"even", Distribution::even}, {"keep", Distribution::keep}};
+const std::map<std::string, Colour> colours = {
+    {"auto", Colour::automatic}, {"always", Colour::always}, {"never", Colour::never}};
+
+}  // namespace
+
+void add_files(CLI::App& command, FairingArguments& arguments, const FairingWords& words) {
+  std::string type = words.shape;
+  for (char& c : type) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  command
+      .add_option(words.shape, arguments.input,
+                  fmt::format("The {} to fair: {}; - for standard input", words.shape, words.input))
+      ->required()
+      ->type_name(type);
+  command
+      .add_option("-o,--output", arguments.output,
+                  fmt::format("Where the fair {} goes, format by extension; - for standard output", words.shape))
+      ->required()
+      ->type_name("OUT");
+}
+
+void add_constraint_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words) {
+  add_choice(command, "--fix", arguments.fix, holds, words.ends + " whose positions are fixed (default: boundary)")
+      ->group(holding_group);
+  add_choice(command, "--fix-normals", arguments.fix_directions, holds,
+             fmt::format("{} whose {} are fixed as they are in the input, to second order (default: none)", words.ends,
+                         words.directions))
+      ->group(holding_group);
+  command.add_option("--constraints", arguments.rules, fmt::format("Rules for {}, JSON", words.rules))
+      ->type_name("FILE.json")
+      ->group(holding_group);
+  command
+      .add_option("--region", arguments.region,
+                  fmt::format("Only these nodes move; their fixed neighbours get the {} of what lies outside. "
+                              "sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1 (units of the input), group:NAME, or a JSON file "
+                              "with a list of nodes (default: all nodes)",
+                              words.rim))
+      ->type_name("SPEC")
+      ->group(holding_group);
+}
+
+void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& limits) {
+  FairOptions& options = arguments.options;
+  command
+      .add_option("--step-tolerance", options.step_tolerance,
+                  fmt::format("sweep: stop when no node moves further in an iteration than this share of its mean edge "
+                              "length (default: {})",
+                              options.step_tolerance))
+      ->type_name("E")
+      ->check(CLI::PositiveNumber)
+      ->group(fairing_group);
+  command
+      .add_option("--max-iterations", options.max_iterations,
+                  fmt::format("Stop after this many iterations (default: {})", limits))
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
+      ->group(fairing_group);
+}
+
+void add_shaping_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words) {
+  FairOptions& options = arguments.options;
+  add_choice(command, "--distribution", options.distribution, distributions,
+             fmt::format("Along the {}, nodes go to the mean of their neighbours, or keep their share between them "
+                         "(default: even)",
+                         words.shape))
+      ->group(fairing_group);
+  command
+      .add_option("--strength", options.strength,
+                  "result = input + S × (fair − input) for moving nodes, 0 to 1 (default: 1)")
+      ->type_name("S")
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(fairing_group);
+}
+
+void add_run_options(CLI::App& command, FairingArguments& arguments) {
+  command.add_option("--threads", arguments.threads, "Threads; the same bits for every number (default: all cores)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024))
+      ->group(run_group);
+  command.add_option("--report", arguments.report, "Write what happened, JSON")
+      ->type_name("FILE.json")
+      ->group(run_group);
+  command.add_flag("--quiet", arguments.quiet, "No progress and no summary; warnings and errors stay (default: off)")
+      ->group(run_group);
+  add_choice(command, "--color", arguments.colour, colours,
+             "Colours (default: auto, on terminals unless NO_COLOR is set)")
+      ->group(run_group);
+}
+
+}  // namespace vspring::cli

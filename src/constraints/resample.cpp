@@ -1,0 +1,285 @@
+#include "vspring/resample.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "shape/cubic.hpp"
+#include "vspring/error.hpp"
+
+namespace vspring {
+
+namespace {
+
+constexpr Index most_nodes = 100'000'000;
+// Straight steps that each cubic is measured by: nodes are even to about a thousandth of the spacing.
+constexpr int steps_per_edge = 16;
+
+/// The nodes between two kept ones, both included; a whole closed chain ends with its first node again.
+struct Piece {
+  std::vector<Index> nodes;
+  std::vector<Vector3> tangents;
+  double length = 0;
+  Index least_edges = 1;
+  Index edges = 0;
+};
+
+class Resampler {
+ public:
+  Resampler(const PolygonCurve& curve, const Constraints& constraints) : curve_(curve), constraints_(constraints) {
+    for (const auto& chain : curve.chains()) {
+      for (const Index node : chain.nodes) {
+        if (!place(node).allFinite())
+          throw Error(ErrorCode::unusable_shape, fmt::format("node {}: its position is not finite", node));
+      }
+    }
+    find_kept();
+    for (const auto& chain : curve.chains()) cut(chain);
+  }
+
+  void share_out(const Resampling& how) {
+    if (how.spacing) {
+      double nodes = 0;
+      for (const Piece& piece : pieces_) nodes += piece.length / *how.spacing;
+      if (!(nodes < most_nodes))
+        throw Error(ErrorCode::invalid_argument,
+                    fmt::format("a spacing of {} asks for more than {} nodes", *how.spacing, most_nodes));
+      for (Piece& piece : pieces_)
+        piece.edges = std::max(piece.least_edges, static_cast<Index>(std::lround(piece.length / *how.spacing)));
+    } else {
+      share_out(*how.nodes);
+    }
+  }
+
+  Resampled build() {
+    Resampled result{.curve = {}, .constraints = Constraints(0), .from = {}};
+    number_.assign(static_cast<std::size_t>(curve_.node_count()), -1);
+    std::vector<PolygonCurve::Chain> chains;
+    chains.reserve(curve_.chains().size());
+    std::size_t at = 0;
+    for (std::size_t c = 0; c < curve_.chains().size(); ++c) {
+      auto& chain = chains.emplace_back();
+      chain.closed = curve_.chains()[c].closed;
+      if (pieces_of_[c] == 0) {
+        for (const Index node : curve_.chains()[c].nodes) chain.nodes.push_back(add_kept(node, result));
+      }
+      for (const std::size_t end = at + pieces_of_[c]; at < end; ++at) {
+        chain.nodes.push_back(add_kept(pieces_[at].nodes.front(), result));
+        add_between(pieces_[at], chain.nodes, result);
+        if (at + 1 == end && !chain.closed) chain.nodes.push_back(add_kept(pieces_[at].nodes.back(), result));
+      }
+    }
+    result.constraints = Constraints(static_cast<Index>(positions_.size()));
+    for (std::size_t k = 0; k < result.from.size(); ++k) {
+      const Index from = result.from[k];
+      const auto node = static_cast<Index>(k);
+      if (from < 0) continue;
+      if (constraints_.position_fixed(from)) result.constraints.fix_position(node, constraints_.position(from));
+      if (constraints_.normal_fixed(from)) result.constraints.fix_normal(node, constraints_.normal(from));
+      if (constraints_.tangent_fixed(from)) result.constraints.fix_tangent(node, constraints_.tangent(from));
+    }
+    result.curve = PolygonCurve(std::move(positions_), std::move(chains));
+    return result;
+  }
+
+ private:
+  [[nodiscard]] const Vector3& place(Index node) const {
+    return constraints_.position_fixed(node) ? constraints_.position(node) : curve_.position(node);
+  }
+
+  void find_kept() {
+    kept_ = boundary_nodes(curve_);
+    std::vector<std::uint8_t> met(kept_.size(), 0);
+    for (const auto& chain : curve_.chains()) {
+      for (const Index node : chain.nodes) {
+        const auto n = static_cast<std::size_t>(node);
+        const bool said =
+            constraints_.position_fixed(node) || constraints_.normal_fixed(node) || constraints_.tangent_fixed(node);
+        if (met[n] != 0 || said) kept_[n] = 1;
+        met[n] = 1;
+      }
+    }
+  }
+
+  void cut(const PolygonCurve::Chain& chain) {
+    const std::size_t before = pieces_.size();
+    const auto is_kept = [&](Index node) { return kept_[static_cast<std::size_t>(node)] != 0; };
+    if (chain.nodes.size() > 1) {
+      // A closed chain is gone around from a kept node on.
+      std::vector<Index> nodes = chain.nodes;
+      if (chain.closed) {
+        const auto first = std::find_if(nodes.begin(), nodes.end(), is_kept);
+        if (first != nodes.end()) std::rotate(nodes.begin(), first, nodes.end());
+        nodes.push_back(nodes.front());
+      }
+      const std::vector<Vector3> tangents = tangents_along(nodes, chain.closed);
+      Piece piece;
+      for (std::size_t k = 0; k < nodes.size(); ++k) {
+        piece.nodes.push_back(nodes[k]);
+        piece.tangents.push_back(tangents[k]);
+        if (piece.nodes.size() < 2 || !is_kept(nodes[k])) continue;
+        finish(piece);
+        piece = {.nodes = {nodes[k]}, .tangents = {tangents[k]}};
+      }
+      if (piece.nodes.size() > 1) finish(std::move(piece));
+      const std::size_t pieces = pieces_.size() - before;
+      if (chain.closed && pieces < 3) pieces_[before].least_edges = static_cast<Index>(4 - pieces);
+    }
+    pieces_of_.push_back(pieces_.size() - before);
+  }
+
+  /// Given ones, and else those of the chain on its own: where chains meet, each has another. The first node of a
+  /// closed one comes again at the end.
+  [[nodiscard]] std::vector<Vector3> tangents_along(const std::vector<Index>& nodes, bool closed) const {
+    const std::size_t count = nodes.size() - (closed ? 1 : 0);
+    std::vector<Vector3> positions;
+    positions.reserve(count);
+    for (std::size_t k = 0; k < count; ++k) positions.push_back(place(nodes[k]));
+    std::vector<Index> all(count);
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<Vector3> tangents = estimate_tangents(PolygonCurve(std::move(positions), closed), all);
+    for (std::size_t k = 0; k < count; ++k) {
+      if (constraints_.tangent_fixed(nodes[k])) tangents[k] = constraints_.tangent(nodes[k]);
+    }
+    if (closed) tangents.push_back(tangents.front());
+    return tangents;
+  }
+
+  void finish(Piece piece) {
+    for (std::size_t k = 0; k + 1 < piece.nodes.size(); ++k) piece.length += walk(piece, k, [](double, double) {});
+    pieces_.push_back(std::move(piece));
+  }
+
+  /// Goes along edge k of a piece; calls step(v, length of the edge up to v). Returns the edge's length.
+  template <typename Step>
+  double walk(const Piece& piece, std::size_t k, Step step) const {
+    double length = 0;
+    Vector3 before = on_edge(piece, k, 0);
+    for (int s = 1; s <= steps_per_edge; ++s) {
+      const double v = static_cast<double>(s) / steps_per_edge;
+      const Vector3 here = on_edge(piece, k, v);
+      length += (here - before).norm();
+      step(v, length);
+      before = here;
+    }
+    return length;
+  }
+
+  [[nodiscard]] Vector3 on_edge(const Piece& piece, std::size_t k, double v) const {
+    const Index a = piece.nodes[k];
+    const Index b = piece.nodes[k + 1];
+    return on_cubic(place(a), place(b) - place(a), piece.tangents[k], piece.tangents[k + 1], v);
+  }
+
+  void share_out(Index nodes) {
+    // Every piece brings its edges but one as new nodes; what is left of the number are kept ones.
+    std::vector<std::uint8_t> counted(kept_.size(), 0);
+    Index kept = 0;
+    Index least = 0;
+    double length = 0;
+    const auto count = [&](Index node) {
+      kept += counted[static_cast<std::size_t>(node)] == 0 ? 1 : 0;
+      counted[static_cast<std::size_t>(node)] = 1;
+    };
+    for (std::size_t c = 0; c < curve_.chains().size(); ++c) {
+      if (pieces_of_[c] > 0) continue;
+      for (const Index node : curve_.chains()[c].nodes) count(node);
+    }
+    for (const Piece& piece : pieces_) {
+      count(piece.nodes.front());
+      count(piece.nodes.back());
+      least += piece.least_edges;
+      length += piece.length;
+    }
+    const auto edges = static_cast<Index>(nodes - kept + static_cast<Index>(pieces_.size()));
+    if (edges < least)
+      throw Error(ErrorCode::invalid_argument,
+                  fmt::format("{} nodes are too few: {} are ends or held, and pieces between them need {} more", nodes,
+                              kept, least - static_cast<Index>(pieces_.size())));
+    // One edge after the other, to where the longest are, found at once by halving the length of an edge.
+    const auto edges_of = [&](const Piece& piece, double spacing) {
+      return std::max<double>(piece.least_edges, std::ceil(piece.length / spacing));
+    };
+    double low = 0;
+    double high = std::max(length, 1e-300) * 2;
+    for (int k = 0; k < 200; ++k) {
+      const double spacing = low + (high - low) / 2;
+      double needed = 0;
+      for (const Piece& piece : pieces_) needed += edges_of(piece, spacing);
+      (needed <= edges ? high : low) = spacing;
+    }
+    Index left = edges;
+    for (Piece& piece : pieces_) {
+      piece.edges = static_cast<Index>(edges_of(piece, high));
+      left -= piece.edges;
+    }
+    // Pieces of one length all go up at once; those that come first get the edges that are left.
+    for (std::size_t k = 0; left > 0 && !pieces_.empty(); k = (k + 1) % pieces_.size()) {
+      ++pieces_[k].edges;
+      --left;
+    }
+  }
+
+  Index add(const Vector3& position, Index from, Resampled& result) {
+    positions_.push_back(position);
+    result.from.push_back(from);
+    return static_cast<Index>(positions_.size() - 1);
+  }
+
+  Index add_kept(Index node, Resampled& result) {
+    Index& number = number_[static_cast<std::size_t>(node)];
+    if (number < 0) number = add(place(node), node, result);
+    return number;
+  }
+
+  void add_between(const Piece& piece, std::vector<Index>& nodes, Resampled& result) {
+    Index made = 1;
+    double passed = 0;
+    for (std::size_t k = 0; k + 1 < piece.nodes.size(); ++k) {
+      double v_before = 0;
+      double before = passed;
+      passed += walk(piece, k, [&](double v, double along) {
+        const double here = passed + along;
+        for (; made < piece.edges; ++made) {
+          const double at = piece.length * made / piece.edges;
+          if (at > here) break;
+          const double share = here > before ? (at - before) / (here - before) : 1;
+          nodes.push_back(add(on_edge(piece, k, v_before + share * (v - v_before)), -1, result));
+        }
+        v_before = v;
+        before = here;
+      });
+    }
+    // Rounding may leave the last one over.
+    for (; made < piece.edges; ++made) nodes.push_back(add(place(piece.nodes.back()), -1, result));
+  }
+
+  const PolygonCurve& curve_;
+  const Constraints& constraints_;
+  std::vector<std::uint8_t> kept_;
+  std::vector<Piece> pieces_;
+  std::vector<std::size_t> pieces_of_;  // of each chain
+  std::vector<Index> number_;           // of kept nodes in the result
+  std::vector<Vector3> positions_;
+};
+
+}  // namespace
+
+Resampled resample(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how) {
+  if (constraints.node_count() != curve.node_count())
+    throw Error(ErrorCode::invalid_argument, fmt::format("constraints for {} nodes, the curve has {}",
+                                                         constraints.node_count(), curve.node_count()));
+  if (how.nodes.has_value() == how.spacing.has_value())
+    throw Error(ErrorCode::invalid_argument, "resampling needs a number of nodes or a spacing, one of them");
+  if (how.nodes && (*how.nodes < 1 || *how.nodes > most_nodes))
+    throw Error(ErrorCode::invalid_argument, fmt::format("{} nodes: choose from 1 to {}", *how.nodes, most_nodes));
+  if (how.spacing && !(*how.spacing > 0 && std::isfinite(*how.spacing)))
+    throw Error(ErrorCode::invalid_argument, fmt::format("spacing must be greater than 0, not {}", *how.spacing));
+  Resampler resampler(curve, constraints);
+  resampler.share_out(how);
+  return resampler.build();
+}
+
+}  // namespace vspring

@@ -1,0 +1,92 @@
+#include "solve/fair_boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include "base/threads.hpp"
+#include "fairness/measure.hpp"
+#include "vspring/topology.hpp"
+
+namespace vspring {
+
+namespace {
+
+struct BoundaryTask {
+  PolygonCurve curve;
+  Constraints of_curve;
+  Constraints of_surface;   ///< with all of the boundary held
+  std::vector<Index> free;  ///< boundary nodes that move as a curve
+};
+
+BoundaryTask boundary_task(const PolygonMesh& mesh, const Constraints& constraints) {
+  BoundaryTask task{boundary_curve(mesh), Constraints(mesh.node_count()), constraints, {}};
+  const std::vector<std::uint8_t> on_boundary = boundary_nodes(mesh);
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (on_boundary[static_cast<std::size_t>(i)] == 0) continue;
+    if (constraints.position_fixed(i)) task.of_curve.fix_position(i, constraints.position(i));
+    if (constraints.tangent_fixed(i)) task.of_curve.fix_tangent(i, constraints.tangent(i));
+    if (!constraints.position_fixed(i)) task.free.push_back(i);
+  }
+  return task;
+}
+
+void hold(BoundaryTask& task, const std::vector<Vector3>& positions) {
+  for (const Index i : task.free) task.of_surface.fix_position(i, positions[static_cast<std::size_t>(i)]);
+}
+
+/// Goes the share `strength` of the way from the input, and tells of that way.
+void account_for_moves(const PolygonMesh& mesh, const Constraints& constraints, double strength, FairResult& result) {
+  FairReport& report = result.report;
+  std::vector<double> moves;
+  report.fixed_positions = 0;
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    Vector3& position = result.positions[static_cast<std::size_t>(i)];
+    if (constraints.position_fixed(i)) ++report.fixed_positions;
+    if (constraints.position_fixed(i) || position == mesh.position(i)) continue;
+    const Vector3 move = strength * (position - mesh.position(i));
+    if (strength < 1) position = mesh.position(i) + move;
+    moves.push_back(move.stableNorm());
+  }
+  report.moving_nodes = static_cast<Index>(moves.size());
+  report.greatest_move = moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
+  report.mean_move = 0;
+  if (!(report.greatest_move > 0)) return;
+  double squares = 0;
+  for (const double move : moves) squares += move / report.greatest_move * (move / report.greatest_move);
+  report.mean_move = report.greatest_move * std::sqrt(squares / static_cast<double>(moves.size()));
+}
+
+}  // namespace
+
+FairResult fair_boundary_first(const PolygonMesh& mesh, const Constraints& constraints, FairOptions options,
+                               Context& context) {
+  BoundaryTask task = boundary_task(mesh, constraints);
+  // What the surface would be refused for comes before the work on its boundary.
+  hold(task, mesh.positions());
+  (void)check_constraints(mesh, task.of_surface);
+
+  const double strength = std::exchange(options.strength, 1);
+  options.fair_boundary = false;
+  FairOptions curve_options = options;
+  curve_options.method = Method::equilibrium;
+  FairResult curve = fair(task.curve, task.of_curve, curve_options, context);
+  hold(task, curve.positions);
+  PolygonMesh bounded = mesh;
+  bounded.set_positions(std::move(curve.positions));
+  FairResult result = fair(bounded, task.of_surface, options, context);
+
+  FairReport& report = result.report;
+  if (report.outcome == Outcome::converged) report.outcome = curve.report.outcome;
+  report.warnings.insert(report.warnings.begin(), curve.report.warnings.begin(), curve.report.warnings.end());
+  account_for_moves(mesh, constraints, strength, result);
+  ThreadTeam team(context.thread_count());
+  report.before = measure(mesh, &constraints, team);
+  bounded.set_positions(result.positions);
+  report.after = measure(bounded, &constraints, team);
+  report.boundary = std::make_shared<const FairReport>(std::move(curve.report));
+  return result;
+}
+
+}  // namespace vspring

@@ -1,0 +1,147 @@
+"""What `vspring curve` does."""
+import json
+import math
+import random
+
+from support import Case, run
+
+
+def arc(count, angle=2.0, noise=0.0, seed=1):
+    """Points of a unit circle, the inner ones disturbed, as (x, y)."""
+    generator = random.Random(seed)
+    points = [(math.cos(angle * k / (count - 1)), math.sin(angle * k / (count - 1))) for k in range(count)]
+    return [(x + noise * generator.uniform(-1, 1) * (0 < k < count - 1), y + noise * generator.uniform(-1, 1) * (0 < k < count - 1))
+            for k, (x, y) in enumerate(points)]
+
+
+def csv(points):
+    return "".join(",".join(repr(v) for v in point) + "\n" for point in points)
+
+
+def read(path):
+    """Rows of numbers; a header is passed over."""
+    lines = [line for line in path.read_text().splitlines() if line.strip()]
+    return [tuple(float(v) for v in line.split(",")) for line in lines[1 if lines[0][0].isalpha() else 0:]]
+
+
+class Curve(Case):
+    def curve(self, text, *options, name="in.csv", output="out.csv", status=0):
+        result = run("curve", self.write(name, text), "-o", self.folder / output, *options)
+        self.assertEqual(result.returncode, status, result.stderr.decode())
+        return result
+
+    def end_tangents(self, count, angle):
+        rules = {"rules": [{"nodes": [0, count - 1], "tangent": [[0, 1], [-math.sin(angle), math.cos(angle)]]}]}
+        return self.write("held.json", json.dumps(rules))
+
+    def test_a_noisy_arc_comes_out_round(self):
+        for count in (10, 100, 1000):
+            for distribution in ("even", "keep"):
+                with self.subTest(count=count, distribution=distribution):
+                    self.curve(csv(arc(count, noise=0.05)), "--constraints", self.end_tangents(count, 2.0), "--tolerance", "1e-13",
+                               "--distribution", distribution)
+                    points = read(self.folder / "out.csv")
+                    self.assertEqual(len(points), count)
+                    self.assertLess(max(abs(math.hypot(x, y) - 1) for x, y in points), 1e-12)
+
+    def test_a_noisy_line_comes_out_straight(self):
+        generator = random.Random(5)
+        points = [(k / 50, 0.1 * generator.uniform(-1, 1) * (0 < k < 50)) for k in range(51)]
+        self.curve(csv(points), "--tolerance", "1e-13")
+        self.assertLess(max(abs(y) for x, y in read(self.folder / "out.csv")), 1e-12)
+
+    def test_tangents_as_in_the_input(self):
+        self.curve(csv(arc(40)), "--fix-normals", "boundary", "--tolerance", "1e-13", "--report", self.folder / "r.json")
+        self.assertLess(max(abs(math.hypot(x, y) - 1) for x, y in read(self.folder / "out.csv")), 1e-12)
+        self.assertEqual(self.read_json("r.json")["fixed_tangents"], 2)
+
+    def test_report(self):
+        self.curve(csv(arc(500, noise=0.05)), "--report", self.folder / "r.json", "--constraints", self.end_tangents(500, 2.0))
+        report = self.read_json("r.json")
+        self.assertEqual((report["outcome"], report["method"], report["nodes"]), ("converged", "equilibrium", 500))
+        self.assertLess(report["expected_error"], 1e-5)
+        self.assertGreater(len(report["levels"]), 1)
+        self.assertEqual(sum(level["iterations"] for level in report["levels"]), report["iterations"])
+        self.assertEqual(report["levels"][-1]["moving_nodes"], 498)
+
+    def test_keeps_what_the_file_carried(self):
+        text = "# outline\nname,x,y\n" + "".join(f"p{k},{x},{y}\n" for k, (x, y) in enumerate(arc(20, noise=0.02)))
+        self.curve(text)
+        before, after = text.splitlines(), (self.folder / "out.csv").read_text().splitlines()
+        self.assertEqual(len(before), len(after))
+        self.assertEqual(before[:3] + before[-1:], after[:3] + after[-1:])
+        self.assertTrue(all(a.split(",")[0] == b.split(",")[0] for a, b in zip(before, after)))
+
+    def test_several_curves_with_segments_in_any_order(self):
+        points = arc(12, noise=0.05)
+        lines = [f"v {x} {y} 0" for x, y in points] + [f"v {x} {y} 3" for x, y in points]
+        segments = [(k, k + 1) for k in range(1, 12)] + [(k + 1, k) for k in range(13, 24)]
+        random.Random(3).shuffle(segments)
+        text = "\n".join(lines + [f"l {a} {b}" for a, b in segments]) + "\n"
+        self.curve(text, name="in.obj", output="out.obj", status=0)
+        after = (self.folder / "out.obj").read_text().splitlines()
+        self.assertEqual(after[24:], text.splitlines()[24:])
+        heights = [float(line.split()[3]) for line in after[:24]]
+        self.assertLess(max(map(abs, heights[:12])), 1e-6)
+        self.assertLess(max(abs(z - 3) for z in heights[12:]), 1e-6)
+
+    def test_closed(self):
+        points = arc(24, angle=2 * math.pi * 23 / 24, noise=0.0)
+        points = [(x * 1.2, y) for x, y in points]
+        fixed = self.write("fixed.json", json.dumps({"rules": [{"nodes": list(range(0, 24, 3)), "position": "fixed"}]}))
+        self.curve(csv(points), "--closed", "--constraints", fixed, "--fix", "none")
+        once = read(self.folder / "out.csv")
+        # The first node again at the end is one with the first.
+        self.curve(csv(points + points[:1]), "--closed", "--constraints", fixed, "--fix", "none")
+        again = read(self.folder / "out.csv")
+        self.assertEqual(again[:-1], once)
+        self.assertEqual(again[-1], again[0])
+        refused = run("curve", self.folder / "in.csv", "-o", self.folder / "no.csv", "--closed")
+        self.assertEqual(refused.returncode, 2)
+
+    def test_resample_and_spacing(self):
+        points = [(math.cos(2 * (k / 30) ** 2), math.sin(2 * (k / 30) ** 2)) for k in range(31)]
+        rules = self.write("held.json", json.dumps({"rules": [{"nodes": [0, 30], "tangent": "fixed"}]}))
+        self.curve(csv(points), "--resample", "101", "--constraints", rules, "--tolerance", "1e-12")
+        after = read(self.folder / "out.csv")
+        self.assertEqual(len(after), 101)
+        self.assertEqual((after[0], after[-1]), (points[0], points[-1]))
+        edges = [math.dist(a, b) for a, b in zip(after, after[1:])]
+        self.assertLess(max(edges) / min(edges), 1.0001)
+        self.assertLess(max(abs(math.hypot(x, y) - 1) for x, y in after), 1e-10)
+        self.curve(csv(points), "--spacing", "0.05", "--constraints", rules)
+        self.assertEqual(len(read(self.folder / "out.csv")), 41)
+
+    def test_paper_and_normal_plane(self):
+        helix = [(math.cos(t / 8), math.sin(t / 8), t / 40) for t in range(61)]
+        helix = [(x, y, z + 0.02 * (k % 2)) for k, (x, y, z) in enumerate(helix)]
+        for options in (["--paper"], ["--normal-plane", "principal"], ["--normal-plane", "full"], ["--method", "sweep"]):
+            with self.subTest(options=options):
+                self.curve(csv(helix), "--fix-normals", "boundary", *options)
+                self.assertEqual(len(read(self.folder / "out.csv")), 61)
+
+    def test_picture(self):
+        self.curve(csv(arc(30, noise=0.05)), "--picture", self.folder / "a.svg")
+        self.assertTrue((self.folder / "a.svg").read_text().startswith("<"))
+        self.assertEqual((self.folder / "a.svg").read_text().rstrip()[-6:], "</svg>")
+
+    def test_standard_input_and_output(self):
+        text = csv(arc(20, noise=0.02))
+        self.curve(text)
+        result = run("curve", "-", "-o", "-", "--quiet", stdin=text.encode())
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        self.assertEqual(result.stdout, (self.folder / "out.csv").read_bytes())
+
+    def test_refusals(self):
+        points = arc(20)
+        path = self.write("in.csv", csv(points))
+        out = self.folder / "out.csv"
+        for options, status, word in ((["--fix", "none"], 2, "end"), (["--resample", "1"], 1, "too few"),
+                                      (["--resample", "10", "--spacing", "1"], 1, "--resample"), (["--paper", "--normal-plane", "full"], 1, "--"),
+                                      (["--picture", "a.png"], 1, ".svg"), (["--method", "multi"], 1, "equilibrium"),
+                                      (["--tolerance", "0"], 1, "--tolerance")):
+            with self.subTest(options=options):
+                result = run("curve", path, "-o", out, *options)
+                self.assertEqual(result.returncode, status, result.stderr)
+                self.assertIn(word, self.assert_one_line(result))
+                self.assertFalse(out.exists())

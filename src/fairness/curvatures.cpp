@@ -65,7 +65,8 @@ ScaledJet fit(std::vector<Point>& points) {
 /// derivative, symmetric in all indices (Codazzi), C_ijk = (h_ijk − (h_ij g_k + h_jk g_i + h_ki g_j)/W²)/W, where
 /// g_k = Σ_m h_m h_mk. In principal directions of unit length, the derivative of κ_i along e_j is ± C_iij.
 void bend(const Jet& jet, double size, const Plane& plane, NodeCurvature& result) {
-  const auto [p, q] = jet.first;
+  const double p = jet.first[0];
+  const double q = jet.first[1];
   const double w2 = 1 + p * p + q * q;
   const double w = std::sqrt(w2);
   result.normal = (plane.normal - p * plane.u - q * plane.v) / w;

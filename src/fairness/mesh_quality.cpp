@@ -113,7 +113,8 @@ class Inspection {
     return vector_areas_[static_cast<std::size_t>(corner.face)];
   }
   [[nodiscard]] std::size_t place(Corner corner) const {
-    return static_cast<std::size_t>(mesh_.face_begin()[static_cast<std::size_t>(corner.face)] + corner.place);
+    return static_cast<std::size_t>(mesh_.face_begin()[static_cast<std::size_t>(corner.face)]) +
+           static_cast<std::size_t>(corner.place);
   }
 
   [[nodiscard]] bool flipped(Index f) const {

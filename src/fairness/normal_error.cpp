@@ -33,7 +33,7 @@ Side side_of(const PolygonCurve& curve, const PolygonCurve::Chain& chain, std::s
              const Constraints& constraints) {
   const auto count = static_cast<std::ptrdiff_t>(chain.nodes.size());
   const auto next = [&](int steps) -> Index {
-    std::ptrdiff_t k = static_cast<std::ptrdiff_t>(place) + steps * step;
+    std::ptrdiff_t k = static_cast<std::ptrdiff_t>(place) + static_cast<std::ptrdiff_t>(steps) * step;
     if (chain.closed) k = ((k % count) + count) % count;
     return k < 0 || k >= count ? -1 : chain.nodes[static_cast<std::size_t>(k)];
   };

@@ -21,13 +21,16 @@ std::optional<Vector3> plane_normal(std::span<const Vector3> positions) {
     spread += from_mean * from_mean.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(spread);
-  const double largest = std::sqrt(std::max(eigen.eigenvalues()[2], 0.0));
-  if (!(std::sqrt(std::max(eigen.eigenvalues()[1], 0.0)) > flat * largest)) return std::nullopt;
   Vector3 normal = eigen.eigenvectors().col(0).normalized();
-  // The eigenvalue knows the thickness to its square root's rounding only: it is measured.
+  const Vector3 across = eigen.eigenvectors().col(1).normalized();
+  // Eigenvalues know thickness and width to their square roots' rounding only: both are measured.
+  double width = 0;
   for (const Vector3& position : positions) {
-    if (std::abs((frame.to_local(position) - mean).dot(normal)) > flat) return std::nullopt;
+    const Vector3 from_mean = frame.to_local(position) - mean;
+    if (std::abs(from_mean.dot(normal)) > flat) return std::nullopt;
+    width = std::max(width, std::abs(from_mean.dot(across)));
   }
+  if (!(width > flat)) return std::nullopt;
   Eigen::Index greatest = 0;
   normal.cwiseAbs().maxCoeff(&greatest);
   return normal[greatest] < 0 ? Vector3(-normal) : normal;

@@ -21,15 +21,15 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
-/// Whether everything lies in one plane, given directions too, so that normals in the plane are all there is.
+/// Whether everything lies in one plane, so that normals in the plane are all there is. Given directions count as far
+/// as nodes do: a straight start lies in the plane of its end tangents.
 bool is_planar(const Net& net) {
-  const auto normal = plane_normal(net.positions);
-  if (!normal) return false;
+  std::vector<Vector3> points = net.positions;
   for (std::size_t i = 0; i < net.node.size(); ++i) {
-    if (net.tangent_given(i) && std::abs(net.tangents[i].dot(*normal)) > 1e-9) return false;
-    if (net.normal_given(i) && std::abs(net.normals[i].dot(*normal)) > 1e-9) return false;
+    if (net.tangent_given(i)) points.emplace_back(net.positions[i] + net.tangents[i]);
+    if (net.normal_given(i)) points.emplace_back(net.positions[i] + net.normals[i]);
   }
-  return true;
+  return plane_normal(points).has_value();
 }
 
 double diagonal(const Net& net) {

@@ -78,14 +78,15 @@ std::unique_ptr<const Model> model_along(NormalPlane plane) {
 
 template <typename Tangent>
 std::unique_ptr<const Model> model_with(const CurveRules& rules) {
-  return rules.weights == CurveWeights::inverse ? model_along<Tangent, InverseWeight>(rules.normal_plane)
-                                                : model_along<Tangent, InverseCubeWeight>(rules.normal_plane);
+  if (rules.weights == CurveWeights::inverse) return model_along<Tangent, InverseWeight>(rules.normal_plane);
+  return model_along<Tangent, InverseCubeWeight>(rules.normal_plane);
 }
 
 }  // namespace
 
 std::unique_ptr<const Model> curve_model(const CurveRules& rules) {
-  return rules.tangents == CurveTangents::chord ? model_with<ChordTangent>(rules) : model_with<CircleTangent>(rules);
+  if (rules.tangents == CurveTangents::chord) return model_with<ChordTangent>(rules);
+  return model_with<CircleTangent>(rules);
 }
 
 }  // namespace vspring

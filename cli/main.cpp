@@ -10,6 +10,7 @@
 #include "exit_status.hpp"
 #include "fair_command.hpp"
 #include "generate_command.hpp"
+#include "measure_command.hpp"
 #include "terminal.hpp"
 #include "vspring/error.hpp"
 #include "vspring/version.hpp"
@@ -60,6 +61,7 @@ int run_program(int argc, char** argv) {
   add_fair_command(app, run);
   add_curve_command(app, run);
   add_generate_command(app, run);
+  add_measure_command(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& outcome) {

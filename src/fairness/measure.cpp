@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "fairness/counted.hpp"
 #include "shape/face_geometry.hpp"
 #include "shape/fan.hpp"
-#include "shape/frame.hpp"
 #include "spring/pseudo_normal.hpp"
 #include "spring/v_spring.hpp"
 
@@ -36,9 +36,12 @@ struct Sums {
 class Measurement {
  public:
   Measurement(const PolygonMesh& mesh, const Constraints* constraints, ThreadTeam& team)
-      : mesh_(mesh), constraints_(constraints), team_(team), incidence_(mesh) {
-    mark_faces();
-    place();
+      : mesh_(mesh),
+        constraints_(constraints),
+        team_(team),
+        incidence_(mesh),
+        counted_(counted_faces(mesh, constraints)),
+        positions_(placed(mesh, Frame(box_around(mesh, counted_)))) {
     compute_normals();
   }
 
@@ -64,30 +67,6 @@ class Measurement {
   }
 
  private:
-  // With constraints, only faces at moving nodes count: the rest of the shape says nothing about what was done.
-  void mark_faces() {
-    const auto faces = static_cast<std::size_t>(mesh_.face_count());
-    counted_.assign(faces, constraints_ == nullptr ? 1 : 0);
-    for (std::size_t f = 0; f < faces; ++f) {
-      const auto face = mesh_.face(static_cast<Index>(f));
-      if (face.size() < 3) counted_[f] = 0;
-      if (constraints_ == nullptr || face.size() < 3) continue;
-      const bool moves =
-          std::any_of(face.begin(), face.end(), [&](Index i) { return !constraints_->position_fixed(i); });
-      counted_[f] = moves ? 1 : 0;
-    }
-  }
-
-  void place() {
-    Eigen::AlignedBox<double, 3> box;
-    for (Index f = 0; f < mesh_.face_count(); ++f) {
-      if (counted_[static_cast<std::size_t>(f)] == 0) continue;
-      for (const Index i : mesh_.face(f)) box.extend(mesh_.position(i));
-    }
-    const Frame frame(box);
-    positions_.reserve(mesh_.positions().size());
-    for (const Vector3& position : mesh_.positions()) positions_.push_back(frame.to_local(position));
-  }
   [[nodiscard]] const Vector3& position(Index node) const { return positions_[static_cast<std::size_t>(node)]; }
 
   void compute_normals() {
@@ -124,7 +103,7 @@ class Measurement {
       if (constraints_ != nullptr && constraints_->position_fixed(i) && constraints_->position_fixed(j)) continue;
       const Vector3 d = position(j) - position(i);
       const double length = d.norm();
-      if (!(length > 0)) continue;
+      if (!(length > 0) || !std::isfinite(length)) continue;
       const double difference = spring_difference(d / length, node_normals_[static_cast<std::size_t>(i)],
                                                   node_normals_[static_cast<std::size_t>(j)]);
       sums.energy += difference * difference;

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "vspring/context.hpp"
+#include "vspring/polygon_mesh.hpp"
+
+namespace vspring {
+
+/// How a surface bends at a node. Curvatures are positive where the surface bends away from its normal, as on a sphere
+/// with outward normals.
+struct NodeCurvature {
+  Vector3 normal = Vector3::Zero();  ///< unit length, in the sense of the faces
+  double k1 = 0;                     ///< the principal curvatures, 1/length; k1 is not less than k2
+  double k2 = 0;
+  Vector3 direction1 = Vector3::Zero();  ///< along which the normal curvature is k1; unit length, of either sense
+  Vector3 direction2 = Vector3::Zero();
+  double k1_along_1 = 0;  ///< derivative of k1 by length along direction1, and so on
+  double k1_along_2 = 0;
+  double k2_along_1 = 0;
+  double k2_along_2 = 0;
+  /// Of the polynomial that the nodes around determine, 0 to 4. Below 3 the derivatives of curvature are zero, below 2
+  /// the curvatures and their directions, and at 0 the normal is zero or only estimated.
+  int degree = 0;
+
+  [[nodiscard]] double mean() const noexcept { return (k1 + k2) / 2; }
+  [[nodiscard]] double gaussian() const noexcept { return k1 * k2; }
+};
+
+/// The curvatures of a surface at all nodes, from a least-squares polynomial of fourth degree through the node and near
+/// the nodes around (the osculating jet of Cazals and Pouget 2005), over two to five rings of faces of any number of
+/// nodes. On smooth surfaces of any meshing, also at boundaries, curvatures err with the third power of the spacing and
+/// their derivatives with the second. Never NaN: see NodeCurvature::degree. The same bits for every number of threads.
+/// Cost: linear, some microseconds per node. When cancelled, nodes not yet looked at have degree 0.
+[[nodiscard]] std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Context& context);
+[[nodiscard]] std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh);
+
+}  // namespace vspring

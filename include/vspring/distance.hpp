@@ -1,0 +1,36 @@
+#pragma once
+
+#include <span>
+
+#include "vspring/context.hpp"
+#include "vspring/polygon_curve.hpp"
+#include "vspring/polygon_mesh.hpp"
+
+namespace vspring {
+
+/// How far points lie from something else, in the units of the input.
+struct Distance {
+  double greatest = 0;
+  double rms = 0;   ///< root mean square over the points
+  Index node = -1;  ///< the point of the greatest distance; −1 where no point was measured
+  /// Points measured: those with finite coordinates.
+  Index count = 0;
+};
+
+/// Between the same nodes before and after. Throws Error(invalid_argument) unless there are as many of both.
+/// Cost: linear.
+[[nodiscard]] Distance node_distance(std::span<const Vector3> before, std::span<const Vector3> after);
+
+/// From every point to the nearest place on the polygons of a mesh, or on the edges of a curve, of any connectivity:
+/// `of_points` to `shape`, which is not the same as the other way round. Faces that are not flat are taken as
+/// triangles, see docs/fairness.md. Throws Error(unusable_shape) for a shape without a face (edge) of finite
+/// coordinates. The same bits for every number of threads. Cost: n log n. When cancelled, only the points looked at so
+/// far count.
+[[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonMesh& to_shape,
+                                const Context& context);
+[[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonMesh& to_shape);
+[[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonCurve& to_shape,
+                                const Context& context);
+[[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonCurve& to_shape);
+
+}  // namespace vspring

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "vspring/constraints.hpp"
+#include "vspring/context.hpp"
+#include "vspring/fairness.hpp"
+#include "vspring/polygon_curve.hpp"
+#include "vspring/polygon_mesh.hpp"
+
+namespace vspring {
+
+// All that is measured of a shape. A, D: its area and the diagonal of the box around it; κ1 ≥ κ2, H, K: principal, mean
+// and Gaussian curvature by curvatures(), positive where the surface bends away from its normal; e1, e2: principal
+// directions; κ, L: curvature and length of a curve. Integrals and curvatures are multiplied by lengths of the shape so
+// that scaled copies have the same figures. Every figure is finite: what cannot be measured is left out, and the counts
+// at the end say how much that was. Definitions and sources: docs/fairness.md.
+
+struct SurfaceFigures : Fairness {
+  double area = 0;      ///< of the faces, in squared units of the input
+  double diagonal = 0;  ///< of the box around the faces, in units of the input
+  /// ∫ κ1² + κ2² dA.
+  double bending_energy = 0;
+  /// A ∫ |∇H|² dA.
+  double mean_curvature_variation = 0;
+  /// A ∫ (∂κ1/∂e1)² + (∂κ2/∂e2)² dA (MVS, Moreton and Séquin 1992; times area: Joshi and Séquin 2007).
+  double curvature_variation = 0;
+  /// The same with (∂κ1/∂e2)² + (∂κ2/∂e1)² in addition (Joshi and Séquin 2007).
+  double curvature_variation_cross = 0;
+  double greatest_curvature = 0;  ///< largest κ1 D
+  double least_curvature = 0;     ///< smallest κ2 D
+  double greatest_mean_curvature = 0;
+  double least_mean_curvature = 0;
+  double greatest_gaussian_curvature = 0;  ///< times D²
+  double least_gaussian_curvature = 0;
+  /// Local extremes of H inside the surface that stand out by more than 5 % of the root mean square of √(κ1² + κ2²),
+  /// and by more than 1/(1000 D).
+  Index mean_curvature_extrema = 0;
+  /// Faces that point against the faces around them at every one of their nodes.
+  Index flipped_faces = 0;
+  /// Pairs of faces that cross each other, see self_intersections().
+  Index self_intersections = 0;
+  double edge_spread = 1;               ///< longest edge over shortest
+  double neighbouring_edge_spread = 1;  ///< the largest such ratio at one node
+  double smallest_angle = 0;            ///< of the corners of faces, degrees
+  double greatest_angle = 0;
+  Index zero_length_edges = 0;
+  Index zero_area_faces = 0;
+  /// Nodes where too few nodes around are known for κ1 and κ2; they count nothing in the figures of curvature.
+  Index nodes_without_curvature = 0;
+  /// Nodes where they are too few for derivatives of curvature.
+  Index nodes_without_variation = 0;
+  /// Largest angle between a given normal and the surface's own, by estimate_normals() over faces with a moving node,
+  /// degrees. None without given normals.
+  std::optional<double> normal_error;
+};
+
+struct CurveFigures : Fairness {
+  double length = 0;    ///< in units of the input
+  double diagonal = 0;  ///< of the box around the curve, in units of the input
+  /// L ∫ κ² ds.
+  double bending_energy = 0;
+  /// L³ ∫ (dκ/ds)² ds, κ being the curvature vector in a frame that does not turn about the curve.
+  double curvature_variation = 0;
+  double greatest_curvature = 0;  ///< largest |κ| L
+  /// Local extremes of curvature between the ends that stand out by more than 5 % of its root mean square, and by more
+  /// than 1/(1000 L). Signed: through an inflection curvature goes on and does not turn back.
+  Index curvature_extrema = 0;
+  /// Places where curvature changes to the other side, from more than that threshold to more than that threshold.
+  Index inflections = 0;
+  double edge_spread = 1;               ///< longest edge over shortest
+  double neighbouring_edge_spread = 1;  ///< the largest such ratio of successive edges
+  Index zero_length_edges = 0;
+  /// Largest angle between a given tangent, or the plane across a given normal, and the curve's own tangent on the
+  /// sides that move, degrees. None without given directions.
+  std::optional<double> normal_error;
+};
+
+/// Measures all. With constraints, only what lies at moving nodes (faces and edges with a moving node), and how well
+/// given normals are met. The same bits for every number of threads. Cost: n log n, some microseconds per node. When
+/// cancelled, the figures are of a part and mean nothing.
+[[nodiscard]] SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints,
+                                             const Context& context);
+[[nodiscard]] SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints = nullptr);
+
+/// The same for a curve. Cost: linear.
+[[nodiscard]] CurveFigures measure_curve(const PolygonCurve& curve, const Constraints* constraints = nullptr);
+
+/// A figure with what people and scripts need to know of it.
+struct Figure {
+  std::string_view key;         ///< for scripts, like "bending_energy"
+  std::string_view name;        ///< for people, like "bending energy"
+  std::string_view unit;        ///< empty, "°", "units" or "units²" of the input
+  std::string_view definition;  ///< in short
+  double value;
+  bool whole;  ///< a count
+};
+
+/// The figures in the order in which they are shown, those that were measured. Texts are static.
+[[nodiscard]] std::vector<Figure> list_figures(const SurfaceFigures& figures);
+[[nodiscard]] std::vector<Figure> list_figures(const CurveFigures& figures);
+
+}  // namespace vspring

@@ -1,0 +1,119 @@
+#pragma once
+
+// A tree of boxes for questions of nearness. Our own, because what Debian carries under a permissive licence answers
+// for points only (nanoflann) or is a scene renderer (Embree); and because a tree whose layout follows from the number
+// of things alone needs no pointers and is built side by side, level by level, into the same bits on any number of
+// threads.
+
+#include <Eigen/Geometry>
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "base/threads.hpp"
+#include "vspring/types.hpp"
+
+namespace vspring {
+
+using Box = Eigen::AlignedBox<double, 3>;
+
+/// Numbered boxes in a balanced binary tree. The leaves hold runs of up to four of them.
+class BoxTree {
+ public:
+  struct Nearest {
+    double square = std::numeric_limits<double>::infinity();  ///< of the distance
+    Index item = -1;
+  };
+
+  /// Boxes must be finite and not empty. Cost: n log n.
+  BoxTree(std::vector<Box> boxes, ThreadTeam& team);
+
+  [[nodiscard]] std::size_t leaf_count() const noexcept { return boxes_.empty() ? 0 : leaves_; }
+  [[nodiscard]] std::span<const Index> leaf_items(std::size_t leaf) const {
+    const std::size_t begin = first_item(leaf, leaves_);
+    return std::span(items_).subspan(begin, first_item(leaf + 1, leaves_) - begin);
+  }
+  [[nodiscard]] const Box& leaf_box(std::size_t leaf) const { return tree_[leaves_ - 1 + leaf]; }
+  [[nodiscard]] const Box& box(Index item) const { return boxes_[static_cast<std::size_t>(item)]; }
+
+  /// use(leaf) for every leaf from `first_leaf` on whose box overlaps `box`, in ascending order.
+  template <typename Use>
+  void for_each_overlapping_leaf(const Box& box, std::size_t first_leaf, const Use& use) const {
+    if (boxes_.empty()) return;
+    std::array<Place, most_levels> stack;
+    std::size_t height = 0;
+    stack[height++] = {0, 0, leaves_};
+    while (height > 0) {
+      const Place place = stack[--height];
+      if (place.leaf + place.leaves <= first_leaf || !tree_[place.node].intersects(box)) continue;
+      if (place.leaves == 1) {
+        use(place.leaf);
+      } else {
+        stack[height++] = place.right();
+        stack[height++] = place.left();
+      }
+    }
+  }
+
+  /// The item nearest to `point`: square(item) is the square of its distance; of several the one with the smallest
+  /// number.
+  template <typename Square>
+  [[nodiscard]] Nearest nearest(const Vector3& point, const Square& square) const {
+    Nearest best;
+    if (boxes_.empty()) return best;
+    std::array<std::pair<Place, double>, most_levels> stack;
+    std::size_t height = 0;
+    stack[height++] = {{0, 0, leaves_}, 0.0};
+    while (height > 0) {
+      const auto [place, from_box] = stack[--height];
+      if (from_box > best.square) continue;
+      if (place.leaves == 1) {
+        for (const Index item : leaf_items(place.leaf)) {
+          const double distance2 = square(item);
+          if (distance2 < best.square || (distance2 == best.square && item < best.item)) best = {distance2, item};
+        }
+        continue;
+      }
+      const Place left = place.left();
+      const Place right = place.right();
+      const double to_left = tree_[left.node].squaredExteriorDistance(point);
+      const double to_right = tree_[right.node].squaredExteriorDistance(point);
+      // The nearer child is looked at first.
+      if (to_left <= to_right) {
+        stack[height++] = {right, to_right};
+        stack[height++] = {left, to_left};
+      } else {
+        stack[height++] = {left, to_left};
+        stack[height++] = {right, to_right};
+      }
+    }
+    return best;
+  }
+
+ private:
+  static constexpr std::size_t items_per_leaf = 4;
+  static constexpr std::size_t most_levels = 64;
+
+  /// A node of the tree and the run of leaves under it. Children of node k are 2k + 1 and 2k + 2.
+  struct Place {
+    std::size_t node;
+    std::size_t leaf;
+    std::size_t leaves;
+    [[nodiscard]] Place left() const { return {2 * node + 1, leaf, leaves / 2}; }
+    [[nodiscard]] Place right() const { return {2 * node + 2, leaf + leaves / 2, leaves / 2}; }
+  };
+
+  /// Where part `part` of `parts` (a power of two) begins.
+  [[nodiscard]] std::size_t first_item(std::size_t part, std::size_t parts) const {
+    return boxes_.size() * part / parts;
+  }
+  void split(std::size_t part, std::size_t parts);
+
+  std::vector<Box> boxes_;
+  std::vector<Index> items_;
+  std::vector<Box> tree_;
+  std::size_t leaves_ = 1;
+};
+
+}  // namespace vspring

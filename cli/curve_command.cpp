@@ -9,6 +9,7 @@
 #include <string>
 
 #include "choice.hpp"
+#include "closed_chains.hpp"
 #include "fairing.hpp"
 #include "vspring/vspring.hpp"
 
@@ -22,29 +23,6 @@ struct CurveArguments : FairingArguments {
   Resampling resampling;
   std::string picture;
 };
-
-/// A node that repeats the position of another one and goes where that goes.
-struct Repeat {
-  Index node;
-  Index of;
-};
-
-/// Joins the last node of every open chain to its first. A last node at the very place of the first is left out, and
-/// follows it.
-std::vector<Repeat> close_chains(PolygonCurve& curve) {
-  std::vector<Repeat> repeats;
-  std::vector<PolygonCurve::Chain> chains = curve.chains();
-  for (auto& chain : chains) {
-    if (chain.closed || chain.nodes.size() < 2) continue;
-    const Repeat repeat{.node = chain.nodes.back(), .of = chain.nodes.front()};
-    chain.closed = true;
-    if (curve.position(repeat.node) != curve.position(repeat.of)) continue;
-    chain.nodes.pop_back();
-    if (repeat.node != repeat.of) repeats.push_back(repeat);
-  }
-  curve = PolygonCurve(curve.positions(), std::move(chains));
-  return repeats;
-}
 
 void refuse_other_pictures(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();

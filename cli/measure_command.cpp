@@ -10,6 +10,7 @@
 
 #include "any_shape.hpp"
 #include "choice.hpp"
+#include "closed_chains.hpp"
 #include "exit_status.hpp"
 #include "fairing.hpp"
 #include "measure_table.hpp"
@@ -45,16 +46,8 @@ std::vector<Figure> figures_of(const PolygonCurve& curve, const Constraints* con
 Json counts_of(const PolygonMesh& mesh) { return {{"nodes", mesh.node_count()}, {"faces", mesh.face_count()}}; }
 Json counts_of(const PolygonCurve& curve) { return {{"nodes", curve.node_count()}, {"chains", curve.chains().size()}}; }
 
-void close_chains(SurfaceFile&) {}
-void close_chains(CurveFile& file) {
-  std::vector<PolygonCurve::Chain> chains = file.curve.chains();
-  for (auto& chain : chains) {
-    if (chain.closed || chain.nodes.size() < 2) continue;
-    chain.closed = true;
-    if (file.curve.position(chain.nodes.front()) == file.curve.position(chain.nodes.back())) chain.nodes.pop_back();
-  }
-  file.curve = PolygonCurve(file.curve.positions(), std::move(chains));
-}
+void close(SurfaceFile& /*file*/) {}
+void close(CurveFile& file) { (void)close_chains(file.curve); }
 
 Json to_json(const std::vector<Figure>& figures) {
   Json json = Json::object();
@@ -118,8 +111,8 @@ template <typename File>
 int measure_file(const MeasureArguments& arguments, File file, std::optional<File> other) {
   const auto begin = std::chrono::steady_clock::now();
   if (arguments.closed) {
-    close_chains(file);
-    if (other) close_chains(*other);
+    close(file);
+    if (other) close(*other);
   }
   Context context;
   context.threads = arguments.threads;

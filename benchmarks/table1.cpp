@@ -1,0 +1,98 @@
+// Table 1 of the paper: annuli with sharp corners, both boundaries held with their normals, by the paper's V-cycle with
+// its parameters; and what the table leaves out, how far each result is from the equilibrium. `bench_table1 1000000`
+// goes on to that many nodes.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "vspring/vspring.hpp"
+
+namespace {
+
+using namespace vspring;
+
+struct Column {
+  Index nodes;
+  Index boundary_nodes;
+  double paper_seconds;  ///< 0 where the paper has no figure
+};
+
+struct Run {
+  FairResult result;
+  double error = 0;  ///< largest distance from the equilibrium, relative to the diagonal
+};
+
+double greatest_distance(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
+  double greatest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
+  return greatest;
+}
+
+Run run(const PolygonMesh& mesh, const Constraints& constraints, PseudoNormals normals, int threads, int times) {
+  FairOptions options;
+  options.method = Method::multigrid;
+  options.pseudo_normals = normals;
+  Context context;
+  context.threads = threads;
+  Run best;
+  for (int k = 0; k < times; ++k) {
+    FairResult result = fair(mesh, constraints, options, context);
+    if (k == 0 || result.report.seconds < best.result.report.seconds) best.result = std::move(result);
+  }
+  // The equilibrium itself.
+  options.method = Method::equilibrium;
+  options.tolerance = 1e-8;
+  const FairResult equilibrium = fair(mesh, constraints, options, context);
+  Eigen::AlignedBox<double, 3> box;
+  for (const Vector3& position : mesh.positions()) box.extend(position);
+  best.error = greatest_distance(best.result.positions, equilibrium.positions) / box.diagonal().norm();
+  if (equilibrium.report.outcome != Outcome::converged) best.error = -1;
+  return best;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::vector<Column> columns = {{553, 121, 2.38}, {1610, 202, 13.8}, {3644, 305, 36.4}, {14962, 608, 177.1}};
+  if (argc > 1) {
+    const auto last = static_cast<Index>(std::atoi(argv[1]));
+    for (Index nodes = 60'000; nodes <= last; nodes *= 4)
+      columns.push_back({nodes, static_cast<Index>(std::lround(5 * std::sqrt(nodes))), 0});
+  }
+  for (const PseudoNormals normals : {PseudoNormals::average, PseudoNormals::link}) {
+    fmt::print(
+        "\n{}, 6 levels (more from 60,000 nodes), 5 iterations on the way down, e = 0.001:\n\n"
+        "| nodes | triangles | paper, s | 1 thread, s | 2 threads, s | ratio to the paper | iterations on the finest "
+        "level | distance from the equilibrium, % of the size |\n|---|---|---|---|---|---|---|---|\n",
+        normals == PseudoNormals::average ? "Plain average of normals, as in the paper" : "Max's normals");
+    double first = 0;
+    double last = 0;
+    for (const Column& column : columns) {
+      const PolygonMesh mesh = generate::annulus({.nodes = column.nodes, .boundary_nodes = column.boundary_nodes});
+      Constraints constraints(mesh.node_count());
+      fix_boundary_positions(constraints, mesh);
+      fix_boundary_normals(constraints, mesh);
+      const int times = column.nodes > 20'000 ? 1 : 3;
+      const Run alone = run(mesh, constraints, normals, 1, times);
+      const Run both = run(mesh, constraints, normals, 2, times);
+      const double seconds = alone.result.report.seconds;
+      if (first == 0) first = seconds;
+      last = seconds;
+      fmt::print("| {} | {} | {} | {:.4f} | {:.4f} | {} | {} | {} |\n", column.nodes, mesh.face_count(),
+                 column.paper_seconds > 0 ? fmt::format("{}", column.paper_seconds) : "", seconds,
+                 both.result.report.seconds,
+                 column.paper_seconds > 0 ? fmt::format("{:.0f}", column.paper_seconds / seconds) : "",
+                 alone.result.report.levels.back().iterations,
+                 alone.error < 0 ? std::string("?") : fmt::format("{:.2g}", 100 * alone.error));
+      std::fflush(stdout);
+    }
+    fmt::print("\nGrowth of time: nodes to the power of {:.2f}; the paper's own from 553 to 14,962: {:.2f}\n",
+               std::log(last / first) / std::log(static_cast<double>(columns.back().nodes) / columns.front().nodes),
+               std::log(177.1 / 2.38) / std::log(14962.0 / 553));
+  }
+}

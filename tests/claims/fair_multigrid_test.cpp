@@ -1,0 +1,177 @@
+// What the paper's V-cycle (§4.7) is claimed to do.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "vspring/vspring.hpp"
+
+namespace vspring {
+namespace {
+
+Constraints held_rim(const PolygonMesh& mesh) {
+  Constraints constraints(mesh.node_count());
+  fix_boundary_positions(constraints, mesh);
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (constraints.position_fixed(i)) constraints.fix_normal(i, mesh.position(i));
+  }
+  return constraints;
+}
+
+PolygonMesh flattened(const PolygonMesh& cap) {
+  PolygonMesh flat = cap;
+  std::vector<Vector3> positions = cap.positions();
+  for (Vector3& position : positions) position.z() = 0.5;
+  flat.set_positions(std::move(positions));
+  return flat;
+}
+
+double distance_from_sphere(const std::vector<Vector3>& positions) {
+  double greatest = 0;
+  for (const Vector3& position : positions) greatest = std::max(greatest, std::abs(position.norm() - 1));
+  return greatest;
+}
+
+FairOptions multigrid(double step_tolerance = 1e-3) {
+  FairOptions options;
+  options.method = Method::multigrid;
+  options.step_tolerance = step_tolerance;
+  return options;
+}
+
+TEST(Multigrid, AFlatDiscBecomesTheCapOfWhateverPolygons) {
+  for (const auto faces :
+       {generate::Faces::triangles, generate::Faces::quads, generate::Faces::mixed, generate::Faces::hexagons}) {
+    SCOPED_TRACE(static_cast<int>(faces));
+    const PolygonMesh patch = generate::sphere_patch({.columns = 16, .rows = 16, .faces = faces, .jitter = 0.2}, 1, 60);
+    const FairResult result = fair(generate::add_noise(patch, 0.05, 3), held_rim(patch), multigrid(1e-9));
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_LT(distance_from_sphere(result.positions), 1e-6);
+  }
+}
+
+TEST(Multigrid, GetsFarNearerThanThePlainIterationWithTheSameTest) {
+  const PolygonMesh cap = generate::cap({.nodes = 1801, .radius = 1, .half_angle = 60});
+  FairOptions plain;
+  plain.method = Method::sweep;
+  const FairResult swept = fair(flattened(cap), held_rim(cap), plain);
+  const FairResult cycled = fair(flattened(cap), held_rim(cap), multigrid());
+  EXPECT_EQ(swept.report.outcome, Outcome::converged);
+  EXPECT_EQ(cycled.report.outcome, Outcome::converged);
+  EXPECT_GT(distance_from_sphere(swept.positions), 0.3);
+  EXPECT_LT(distance_from_sphere(cycled.positions), 0.02);
+}
+
+TEST(Multigrid, GetsNearerWithFinerMeshesWhereTheTestGoesWithTheFourthPowerOfTheSpacing) {
+  const auto error = [](Index nodes, double e) {
+    const PolygonMesh cap = generate::cap({.nodes = nodes, .radius = 1, .half_angle = 60});
+    const FairResult result = fair(flattened(cap), held_rim(cap), multigrid(e));
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    return distance_from_sphere(result.positions);
+  };
+  const double coarse = error(127, 1e-3);
+  EXPECT_LT(error(1801, 1e-3 / 256), 0.5 * coarse);
+  EXPECT_GT(error(1801, 1e-3), coarse);
+}
+
+TEST(Multigrid, TellsOfEveryLevel) {
+  const PolygonMesh cap = generate::cap({.nodes = 4921, .radius = 1, .half_angle = 60});
+  FairOptions options = multigrid();
+  const FairReport six = fair(cap, held_rim(cap), options).report;
+  ASSERT_GE(six.levels.size(), 5U);
+  ASSERT_LE(six.levels.size(), 6U);
+  int iterations = 0;
+  for (std::size_t k = 0; k < six.levels.size(); ++k) {
+    iterations += six.levels[k].iterations;
+    EXPECT_GT(six.levels[k].seconds, 0);
+    if (k > 0) {
+      EXPECT_GT(six.levels[k].moving_nodes, 3 * six.levels[k - 1].moving_nodes);
+      EXPECT_GE(six.levels[k].iterations, options.pre_smoothing + 1);
+    }
+  }
+  EXPECT_EQ(iterations, six.iterations);
+  EXPECT_EQ(six.levels.back().moving_nodes, six.moving_nodes);
+  options.levels = 3;
+  EXPECT_EQ(fair(cap, held_rim(cap), options).report.levels.size(), 3U);
+  options.levels = 1;
+  EXPECT_EQ(fair(cap, held_rim(cap), options).report.levels.size(), 1U);
+}
+
+TEST(Multigrid, HasFewerLevelsWhereThereIsTooLittle) {
+  const PolygonMesh cap = generate::cap({.nodes = 19, .radius = 1, .half_angle = 60});
+  const FairResult result = fair(flattened(cap), held_rim(cap), multigrid(1e-12));
+  EXPECT_EQ(result.report.levels.size(), 1U);
+  EXPECT_LT(distance_from_sphere(result.positions), 1e-9);
+}
+
+TEST(Multigrid, FiveIterationsOnTheWayDownTakeNoiseOut) {
+  const PolygonMesh annulus = generate::annulus({.nodes = 553, .boundary_nodes = 121});
+  const PolygonMesh noisy = generate::add_noise(annulus, 0.05, 7);
+  Constraints constraints(annulus.node_count());
+  fix_boundary_positions(constraints, annulus);
+  fix_boundary_normals(constraints, annulus);
+  const FairResult clean = fair(annulus, constraints, multigrid(1e-7));
+  const FairResult rough = fair(noisy, constraints, multigrid(1e-7));
+  EXPECT_EQ(rough.report.outcome, Outcome::converged);
+  EXPECT_GT(rough.report.before.mean_turn, 5 * rough.report.after.mean_turn);
+  double apart = 0;
+  for (std::size_t i = 0; i < clean.positions.size(); ++i)
+    apart = std::max(apart, (clean.positions[i] - rough.positions[i]).norm());
+  EXPECT_LT(apart, 1e-3);
+}
+
+TEST(Multigrid, SameBitsOnAnyNumberOfThreads) {
+  const PolygonMesh cap = generate::cap({.nodes = 1801, .radius = 1, .half_angle = 60});
+  const auto with = [&](int threads) {
+    Context context;
+    context.threads = threads;
+    return fair(flattened(cap), held_rim(cap), multigrid(), context).positions;
+  };
+  EXPECT_EQ(with(1), with(2));
+  EXPECT_EQ(with(1), with(3));
+}
+
+TEST(Multigrid, FixedNodesStayBitForBit) {
+  const PolygonMesh cap = generate::cap({.nodes = 469, .radius = 1, .half_angle = 60});
+  Constraints constraints = held_rim(cap);
+  constraints.fix_position(17, Vector3(0.1, 0.2, 1.0));
+  const FairResult result = fair(flattened(cap), constraints, multigrid());
+  for (Index i = 0; i < cap.node_count(); ++i) {
+    if (!constraints.position_fixed(i)) continue;
+    EXPECT_EQ(result.positions[static_cast<std::size_t>(i)], constraints.position(i));
+  }
+}
+
+TEST(Multigrid, CancellationEndsWithTheShapeSoFar) {
+  const PolygonMesh cap = generate::cap({.nodes = 4921, .radius = 1, .half_angle = 60});
+  Context context;
+  int calls = 0;
+  context.on_progress = [&](const Progress&) {
+    if (++calls == 2) context.cancel();
+  };
+  const FairResult result = fair(flattened(cap), held_rim(cap), multigrid(1e-12), context);
+  EXPECT_EQ(result.report.outcome, Outcome::cancelled);
+  for (const Vector3& position : result.positions) EXPECT_TRUE(position.allFinite());
+}
+
+TEST(Multigrid, CurvesHaveLevelsToo) {
+  std::vector<Vector3> positions;
+  for (int k = 0; k <= 400; ++k) {
+    const double angle = 2.0 * k / 400;
+    const double noise = k == 0 || k == 400 ? 0 : 0.02 * std::sin(1000.0 * k);
+    positions.emplace_back((1 + noise) * std::cos(angle), (1 + noise) * std::sin(angle), 0);
+  }
+  const PolygonCurve curve(positions);
+  Constraints constraints(curve.node_count());
+  fix_boundary_positions(constraints, curve);
+  constraints.fix_tangent(0, Vector3(0, 1, 0));
+  constraints.fix_tangent(400, Vector3(-std::sin(2.0), std::cos(2.0), 0));
+  const FairResult result = fair(curve, constraints, multigrid(1e-6));
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_GT(result.report.levels.size(), 2U);
+  EXPECT_LT(distance_from_sphere(result.positions), 1e-3);
+}
+
+}  // namespace
+}  // namespace vspring

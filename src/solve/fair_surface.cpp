@@ -1,12 +1,13 @@
 #include <chrono>
+#include <utility>
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
 #include "fairness/measure.hpp"
 #include "solve/account.hpp"
 #include "solve/fair_boundary.hpp"
+#include "solve/surface_hierarchy.hpp"
 #include "solve/sweep_method.hpp"
-#include "vspring/error.hpp"
 #include "vspring/fair.hpp"
 
 namespace vspring {
@@ -19,11 +20,10 @@ FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const F
     result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;
   }
-  if (options.method.value_or(Method::sweep) != Method::sweep)
-    throw Error(ErrorCode::invalid_argument, "surfaces are faired by the method sweep only so far");
   FairResult result;
   FairReport& report = result.report;
   report.warnings = check_constraints(mesh, constraints);
+  report.method = options.method.value_or(Method::sweep);
 
   ProgressReporter progress(context);
   progress.report("preparing", 0);
@@ -35,8 +35,14 @@ FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const F
   report.before = measure(mesh, &constraints, team);
 
   const auto model = surface_model(options.pseudo_normals);
-  distribute(net, *model, options.distribution, team);
-  run_sweeps(net, *model, options, team, context, progress, report);
+  if (report.method == Method::equilibrium) {
+    SurfaceHierarchy hierarchy(surface_levels(std::move(net), *model, options.distribution, team), team);
+    run_equilibrium(hierarchy, *model, options, team, context, progress, report);
+    net = std::move(hierarchy).take();
+  } else {
+    distribute(net, *model, options.distribution, team);
+    run_sweeps(net, *model, options, team, context, progress, report);
+  }
 
   result.positions = scatter_positions(net, mesh.positions(), constraints, options.strength);
   measure_moves(net, mesh.positions(), result.positions, report);

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "levels/surface_levels.hpp"
+#include "solve/equilibrium_method.hpp"
+
+namespace vspring {
+
+/// The levels of a surface (§4.7).
+class SurfaceHierarchy final : public Hierarchy {
+ public:
+  SurfaceHierarchy(std::vector<SurfaceLevel> levels, ThreadTeam& team) : levels_(std::move(levels)), team_(&team) {}
+
+  [[nodiscard]] std::size_t count() const override { return levels_.size(); }
+  Net& net(std::size_t level) override { return levels_[level].net; }
+  std::unique_ptr<Preconditioner> preconditioner(std::size_t level) override;
+  /// Nodes take half of their neighbours' mean place with them to each coarser level: noise is not a shape.
+  void start() override;
+  /// All nodes at the mean of their neighbours.
+  void forget_shape() override;
+  void prolong(std::size_t level) override;
+
+  Net take() && { return std::move(levels_.back().net); }
+
+ private:
+  std::vector<SurfaceLevel> levels_;
+  ThreadTeam* team_;
+};
+
+}  // namespace vspring

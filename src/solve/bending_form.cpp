@@ -1,5 +1,6 @@
 #include "solve/bending_form.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -12,6 +13,8 @@ using Triplet = Eigen::Triplet<double>;
 constexpr std::size_t nodes_per_task = 2048;
 // Of the diagonal: keeps a net that nothing holds from having no factor.
 constexpr double shift = 1e-13;
+// Of the sum of a node's weights, what has to be left of it where they are made to take linear functions to zero.
+constexpr double least_left = 0.3;
 
 double edge_weight(const Net& net, std::size_t i, std::size_t j) {
   const Vector3 d = net.positions[j] - net.positions[i];
@@ -43,6 +46,47 @@ Eigen::SparseMatrix<double> laplacian(const Net& net, const Weight& weight) {
   return matrix;
 }
 
+/// The row of curvature of a node with a normal, over the links that are wanted: what (node, share) are, times the sum
+/// of the weights. Returns that sum.
+template <typename Wanted>
+double curvature_row(const Net& net, std::size_t i, const Wanted& wanted,
+                     std::vector<std::pair<std::size_t, double>>& row) {
+  const auto links = net.rings.links(i);
+  const Vector3& normal = net.normals[i];
+  row.clear();
+  double sum = 0;
+  Vector3 mean = Vector3::Zero();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  const auto across = [&](std::size_t j) -> Vector3 {
+    const Vector3 d = net.positions[j] - net.positions[i];
+    return d - d.dot(normal) * normal;
+  };
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (!links[k].spoke() || !wanted(k)) continue;
+    const std::size_t j = links[k].node();
+    const double w = edge_weight(net, i, j);
+    const Vector3 u = across(j);
+    sum += w;
+    mean += w * u;
+    spread += w * u * u.transpose();
+    row.emplace_back(j, w);
+  }
+  const double size = spread.trace();
+  if (!(size > 0) || row.size() < 3) return sum;
+  spread += size * normal * normal.transpose() + 1e-9 * size * Eigen::Matrix3d::Identity();
+  Vector3 slope = spread.ldlt().solve(mean);
+  // Neighbours all to one side leave next to nothing.
+  const double left = 1 - mean.dot(slope) / sum;
+  if (left < least_left) slope *= (1 - least_left) / (1 - left);
+  double total = 0;
+  for (auto& [j, value] : row) {
+    value *= 1 - slope.dot(across(j));
+    total += value;
+  }
+  for (auto& [j, value] : row) value *= sum / total;
+  return sum;
+}
+
 /// Terms of C.
 class Extra {
  public:
@@ -51,16 +95,9 @@ class Extra {
   /// (Σ w_j (h_j − h_i))² / Σ w_j over the edges to some neighbours.
   template <typename Wanted>
   void add_bend(std::size_t i, const Wanted& wanted) {
-    row_.clear();
-    double sum = 0;
-    const auto links = net_->rings.links(i);
-    for (std::size_t k = 0; k < links.size(); ++k) {
-      if (!links[k].spoke() || !wanted(k)) continue;
-      const double w = edge_weight(*net_, i, links[k].node());
-      sum += w;
-      if (links[k].node() < net_->moving) row_.emplace_back(links[k].node(), w);
-    }
+    const double sum = curvature_row(*net_, i, wanted, row_);
     if (sum == 0) return;
+    std::erase_if(row_, [&](const auto& entry) { return entry.first >= net_->moving; });
     if (i < net_->moving) row_.emplace_back(i, -sum);
     for (const auto& [a, value_a] : row_) {
       for (const auto& [b, value_b] : row_) add(a, b, value_a * value_b / sum);
@@ -98,8 +135,8 @@ bool on_boundary(std::span<const Link> links) { return !links.empty() && links.f
 }  // namespace
 
 Eigen::SparseMatrix<double> BendingForm::assembled() const {
-  const Eigen::SparseMatrix<double> half = compliance.cwiseSqrt().asDiagonal() * laplacian;
-  return Eigen::SparseMatrix<double>(half.transpose() * half) + extra;
+  const Eigen::SparseMatrix<double> half = curvature * stiffness.cwiseSqrt().asDiagonal();
+  return Eigen::SparseMatrix<double>(half * half.transpose()) + extra;
 }
 
 void weigh_edges(const Net& net, ThreadTeam& team, std::vector<double>& sums) {
@@ -116,14 +153,28 @@ void weigh_edges(const Net& net, ThreadTeam& team, std::vector<double>& sums) {
 
 BendingForm bending_form(const Net& net) {
   BendingForm form;
-  form.laplacian = laplacian(net, [&](std::size_t i, std::size_t j) { return edge_weight(net, i, j); });
-  form.compliance = form.laplacian.diagonal().cwiseMax(1e-300).cwiseInverse();
+  const auto size = static_cast<Eigen::Index>(net.moving);
+  form.curvature.resize(size, size);
+  form.curvature.reserve(Eigen::VectorXi::Constant(size, 9));
+  form.stiffness.resize(size);
+  std::vector<std::pair<std::size_t, double>> row;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const double sum = curvature_row(
+        net, i, [](std::size_t) { return true; }, row);
+    form.stiffness[column] = sum;
+    std::erase_if(row, [&](const auto& entry) { return entry.first >= net.moving; });
+    row.emplace_back(i, -sum);
+    std::sort(row.begin(), row.end());
+    for (const auto& [j, value] : row) form.curvature.insert(static_cast<Eigen::Index>(j), column) = value / sum;
+  }
+  form.curvature.makeCompressed();
   Extra extra(net);
   for (std::size_t i = 0; i < net.computed; ++i) {
     const auto links = net.rings.links(i);
     const bool moves = i < net.moving;
     const bool open = on_boundary(links);
-    if (moves && (net.normal_given(i) || open)) form.compliance[static_cast<Eigen::Index>(i)] = 0;
+    if (moves && (net.normal_given(i) || open)) form.stiffness[static_cast<Eigen::Index>(i)] = 0;
     if (moves && net.normal_given(i)) {
       for (const Link link : links) {
         if (link.spoke()) extra.add_edge(i, link.node());
@@ -143,7 +194,21 @@ BendingForm bending_form(const Net& net) {
 }
 
 Eigen::SparseMatrix<double> spreading_form(const Net& net) {
-  return laplacian(net, [](std::size_t, std::size_t) { return 1.0; });
+  if (net.shares.empty()) return laplacian(net, [](std::size_t, std::size_t) { return 1.0; });
+  return laplacian(net, [&](std::size_t i, std::size_t j) {
+    const auto one_way = [&](std::size_t from, std::size_t to) {
+      const auto links = net.rings.links(from);
+      double spokes = 0;
+      double share = 0;
+      for (std::size_t k = 0; k < links.size(); ++k) {
+        if (!links[k].spoke()) continue;
+        spokes += 1;
+        if (links[k].node() == to) share = net.shares_of(from)[k];
+      }
+      return spokes * share;
+    };
+    return j < net.moving ? 0.5 * (one_way(i, j) + one_way(j, i)) : one_way(i, j);
+  });
 }
 
 double bending_factor(const Net& net) {

@@ -9,14 +9,15 @@
 
 namespace vspring {
 
-/// The derivative of V-Spring on a surface where slopes are small, up to a factor: with w_ij = 1/ℓ_ij, K the Laplacian
-/// of the graph with these weights and D its diagonal, forces are F ≈ −κ D⁻¹ B h for displacements h along the normals,
-/// B = K D⁻¹ K + C over the moving nodes. A row of K stands for the mean curvature at a node. C holds what is none of a
-/// moving node inside: a node with a given normal bends against each edge by itself; a held node with a computed one
-/// bends like a moving node, unless it lies on the boundary; a moving node there bends along the boundary only.
+/// The derivative of V-Spring on a surface where slopes are small, up to a factor: forces are F ≈ −κ D⁻¹ B h for
+/// displacements h along the normals, with B = Lᵀ D L + C over the moving nodes and D the sums of w = 1/ℓ over a node's
+/// edges. A row of L is a node's mean curvature: Σ s_j h_j − h_i with shares s near w_j / Σ w that take linear
+/// functions of the place in the tangent plane to zero, as V-Spring does. C holds what is none of a moving node inside:
+/// a node with a given normal bends against each edge by itself; a held node with a computed one bends like a moving
+/// node, unless it lies on the boundary; a moving node there bends along the boundary only.
 struct BendingForm {
-  Eigen::SparseMatrix<double> laplacian;  ///< K
-  Eigen::VectorXd compliance;             ///< D⁻¹; zero for nodes that C takes care of
+  Eigen::SparseMatrix<double> curvature;  ///< Lᵀ
+  Eigen::VectorXd stiffness;              ///< D; zero for nodes that C takes care of
   Eigen::SparseMatrix<double> extra;      ///< C
 
   [[nodiscard]] Eigen::SparseMatrix<double> assembled() const;

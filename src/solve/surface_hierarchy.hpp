@@ -24,6 +24,9 @@ class SurfaceHierarchy final : public Hierarchy {
   Net take() && { return std::move(levels_.back().net); }
 
  private:
+  /// Sets the shares of coarse levels so that a soap film, where all nodes are at the mean of their neighbours on the
+  /// finest level, is evened out on every level.
+  void even_out();
   std::vector<SurfaceLevel> levels_;
   ThreadTeam* team_;
 };

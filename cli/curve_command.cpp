@@ -127,14 +127,6 @@ void add_method_options(CLI::App& command, CurveArguments& arguments, const Fair
              "The accelerated solver that goes to the true equilibrium, or the paper's plain iteration (default: "
              "equilibrium)")
       ->group(fairing_group);
-  command
-      .add_option("--tolerance", options.tolerance,
-                  fmt::format("equilibrium: stop when no node is expected to be further from its final place than "
-                              "this share of the diagonal of the box around the moving nodes (default: {})",
-                              options.tolerance))
-      ->type_name("X")
-      ->check(CLI::PositiveNumber)
-      ->group(fairing_group);
   add_stopping_options(command, arguments, "200 for each level of equilibrium, 10000 for sweep");
   CLI::Option* plane =
       add_choice(command, "--normal-plane", options.curve.normal_plane, normal_planes,

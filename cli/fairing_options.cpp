@@ -55,6 +55,14 @@ void add_constraint_options(CLI::App& command, FairingArguments& arguments, cons
 void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& limits) {
   FairOptions& options = arguments.options;
   command
+      .add_option("--tolerance", options.tolerance,
+                  fmt::format("equilibrium: stop when no node is expected to be further from its final place than "
+                              "this share of the diagonal of the box around the moving nodes (default: {})",
+                              options.tolerance))
+      ->type_name("X")
+      ->check(CLI::PositiveNumber)
+      ->group(fairing_group);
+  command
       .add_option("--step-tolerance", options.step_tolerance,
                   fmt::format("sweep: stop when no node moves further in an iteration than this share of its mean edge "
                               "length (default: {})",

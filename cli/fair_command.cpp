@@ -48,7 +48,7 @@ void add_method_options(CLI::App& command, FairArguments& arguments, const Fairi
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: sweep)")
       ->group(fairing_group);
-  add_stopping_options(command, arguments, "10000");
+  add_stopping_options(command, arguments);
   CLI::Option* kind = add_choice(command, "--pseudo-normals", options.pseudo_normals, pseudo_normals,
                                  "Normals of nodes: Max's weights around the link; the paper's plain average of face "
                                  "normals; weighted by area; by angle (default: link)")

@@ -15,7 +15,7 @@
 namespace vspring {
 
 enum class Method {
-  equilibrium,  ///< the accelerated solver that goes to the true equilibrium; curves only so far
+  equilibrium,  ///< the accelerated solver that goes to the true equilibrium
   multigrid,    ///< the paper's V-cycle over coarser levels (§4.7)
   sweep         ///< the paper's plain iteration (§4.1)
 };

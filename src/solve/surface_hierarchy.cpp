@@ -7,6 +7,7 @@
 
 #include "solve/bending_form.hpp"
 #include "solve/cholesky_solver.hpp"
+#include "solve/interpolation.hpp"
 #include "solve/surface_preconditioner.hpp"
 
 namespace vspring {
@@ -16,6 +17,7 @@ namespace {
 // Passes of means over the few nodes of the coarsest level, until they lie as on a soap film.
 constexpr int film_passes = 500;
 // How far shares go from even ones to those that put nodes in their places.
+constexpr double film_reduction = 1e-4;
 constexpr double faith = 0.5;
 // Between these, half angles have tangents as on meshes that are fit for use.
 constexpr double least_tangent = 0.05;
@@ -34,7 +36,7 @@ Vector3 mean_place(const Net& net, std::size_t i) {
 }
 
 /// Moves all nodes to the mean of their neighbours at once: onto a soap film between the held ones.
-void spread(Net& net, ThreadTeam& team) {
+void spread(Net& net, std::span<const Interpolation> interpolations, ThreadTeam& team) {
   const auto size = static_cast<Eigen::Index>(net.moving);
   Eigen::MatrixXd places = Eigen::MatrixXd::Zero(size, 3);
   for (std::size_t i = 0; i < net.moving; ++i) {
@@ -43,8 +45,10 @@ void spread(Net& net, ThreadTeam& team) {
         places.row(static_cast<Eigen::Index>(i)) += net.positions[link.node()].transpose();
     }
   }
-  CholeskySolver solver(team);
-  solver.factorise(spreading_form(net));
+  CholeskySolver factor(team);
+  MultigridSolver cycles(interpolations, film_reduction, team);
+  LinearSolver& solver = interpolations.empty() ? static_cast<LinearSolver&>(factor) : cycles;
+  solver.build(spreading_form(net, team));
   solver.solve(places);
   for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = places.row(static_cast<Eigen::Index>(i)).transpose();
 }
@@ -80,15 +84,35 @@ std::vector<double> mean_value_shares(const Net& net, const std::vector<Vector3>
   return shares;
 }
 
+std::size_t few_enough_to_factor() {
+  static const std::size_t n = getenv("FEW") ? atoi(getenv("FEW")) : 5000;
+  return n;
+}
+
 }  // namespace
 
 std::unique_ptr<Preconditioner> SurfaceHierarchy::preconditioner(std::size_t level) {
-  return std::make_unique<SurfacePreconditioner>(levels_[level].net, *team_);
+  interpolations_ = interpolations(level);
+  return std::make_unique<SurfacePreconditioner>(levels_[level].net, interpolations_, *team_);
+}
+
+std::vector<Interpolation> SurfaceHierarchy::interpolations(std::size_t level) {
+  std::vector<Interpolation> result;
+  std::vector<Vector3> positions = levels_[level].net.positions;
+  for (std::size_t k = level; k > 0 && levels_[k].net.moving > few_enough_to_factor(); --k) {
+    const SurfaceLevel& coarse = levels_[k - 1];
+    result.push_back(interpolation(levels_[k].net, positions, coarse.net, coarse.finer, *team_));
+    std::vector<Vector3> kept;
+    kept.reserve(coarse.finer.size());
+    for (const std::uint32_t i : coarse.finer) kept.push_back(positions[i]);
+    positions = std::move(kept);
+  }
+  return result;
 }
 
 void SurfaceHierarchy::even_out() {
   Net film = levels_.back().net;
-  spread(film, *team_);
+  spread(film, interpolations(levels_.size() - 1), *team_);
   std::vector<Vector3> positions = std::move(film.positions);
   for (std::size_t k = levels_.size() - 1; k-- > 0;) {
     std::vector<Vector3> coarse;

@@ -4,6 +4,7 @@
 
 #include "levels/surface_levels.hpp"
 #include "solve/equilibrium_method.hpp"
+#include "solve/multigrid_solver.hpp"
 
 namespace vspring {
 
@@ -27,7 +28,11 @@ class SurfaceHierarchy final : public Hierarchy {
   /// Sets the shares of coarse levels so that a soap film, where all nodes are at the mean of their neighbours on the
   /// finest level, is evened out on every level.
   void even_out();
+  /// For multigrid on a level, with the shape that it has now; none where there are few nodes.
+  std::vector<Interpolation> interpolations(std::size_t level);
+
   std::vector<SurfaceLevel> levels_;
+  std::vector<Interpolation> interpolations_;  ///< of the last level that was asked for
   ThreadTeam* team_;
 };
 

@@ -20,6 +20,8 @@ constexpr int first_try = 80;
 constexpr double lost_at = 1e-3;
 // What a coarse level leaves undone, the finer ones have to do with more nodes.
 constexpr double coarse_share = 0.3;
+constexpr double greatest_displacement_ratio = 4;
+constexpr std::size_t nodes_per_task = 2048;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -47,7 +49,9 @@ class Run {
     const std::size_t last = hierarchy_.count() - 1;
     Net& finest = hierarchy_.net(last);
     const std::vector<Vector3> start = finest.positions;
-    if (options_.max_iterations.value_or(1) > 0 && relax(last, 1) != Outcome::converged && last > 0)
+    report_.outcome = Outcome::iteration_limit;
+    if (options_.max_iterations.value_or(1) > 0 && may_be_there(finest) && relax(last, 1) != Outcome::converged &&
+        last > 0)
       finest.positions = start;
     if (report_.outcome == Outcome::iteration_limit) go_down();
   }
@@ -67,6 +71,21 @@ class Run {
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong(k);
     }
+  }
+
+  /// False where displacements are so large that corrections cannot be within the tolerance: as displacements of an
+  /// equilibrium that is off by one correction they are at most a few times as large.
+  bool may_be_there(Net& net) {
+    model_.prepare(net);
+    update_directions(net, model_, team_);
+    std::vector<NodeForce> forces(net.moving);
+    parallel_ranges(team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      model_.find_forces(net, {begin, end}, forces);
+    });
+    const double greatest = greatest_displacement_ratio * options_.tolerance * size_;
+    return std::none_of(forces.begin(), forces.end(), [&](const NodeForce& force) {
+      return (force.spring + force.regularisation).squaredNorm() > greatest * greatest;
+    });
   }
 
   [[nodiscard]] bool unfinished() const {

@@ -233,4 +233,10 @@ void MultigridSolver::solve(Eigen::MatrixXd& columns) {
   }
 }
 
+std::unique_ptr<LinearSolver> linear_solver(std::span<const Interpolation> interpolations, double reduction,
+                                            ThreadTeam& team) {
+  if (interpolations.empty()) return std::make_unique<CholeskySolver>(team);
+  return std::make_unique<MultigridSolver>(interpolations, reduction, team);
+}
+
 }  // namespace vspring

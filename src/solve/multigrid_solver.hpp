@@ -52,4 +52,8 @@ class MultigridSolver final : public LinearSolver {
   int iterations_ = 0;
 };
 
+/// Multigrid, or Cholesky factors where there is no interpolation.
+std::unique_ptr<LinearSolver> linear_solver(std::span<const Interpolation> interpolations, double reduction,
+                                            ThreadTeam& team);
+
 }  // namespace vspring

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "levels/surface_levels.hpp"
@@ -25,14 +26,14 @@ class SurfaceHierarchy final : public Hierarchy {
   Net take() && { return std::move(levels_.back().net); }
 
  private:
-  /// Sets the shares of coarse levels so that a soap film, where all nodes are at the mean of their neighbours on the
-  /// finest level, is evened out on every level.
-  void even_out();
-  /// For multigrid on a level, with the shape that it has now; none where there are few nodes.
-  std::vector<Interpolation> interpolations(std::size_t level);
+  /// Moves the nodes of a level along their surface to where the regularisation (§4.4) wants them.
+  void spread_along(std::size_t level);
+  /// Makes the interpolations for multigrid on a level; none where there are few nodes.
+  void interpolate(std::size_t level);
 
   std::vector<SurfaceLevel> levels_;
-  std::vector<Interpolation> interpolations_;  ///< of the last level that was asked for
+  std::vector<Interpolation> interpolations_;
+  std::optional<std::size_t> interpolated_;  ///< the level that they are for
   ThreadTeam* team_;
 };
 

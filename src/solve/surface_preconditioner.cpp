@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "solve/bending_form.hpp"
-#include "solve/cholesky_solver.hpp"
 
 namespace vspring {
 
@@ -40,12 +39,6 @@ double sagitta(const Net& net, std::size_t i, const Vector3& step) {
   const double fall = 0.5 * step.dot(turn * spread.ldlt().solve(step));
   const double most = steepest * step.norm();
   return std::clamp(fall, -most, most);
-}
-
-std::unique_ptr<LinearSolver> linear_solver(std::span<const Interpolation> interpolations, double reduction,
-                                            ThreadTeam& team) {
-  if (interpolations.empty()) return std::make_unique<CholeskySolver>(team);
-  return std::make_unique<MultigridSolver>(interpolations, reduction, team);
 }
 
 }  // namespace

@@ -61,17 +61,37 @@ class Run {
     const int limit = options_.max_iterations.value_or(default_limit);
     const std::size_t last = hierarchy_.count() - 1;
     hierarchy_.start();
+    std::vector<Vector3> own_start;
     for (std::size_t k = 0; k <= last; ++k) {
       (void)relax(k, k == 0 ? std::min(limit, first_try) : limit);
       if (k == 0 && limit > first_try && unfinished()) {
-        if (report_.residual > lost_at) hierarchy_.forget_shape();
+        if (lost()) hierarchy_.forget_shape();
         (void)relax(k, limit);
       }
+      if (k > 0 && unfinished() && lost()) try_own_start(k, own_start, limit);
       if (k == last) break;
+      own_start = hierarchy_.net(k + 1).positions;
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong(k);
     }
   }
+
+  /// A level too coarse for the shape to have an equilibrium hands up what is no help: then the start itself may be
+  /// one. The better of both stays.
+  void try_own_start(std::size_t level, std::vector<Vector3> start, int limit) {
+    Net& net = hierarchy_.net(level);
+    const double residual = report_.residual;
+    const Outcome outcome = report_.outcome;
+    std::swap(net.positions, start);
+    (void)relax(level, limit);
+    if (!unfinished() || report_.residual < residual) return;
+    net.positions = std::move(start);
+    report_.outcome = outcome;
+    report_.residual = residual;
+    report_.expected_error = residual;
+  }
+
+  [[nodiscard]] bool lost() const { return !(report_.residual < lost_at); }
 
   /// False where displacements are so large that corrections cannot be within the tolerance: as displacements of an
   /// equilibrium that is off by one correction they are at most a few times as large.

@@ -49,10 +49,9 @@ class Run {
     const std::size_t last = hierarchy_.count() - 1;
     Net& finest = hierarchy_.net(last);
     const std::vector<Vector3> start = finest.positions;
-    report_.outcome = Outcome::iteration_limit;
-    if (options_.max_iterations.value_or(1) > 0 && may_be_there(finest) && relax(last, 1) != Outcome::converged &&
-        last > 0)
-      finest.positions = start;
+    report_.outcome = context_.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
+    if (context_.cancelled() || options_.max_iterations == 0) return;
+    if (may_be_there(finest) && relax(last, 1) != Outcome::converged && last > 0) finest.positions = start;
     if (report_.outcome == Outcome::iteration_limit) go_down();
   }
 

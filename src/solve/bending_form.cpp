@@ -8,11 +8,11 @@ namespace vspring {
 
 namespace {
 
-using Triplet = Eigen::Triplet<double>;
-
 constexpr std::size_t nodes_per_task = 2048;
 // Of the diagonal: keeps a net that nothing holds from having no factor.
 constexpr double shift = 1e-13;
+// Shares of nodes that lie unevenly may be negative; the matrix is to stay definite.
+constexpr double least_weight = 0.1;
 // Of the sum of a node's weights, what has to be left of it where they are made to take linear functions to zero.
 constexpr double least_left = 0.3;
 
@@ -21,36 +21,10 @@ double edge_weight(const Net& net, std::size_t i, std::size_t j) {
   return 1 / std::sqrt(d.dot(d) + net.tiny);
 }
 
-/// The Laplacian of the moving nodes' graph; held neighbours count on its diagonal only.
-template <typename Weight>
-Eigen::SparseMatrix<double> laplacian(const Net& net, const Weight& weight) {
-  const auto size = static_cast<Eigen::Index>(net.moving);
-  Eigen::SparseMatrix<double> matrix(size, size);
-  std::vector<std::pair<std::size_t, double>> entries;
-  matrix.reserve(Eigen::VectorXi::Constant(size, 8));
-  for (std::size_t i = 0; i < net.moving; ++i) {
-    entries.clear();
-    double sum = 0;
-    for (const Link link : net.rings.links(i)) {
-      if (!link.spoke()) continue;
-      const double w = weight(i, link.node());
-      sum += w;
-      if (link.node() < net.moving) entries.emplace_back(link.node(), -w);
-    }
-    entries.emplace_back(i, sum * (1 + shift));
-    std::sort(entries.begin(), entries.end());
-    for (const auto& [j, value] : entries)
-      matrix.insert(static_cast<Eigen::Index>(j), static_cast<Eigen::Index>(i)) = value;
-  }
-  matrix.makeCompressed();
-  return matrix;
-}
-
 /// The row of curvature of a node with a normal, over the links that are wanted: what (node, share) are, times the sum
 /// of the weights. Returns that sum.
 template <typename Wanted>
-double curvature_row(const Net& net, std::size_t i, const Wanted& wanted,
-                     std::vector<std::pair<std::size_t, double>>& row) {
+double curvature_row(const Net& net, std::size_t i, const Wanted& wanted, SparseRows::Row& row) {
   const auto links = net.rings.links(i);
   const Vector3& normal = net.normals[i];
   row.clear();
@@ -69,7 +43,7 @@ double curvature_row(const Net& net, std::size_t i, const Wanted& wanted,
     sum += w;
     mean += w * u;
     spread += w * u * u.transpose();
-    row.emplace_back(j, w);
+    row.push_back({static_cast<std::uint32_t>(j), w});
   }
   const double size = spread.trace();
   if (!(size > 0) || row.size() < 3) return sum;
@@ -87,7 +61,7 @@ double curvature_row(const Net& net, std::size_t i, const Wanted& wanted,
   return sum;
 }
 
-/// Terms of C.
+/// Terms of C, each the square of a sum of a few displacements.
 class Extra {
  public:
   explicit Extra(const Net& net) : net_(&net) {}
@@ -97,47 +71,45 @@ class Extra {
   void add_bend(std::size_t i, const Wanted& wanted) {
     const double sum = curvature_row(*net_, i, wanted, row_);
     if (sum == 0) return;
-    std::erase_if(row_, [&](const auto& entry) { return entry.first >= net_->moving; });
-    if (i < net_->moving) row_.emplace_back(i, -sum);
-    for (const auto& [a, value_a] : row_) {
-      for (const auto& [b, value_b] : row_) add(a, b, value_a * value_b / sum);
+    std::erase_if(row_, [&](const auto& entry) { return entry.column >= net_->moving; });
+    if (i < net_->moving) row_.push_back({static_cast<std::uint32_t>(i), -sum});
+    for (const auto& a : row_) {
+      for (const auto& b : row_) terms_.push_back({a.column, {b.column, a.value * b.value / sum}});
     }
   }
 
   /// w (h_j − h_i)².
   void add_edge(std::size_t i, std::size_t j) {
     const double w = edge_weight(*net_, i, j);
-    if (i < net_->moving) add(i, i, w);
-    if (j < net_->moving) add(j, j, w);
+    const auto a = static_cast<std::uint32_t>(i);
+    const auto b = static_cast<std::uint32_t>(j);
+    if (i < net_->moving) terms_.push_back({a, {a, w}});
+    if (j < net_->moving) terms_.push_back({b, {b, w}});
     if (i >= net_->moving || j >= net_->moving) return;
-    add(i, j, -w);
-    add(j, i, -w);
+    terms_.push_back({a, {b, -w}});
+    terms_.push_back({b, {a, -w}});
   }
 
-  [[nodiscard]] Eigen::SparseMatrix<double> take() const {
-    const auto size = static_cast<Eigen::Index>(net_->moving);
-    Eigen::SparseMatrix<double> matrix(size, size);
-    matrix.setFromTriplets(triplets_.begin(), triplets_.end());
-    return matrix;
+  /// The terms of every row; columns may occur repeatedly.
+  [[nodiscard]] std::vector<std::vector<SparseRows::Entry>> by_rows() const {
+    std::vector<std::vector<SparseRows::Entry>> rows(terms_.empty() ? 0 : net_->moving);
+    for (const Term& term : terms_) rows[term.row].push_back(term.entry);
+    return rows;
   }
 
  private:
-  void add(std::size_t a, std::size_t b, double value) {
-    triplets_.emplace_back(static_cast<int>(a), static_cast<int>(b), value);
-  }
+  struct Term {
+    std::uint32_t row;
+    SparseRows::Entry entry;
+  };
   const Net* net_;
-  std::vector<Triplet> triplets_;
-  std::vector<std::pair<std::size_t, double>> row_;
+  std::vector<Term> terms_;
+  SparseRows::Row row_;
 };
 
 bool on_boundary(std::span<const Link> links) { return !links.empty() && links.front().start(); }
 
 }  // namespace
-
-Eigen::SparseMatrix<double> BendingForm::assembled() const {
-  const Eigen::SparseMatrix<double> half = curvature * stiffness.cwiseSqrt().asDiagonal();
-  return Eigen::SparseMatrix<double>(half * half.transpose()) + extra;
-}
 
 void weigh_edges(const Net& net, ThreadTeam& team, std::vector<double>& sums) {
   sums.resize(net.moving);
@@ -151,30 +123,26 @@ void weigh_edges(const Net& net, ThreadTeam& team, std::vector<double>& sums) {
   });
 }
 
-BendingForm bending_form(const Net& net) {
-  BendingForm form;
-  const auto size = static_cast<Eigen::Index>(net.moving);
-  form.curvature.resize(size, size);
-  form.curvature.reserve(Eigen::VectorXi::Constant(size, 9));
-  form.stiffness.resize(size);
-  std::vector<std::pair<std::size_t, double>> row;
-  for (std::size_t i = 0; i < net.moving; ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
-    const double sum = curvature_row(
-        net, i, [](std::size_t) { return true; }, row);
-    form.stiffness[column] = sum;
-    std::erase_if(row, [&](const auto& entry) { return entry.first >= net.moving; });
-    row.emplace_back(i, -sum);
-    std::sort(row.begin(), row.end());
-    for (const auto& [j, value] : row) form.curvature.insert(static_cast<Eigen::Index>(j), column) = value / sum;
-  }
-  form.curvature.makeCompressed();
+SparseRows bending_form(const Net& net, ThreadTeam& team) {
+  const auto bends_evenly = [&](std::size_t i) { return !net.normal_given(i) && !on_boundary(net.rings.links(i)); };
+  // √D L, without the rows that C takes care of.
+  const SparseRows curvature = SparseRows::build(team, net.moving, net.moving, [&] {
+    return [&, whole = SparseRows::Row()](std::size_t i, SparseRows::Row& row) mutable {
+      if (!bends_evenly(i)) return;
+      const double sum = curvature_row(
+          net, i, [](std::size_t) { return true; }, whole);
+      const double scale = sum > 0 ? 1 / std::sqrt(sum) : 0;
+      row.push_back({static_cast<std::uint32_t>(i), -sum * scale});
+      for (const SparseRows::Entry& entry : whole) {
+        if (entry.column < net.moving) row.push_back({entry.column, entry.value * scale});
+      }
+    };
+  });
   Extra extra(net);
   for (std::size_t i = 0; i < net.computed; ++i) {
     const auto links = net.rings.links(i);
     const bool moves = i < net.moving;
     const bool open = on_boundary(links);
-    if (moves && (net.normal_given(i) || open)) form.stiffness[static_cast<Eigen::Index>(i)] = 0;
     if (moves && net.normal_given(i)) {
       for (const Link link : links) {
         if (link.spoke()) extra.add_edge(i, link.node());
@@ -189,25 +157,53 @@ BendingForm bending_form(const Net& net) {
       if (link.spoke() && link.node() >= net.moving && net.normal_given(link.node())) extra.add_edge(i, link.node());
     }
   }
-  form.extra = extra.take();
-  return form;
+  const auto extra_rows = extra.by_rows();
+  const SparseRows squared = product(curvature.transposed(), curvature, team);
+  return SparseRows::build(team, net.moving, net.moving, [&] {
+    return [&](std::size_t i, SparseRows::Row& row) {
+      const std::size_t begin = row.size();
+      const auto add = [&](const SparseRows::Entry& entry) {
+        for (std::size_t k = begin; k < row.size(); ++k) {
+          if (row[k].column != entry.column) continue;
+          row[k].value += entry.value;
+          return;
+        }
+        row.push_back(entry);
+      };
+      const auto square = squared.row(i);
+      row.insert(row.end(), square.begin(), square.end());
+      if (!extra_rows.empty()) std::for_each(extra_rows[i].begin(), extra_rows[i].end(), add);
+    };
+  });
 }
 
-Eigen::SparseMatrix<double> spreading_form(const Net& net) {
-  if (net.shares.empty()) return laplacian(net, [](std::size_t, std::size_t) { return 1.0; });
-  return laplacian(net, [&](std::size_t i, std::size_t j) {
-    const auto one_way = [&](std::size_t from, std::size_t to) {
-      const auto links = net.rings.links(from);
-      double spokes = 0;
-      double share = 0;
-      for (std::size_t k = 0; k < links.size(); ++k) {
-        if (!links[k].spoke()) continue;
-        spokes += 1;
-        if (links[k].node() == to) share = net.shares_of(from)[k];
+SparseRows spreading_form(const Net& net, ThreadTeam& team) {
+  // Symmetric: of two different shares of an edge, half each.
+  const auto one_way = [&](std::size_t from, std::size_t to) {
+    const auto links = net.rings.links(from);
+    const auto shares = net.shares_of(from);
+    if (shares.empty()) return 1.0;
+    double spokes = 0;
+    double share = 0;
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      if (!links[k].spoke()) continue;
+      spokes += 1;
+      if (links[k].node() == to) share = shares[k];
+    }
+    return std::max(spokes * share, least_weight);
+  };
+  return SparseRows::build(team, net.moving, net.moving, [&] {
+    return [&](std::size_t i, SparseRows::Row& row) {
+      double sum = 0;
+      for (const Link link : net.rings.links(i)) {
+        if (!link.spoke()) continue;
+        const std::size_t j = link.node();
+        const double weight = j < net.moving ? 0.5 * (one_way(i, j) + one_way(j, i)) : one_way(i, j);
+        sum += weight;
+        if (j < net.moving) row.push_back({static_cast<std::uint32_t>(j), -weight});
       }
-      return spokes * share;
+      row.push_back({static_cast<std::uint32_t>(i), sum * (1 + shift)});
     };
-    return j < net.moving ? 0.5 * (one_way(i, j) + one_way(j, i)) : one_way(i, j);
   });
 }
 

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
 #include <vector>
 
 #include "base/threads.hpp"
+#include "solve/sparse_rows.hpp"
 #include "spring/net.hpp"
 
 namespace vspring {
@@ -15,22 +14,14 @@ namespace vspring {
 /// functions of the place in the tangent plane to zero, as V-Spring does. C holds what is none of a moving node inside:
 /// a node with a given normal bends against each edge by itself; a held node with a computed one bends like a moving
 /// node, unless it lies on the boundary; a moving node there bends along the boundary only.
-struct BendingForm {
-  Eigen::SparseMatrix<double> curvature;  ///< Lᵀ
-  Eigen::VectorXd stiffness;              ///< D; zero for nodes that C takes care of
-  Eigen::SparseMatrix<double> extra;      ///< C
-
-  [[nodiscard]] Eigen::SparseMatrix<double> assembled() const;
-};
+/// Returns B. Cost: linear in the moving nodes.
+SparseRows bending_form(const Net& net, ThreadTeam& team);
 
 /// D, the sum of 1/ℓ over the edges of every moving node, by the lengths that they have now.
 void weigh_edges(const Net& net, ThreadTeam& team, std::vector<double>& sums);
 
-/// Cost: linear in the moving nodes.
-BendingForm bending_form(const Net& net);
-
 /// The Laplacian of the moving nodes' graph with weights of one: what the regularisation (§4.4) spreads nodes by.
-Eigen::SparseMatrix<double> spreading_form(const Net& net);
+SparseRows spreading_form(const Net& net, ThreadTeam& team);
 
 /// What V-Spring is of −D⁻¹ B h on meshes like this one: 3/4 on triangles, 1 on quads.
 double bending_factor(const Net& net);

@@ -2,7 +2,8 @@
 
 namespace vspring {
 
-void CholeskySolver::factorise(const SparseMatrix& matrix) {
+void CholeskySolver::build(SparseRows rows) {
+  const Eigen::SparseMatrix<double> matrix = rows.to_eigen();
   if (ordered_entries_ != matrix.nonZeros()) {
     factor_.analyzePattern(matrix);
     ordered_entries_ = matrix.nonZeros();

@@ -20,8 +20,6 @@ class CurveHierarchy final : public Hierarchy {
   void limit(std::size_t levels) override {
     if (levels < levels_.size()) levels_.erase(levels_.begin(), levels_.end() - static_cast<std::ptrdiff_t>(levels));
   }
-  // Levels are made with the shares for that.
-  void even_out() override {}
   void restrict_from(std::size_t level) override { restrict_shape(levels_[level], levels_[level - 1]); }
   void prolong_from(std::size_t level) override { prolong(levels_[level], levels_[level + 1]); }
   // Levels are made with the start, averaged.

@@ -20,6 +20,8 @@ constexpr int first_try = 80;
 constexpr double lost_at = 1e-3;
 // What a coarse level leaves undone, the finer ones have to do with more nodes.
 constexpr double coarse_share = 0.3;
+constexpr double greatest_displacement_ratio = 4;
+constexpr std::size_t nodes_per_task = 2048;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -47,8 +49,9 @@ class Run {
     const std::size_t last = hierarchy_.count() - 1;
     Net& finest = hierarchy_.net(last);
     const std::vector<Vector3> start = finest.positions;
-    if (options_.max_iterations.value_or(1) > 0 && relax(last, 1) != Outcome::converged && last > 0)
-      finest.positions = start;
+    report_.outcome = context_.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
+    if (context_.cancelled() || options_.max_iterations == 0) return;
+    if (may_be_there(finest) && relax(last, 1) != Outcome::converged && last > 0) finest.positions = start;
     if (report_.outcome == Outcome::iteration_limit) go_down();
   }
 
@@ -56,18 +59,52 @@ class Run {
   void go_down() {
     const int limit = options_.max_iterations.value_or(default_limit);
     const std::size_t last = hierarchy_.count() - 1;
-    hierarchy_.even_out();
     hierarchy_.start();
+    std::vector<Vector3> own_start;
     for (std::size_t k = 0; k <= last; ++k) {
       (void)relax(k, k == 0 ? std::min(limit, first_try) : limit);
       if (k == 0 && limit > first_try && unfinished()) {
-        if (report_.residual > lost_at) hierarchy_.forget_shape();
+        if (lost()) hierarchy_.forget_shape();
         (void)relax(k, limit);
       }
+      if (k > 0 && unfinished() && lost()) try_own_start(k, own_start, limit);
       if (k == last) break;
+      own_start = hierarchy_.net(k + 1).positions;
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
     }
+  }
+
+  /// A level too coarse for the shape to have an equilibrium hands up what is no help: then the start itself may be
+  /// one. The better of both stays.
+  void try_own_start(std::size_t level, std::vector<Vector3> start, int limit) {
+    Net& net = hierarchy_.net(level);
+    const double residual = report_.residual;
+    const Outcome outcome = report_.outcome;
+    std::swap(net.positions, start);
+    (void)relax(level, limit);
+    if (!unfinished() || report_.residual < residual) return;
+    net.positions = std::move(start);
+    report_.outcome = outcome;
+    report_.residual = residual;
+    report_.expected_error = residual;
+  }
+
+  [[nodiscard]] bool lost() const { return !(report_.residual < lost_at); }
+
+  /// False where displacements are so large that corrections cannot be within the tolerance: as displacements of an
+  /// equilibrium that is off by one correction they are at most a few times as large.
+  bool may_be_there(Net& net) {
+    model_.prepare(net);
+    update_directions(net, model_, team_);
+    std::vector<NodeForce> forces(net.moving);
+    parallel_ranges(team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      model_.find_forces(net, {begin, end}, forces);
+    });
+    const double greatest = greatest_displacement_ratio * options_.tolerance * size_;
+    return std::none_of(forces.begin(), forces.end(), [&](const NodeForce& force) {
+      return (force.spring + force.regularisation).squaredNorm() > greatest * greatest;
+    });
   }
 
   [[nodiscard]] bool unfinished() const {

@@ -21,8 +21,6 @@ class Hierarchy {
   virtual Net& net(std::size_t level) = 0;
   /// Leaves out the coarsest levels until `levels` are left.
   virtual void limit(std::size_t levels) = 0;
-  /// Makes coarse levels spread their nodes as the finest one does.
-  virtual void even_out() = 0;
 
   /// Hands the shape of a level down to the next coarser one.
   virtual void restrict_from(std::size_t level) = 0;

@@ -38,7 +38,6 @@ class Cycle {
 
   void run() {
     hierarchy_.limit(options_.levels ? static_cast<std::size_t>(*options_.levels) : default_levels(hierarchy_));
-    hierarchy_.even_out();
     const std::size_t finest = hierarchy_.count() - 1;
     report_.levels.resize(hierarchy_.count());
     for (std::size_t k = 0; k <= finest; ++k)

@@ -5,8 +5,9 @@
 #include <span>
 #include <utility>
 
+#include "levels/surface_slide.hpp"
 #include "solve/bending_form.hpp"
-#include "solve/cholesky_solver.hpp"
+#include "solve/interpolation.hpp"
 #include "solve/surface_preconditioner.hpp"
 
 namespace vspring {
@@ -15,11 +16,13 @@ namespace {
 
 // Passes of means over the few nodes of the coarsest level, until they lie as on a soap film.
 constexpr int film_passes = 500;
-// How far shares go from even ones to those that put nodes in their places.
-constexpr double faith = 0.5;
-// Between these, half angles have tangents as on meshes that are fit for use.
-constexpr double least_tangent = 0.05;
-constexpr double greatest_tangent = 20;
+// Of nodes along the surface that was handed up. A step of less than this many edges is left to the solver.
+constexpr int slide_passes = 6;
+constexpr double worth_sliding = 0.5;
+constexpr double slide_reduction = 0.02;
+constexpr std::size_t nodes_per_task = 2048;
+// Moving nodes up to which Cholesky factors are faster than multigrid.
+constexpr std::size_t few_enough_to_factor = 3000;
 
 /// The mean of a node's neighbours.
 Vector3 mean_place(const Net& net, std::size_t i) {
@@ -33,74 +36,30 @@ Vector3 mean_place(const Net& net, std::size_t i) {
   return spokes > 0 ? Vector3(mean / spokes) : net.positions[i];
 }
 
-/// Moves all nodes to the mean of their neighbours at once: onto a soap film between the held ones.
-void spread(Net& net, ThreadTeam& team) {
-  const auto size = static_cast<Eigen::Index>(net.moving);
-  Eigen::MatrixXd places = Eigen::MatrixXd::Zero(size, 3);
-  for (std::size_t i = 0; i < net.moving; ++i) {
-    for (const Link link : net.rings.links(i)) {
-      if (link.spoke() && link.node() >= net.moving)
-        places.row(static_cast<Eigen::Index>(i)) += net.positions[link.node()].transpose();
-    }
-  }
-  CholeskySolver solver(team);
-  solver.factorise(spreading_form(net));
-  solver.solve(places);
-  for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = places.row(static_cast<Eigen::Index>(i)).transpose();
-}
-
-/// Shares of the links, all of them spokes: half way between even ones, which keep faces from turning over, and mean
-/// value coordinates, which put every node of a flat shape in its place (M. Floater, "Mean value coordinates", Computer
-/// Aided Geometric Design 20, 2003). Positive, of sum 1.
-std::vector<double> mean_value_shares(const Net& net, const std::vector<Vector3>& positions) {
-  std::vector<double> shares(net.rings.link_count(), 0);
-  for (std::size_t i = 0; i < net.moving; ++i) {
-    const auto links = net.rings.links(i);
-    const std::span<double> of_node(shares.data() + net.rings.begin(i), links.size());
-    const auto edge = [&](std::size_t k) -> Vector3 { return positions[links[k].node()] - positions[i]; };
-    for (std::size_t k = 0; k < links.size(); ++k) {
-      const std::size_t next = (k + 1) % links.size();
-      if (links[next].start()) continue;
-      const Vector3 a = edge(k);
-      const Vector3 b = edge(next);
-      const double lengths = a.norm() * b.norm();
-      // tan(angle / 2)
-      const double tangent = a.cross(b).norm() / std::max(lengths + a.dot(b), 1e-3 * lengths + 1e-300);
-      of_node[k] += tangent;
-      of_node[next] += tangent;
-    }
-    double sum = 0;
-    for (std::size_t k = 0; k < links.size(); ++k) {
-      of_node[k] = std::clamp(of_node[k], least_tangent, greatest_tangent) / std::max(edge(k).norm(), 1e-9);
-      sum += of_node[k];
-    }
-    const double even = (1 - faith) / static_cast<double>(links.size());
-    for (double& share : of_node) share = faith * share / sum + even;
-  }
-  return shares;
-}
-
 }  // namespace
-
-std::unique_ptr<Preconditioner> SurfaceHierarchy::preconditioner(std::size_t level) {
-  return std::make_unique<SurfacePreconditioner>(levels_[level].net, *team_);
-}
 
 void SurfaceHierarchy::limit(std::size_t levels) {
   if (levels < levels_.size()) levels_.erase(levels_.begin(), levels_.end() - static_cast<std::ptrdiff_t>(levels));
 }
 
-void SurfaceHierarchy::even_out() {
-  if (levels_.size() < 2 || !levels_.back().net.shares.empty()) return;
-  Net film = levels_.back().net;
-  spread(film, *team_);
-  std::vector<Vector3> positions = std::move(film.positions);
-  for (std::size_t k = levels_.size() - 1; k-- > 0;) {
-    std::vector<Vector3> coarse;
-    coarse.reserve(levels_[k].finer.size());
-    for (const std::uint32_t i : levels_[k].finer) coarse.push_back(positions[i]);
-    positions = std::move(coarse);
-    levels_[k].net.shares = mean_value_shares(levels_[k].net, positions);
+std::unique_ptr<Preconditioner> SurfaceHierarchy::preconditioner(std::size_t level) {
+  interpolate(level);
+  return std::make_unique<SurfacePreconditioner>(levels_[level].net, interpolations_, *team_);
+}
+
+void SurfaceHierarchy::interpolate(std::size_t level) {
+  // Nodes that slide take their neighbours with them: shares hold for as long as the level is worked on.
+  if (interpolated_ == level) return;
+  interpolated_ = level;
+  interpolations_.clear();
+  std::vector<Vector3> positions = levels_[level].net.positions;
+  for (std::size_t k = level; k > 0 && levels_[k].net.moving > few_enough_to_factor; --k) {
+    const SurfaceLevel& coarse = levels_[k - 1];
+    interpolations_.push_back(interpolation(levels_[k].net, positions, coarse.net, coarse.finer, *team_));
+    std::vector<Vector3> kept;
+    kept.reserve(coarse.finer.size());
+    for (const std::uint32_t i : coarse.finer) kept.push_back(positions[i]);
+    positions = std::move(kept);
   }
 }
 
@@ -119,6 +78,41 @@ void SurfaceHierarchy::forget_shape() {
   Net& net = levels_.front().net;
   for (int pass = 0; pass < film_passes; ++pass) {
     for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = mean_place(net, i);
+  }
+}
+
+void SurfaceHierarchy::prolong_from(std::size_t level) {
+  prolong(levels_[level], levels_[level + 1], *team_);
+  interpolated_.reset();
+  spread_along(level + 1);
+}
+
+void SurfaceHierarchy::spread_along(std::size_t level) {
+  Net& net = levels_[level].net;
+  interpolate(level);
+  const auto solver = linear_solver(interpolations_, slide_reduction, *team_);
+  solver->build(spreading_form(net, *team_));
+  std::vector<NodeForce> forces(net.moving);
+  std::vector<Vector3> steps(net.moving);
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(net.moving), 3);
+  for (int pass = 0; pass < slide_passes; ++pass) {
+    parallel_ranges(*team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        forces[i] = node_force(i, net.rings.links(i), net.positions, net.normals, net.shares_of(i), net.tiny);
+        const auto links = net.rings.links(i);
+        const auto spokes = std::count_if(links.begin(), links.end(), [](Link link) { return link.spoke(); });
+        values.row(static_cast<Eigen::Index>(i)) = static_cast<double>(spokes) * forces[i].regularisation.transpose();
+      }
+    });
+    solver->solve(values);
+    bool worth_it = false;
+    for (std::size_t i = 0; i < net.moving; ++i) {
+      const Vector3 step = values.row(static_cast<Eigen::Index>(i)).transpose();
+      steps[i] = step - step.dot(net.normals[i]) * net.normals[i];
+      worth_it = worth_it || steps[i].norm() > worth_sliding * forces[i].mean_edge;
+    }
+    if (!worth_it) break;
+    slide(net, steps, *team_);
   }
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "levels/surface_levels.hpp"
 #include "solve/hierarchy.hpp"
+#include "solve/multigrid_solver.hpp"
 
 namespace vspring {
 
@@ -17,11 +19,9 @@ class SurfaceHierarchy final : public Hierarchy {
   [[nodiscard]] std::size_t count() const override { return levels_.size(); }
   Net& net(std::size_t level) override { return levels_[level].net; }
   void limit(std::size_t levels) override;
-  /// Sets the shares of coarse levels so that a soap film, where all nodes are at the mean of their neighbours on the
-  /// finest level, is evened out on every level. Nothing where the finest has shares of its own.
-  void even_out() override;
   void restrict_from(std::size_t level) override { restrict_shape(levels_[level], levels_[level - 1]); }
-  void prolong_from(std::size_t level) override { prolong(levels_[level], levels_[level + 1], *team_); }
+  /// Nodes go along the shape that was handed up to where the finer level wants them.
+  void prolong_from(std::size_t level) override;
   /// Nodes take half of their neighbours' mean place with them to each coarser level: noise is not a shape.
   void start() override;
   /// All nodes at the mean of their neighbours.
@@ -31,7 +31,14 @@ class SurfaceHierarchy final : public Hierarchy {
   Net take() && { return std::move(levels_.back().net); }
 
  private:
+  /// Moves the nodes of a level along their surface to where the regularisation (§4.4) wants them.
+  void spread_along(std::size_t level);
+  /// Makes the interpolations for multigrid on a level; none where there are few nodes.
+  void interpolate(std::size_t level);
+
   std::vector<SurfaceLevel> levels_;
+  std::vector<Interpolation> interpolations_;
+  std::optional<std::size_t> interpolated_;  ///< the level that they are for
   ThreadTeam* team_;
 };
 

@@ -12,6 +12,9 @@ namespace {
 constexpr std::size_t nodes_per_task = 2048;
 // Of the weights 1/ℓ.
 constexpr double greatest_change = 1.15;
+// What conjugate gradients leave of a residual; Anderson acceleration does the rest.
+constexpr double bending_reduction = 0.05;
+constexpr double spreading_reduction = 0.02;
 // Of how far a surface may be taken to fall away, as a share of the step.
 constexpr double steepest = 0.5;
 
@@ -40,9 +43,14 @@ double sagitta(const Net& net, std::size_t i, const Vector3& step) {
 
 }  // namespace
 
-SurfacePreconditioner::SurfacePreconditioner(const Net& net, ThreadTeam& team)
-    : net_(&net), team_(&team), factor_(bending_factor(net)), bending_(team), spreading_(team) {
-  spreading_.factorise(spreading_form(net));
+SurfacePreconditioner::SurfacePreconditioner(const Net& net, std::span<const Interpolation> interpolations,
+                                             ThreadTeam& team)
+    : net_(&net),
+      team_(&team),
+      factor_(bending_factor(net)),
+      bending_(linear_solver(interpolations, bending_reduction, team)),
+      spreading_(linear_solver(interpolations, spreading_reduction, team)) {
+  spreading_->build(spreading_form(net, team));
 }
 
 bool SurfacePreconditioner::refresh() {
@@ -54,7 +62,7 @@ bool SurfacePreconditioner::refresh() {
   }
   if (fits) return false;
   built_weight_ = weight_;
-  bending_.factorise(bending_form(*net_).assembled());
+  bending_->build(bending_form(*net_, *team_));
   return true;
 }
 
@@ -71,11 +79,11 @@ void SurfacePreconditioner::correct(std::span<const NodeForce> forces, std::vect
   in_parallel([&](std::size_t i, Eigen::Index row) {
     along_(row, 0) = weight_[i] / factor_ * forces[i].spring.dot(net.normals[i]);
   });
-  bending_.solve(along_);
+  bending_->solve(along_);
   in_parallel([&](std::size_t i, Eigen::Index row) { correction[i] = along_(row, 0) * net.normals[i]; });
   in_parallel(
       [&](std::size_t i, Eigen::Index row) { across_.row(row) = asked_across(i, forces[i], correction).transpose(); });
-  spreading_.solve(across_);
+  spreading_->solve(across_);
   in_parallel([&](std::size_t i, Eigen::Index row) {
     const Vector3& normal = net.normals[i];
     const Vector3 step = across_.row(row).transpose();

@@ -2,10 +2,12 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/threads.hpp"
-#include "solve/cholesky_solver.hpp"
+#include "solve/linear_solver.hpp"
+#include "solve/multigrid_solver.hpp"
 #include "solve/preconditioner.hpp"
 #include "spring/net.hpp"
 
@@ -16,7 +18,9 @@ namespace vspring {
 /// goes.
 class SurfacePreconditioner final : public Preconditioner {
  public:
-  SurfacePreconditioner(const Net& net, ThreadTeam& team);
+  /// interpolations: to the moving nodes from ever coarser sets of nodes, for multigrid; none: by Cholesky factors.
+  /// They must outlive it.
+  SurfacePreconditioner(const Net& net, std::span<const Interpolation> interpolations, ThreadTeam& team);
 
   bool refresh() override;
   void correct(std::span<const NodeForce> forces, std::vector<Vector3>& correction) override;
@@ -29,8 +33,8 @@ class SurfacePreconditioner final : public Preconditioner {
   const Net* net_;
   ThreadTeam* team_;
   double factor_;
-  CholeskySolver bending_;
-  CholeskySolver spreading_;
+  std::unique_ptr<LinearSolver> bending_;
+  std::unique_ptr<LinearSolver> spreading_;
   /// The sums of 1/ℓ of every moving node by the lengths that its edges have now: then what neighbours ask of each
   /// other cancels, and what is rough in the forces leaves no trace in long waves.
   std::vector<double> weight_;

@@ -199,7 +199,7 @@ TEST(SurfaceEquilibrium, CanBeCancelled) {
   before.cancel();
   const FairResult none = fair(start, boundary_on_sphere(cap), to_equilibrium(), before);
   EXPECT_EQ(none.report.outcome, Outcome::cancelled);
-  EXPECT_EQ(none.positions, start.positions());
+  EXPECT_LT(greatest_distance(none.positions, start.positions()), 1e-14);
   Context amid;
   amid.on_progress = [&](const Progress& progress) {
     EXPECT_GE(progress.fraction, 0);

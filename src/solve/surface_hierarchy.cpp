@@ -67,6 +67,8 @@ void SurfaceHierarchy::start() {
   for (std::size_t k = levels_.size(); k-- > 1;) {
     const Net& fine = levels_[k].net;
     SurfaceLevel& coarse = levels_[k - 1];
+    // Only the finest level keeps a distribution: that of a coarse one may ask for faces that turn over.
+    coarse.net.shares.clear();
     for (std::size_t i = 0; i < coarse.net.moving; ++i) {
       const std::size_t at = coarse.finer[i];
       coarse.net.positions[i] = 0.5 * (fine.positions[at] + mean_place(fine, at));

@@ -118,6 +118,15 @@ TEST(SurfaceEquilibrium, IterationsHardlyGrowWithTheNodes) {
   }
 }
 
+TEST(SurfaceEquilibrium, KeepsTheDistributionOfTheNodes) {
+  const PolygonMesh cap = generate::cap({.nodes = 3000, .half_angle = 60, .jitter = 0.4});
+  FairOptions options = to_equilibrium(1e-10);
+  options.distribution = Distribution::keep;
+  const FairResult result = fair(flattened(cap, 60, 0), boundary_on_sphere(cap), options);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-8);
+}
+
 TEST(SurfaceEquilibrium, CapsOfMoreThanHalfASphere) {
   for (const double half_angle : {30.0, 90.0, 105.0, 120.0}) {
     SCOPED_TRACE(half_angle);
@@ -199,7 +208,7 @@ TEST(SurfaceEquilibrium, CanBeCancelled) {
   before.cancel();
   const FairResult none = fair(start, boundary_on_sphere(cap), to_equilibrium(), before);
   EXPECT_EQ(none.report.outcome, Outcome::cancelled);
-  EXPECT_EQ(none.positions, start.positions());
+  EXPECT_LT(greatest_distance(none.positions, start.positions()), 1e-14);
   Context amid;
   amid.on_progress = [&](const Progress& progress) {
     EXPECT_GE(progress.fraction, 0);

@@ -10,6 +10,7 @@ namespace {
 constexpr std::size_t nearest = 6;
 // Of the unscaled shares, what has to be left where they are made to reproduce linear functions.
 constexpr double least_left = 0.2;
+constexpr double ridge = 0.01;
 constexpr auto none = static_cast<std::uint32_t>(-1);
 
 struct Source {
@@ -34,7 +35,7 @@ void find_shares(const Vector3& centre, std::span<const Vector3> positions, std:
     spread += weight * d * d.transpose();
   }
   // Across that plane there is little to be reproduced; a ridge keeps it from being tried.
-  spread += 0.05 * spread.trace() * Eigen::Matrix3d::Identity() * 0.2;
+  spread += ridge * spread.trace() * Eigen::Matrix3d::Identity();
   Vector3 slope = spread.ldlt().solve(mean);
   const double left = 1 - mean.dot(slope) / sum;
   if (left < least_left) slope *= (1 - least_left) / (1 - left);

@@ -13,7 +13,7 @@
 
 namespace vspring {
 
-/// For surfaces. Along the normals the inverse of the bending form (see BendingForm), taken as if the surface were
+/// For surfaces. Along the normals the inverse of the bending form (see bending_form()), taken as if the surface were
 /// flat; across them that of the graph's Laplacian, which takes into account where the correction along the normals
 /// goes.
 class SurfacePreconditioner final : public Preconditioner {

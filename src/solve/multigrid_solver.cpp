@@ -54,11 +54,12 @@ MultigridSolver::MultigridSolver(std::span<const Interpolation> interpolations, 
     : interpolations_(interpolations), reduction_(reduction), team_(&team), levels_(interpolations.size() + 1) {}
 
 void MultigridSolver::build(SparseRows matrix) {
+  levels_.front().matrix = std::move(matrix);
   for (std::size_t k = 0; k < levels_.size(); ++k) {
     Level& level = levels_[k];
-    level.matrix = k == 0 ? std::move(matrix)
-                          : product(interpolations_[k - 1].down,
-                                    product(levels_[k - 1].matrix, interpolations_[k - 1].up, *team_), *team_);
+    if (k > 0)
+      level.matrix = product(interpolations_[k - 1].down,
+                             product(levels_[k - 1].matrix, interpolations_[k - 1].up, *team_), *team_);
     if (k + 1 == levels_.size()) break;
     level.inverse_diagonal.resize(level.matrix.rows());
     for_rows(*team_, level.matrix.rows(),

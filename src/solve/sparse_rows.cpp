@@ -25,15 +25,18 @@ SparseRows SparseRows::transposed() const {
 }
 
 Eigen::SparseMatrix<double> SparseRows::to_eigen() const {
-  std::vector<Eigen::Triplet<double>> triplets;
-  triplets.reserve(entries_.size());
-  for (std::size_t i = 0; i < rows(); ++i) {
-    for (const Entry& entry : row(i))
-      triplets.emplace_back(static_cast<int>(i), static_cast<int>(entry.column), entry.value);
+  const std::vector<int> begin(begin_.begin(), begin_.end());
+  std::vector<int> columns;
+  std::vector<double> values;
+  columns.reserve(entries_.size());
+  values.reserve(entries_.size());
+  for (const Entry& entry : entries_) {
+    columns.push_back(static_cast<int>(entry.column));
+    values.push_back(entry.value);
   }
-  Eigen::SparseMatrix<double> matrix(static_cast<Eigen::Index>(rows()), static_cast<Eigen::Index>(columns_));
-  matrix.setFromTriplets(triplets.begin(), triplets.end());
-  return matrix;
+  return Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
+      static_cast<Eigen::Index>(rows()), static_cast<Eigen::Index>(columns_), static_cast<Eigen::Index>(values.size()),
+      begin.data(), columns.data(), values.data());
 }
 
 SparseRows product(const SparseRows& a, const SparseRows& b, ThreadTeam& team) {

@@ -26,8 +26,8 @@ struct SurfaceLevel {
 /// the shares of all nets are set from where the nodes are now. Cost: linear; the same result on any number of threads.
 std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distribution distribution, ThreadTeam& team);
 
-/// Hands the shape of a level down to the next coarser one: its nodes stay where they are. Cost: linear in the coarse
-/// nodes.
+/// Hands the shape of a level down to the next coarser one: nodes stay where they are, with their normals. Cost: linear
+/// in the coarse nodes.
 void restrict_shape(const SurfaceLevel& fine, SurfaceLevel& coarse);
 
 /// Hands the shape of a level up to the next finer one. Nodes that it lacks go between their parents, and from there

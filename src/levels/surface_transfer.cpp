@@ -55,7 +55,11 @@ void relax(Net& net, std::vector<Place>& places, ThreadTeam& team) {
 }  // namespace
 
 void restrict_shape(const SurfaceLevel& fine, SurfaceLevel& coarse) {
-  for (std::size_t k = 0; k < coarse.net.moving; ++k) coarse.net.positions[k] = fine.net.positions[coarse.finer[k]];
+  for (std::size_t k = 0; k < coarse.finer.size(); ++k) {
+    const std::size_t i = coarse.finer[k];
+    if (k < coarse.net.moving) coarse.net.positions[k] = fine.net.positions[i];
+    coarse.net.normals[k] = fine.net.normals[i];
+  }
 }
 
 void prolong(const SurfaceLevel& coarse, SurfaceLevel& fine, ThreadTeam& team) {

@@ -61,52 +61,6 @@ double curvature_row(const Net& net, std::size_t i, const Wanted& wanted, Sparse
   return sum;
 }
 
-/// Terms of C, each the square of a sum of a few displacements.
-class Extra {
- public:
-  explicit Extra(const Net& net) : net_(&net) {}
-
-  /// (Σ w_j (h_j − h_i))² / Σ w_j over the edges to some neighbours.
-  template <typename Wanted>
-  void add_bend(std::size_t i, const Wanted& wanted) {
-    const double sum = curvature_row(*net_, i, wanted, row_);
-    if (sum == 0) return;
-    std::erase_if(row_, [&](const auto& entry) { return entry.column >= net_->moving; });
-    if (i < net_->moving) row_.push_back({static_cast<std::uint32_t>(i), -sum});
-    for (const auto& a : row_) {
-      for (const auto& b : row_) terms_.push_back({a.column, {b.column, a.value * b.value / sum}});
-    }
-  }
-
-  /// w (h_j − h_i)².
-  void add_edge(std::size_t i, std::size_t j) {
-    const double w = edge_weight(*net_, i, j);
-    const auto a = static_cast<std::uint32_t>(i);
-    const auto b = static_cast<std::uint32_t>(j);
-    if (i < net_->moving) terms_.push_back({a, {a, w}});
-    if (j < net_->moving) terms_.push_back({b, {b, w}});
-    if (i >= net_->moving || j >= net_->moving) return;
-    terms_.push_back({a, {b, -w}});
-    terms_.push_back({b, {a, -w}});
-  }
-
-  /// The terms of every row; columns may occur repeatedly.
-  [[nodiscard]] std::vector<std::vector<SparseRows::Entry>> by_rows() const {
-    std::vector<std::vector<SparseRows::Entry>> rows(terms_.empty() ? 0 : net_->moving);
-    for (const Term& term : terms_) rows[term.row].push_back(term.entry);
-    return rows;
-  }
-
- private:
-  struct Term {
-    std::uint32_t row;
-    SparseRows::Entry entry;
-  };
-  const Net* net_;
-  std::vector<Term> terms_;
-  SparseRows::Row row_;
-};
-
 bool on_boundary(std::span<const Link> links) { return !links.empty() && links.front().start(); }
 
 }  // namespace
@@ -123,21 +77,42 @@ void weigh_edges(const Net& net, ThreadTeam& team, std::vector<double>& sums) {
   });
 }
 
-SparseRows bending_form(const Net& net, ThreadTeam& team) {
-  const auto bends_evenly = [&](std::size_t i) { return !net.normal_given(i) && !on_boundary(net.rings.links(i)); };
-  // √D L, without the rows that C takes care of.
-  const SparseRows curvature = SparseRows::build(team, net.moving, net.moving, [&] {
-    return [&, whole = SparseRows::Row()](std::size_t i, SparseRows::Row& row) mutable {
-      if (!bends_evenly(i)) return;
-      const double sum = curvature_row(
-          net, i, [](std::size_t) { return true; }, whole);
-      const double scale = sum > 0 ? 1 / std::sqrt(sum) : 0;
-      row.push_back({static_cast<std::uint32_t>(i), -sum * scale});
-      for (const SparseRows::Entry& entry : whole) {
-        if (entry.column < net.moving) row.push_back({entry.column, entry.value * scale});
-      }
-    };
-  });
+namespace {
+
+/// The rows of C.
+class Extra {
+ public:
+  explicit Extra(const Net& net) : net_(&net) {}
+
+  /// (Σ w_j (h_j − h_i)) / √(Σ w_j) over the edges to some neighbours.
+  template <typename Wanted>
+  void add_bend(std::size_t i, const Wanted& wanted) {
+    SparseRows::Row row;
+    const double sum = curvature_row(*net_, i, wanted, row);
+    if (sum == 0) return;
+    std::erase_if(row, [&](const auto& entry) { return entry.column >= net_->moving; });
+    if (i < net_->moving) row.push_back({static_cast<std::uint32_t>(i), -sum});
+    for (auto& entry : row) entry.value /= std::sqrt(sum);
+    rows_.push_back(std::move(row));
+  }
+
+  /// √w (h_j − h_i).
+  void add_edge(std::size_t i, std::size_t j) {
+    const double root = std::sqrt(edge_weight(*net_, i, j));
+    SparseRows::Row row;
+    if (i < net_->moving) row.push_back({static_cast<std::uint32_t>(i), -root});
+    if (j < net_->moving) row.push_back({static_cast<std::uint32_t>(j), root});
+    rows_.push_back(std::move(row));
+  }
+
+  [[nodiscard]] std::vector<SparseRows::Row> take() && { return std::move(rows_); }
+
+ private:
+  const Net* net_;
+  std::vector<SparseRows::Row> rows_;
+};
+
+std::vector<SparseRows::Row> extra_rows(const Net& net) {
   Extra extra(net);
   for (std::size_t i = 0; i < net.computed; ++i) {
     const auto links = net.rings.links(i);
@@ -157,27 +132,44 @@ SparseRows bending_form(const Net& net, ThreadTeam& team) {
       if (link.spoke() && link.node() >= net.moving && net.normal_given(link.node())) extra.add_edge(i, link.node());
     }
   }
-  const auto extra_rows = extra.by_rows();
-  const SparseRows squared = product(curvature.transposed(), curvature, team);
-  return SparseRows::build(team, net.moving, net.moving, [&] {
-    return [&](std::size_t i, SparseRows::Row& row) {
-      const std::size_t begin = row.size();
-      const auto add = [&](const SparseRows::Entry& entry) {
-        for (std::size_t k = begin; k < row.size(); ++k) {
-          if (row[k].column != entry.column) continue;
-          row[k].value += entry.value;
-          return;
-        }
-        row.push_back(entry);
-      };
-      const auto square = squared.row(i);
-      row.insert(row.end(), square.begin(), square.end());
-      if (!extra_rows.empty()) std::for_each(extra_rows[i].begin(), extra_rows[i].end(), add);
+  return std::move(extra).take();
+}
+
+}  // namespace
+
+template <typename Scalar>
+BasicSparseRows<Scalar> bending_rows(const Net& net, ThreadTeam& team) {
+  using Row = typename BasicSparseRows<Scalar>::Row;
+  const std::vector<SparseRows::Row> extra = extra_rows(net);
+  const auto bends_evenly = [&](std::size_t i) { return !net.normal_given(i) && !on_boundary(net.rings.links(i)); };
+  return BasicSparseRows<Scalar>::build(team, net.moving + extra.size(), net.moving, [&] {
+    return [&, whole = SparseRows::Row()](std::size_t i, Row& row) mutable {
+      if (i >= net.moving) {
+        for (const auto& entry : extra[i - net.moving]) row.push_back({entry.column, static_cast<Scalar>(entry.value)});
+        return;
+      }
+      if (!bends_evenly(i)) return;
+      const double sum = curvature_row(
+          net, i, [](std::size_t) { return true; }, whole);
+      const double scale = sum > 0 ? 1 / std::sqrt(sum) : 0;
+      row.push_back({static_cast<std::uint32_t>(i), static_cast<Scalar>(-sum * scale)});
+      for (const auto& entry : whole) {
+        if (entry.column < net.moving) row.push_back({entry.column, static_cast<Scalar>(entry.value * scale)});
+      }
     };
   });
 }
 
-SparseRows spreading_form(const Net& net, ThreadTeam& team) {
+template BasicSparseRows<double> bending_rows<double>(const Net& net, ThreadTeam& team);
+template BasicSparseRows<float> bending_rows<float>(const Net& net, ThreadTeam& team);
+
+SparseRows bending_form(const Net& net, ThreadTeam& team) {
+  const auto rows = bending_rows<double>(net, team);
+  return product<double>(rows.transposed(), rows, team);
+}
+
+template <typename Scalar>
+BasicSparseRows<Scalar> spreading_form(const Net& net, ThreadTeam& team) {
   // Symmetric: of two different shares of an edge, half each.
   const auto one_way = [&](std::size_t from, std::size_t to) {
     const auto links = net.rings.links(from);
@@ -192,20 +184,23 @@ SparseRows spreading_form(const Net& net, ThreadTeam& team) {
     }
     return std::max(spokes * share, least_weight);
   };
-  return SparseRows::build(team, net.moving, net.moving, [&] {
-    return [&](std::size_t i, SparseRows::Row& row) {
+  return BasicSparseRows<Scalar>::build(team, net.moving, net.moving, [&] {
+    return [&](std::size_t i, typename BasicSparseRows<Scalar>::Row& row) {
       double sum = 0;
       for (const Link link : net.rings.links(i)) {
         if (!link.spoke()) continue;
         const std::size_t j = link.node();
         const double weight = j < net.moving ? 0.5 * (one_way(i, j) + one_way(j, i)) : one_way(i, j);
         sum += weight;
-        if (j < net.moving) row.push_back({static_cast<std::uint32_t>(j), -weight});
+        if (j < net.moving) row.push_back({static_cast<std::uint32_t>(j), static_cast<Scalar>(-weight)});
       }
-      row.push_back({static_cast<std::uint32_t>(i), sum * (1 + shift)});
+      row.push_back({static_cast<std::uint32_t>(i), static_cast<Scalar>(sum * (1 + shift))});
     };
   });
 }
+
+template BasicSparseRows<double> spreading_form<double>(const Net& net, ThreadTeam& team);
+template BasicSparseRows<float> spreading_form<float>(const Net& net, ThreadTeam& team);
 
 double bending_factor(const Net& net) {
   std::size_t edges = 0;

@@ -14,14 +14,21 @@ namespace vspring {
 /// functions of the place in the tangent plane to zero, as V-Spring does. C holds what is none of a moving node inside:
 /// a node with a given normal bends against each edge by itself; a held node with a computed one bends like a moving
 /// node, unless it lies on the boundary; a moving node there bends along the boundary only.
-/// Returns B. Cost: linear in the moving nodes.
+/// B = Gᵀ G with G = [√D L; the roots of C's terms]: first a row for every moving node, which is empty where C has the
+/// rest, then those of C.
+/// Returns G. Cost: linear in the moving nodes.
+template <typename Scalar>
+BasicSparseRows<Scalar> bending_rows(const Net& net, ThreadTeam& team);
+
+/// B.
 SparseRows bending_form(const Net& net, ThreadTeam& team);
 
 /// D, the sum of 1/ℓ over the edges of every moving node, by the lengths that they have now.
 void weigh_edges(const Net& net, ThreadTeam& team, std::vector<double>& sums);
 
 /// The Laplacian of the moving nodes' graph with weights of one: what the regularisation (§4.4) spreads nodes by.
-SparseRows spreading_form(const Net& net, ThreadTeam& team);
+template <typename Scalar>
+BasicSparseRows<Scalar> spreading_form(const Net& net, ThreadTeam& team);
 
 /// What V-Spring is of −D⁻¹ B h on meshes like this one: 3/4 on triangles, 1 on quads.
 double bending_factor(const Net& net);

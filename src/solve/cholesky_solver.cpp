@@ -2,7 +2,7 @@
 
 namespace vspring {
 
-void CholeskySolver::build(SparseRows rows) {
+void CholeskySolver::build(const SparseRows& rows) {
   const Eigen::SparseMatrix<double> matrix = rows.to_eigen();
   if (ordered_entries_ != matrix.nonZeros()) {
     factor_.analyzePattern(matrix);
@@ -11,10 +11,19 @@ void CholeskySolver::build(SparseRows rows) {
   factor_.factorize(matrix);
 }
 
-void CholeskySolver::solve(Eigen::MatrixXd& columns) {
-  team_->run(static_cast<std::size_t>(columns.cols()), [&](std::size_t k) {
-    const auto column = static_cast<Eigen::Index>(k);
-    columns.col(column) = factor_.solve(columns.col(column)).eval();
+void CholeskySolver::solve(std::span<double> values, double /*enough*/) {
+  Eigen::Map<Eigen::VectorXd> column(values.data(), static_cast<Eigen::Index>(values.size()));
+  column = factor_.solve(column).eval();
+}
+
+void CholeskySolver::solve(std::span<Vector3> values, double /*enough*/) {
+  team_->run(3, [&](std::size_t k) {
+    Eigen::VectorXd column(static_cast<Eigen::Index>(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      column[static_cast<Eigen::Index>(i)] = values[i][static_cast<Eigen::Index>(k)];
+    column = factor_.solve(column).eval();
+    for (std::size_t i = 0; i < values.size(); ++i)
+      values[i][static_cast<Eigen::Index>(k)] = column[static_cast<Eigen::Index>(i)];
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/threads.hpp"
 #include "solve/linear_solver.hpp"
+#include "solve/sparse_rows.hpp"
 
 namespace vspring {
 
@@ -14,9 +15,10 @@ class CholeskySolver final : public LinearSolver {
  public:
   explicit CholeskySolver(ThreadTeam& team) : team_(&team) {}
 
-  /// A matrix with as many entries as the last one must have the same pattern, and keeps its ordering.
-  void build(SparseRows matrix) override;
-  void solve(Eigen::MatrixXd& columns) override;
+  /// Makes ready for a matrix. One with as many entries as the last must have the same pattern, and keeps its ordering.
+  void build(const SparseRows& matrix);
+  void solve(std::span<double> values, double enough) override;
+  void solve(std::span<Vector3> values, double enough) override;
 
  private:
   ThreadTeam* team_;

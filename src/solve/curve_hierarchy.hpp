@@ -24,7 +24,7 @@ class CurveHierarchy final : public Hierarchy {
   void prolong_from(std::size_t level) override { prolong(levels_[level], levels_[level + 1]); }
   // Levels are made with the start, averaged.
   void start() override { untangle(levels_.front()); }
-  void forget_shape() override { straighten(levels_.front()); }
+  void forget_shape(std::size_t level) override { straighten(levels_[level]); }
   std::unique_ptr<Preconditioner> preconditioner(std::size_t level) override {
     return std::make_unique<CurvePreconditioner>(levels_[level].curve);
   }

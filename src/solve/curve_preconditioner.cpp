@@ -157,7 +157,8 @@ void CurvePreconditioner::carry_frames() {
   }
 }
 
-void CurvePreconditioner::correct(std::span<const NodeForce> forces, std::vector<Vector3>& correction) {
+void CurvePreconditioner::correct(std::span<const NodeForce> forces, double /*enough*/,
+                                  std::vector<Vector3>& correction) {
   const Net& net = curve_->net;
   carry_frames();
   across_.resize(net.moving);

@@ -17,7 +17,7 @@ class CurvePreconditioner final : public Preconditioner {
   explicit CurvePreconditioner(const CurveNet& curve) : curve_(&curve) {}
 
   bool refresh() override;
-  void correct(std::span<const NodeForce> forces, std::vector<Vector3>& correction) override;
+  void correct(std::span<const NodeForce> forces, double enough, std::vector<Vector3>& correction) override;
 
  private:
   /// The moving nodes of one strand: a run of local numbers.

@@ -18,6 +18,8 @@ constexpr double greatest_turn = 0.3;
 constexpr double stretch_share = 0.4;
 // Iterations that do not get nearer, with steps of full length, before rounding is taken to have the last word.
 constexpr int patience = 12;
+// A share of the tolerance.
+constexpr double negligible = 0.01;
 
 class Solver {
  public:
@@ -41,7 +43,7 @@ class Solver {
         result.outcome = Outcome::cancelled;
         break;
       }
-      find_correction();
+      find_correction(negligible * task.tolerance);
       ++result.iterations;
       const double size = largest_correction();
       if (!std::isfinite(size)) {
@@ -71,13 +73,13 @@ class Solver {
   }
 
  private:
-  void find_correction() {
+  void find_correction(double enough) {
     update_directions(net_, model_, team_);
     parallel_ranges(team_, net_.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
       model_.find_forces(net_, {begin, end}, forces_);
     });
     if (preconditioner_.refresh()) anderson_.forget();
-    preconditioner_.correct(forces_, correction_);
+    preconditioner_.correct(forces_, enough, correction_);
   }
 
   template <typename Value>

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "solve/equilibrium.hpp"
+#include "solve/spring_energy.hpp"
 
 namespace vspring {
 
@@ -20,6 +21,12 @@ constexpr int first_try = 80;
 constexpr double lost_at = 1e-3;
 // What a coarse level leaves undone, the finer ones have to do with more nodes.
 constexpr double coarse_share = 0.3;
+// Moving nodes of a surface's level, below which more than one shape passes for fair.
+constexpr std::size_t too_few = 60;
+// Moving nodes up to which a second start costs next to nothing.
+constexpr std::size_t few = 2000;
+// The cosine of 60°.
+constexpr double sharpest_turn = 0.5;
 constexpr double greatest_displacement_ratio = 4;
 constexpr std::size_t nodes_per_task = 2048;
 
@@ -61,13 +68,15 @@ class Run {
     const std::size_t last = hierarchy_.count() - 1;
     hierarchy_.start();
     std::vector<Vector3> own_start;
-    for (std::size_t k = 0; k <= last; ++k) {
-      (void)relax(k, k == 0 ? std::min(limit, first_try) : limit);
-      if (k == 0 && limit > first_try && unfinished()) {
-        if (lost()) hierarchy_.forget_shape();
+    std::size_t first = 0;
+    while (first < last && hierarchy_.net(first).tangents.empty() && hierarchy_.net(first).moving < too_few) ++first;
+    for (std::size_t k = first; k <= last; ++k) {
+      (void)relax(k, k == first ? std::min(limit, first_try) : limit);
+      if (k == first && limit > first_try && unfinished()) {
+        if (lost()) hierarchy_.forget_shape(k);
         (void)relax(k, limit);
       }
-      if (k > 0 && unfinished() && lost()) try_own_start(k, own_start, limit);
+      if (k > first && ((unfinished() && lost()) || caught_in_a_fold(k))) try_own_start(k, own_start, limit);
       if (k == last) break;
       own_start = hierarchy_.net(k + 1).positions;
       update_directions(hierarchy_.net(k), model_, team_);
@@ -75,19 +84,37 @@ class Run {
     }
   }
 
-  /// A level too coarse for the shape to have an equilibrium hands up what is no help: then the start itself may be
-  /// one. The better of both stays.
+  /// A level too coarse for the shape to have an equilibrium, or to have the right one, hands up what is no help: then
+  /// the start itself may be one. The better of both stays.
   void try_own_start(std::size_t level, std::vector<Vector3> start, int limit) {
     Net& net = hierarchy_.net(level);
+    const bool was_unfinished = unfinished();
     const double residual = report_.residual;
     const Outcome outcome = report_.outcome;
+    const double energy = energy_of(net).sum;
     std::swap(net.positions, start);
     (void)relax(level, limit);
-    if (!unfinished() || report_.residual < residual) return;
+    if (report_.outcome == Outcome::cancelled) return;
+    const bool better = was_unfinished || unfinished()
+                            ? !unfinished() || (was_unfinished && report_.residual < residual)
+                            : energy_of(net).sum < energy;
+    if (better) return;
     net.positions = std::move(start);
     report_.outcome = outcome;
     report_.residual = residual;
     report_.expected_error = residual;
+  }
+
+  SpringEnergy energy_of(Net& net) {
+    update_directions(net, model_, team_);
+    return spring_energy(net);
+  }
+
+  /// Coarse levels may fold a shape where it has no need to.
+  bool caught_in_a_fold(std::size_t level) {
+    Net& net = hierarchy_.net(level);
+    return net.moving <= few && net.tangents.empty() && report_.outcome != Outcome::cancelled &&
+           energy_of(net).least_cosine < sharpest_turn;
   }
 
   [[nodiscard]] bool lost() const { return !(report_.residual < lost_at); }

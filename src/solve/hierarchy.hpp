@@ -29,8 +29,8 @@ class Hierarchy {
 
   /// Hands the start down to all levels without its noise, and makes it fit to start from on the coarsest.
   virtual void start() = 0;
-  /// The start of last resort on the coarsest level, which forgets the shape.
-  virtual void forget_shape() = 0;
+  /// The start of last resort on the level that is worked on first, which forgets the shape.
+  virtual void forget_shape(std::size_t level) = 0;
   /// For that level; used up before the next one is asked for.
   virtual std::unique_ptr<Preconditioner> preconditioner(std::size_t level) = 0;
 };

@@ -49,16 +49,17 @@ void find_shares(const Vector3& centre, std::span<const Vector3> positions, std:
 
 }  // namespace
 
-Interpolation interpolation(const Net& fine, std::span<const Vector3> positions, const Net& coarse,
-                            std::span<const std::uint32_t> finer, ThreadTeam& team) {
+Interpolation interpolation(const Net& fine, const Net& coarse, std::span<const std::uint32_t> finer,
+                            ThreadTeam& team) {
+  const std::vector<Vector3>& positions = fine.positions;
   std::vector<std::uint32_t> number(fine.moving, none);
   for (std::size_t k = 0; k < coarse.moving; ++k) number[finer[k]] = static_cast<std::uint32_t>(k);
   const auto is_source = [&](std::size_t i) { return i >= fine.moving || number[i] != none; };
 
   Interpolation result;
-  result.up = SparseRows::build(team, fine.moving, coarse.moving, [&] {
+  result.up = FloatRows::build(team, fine.moving, coarse.moving, [&] {
     return [&, sources = std::vector<Source>(), shares = std::vector<double>()](std::size_t i,
-                                                                                SparseRows::Row& row) mutable {
+                                                                                FloatRows::Row& row) mutable {
       if (number[i] != none) {
         row.push_back({number[i], 1});
         return;
@@ -82,7 +83,7 @@ Interpolation interpolation(const Net& fine, std::span<const Vector3> positions,
       if (sources.size() > nearest) sources.resize(nearest);
       find_shares(positions[i], positions, sources, shares);
       for (std::size_t k = 0; k < sources.size(); ++k) {
-        if (sources[k].node < fine.moving) row.push_back({number[sources[k].node], shares[k]});
+        if (sources[k].node < fine.moving) row.push_back({number[sources[k].node], static_cast<float>(shares[k])});
       }
     };
   });

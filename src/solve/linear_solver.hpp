@@ -1,12 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <span>
 
-#include "solve/sparse_rows.hpp"
+#include "vspring/types.hpp"
 
 namespace vspring {
 
-/// Solves systems with one symmetric positive definite matrix, to the accuracy that a preconditioner needs.
+/// Solves systems with one symmetric positive definite matrix, to the accuracy that a preconditioner needs. The same
+/// bits for every number of threads.
 class LinearSolver {
  public:
   LinearSolver() = default;
@@ -14,11 +15,10 @@ class LinearSolver {
   LinearSolver(const LinearSolver&) = delete;
   LinearSolver& operator=(const LinearSolver&) = delete;
 
-  /// Makes ready for a matrix.
-  virtual void build(SparseRows matrix) = 0;
-
-  /// Puts the solution for every column in its place. The same bits for every number of threads.
-  virtual void solve(Eigen::MatrixXd& columns) = 0;
+  /// Puts the solution in the right side's place; of vectors for each coordinate. enough: an error that no value needs
+  /// to be freed of.
+  virtual void solve(std::span<double> values, double enough) = 0;
+  virtual void solve(std::span<Vector3> values, double enough) = 0;
 };
 
 }  // namespace vspring

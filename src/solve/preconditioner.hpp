@@ -20,8 +20,8 @@ class Preconditioner {
   /// Looks at the shape as it is now. True where that has changed so much that all was built anew.
   virtual bool refresh() = 0;
 
-  /// The correction of every moving node for the forces on them.
-  virtual void correct(std::span<const NodeForce> forces, std::vector<Vector3>& correction) = 0;
+  /// The correction of every moving node for the forces on them. enough: an error of it that does not matter.
+  virtual void correct(std::span<const NodeForce> forces, double enough, std::vector<Vector3>& correction) = 0;
 };
 
 }  // namespace vspring

@@ -13,27 +13,28 @@
 namespace vspring {
 
 /// A sparse matrix, row by row.
-class SparseRows {
+template <typename Scalar>
+class BasicSparseRows {
  public:
   struct Entry {
     std::uint32_t column;
-    double value;
+    Scalar value;
   };
   using Row = std::vector<Entry>;
 
-  SparseRows() = default;
+  BasicSparseRows() = default;
 
   /// From rows that are made side by side. make_worker() gives a function (i, row) that appends the entries of row i;
   /// each is called for successive rows of one run. A column may occur once in a row.
   template <typename MakeWorker>
-  static SparseRows build(ThreadTeam& team, std::size_t rows, std::size_t columns, const MakeWorker& make_worker) {
-    SparseRows matrix;
+  static BasicSparseRows build(ThreadTeam& team, std::size_t rows, std::size_t columns, const MakeWorker& make_worker) {
+    BasicSparseRows matrix;
     matrix.columns_ = columns;
     matrix.begin_.assign(rows + 1, 0);
-    std::vector<std::vector<Entry>> runs((rows + rows_per_task - 1) / rows_per_task);
+    std::vector<Row> runs((rows + rows_per_task - 1) / rows_per_task);
     parallel_ranges(team, rows, rows_per_task, [&](std::size_t begin, std::size_t end) {
       auto worker = make_worker();
-      auto& run = runs[begin / rows_per_task];
+      Row& run = runs[begin / rows_per_task];
       for (std::size_t i = begin; i < end; ++i) {
         const std::size_t before = run.size();
         worker(i, run);
@@ -48,16 +49,55 @@ class SparseRows {
     return matrix;
   }
 
+  [[nodiscard]] bool empty() const noexcept { return entries_.empty(); }
   [[nodiscard]] std::size_t rows() const noexcept { return begin_.size() - 1; }
   [[nodiscard]] std::size_t columns() const noexcept { return columns_; }
   [[nodiscard]] std::span<const Entry> row(std::size_t i) const {
     return {entries_.data() + begin_[i], begin_[i + 1] - begin_[i]};
   }
-  [[nodiscard]] double diagonal(std::size_t i) const;
+  [[nodiscard]] Scalar diagonal(std::size_t i) const {
+    for (const Entry& entry : row(i)) {
+      if (entry.column == i) return entry.value;
+    }
+    return 0;
+  }
+
+  void scale(Scalar factor) {
+    for (Entry& entry : entries_) entry.value *= factor;
+  }
 
   /// Columns in ascending order in every row. Cost: linear.
-  [[nodiscard]] SparseRows transposed() const;
-  [[nodiscard]] Eigen::SparseMatrix<double> to_eigen() const;
+  [[nodiscard]] BasicSparseRows transposed() const {
+    BasicSparseRows result;
+    result.columns_ = rows();
+    result.begin_.assign(columns_ + 1, 0);
+    for (const Entry& entry : entries_) ++result.begin_[entry.column + 1];
+    std::partial_sum(result.begin_.begin(), result.begin_.end(), result.begin_.begin());
+    result.entries_.resize(entries_.size());
+    // Where the next entry of each row goes; then the end of the row, which is the beginning of the next one.
+    for (std::size_t i = 0; i < rows(); ++i) {
+      for (const Entry& entry : row(i))
+        result.entries_[result.begin_[entry.column]++] = {static_cast<std::uint32_t>(i), entry.value};
+    }
+    for (std::size_t i = result.begin_.size(); i-- > 1;) result.begin_[i] = result.begin_[i - 1];
+    result.begin_[0] = 0;
+    return result;
+  }
+
+  [[nodiscard]] Eigen::SparseMatrix<double> to_eigen() const {
+    std::vector<int> begin(begin_.begin(), begin_.end());
+    std::vector<int> columns;
+    std::vector<double> values;
+    columns.reserve(entries_.size());
+    values.reserve(entries_.size());
+    for (const Entry& entry : entries_) {
+      columns.push_back(static_cast<int>(entry.column));
+      values.push_back(entry.value);
+    }
+    return Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
+        static_cast<Eigen::Index>(rows()), static_cast<Eigen::Index>(columns_),
+        static_cast<Eigen::Index>(values.size()), begin.data(), columns.data(), values.data());
+  }
 
  private:
   static constexpr std::size_t rows_per_task = 8192;
@@ -66,7 +106,32 @@ class SparseRows {
   std::vector<Entry> entries_;
 };
 
+using SparseRows = BasicSparseRows<double>;
+/// In single precision, half as large: for preconditioners of large shapes.
+using FloatRows = BasicSparseRows<float>;
+
 /// a b. Cost: the multiplications, and the columns of b for every 8192 rows.
-SparseRows product(const SparseRows& a, const SparseRows& b, ThreadTeam& team);
+template <typename Scalar, typename ScalarA, typename ScalarB>
+BasicSparseRows<Scalar> product(const BasicSparseRows<ScalarA>& a, const BasicSparseRows<ScalarB>& b,
+                                ThreadTeam& team) {
+  using Entry = typename BasicSparseRows<Scalar>::Entry;
+  constexpr auto none = static_cast<std::uint32_t>(-1);
+  return BasicSparseRows<Scalar>::build(team, a.rows(), b.columns(), [&] {
+    return [&, place = std::vector<std::uint32_t>(b.columns(), none)](std::size_t i, std::vector<Entry>& run) mutable {
+      const std::size_t before = run.size();
+      for (const auto& outer : a.row(i)) {
+        for (const auto& inner : b.row(outer.column)) {
+          std::uint32_t& at = place[inner.column];
+          if (at == none) {
+            at = static_cast<std::uint32_t>(run.size());
+            run.push_back({inner.column, 0});
+          }
+          run[at].value += static_cast<Scalar>(outer.value) * static_cast<Scalar>(inner.value);
+        }
+      }
+      for (std::size_t k = before; k < run.size(); ++k) place[run[k].column] = none;
+    };
+  });
+}
 
 }  // namespace vspring

@@ -7,7 +7,8 @@
 
 #include "levels/surface_levels.hpp"
 #include "solve/hierarchy.hpp"
-#include "solve/multigrid_solver.hpp"
+#include "solve/linear_solver.hpp"
+#include "solve/surface_systems.hpp"
 
 namespace vspring {
 
@@ -25,7 +26,7 @@ class SurfaceHierarchy final : public Hierarchy {
   /// Nodes take half of their neighbours' mean place with them to each coarser level: noise is not a shape.
   void start() override;
   /// All nodes at the mean of their neighbours.
-  void forget_shape() override;
+  void forget_shape(std::size_t level) override;
   std::unique_ptr<Preconditioner> preconditioner(std::size_t level) override;
 
   Net take() && { return std::move(levels_.back().net); }
@@ -33,12 +34,13 @@ class SurfaceHierarchy final : public Hierarchy {
  private:
   /// Moves the nodes of a level along their surface to where the regularisation (§4.4) wants them.
   void spread_along(std::size_t level);
-  /// Makes the interpolations for multigrid on a level; none where there are few nodes.
-  void interpolate(std::size_t level);
+  /// Makes the systems of a level ready: hands its shape down as far as they need it.
+  void make_systems(std::size_t level);
 
   std::vector<SurfaceLevel> levels_;
-  std::vector<Interpolation> interpolations_;
-  std::optional<std::size_t> interpolated_;  ///< the level that they are for
+  std::optional<std::size_t> systems_of_;  ///< the level that these are for
+  SystemLevels system_levels_;
+  std::unique_ptr<LinearSolver> spreading_;
   ThreadTeam* team_;
 };
 

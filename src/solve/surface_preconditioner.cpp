@@ -12,9 +12,6 @@ namespace {
 constexpr std::size_t nodes_per_task = 2048;
 // Of the weights 1/ℓ.
 constexpr double greatest_change = 1.15;
-// What conjugate gradients leave of a residual; Anderson acceleration does the rest.
-constexpr double bending_reduction = 0.05;
-constexpr double spreading_reduction = 0.02;
 // Of how far a surface may be taken to fall away, as a share of the step.
 constexpr double steepest = 0.5;
 
@@ -43,15 +40,12 @@ double sagitta(const Net& net, std::size_t i, const Vector3& step) {
 
 }  // namespace
 
-SurfacePreconditioner::SurfacePreconditioner(const Net& net, std::span<const Interpolation> interpolations,
-                                             ThreadTeam& team)
-    : net_(&net),
+SurfacePreconditioner::SurfacePreconditioner(const SystemLevels& levels, LinearSolver& spreading, ThreadTeam& team)
+    : net_(levels.nets.front()),
       team_(&team),
-      factor_(bending_factor(net)),
-      bending_(linear_solver(interpolations, bending_reduction, team)),
-      spreading_(linear_solver(interpolations, spreading_reduction, team)) {
-  spreading_->build(spreading_form(net, team));
-}
+      factor_(bending_factor(*net_)),
+      bending_(levels, team),
+      spreading_(&spreading) {}
 
 bool SurfacePreconditioner::refresh() {
   weigh_edges(*net_, *team_, weight_);
@@ -62,40 +56,34 @@ bool SurfacePreconditioner::refresh() {
   }
   if (fits) return false;
   built_weight_ = weight_;
-  bending_->build(bending_form(*net_, *team_));
+  bending_.build();
   return true;
 }
 
-void SurfacePreconditioner::correct(std::span<const NodeForce> forces, std::vector<Vector3>& correction) {
+void SurfacePreconditioner::correct(std::span<const NodeForce> forces, double enough,
+                                    std::vector<Vector3>& correction) {
   const Net& net = *net_;
   const auto in_parallel = [&](const auto& body) {
     parallel_ranges(*team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) body(i, static_cast<Eigen::Index>(i));
+      for (std::size_t i = begin; i < end; ++i) body(i);
     });
   };
-  along_.resize(static_cast<Eigen::Index>(net.moving), 1);
-  across_.resize(static_cast<Eigen::Index>(net.moving), 3);
+  along_.resize(net.moving);
   correction.resize(net.moving);
-  in_parallel([&](std::size_t i, Eigen::Index row) {
-    along_(row, 0) = weight_[i] / factor_ * forces[i].spring.dot(net.normals[i]);
-  });
-  bending_->solve(along_);
-  in_parallel([&](std::size_t i, Eigen::Index row) { correction[i] = along_(row, 0) * net.normals[i]; });
-  in_parallel(
-      [&](std::size_t i, Eigen::Index row) { across_.row(row) = asked_across(i, forces[i], correction).transpose(); });
-  spreading_->solve(across_);
-  in_parallel([&](std::size_t i, Eigen::Index row) {
+  in_parallel([&](std::size_t i) { along_[i] = weight_[i] / factor_ * forces[i].spring.dot(net.normals[i]); });
+  bending_.solve(along_, enough);
+  in_parallel([&](std::size_t i) { correction[i] = asked_across(i, forces[i]); });
+  spreading_->solve(correction, enough);
+  in_parallel([&](std::size_t i) {
     const Vector3& normal = net.normals[i];
-    const Vector3 step = across_.row(row).transpose();
-    const Vector3 along_surface = step - step.dot(normal) * normal;
+    const Vector3 along_surface = correction[i] - correction[i].dot(normal) * normal;
     // A node without a normal is not sprung, and goes where the regularisation sends it.
-    correction[i] +=
-        normal.isZero(0) ? forces[i].regularisation : Vector3(along_surface - sagitta(net, i, along_surface) * normal);
+    correction[i] = normal.isZero(0) ? forces[i].regularisation
+                                     : Vector3((along_[i] - sagitta(net, i, along_surface)) * normal + along_surface);
   });
 }
 
-Vector3 SurfacePreconditioner::asked_across(std::size_t i, const NodeForce& force,
-                                            const std::vector<Vector3>& correction) const {
+Vector3 SurfacePreconditioner::asked_across(std::size_t i, const NodeForce& force) const {
   const auto links = net_->rings.links(i);
   const auto shares = net_->shares_of(i);
   double spokes = 0;
@@ -103,11 +91,12 @@ Vector3 SurfacePreconditioner::asked_across(std::size_t i, const NodeForce& forc
   for (std::size_t k = 0; k < links.size(); ++k) {
     if (!links[k].spoke()) continue;
     spokes += 1;
-    if (links[k].node() < net_->moving) mean += (shares.empty() ? 1 : shares[k]) * correction[links[k].node()];
+    const std::size_t j = links[k].node();
+    if (j < net_->moving) mean += (shares.empty() ? 1 : shares[k]) * along_[j] * net_->normals[j];
   }
   if (shares.empty() && spokes > 0) mean /= spokes;
-  const Vector3 asked = force.regularisation + mean - correction[i];
   const Vector3& normal = net_->normals[i];
+  const Vector3 asked = force.regularisation + mean - along_[i] * normal;
   return spokes * (asked - asked.dot(normal) * normal);
 }
 

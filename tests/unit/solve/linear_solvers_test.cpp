@@ -12,6 +12,7 @@
 #include "solve/cholesky_solver.hpp"
 #include "solve/interpolation.hpp"
 #include "solve/multigrid_solver.hpp"
+#include "solve/surface_systems.hpp"
 #include "vspring/generate.hpp"
 
 namespace vspring {
@@ -30,30 +31,57 @@ Net disc_net(Index nodes, bool normals, ThreadTeam& team, double jitter = 0.3) {
 
 Eigen::MatrixXd dense(const SparseRows& matrix) { return Eigen::MatrixXd(matrix.to_eigen()); }
 
-Eigen::MatrixXd right_sides(Eigen::Index rows, Eigen::Index columns) {
-  Eigen::MatrixXd values(rows, columns);
-  for (Eigen::Index k = 0; k < columns; ++k) {
-    for (Eigen::Index i = 0; i < rows; ++i) values(i, k) = std::sin(0.1 * static_cast<double>(i * (k + 1))) + 0.2;
+std::vector<Vector3> right_sides(std::size_t rows) {
+  std::vector<Vector3> values(rows);
+  for (std::size_t i = 0; i < rows; ++i) {
+    const auto place = static_cast<double>(i);
+    values[i] = Vector3(std::sin(0.1 * place), std::sin(0.2 * place), std::sin(0.3 * place)).array() + 0.2;
   }
   return values;
 }
 
-std::vector<Interpolation> interpolations_of(const std::vector<SurfaceLevel>& levels, std::size_t last,
-                                             ThreadTeam& team) {
-  std::vector<Interpolation> result;
-  for (std::size_t k = levels.size() - 1; k > last; --k)
-    result.push_back(
-        interpolation(levels[k].net, levels[k].net.positions, levels[k - 1].net, levels[k - 1].finer, team));
+std::vector<double> first_column(const std::vector<Vector3>& values) {
+  std::vector<double> column;
+  column.reserve(values.size());
+  for (const Vector3& value : values) column.push_back(value.x());
+  return column;
+}
+
+Eigen::Map<const Eigen::MatrixXd> as_matrix(const std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size()), 1};
+}
+
+Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> as_matrix(
+    const std::vector<Vector3>& values) {
+  return {values.front().data(), static_cast<Eigen::Index>(values.size()), 3};
+}
+
+/// A surface with its levels, ready for systems over `count` of them.
+struct Prepared {
+  std::vector<SurfaceLevel> levels;
+  SystemLevels systems;
+};
+
+Prepared prepared(Net net, std::size_t count, ThreadTeam& team) {
+  Prepared result{surface_levels(std::move(net), *surface_model(PseudoNormals::link), Distribution::even, team), {}};
+  std::vector<SurfaceLevel>& levels = result.levels;
+  result.systems.nets.push_back(&levels.back().net);
+  for (std::size_t k = levels.size() - 1; k > 0 && result.systems.nets.size() < count; --k) {
+    restrict_shape(levels[k], levels[k - 1]);
+    result.systems.nets.push_back(&levels[k - 1].net);
+    result.systems.interpolations.push_back(interpolation(levels[k].net, levels[k - 1].net, levels[k - 1].finer, team));
+  }
   return result;
 }
 
 TEST(SparseRows, ProductAndTransposeAreThoseOfDenseMatrices) {
   ThreadTeam team(2);
   const Net net = disc_net(300, true, team);
-  const SparseRows a = spreading_form(net, team);
+  const SparseRows a = spreading_form<double>(net, team);
   const SparseRows b = bending_form(net, team);
-  EXPECT_LT((dense(product(a, b, team)) - dense(a) * dense(b)).norm(), 1e-10 * dense(b).norm());
-  EXPECT_EQ(dense(product(a, b, team).transposed()), dense(product(a, b, team)).transpose());
+  const SparseRows both = product<double>(a, b, team);
+  EXPECT_LT((dense(both) - dense(a) * dense(b)).norm(), 1e-10 * dense(b).norm());
+  EXPECT_EQ(dense(both.transposed()), dense(both).transpose());
 }
 
 TEST(BendingForm, IsSymmetricAndPositiveDefinite) {
@@ -62,7 +90,7 @@ TEST(BendingForm, IsSymmetricAndPositiveDefinite) {
     Net net = disc_net(200, normals, team);
     // A moving node with a normal, too.
     net.given[5] |= Net::given_normal;
-    for (const SparseRows& form : {bending_form(net, team), spreading_form(net, team)}) {
+    for (const SparseRows& form : {bending_form(net, team), spreading_form<double>(net, team)}) {
       const Eigen::MatrixXd matrix = dense(form);
       EXPECT_LT((matrix - matrix.transpose()).norm(), 1e-12 * matrix.norm());
       EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues().minCoeff(), 0);
@@ -91,12 +119,16 @@ TEST(CholeskySolver, SolvesAndSolvesAnew) {
   CholeskySolver solver(team);
   for (const Index nodes : {50, 400}) {
     const Net net = disc_net(nodes, true, team);
-    for (const SparseRows& form : {bending_form(net, team), spreading_form(net, team)}) {
-      const Eigen::MatrixXd right = right_sides(static_cast<Eigen::Index>(net.moving), 3);
-      Eigen::MatrixXd solution = right;
+    for (const SparseRows& form : {bending_form(net, team), spreading_form<double>(net, team)}) {
+      const std::vector<Vector3> right = right_sides(net.moving);
+      const Eigen::MatrixXd expected = dense(form).ldlt().solve(as_matrix(right));
+      std::vector<Vector3> solution = right;
+      std::vector<double> single = first_column(right);
       solver.build(form);
-      solver.solve(solution);
-      EXPECT_LT((solution - dense(form).ldlt().solve(right)).norm(), 1e-8 * solution.norm());
+      solver.solve(solution, 0);
+      solver.solve(single, 0);
+      EXPECT_LT((as_matrix(solution) - expected).norm(), 1e-8 * expected.norm());
+      EXPECT_LT((as_matrix(single) - expected.col(0)).norm(), 1e-8 * expected.norm());
     }
   }
 }
@@ -107,59 +139,97 @@ TEST(Interpolation, ReproducesLinearFunctionsOfThePlace) {
       surface_levels(disc_net(2000, false, team), *surface_model(PseudoNormals::link), Distribution::even, team);
   const SurfaceLevel& fine = levels.back();
   const SurfaceLevel& coarse = levels[levels.size() - 2];
-  const Interpolation between = interpolation(fine.net, fine.net.positions, coarse.net, coarse.finer, team);
+  const Interpolation between = interpolation(fine.net, coarse.net, coarse.finer, team);
   ASSERT_EQ(between.up.rows(), fine.net.moving);
   ASSERT_EQ(between.up.columns(), coarse.net.moving);
   for (std::size_t i = 0; i < fine.net.moving; ++i) {
     if (fine.net.positions[i].norm() > 0.7) continue;
     Vector3 place = Vector3::Zero();
-    for (const SparseRows::Entry& entry : between.up.row(i)) place += entry.value * coarse.net.positions[entry.column];
+    for (const FloatRows::Entry& entry : between.up.row(i))
+      place += static_cast<double>(entry.value) * coarse.net.positions[entry.column];
     EXPECT_LT((place - fine.net.positions[i]).norm(), 0.01);
   }
 }
 
-TEST(MultigridSolver, NeedsFewIterationsAtEverySize) {
+/// Of a solution, in the norm that the form gives.
+double relative_error(const SparseRows& form, const Eigen::MatrixXd& solution, const Eigen::MatrixXd& expected) {
+  const Eigen::SparseMatrix<double> matrix = form.to_eigen();
+  const Eigen::MatrixXd error = solution - expected;
+  return std::sqrt(error.cwiseProduct(matrix * error).sum() / expected.cwiseProduct(matrix * expected).sum());
+}
+
+TEST(SurfaceSystems, SolveAtEverySize) {
   ThreadTeam team(2);
-  for (const Index nodes : {2000, 8000, 32000}) {
-    SCOPED_TRACE(nodes);
-    // Without jitter nodes lie about as the regularisation puts them.
-    const auto levels =
-        surface_levels(disc_net(nodes, true, team, 0), *surface_model(PseudoNormals::link), Distribution::even, team);
-    const Net& net = levels.back().net;
-    const std::vector<Interpolation> coarse = interpolations_of(levels, 2, team);
-    for (const bool bends : {true, false}) {
-      const SparseRows form = bends ? bending_form(net, team) : spreading_form(net, team);
-      const Eigen::MatrixXd right = right_sides(static_cast<Eigen::Index>(net.moving), bends ? 1 : 3);
-      MultigridSolver solver(coarse, 1e-9, team);
-      solver.build(form);
-      Eigen::MatrixXd solution = right;
-      solver.solve(solution);
-      EXPECT_LE(solver.iterations(), bends ? 40 : 20);
-      EXPECT_LT((form.to_eigen() * solution - right).norm(), 1e-4 * right.norm());
-      Eigen::MatrixXd expected = right;
+  for (const Index nodes : {500, 2000, 8000, 32000}) {
+    // With one level a factor solves.
+    for (const std::size_t levels : {std::size_t{1}, std::size_t{2}, std::size_t{4}}) {
+      SCOPED_TRACE(::testing::Message() << nodes << " nodes, " << levels << " levels");
+      // Without jitter nodes lie about as the regularisation puts them.
+      const Prepared surface = prepared(disc_net(nodes, true, team, 0), levels, team);
+      const Net& net = surface.levels.back().net;
+      const std::vector<Vector3> right = right_sides(net.moving);
       CholeskySolver exact(team);
-      exact.build(form);
-      exact.solve(expected);
-      EXPECT_LT((solution - expected).norm(), 1e-5 * expected.norm());
+
+      const SparseRows bending = bending_form(net, team);
+      std::vector<double> bent = first_column(right);
+      std::vector<double> expected_bent = bent;
+      exact.build(bending);
+      exact.solve(expected_bent, 0);
+      BendingSystem system(surface.systems, team);
+      for (int build = 0; build < 2; ++build) {
+        system.build();
+        bent = first_column(right);
+        system.solve(bent, 0);
+        EXPECT_LT(relative_error(bending, as_matrix(bent), as_matrix(expected_bent)), levels == 1 ? 1e-8 : 0.2);
+      }
+
+      const SparseRows spreading = spreading_form<double>(net, team);
+      std::vector<Vector3> spread = right;
+      std::vector<Vector3> expected_spread = right;
+      exact.build(spreading);
+      exact.solve(expected_spread, 0);
+      spreading_solver(surface.systems, team)->solve(spread, 0);
+      EXPECT_LT(relative_error(spreading, as_matrix(spread), as_matrix(expected_spread)), levels == 1 ? 1e-8 : 0.2);
     }
   }
 }
 
-TEST(MultigridSolver, ThreadsGiveTheSameBits) {
-  std::vector<Eigen::MatrixXd> solutions;
+TEST(SurfaceSystems, AnErrorThatIsEnoughIsLeft) {
+  ThreadTeam team(2);
+  const Prepared surface = prepared(disc_net(8000, true, team, 0), 3, team);
+  const Net& net = surface.levels.back().net;
+  BendingSystem system(surface.systems, team);
+  system.build();
+  std::vector<double> best = first_column(right_sides(net.moving));
+  std::vector<double> rough = best;
+  system.solve(best, 0);
+  double greatest = 0;
+  for (const double value : best) greatest = std::max(greatest, std::abs(value));
+  system.solve(rough, 0.1 * greatest);
+  double difference = 0;
+  for (std::size_t i = 0; i < best.size(); ++i) difference = std::max(difference, std::abs(best[i] - rough[i]));
+  EXPECT_GT(difference, 0);
+  EXPECT_LT(difference, 0.4 * greatest);
+}
+
+TEST(SurfaceSystems, ThreadsGiveTheSameBits) {
+  std::vector<std::vector<double>> solutions;
+  std::vector<std::vector<Vector3>> spread;
   for (const int threads : {1, 2, 3}) {
     ThreadTeam team(threads);
-    const auto levels =
-        surface_levels(disc_net(20000, true, team), *surface_model(PseudoNormals::link), Distribution::even, team);
-    const Net& net = levels.back().net;
-    const std::vector<Interpolation> coarse = interpolations_of(levels, 2, team);
-    MultigridSolver solver(coarse, 0.05, team);
-    solver.build(bending_form(net, team));
-    solutions.push_back(right_sides(static_cast<Eigen::Index>(net.moving), 1));
-    solver.solve(solutions.back());
+    const Prepared surface = prepared(disc_net(20000, true, team), 4, team);
+    const Net& net = surface.levels.back().net;
+    BendingSystem system(surface.systems, team);
+    system.build();
+    spread.push_back(right_sides(net.moving));
+    solutions.push_back(first_column(spread.back()));
+    system.solve(solutions.back(), 0);
+    spreading_solver(surface.systems, team)->solve(spread.back(), 0);
   }
   EXPECT_EQ(solutions[0], solutions[1]);
   EXPECT_EQ(solutions[0], solutions[2]);
+  EXPECT_EQ(spread[0], spread[1]);
+  EXPECT_EQ(spread[0], spread[2]);
 }
 
 TEST(Slide, StaysOnTheSphere) {

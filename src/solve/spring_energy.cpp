@@ -1,0 +1,25 @@
+#include "solve/spring_energy.hpp"
+
+#include <algorithm>
+
+#include "spring/v_spring.hpp"
+
+namespace vspring {
+
+SpringEnergy spring_energy(const Net& net) {
+  SpringEnergy energy;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    for (const Link link : net.rings.links(i)) {
+      const std::size_t j = link.node();
+      if (!link.spoke() || (j < net.moving && j < i)) continue;
+      const Vector3 d = net.positions[j] - net.positions[i];
+      const double difference = spring_difference(d, net.normals[i], net.normals[j]);
+      energy.sum += difference * difference / (d.squaredNorm() + net.tiny);
+      if (!net.normals[i].isZero(0) && !net.normals[j].isZero(0))
+        energy.least_cosine = std::min(energy.least_cosine, net.normals[i].dot(net.normals[j]));
+    }
+  }
+  return energy;
+}
+
+}  // namespace vspring

@@ -9,8 +9,10 @@
 #include <CGAL/Weights/cotangent_weights.h>
 
 #include <Eigen/CholmodSupport>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "driver.hpp"

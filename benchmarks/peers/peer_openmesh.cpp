@@ -1,7 +1,7 @@
 // OpenMesh's Jacobi smoother with C1 continuity: damped iterations of the bi-Laplacian, which leave the boundary and
 // the ring beside it where they are. The variant is the number of iterations.
 
-#include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
+#include <OpenMesh/Core/Mesh/Traits.hh>
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Smoother/JacobiLaplaceSmootherT.hh>
 #include <string>

@@ -101,58 +101,68 @@ std::optional<Cost> run(const fs::path& driver, const std::string& mesh, const s
   return succeeded ? std::optional(cost) : std::nullopt;
 }
 
-std::optional<Cost> best_run(const fs::path& driver, const std::string& mesh, const std::string& result, int threads,
-                             const std::string& variant, int times) {
-  std::optional<Cost> best;
-  for (int k = 0; k < times; ++k) {
-    const std::optional<Cost> cost = run(driver, mesh, result, threads, variant);
-    if (cost && (!best || cost->seconds < best->seconds)) best = cost;
-  }
-  return best;
-}
-
 double diagonal(const PolygonMesh& mesh) {
   Eigen::AlignedBox<double, 3> box;
   for (const Vector3& position : mesh.positions()) box.extend(position);
   return box.diagonal().norm();
 }
 
-void compare(const Case& input, const fs::path& drivers) {
-  const TemporaryFolder folder;
-  const std::string mesh = folder.file("start.ply");
-  const std::string result = folder.file("result.ply");
-  write_surface(mesh, input.start);
+struct Entry {
+  Program program;
+  int threads = 1;
+  std::string result;  ///< file
+  std::optional<Cost> best;
+};
+
+/// One for every program and number of threads. Programs take turns, so that other work on the machine meets all.
+std::vector<Entry> run_all(const Case& input, const fs::path& drivers, const TemporaryFolder& folder) {
   const Index nodes = input.start.node_count();
-  std::map<int, double> vspring_seconds;  // by threads
-  PolygonMesh equilibrium;
-  for (const Program& program : programs()) {
+  std::vector<Entry> entries;
+  for (Program program : programs()) {
     if (nodes > program.most_nodes) continue;
-    const bool ours = program.driver == "vspring";
-    const std::string variant = ours && input.sphere ? "sphere" : program.variant;
-    for (const int threads : program.threads) {
-      const std::optional<Cost> cost =
-          best_run(drivers / ("peer_" + program.driver), mesh, result, threads, variant, nodes > few_nodes ? 1 : 3);
-      if (!cost) {
-        fmt::print("| {} | {} | {} | {} | failed | | | |\n", input.name, nodes, program.name, threads);
-        continue;
-      }
-      const PolygonMesh faired = read_surface(result).mesh;
-      if (ours) {
-        vspring_seconds[threads] = cost->seconds;
-        equilibrium = faired;
-      }
-      std::string error;
-      if (input.sphere) {
-        error = fmt::format("{:.1e}", distance_from_sphere(faired.positions()));
-      } else if (!ours && equilibrium.node_count() > 0) {
-        error = fmt::format("{:.1e}", distance(faired.positions(), equilibrium).greatest / diagonal(input.start));
-      }
-      fmt::print("| {} | {} | {} | {} | {:.3f} | {:.0f} | {} | {} |\n", input.name, nodes, program.name, threads,
-                 cost->seconds, cost->mebibytes, error,
-                 ours ? "1" : fmt::format("{:.2f}", cost->seconds / vspring_seconds[threads]));
-      std::fflush(stdout);
+    if (program.driver == "vspring" && input.sphere) program.variant = "sphere";
+    for (const int threads : program.threads)
+      entries.push_back({program, threads, folder.file(fmt::format("result-{}.ply", entries.size())), {}});
+  }
+  const std::string mesh = folder.file("start.ply");
+  write_surface(mesh, input.start);
+  for (int k = 0; k < (nodes > few_nodes ? 1 : 3); ++k) {
+    for (Entry& entry : entries) {
+      const fs::path driver = drivers / ("peer_" + entry.program.driver);
+      const auto cost = run(driver, mesh, entry.result, entry.threads, entry.program.variant);
+      if (cost && (!entry.best || cost->seconds < entry.best->seconds)) entry.best = cost;
     }
   }
+  return entries;
+}
+
+void compare(const Case& input, const fs::path& drivers) {
+  const TemporaryFolder folder;
+  const double size = diagonal(input.start);
+  std::map<int, double> vspring_seconds;  // by threads
+  std::optional<PolygonMesh> equilibrium;
+  for (const Entry& entry : run_all(input, drivers, folder)) {
+    fmt::print("| {} | {} | {} | {} | ", input.name, input.start.node_count(), entry.program.name, entry.threads);
+    if (!entry.best) {
+      fmt::print("failed | | | |\n");
+      continue;
+    }
+    const PolygonMesh faired = read_surface(entry.result).mesh;
+    if (entry.program.driver == "vspring") {
+      vspring_seconds[entry.threads] = entry.best->seconds;
+      equilibrium = faired;
+    }
+    std::string error;
+    if (input.sphere) {
+      error = fmt::format("{:.1e}", distance_from_sphere(faired.positions()));
+    } else if (equilibrium && entry.program.driver != "vspring") {
+      error = fmt::format("{:.1e}", distance(faired.positions(), *equilibrium).greatest / size);
+    }
+    const auto ours = vspring_seconds.find(entry.threads);
+    fmt::print("{:.3f} | {:.0f} | {} | {} |\n", entry.best->seconds, entry.best->mebibytes, error,
+               ours == vspring_seconds.end() ? "" : fmt::format("{:.2f}", entry.best->seconds / ours->second));
+  }
+  std::fflush(stdout);
 }
 
 }  // namespace

@@ -7,12 +7,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <string>
+#include <utility>
 #include <vector>
 
+#include "flat_cap.hpp"
+#include "memory.hpp"
 #include "spring/net.hpp"
 #include "sweep/sweep.hpp"
 #include "vspring/vspring.hpp"
@@ -20,8 +20,8 @@
 namespace {
 
 using namespace vspring;
+using namespace bench;
 
-constexpr double half_angle = 60;
 constexpr double noise = 0.02;
 
 struct Case {
@@ -29,29 +29,10 @@ struct Case {
   Constraints constraints;
 };
 
-/// Angles along meridians become radii, so that nothing folds over.
-Case flat_cap(Index nodes) {
-  PolygonMesh mesh = generate::cap({.nodes = nodes, .half_angle = half_angle, .jitter = 0.3});
-  Constraints constraints(mesh.node_count());
-  fix_boundary_positions(constraints, mesh);
-  for (Index i = 0; i < mesh.node_count(); ++i) {
-    if (constraints.position_fixed(i)) constraints.fix_normal(i, mesh.position(i));
-  }
-  const double rim = half_angle * std::acos(-1) / 180;
-  std::vector<Vector3> flat = mesh.positions();
-  for (Vector3& p : flat) {
-    const double radius = std::hypot(p.x(), p.y());
-    const double scale = radius > 0 ? std::atan2(radius, p.z()) / rim * std::sin(rim) / radius : 0;
-    p = Vector3(scale * p.x(), scale * p.y(), std::cos(rim));
-  }
-  mesh.set_positions(std::move(flat));
-  return {generate::add_noise(std::move(mesh), noise, 5), std::move(constraints)};
-}
-
-double distance_from_sphere(const std::vector<Vector3>& positions) {
-  double greatest = 0;
-  for (const Vector3& p : positions) greatest = std::max(greatest, std::abs(p.norm() - 1));
-  return greatest;
+Case flat_start(Index nodes) {
+  PolygonMesh cap = exact_cap(nodes);
+  Constraints constraints = hold_rim_on_sphere(cap);
+  return {flat_cap(std::move(cap), noise), std::move(constraints)};
 }
 
 double iteration_seconds(const Case& input, int threads) {
@@ -68,21 +49,6 @@ double iteration_seconds(const Case& input, int threads) {
   return best;
 }
 
-/// Peak memory is counted from here on (Linux).
-void forget_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
-
-double peak_memory_mebibytes() {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  while (status >> word) {
-    if (word != "VmHWM:") continue;
-    double kibibytes = 0;
-    status >> kibibytes;
-    return kibibytes / 1024;
-  }
-  return 0;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -96,7 +62,7 @@ int main(int argc, char** argv) {
       "| nodes | threads | seconds | in plain iterations | iterations on the finest level | on all levels | distance "
       "from the sphere | expected error | bytes a node |\n|---|---|---|---|---|---|---|---|---|\n");
   for (const Index nodes : sizes) {
-    const Case input = flat_cap(nodes);
+    const Case input = flat_start(nodes);
     for (const int threads : {1, 2}) {
       const double iteration = iteration_seconds(input, threads);
       FairOptions options;

@@ -63,7 +63,7 @@ void RunEncoder::number(std::uint64_t value) {
 }
 
 void RunEncoder::add(std::span<const Index> nodes) {
-  number(nodes.size());
+  if (length_ == 0) number(nodes.size());
   for (const Index node : nodes) {
     const std::int64_t step = static_cast<std::int64_t>(node) - last_;
     number(step < 0 ? static_cast<std::uint64_t>(-step) * 2 - 1 : static_cast<std::uint64_t>(step) * 2);

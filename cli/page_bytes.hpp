@@ -25,12 +25,15 @@ namespace vspring::cli {
 /// Node numbers of faces or chains, mostly near the one before: a byte or two each.
 class RunEncoder {
  public:
+  /// length: of every run, which is then not said again; 0 where they differ.
+  explicit RunEncoder(std::size_t length = 0) : length_(length) {}
   void add(std::span<const Index> nodes);
   [[nodiscard]] std::string take() const { return base64(bytes_); }
 
  private:
   void number(std::uint64_t value);
 
+  std::size_t length_;
   std::vector<unsigned char> bytes_;
   std::int64_t last_ = 0;
 };

@@ -96,8 +96,18 @@ Json to_json(const Eigen::Matrix3d& rows) {
   return json;
 }
 
+/// The number of nodes of every face, 0 where they differ.
+std::size_t common_length(const PolygonMesh& mesh) {
+  const std::size_t first = mesh.face_count() > 0 ? mesh.face(0).size() : 0;
+  for (Index f = 1; f < mesh.face_count(); ++f) {
+    if (mesh.face(f).size() != first) return 0;
+  }
+  return first;
+}
+
 Json shape_of(const PolygonMesh& mesh, const Frame& frame, double diagonal, const Context& context) {
-  RunEncoder faces;
+  const std::size_t length = common_length(mesh);
+  RunEncoder faces(length);
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto nodes = mesh.face(f);
     if (std::all_of(nodes.begin(), nodes.end(), [&](Index node) { return mesh.position(node).allFinite(); }))
@@ -111,6 +121,7 @@ Json shape_of(const PolygonMesh& mesh, const Frame& frame, double diagonal, cons
     gaussian.push_back(finite(curvature.gaussian() * diagonal * diagonal));
   }
   return {{"nodes", encode_coordinates(frame.inside(mesh.positions()))},
+          {"length", length},
           {"runs", faces.take()},
           {"mean", encode_halves(mean)},
           {"gaussian", encode_halves(gaussian)}};
@@ -126,6 +137,7 @@ Json shape_of(const PolygonCurve& curve, const Frame& frame) {
     closed.push_back(chain.closed);
   }
   return {{"nodes", encode_doubles(frame.inside(curve.positions()))},
+          {"length", 0},
           {"runs", chains.take()},
           {"closed", std::move(closed)}};
 }
@@ -178,6 +190,8 @@ Json scene_of(std::span<const PageShape<PolygonMesh>> shapes, const PageRoles& r
     Json& entry =
         json["shapes"].emplace_back(shape_of(*shape.shape, frame, own.diagonal() * own.half_side() * 2, context));
     entry["title"] = shape.title;
+    // What a shape has in common with the first need not be said twice.
+    if (json["shapes"].size() > 1 && entry["runs"] == json["shapes"][0]["runs"]) entry["runs"] = nullptr;
   }
   return json;
 }

@@ -3,10 +3,18 @@
 const product = (a, b) => a.map((row) => [0, 1, 2].map((k) => row[0] * b[0][k] + row[1] * b[1][k] + row[2] * b[2][k]));
 
 export class Camera {
-  // rows: the directions to the right, up and towards the eye. size: of what is to be seen.
-  constructor(rows, size, changed) {
+  // rows: the directions to the right, up and towards the eye. positions: of the shapes that are to be seen, margin: by how
+  // much the view is larger than they.
+  constructor(rows, positions, margin, changed) {
     this.home = rows;
-    this.size = size;
+    const [across, up] = rows.map((row) => {
+      let most = 1e-3;
+      for (const points of positions)
+        for (let k = 0; k < points.length; k += 3)
+          most = Math.max(most, Math.abs(row[0] * points[k] + row[1] * points[k + 1] + row[2] * points[k + 2]));
+      return 2 * margin * most;
+    });
+    this.extents = [across, up];
     this.changed = changed;
     this.reset();
   }
@@ -27,7 +35,7 @@ export class Camera {
 
   // By shares of the height of the view.
   move(across, up) {
-    const step = this.size / this.zoom;
+    const step = this.extents[1] / this.zoom;
     this.middle = this.middle.map((part, i) => part - step * (across * this.rows[0][i] + up * this.rows[1][i]));
     this.changed();
   }
@@ -39,7 +47,7 @@ export class Camera {
 
   // Pixels per unit in a view of that many pixels.
   scale(width, height) {
-    return this.zoom * Math.min(width, height) / this.size;
+    return this.zoom * Math.min(width / this.extents[0], height / this.extents[1]);
   }
 }
 

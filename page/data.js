@@ -34,8 +34,9 @@ function halvesOf(bytes) {
   });
 }
 
-// Faces or chains: the number of nodes, then the step to each node from the one before, as zigzag varints.
-function runsOf(bytes) {
+// Faces or chains: the number of nodes unless all have the same, then the step to each node from the one before, as
+// zigzag varints.
+function runsOf(bytes, length) {
   const begin = [0];
   const nodes = [];
   let at = 0;
@@ -48,7 +49,7 @@ function runsOf(bytes) {
     }
   };
   for (let node = 0; at < bytes.length;) {
-    for (let left = next(); left > 0; --left) {
+    for (let left = length || next(); left > 0; --left) {
       const step = next();
       node += step % 2 ? -(step + 1) / 2 : step / 2;
       nodes.push(node);
@@ -60,10 +61,12 @@ function runsOf(bytes) {
 
 export function sceneOf(json) {
   const surface = json.kind === 'surface';
+  const first = json.shapes[0];
+  const runs = runsOf(bytesOf(first.runs), first.length);
   const shapes = json.shapes.map((shape) => ({
     title: shape.title,
     positions: surface ? coordinatesOf(bytesOf(shape.nodes)) : doublesOf(bytesOf(shape.nodes)),
-    runs: runsOf(bytesOf(shape.runs)),
+    runs: shape === first || !shape.runs ? runs : runsOf(bytesOf(shape.runs), shape.length),
     closed: shape.closed,
     mean: surface ? halvesOf(bytesOf(shape.mean)) : null,
     gaussian: surface ? halvesOf(bytesOf(shape.gaussian)) : null,

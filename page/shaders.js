@@ -4,6 +4,7 @@ export const vertexShader = `#version 300 es
 uniform mat3 turn;
 uniform vec3 middle;
 uniform vec2 scale;
+uniform float lift;  // of lines towards the eye, so that the faces at them do not hide them
 in vec3 position;
 in vec3 normal;
 in float value;
@@ -11,7 +12,7 @@ out vec3 facing;
 out float height;
 void main() {
   vec3 seen = turn * (position - middle);
-  gl_Position = vec4(seen.xy * scale, -0.2 * seen.z, 1.0);
+  gl_Position = vec4(seen.xy * scale, -0.2 * (seen.z + lift), 1.0);
   facing = turn * normal;
   height = value;
 }`;
@@ -45,7 +46,7 @@ void main() {
   } else if (kind == 2) {
     // Long parallel lamps around the surface, upright in the view, as mirrored towards the eye.
     vec3 mirrored = reflect(vec3(0.0, 0.0, -1.0), n);
-    float wave = sin(16.0 * atan(mirrored.x, mirrored.z));
+    float wave = cos(16.0 * atan(mirrored.x, mirrored.z));
     float soft = min(fwidth(wave), 1.0);
     float lamp = smoothstep(-soft, soft, wave);
     result = vec4(vec3(0.08 + 0.86 * lamp) * (0.75 + 0.25 * n.z), 1.0);

@@ -9,7 +9,7 @@ import {quantiles, short} from './numbers.js';
 
 function prepared({title, positions, runs, mean, gaussian}) {
   const edges = edgesOf(runs, positions.length / 3);
-  return {title, positions, mean, gaussian, edges: edges.ends, triangles: trianglesOf(runs, positions),
+  return {title, positions, runs, mean, gaussian, edges: edges.ends, triangles: trianglesOf(runs, positions),
     normals: normalsOf(runs, positions, edges), turns: turnsOf(runs, positions, edges)};
 }
 
@@ -25,7 +25,7 @@ function fieldsOf(shapes, {leading, reference, unit}) {
       range: even(shapes[leading].gaussian, 0.01)},
   };
   const from = shapes[reference];
-  if (from && from.positions.length === shapes[leading].positions.length) {
+  if (from && from.runs === shapes[leading].runs) {
     const values = deviationsOf(shapes[leading].positions, from.positions, from.normals).map((part) => part * unit);
     fields.deviation = {name: `Deviation from “${from.title}”, units of the input`, map: diverging,
       values: shapes.map(() => values), range: even(values, 1e-6 * unit)};

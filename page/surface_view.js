@@ -26,7 +26,7 @@ export class SurfaceView {
     const gl = this.gl = canvas.getContext('webgl2', {antialias: true});
     if (!gl) throw new Error('This browser has no WebGL 2, which the view needs. Charts and figures are below.');
     this.program = programOf(gl);
-    this.places = Object.fromEntries(['turn', 'middle', 'scale', 'kind', 'colour', 'stops', 'range']
+    this.places = Object.fromEntries(['turn', 'middle', 'scale', 'lift', 'kind', 'colour', 'stops', 'range']
       .map((name) => [name, gl.getUniformLocation(this.program, name)]));
     this.shapes = shapes.map((shape) => this.upload(shape));
     this.values = {};
@@ -78,12 +78,13 @@ export class SurfaceView {
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
     gl.enable(gl.POLYGON_OFFSET_FILL);
-    gl.polygonOffset(1, 1);
+    gl.polygonOffset(2, 2);
     gl.useProgram(this.program);
     const scale = 2 * camera.scale(width, height);
     gl.uniformMatrix3fv(this.places.turn, true, camera.rows.flat());
     gl.uniform3fv(this.places.middle, camera.middle);
     gl.uniform2f(this.places.scale, scale / width, scale / height);
+    gl.uniform1f(this.places.lift, 0);
     gl.uniform1i(this.places.kind, kinds[mode]);
     gl.uniform3fv(this.places.colour, mode === 'wire' ? paper : [0.56, 0.66, 0.78]);
     if (colours) {
@@ -99,6 +100,7 @@ export class SurfaceView {
     elements(gl.TRIANGLES, triangles);
     if (mode !== 'wire') return;
     gl.uniform3fv(this.places.colour, styleColour('--ink'));
+    gl.uniform1f(this.places.lift, 0.002 / Math.max(1, camera.zoom));
     elements(gl.LINES, edges);
   }
 }

@@ -20,7 +20,7 @@ OPTIONS = ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swif
 class Browser:
     """One page of one browser. `faults` has what the console complains of, `requests` the addresses that were asked for."""
 
-    def __init__(self, width=900, height=900):
+    def __init__(self, width=640, height=560):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_browser, self.out = os.pipe()
         self.into, from_browser = os.pipe()

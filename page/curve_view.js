@@ -3,6 +3,17 @@
 const longestTooth = 0.15;  // of the size of the curve, for the sharpest place of the last shape
 const longestTeeth = 0.4;   // where those of any shape are cut off
 const mostDots = 600;       // more nodes than this would hide the curve
+const stretch = 500;        // points of one stroke: the time of a stroke grows with the square of them
+
+// The points that the eye tells apart, a pixel or more from the one before, and the last.
+function apart(places) {
+  let last = null;
+  return Array.from(places.keys()).filter((k) => {
+    const keep = !last || k === places.length - 1 || Math.hypot(places[k][0] - last[0], places[k][1] - last[1]) >= 1;
+    if (keep) last = places[k];
+    return keep;
+  });
+}
 
 export class CurveView {
   // shapes: chains, see chainsOf().
@@ -18,15 +29,13 @@ export class CurveView {
       : longestTooth * size / Math.max(1e-6 / size, ...shapes.map(sharpest));
   }
 
-  tips(chain, length) {
+  tip(chain, k, length) {
+    const vector = chain.vectors[k];
+    if (!vector) return chain.points[k];
     const most = longestTeeth * this.size;
-    return chain.points.map((point, k) => {
-      const vector = chain.vectors[k];
-      if (!vector) return point;
-      const tooth = vector.map((part) => part * this.tooth * length);
-      const size = Math.hypot(...tooth);
-      return point.map((part, i) => part - tooth[i] * (size > most ? most / size : 1));
-    });
+    const tooth = vector.map((part) => part * this.tooth * length);
+    const size = Math.hypot(...tooth);
+    return chain.points[k].map((part, i) => part - tooth[i] * (size > most ? most / size : 1));
   }
 
   draw(camera, {shape, behind, comb}) {
@@ -49,25 +58,24 @@ export class CurveView {
   layer(pen, place, shape, comb, alpha) {
     const style = getComputedStyle(document.documentElement);
     const colour = style.getPropertyValue(shape === 0 && this.shapes.length > 1 ? '--first' : '--second');
-    const line = (points, closed) => {
-      pen.beginPath();
-      points.forEach((point, k) => pen[k ? 'lineTo' : 'moveTo'](...point));
-      if (closed) pen.closePath();
-      pen.stroke();
+    const line = (open, closed) => {
+      const points = closed ? [...open, open[0]] : open;
+      for (let begin = 0; begin + 1 < points.length; begin += stretch) {
+        pen.beginPath();
+        points.slice(begin, begin + stretch + 1).forEach((point, k) => pen[k ? 'lineTo' : 'moveTo'](...point));
+        pen.stroke();
+      }
     };
     pen.strokeStyle = pen.fillStyle = colour;
     for (const chain of this.shapes[shape]) {
-      const roots = chain.points.map(place);
+      const places = chain.points.map(place);
+      const shown = apart(places);
+      const roots = shown.map((k) => places[k]);
       if (comb > 0) {
-        const tips = this.tips(chain, comb).map(place);
+        const tips = shown.map((k) => place(this.tip(chain, k, comb)));
         pen.globalAlpha = 0.45 * alpha;
         pen.lineWidth = 0.7;
-        pen.beginPath();
-        roots.forEach((root, k) => {
-          pen.moveTo(...root);
-          pen.lineTo(...tips[k]);
-        });
-        pen.stroke();
+        roots.forEach((root, k) => line([root, tips[k]], false));
         line(tips, chain.closed);
       }
       pen.globalAlpha = alpha;

@@ -27,7 +27,7 @@ const redraw = () => {
     page.draw(camera);
   });
 };
-const camera = new Camera(scene.view, scene.shapes.map((shape) => shape.positions), scene.surface ? 1.1 : 1.3, redraw);
+const camera = new Camera(scene.view, scene.shapes.map((shape) => shape.positions), scene.surface ? 1.1 : 1.5, redraw);
 
 try {
   const places = {canvas: part('canvas'), form: part('controls'), legend: part('legend'), charts: part('charts')};

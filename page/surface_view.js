@@ -77,8 +77,6 @@ export class SurfaceView {
     gl.clearColor(...paper, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
-    gl.enable(gl.POLYGON_OFFSET_FILL);
-    gl.polygonOffset(2, 2);
     gl.useProgram(this.program);
     const scale = 2 * camera.scale(width, height);
     gl.uniformMatrix3fv(this.places.turn, true, camera.rows.flat());
@@ -100,7 +98,7 @@ export class SurfaceView {
     elements(gl.TRIANGLES, triangles);
     if (mode !== 'wire') return;
     gl.uniform3fv(this.places.colour, styleColour('--ink'));
-    gl.uniform1f(this.places.lift, 0.002 / Math.max(1, camera.zoom));
+    gl.uniform1f(this.places.lift, 0.003 / Math.max(1, camera.zoom));
     elements(gl.LINES, edges);
   }
 }

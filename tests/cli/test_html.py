@@ -164,6 +164,12 @@ class Page(Html):
         for mode in modes:
             self.assertGreater(self.changed(after[mode], self.show_mode(mode)), 0.02, mode)
 
+    def test_wire_shows_all_edges(self):
+        self.show("measure", self.write("in.obj", grid(6).replace("0.3", "0")))
+        pixels = self.show_mode("wire")
+        ink = sum(max(p) < 200 for p in pixels) / len(pixels)
+        self.assertGreater(ink, 0.015)
+
     def test_the_legend(self):
         page = self.show("fair", self.write("in.obj", grid(10)), "-o", self.folder / "out.obj")
         hidden = lambda: page.evaluate("document.getElementById('legend').hidden")

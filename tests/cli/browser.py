@@ -67,7 +67,7 @@ class Browser:
                     raise RuntimeError(f"{method}: {answer['error']}")
                 return answer["result"]
 
-    def receive(self, seconds=60):
+    def receive(self, seconds=180):
         while b"\0" not in self.waiting:
             if not select.select([self.into], [], [], seconds)[0]:
                 raise RuntimeError("the browser does not answer")
@@ -98,7 +98,7 @@ class Browser:
         begin = time.monotonic()
         while not self.loaded:
             self.receive()
-            if time.monotonic() - begin > 60:
+            if time.monotonic() - begin > 180:
                 raise RuntimeError("the page does not load")
         self.settle()
 

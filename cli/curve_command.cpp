@@ -120,15 +120,7 @@ void add_method_options(CLI::App& command, CurveArguments& arguments, const Fair
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium)")
       ->group(fairing_group);
-  command
-      .add_option("--tolerance", options.tolerance,
-                  fmt::format("equilibrium: stop when no node is expected to be further from its final place than "
-                              "this share of the diagonal of the box around the moving nodes (default: {})",
-                              options.tolerance))
-      ->type_name("X")
-      ->check(CLI::PositiveNumber)
-      ->group(fairing_group);
-  add_stopping_options(command, arguments, "on each level: 200 for equilibrium, 10000 for the others");
+  add_stopping_options(command, arguments);
   CLI::Option* plane =
       add_choice(command, "--normal-plane", options.curve.normal_plane, normal_planes,
                  "Curves in space are sprung in the whole normal plane, or along the principal normal only, as in the "

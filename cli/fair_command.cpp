@@ -55,14 +55,17 @@ const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNorm
                                                              {"average", PseudoNormals::average},
                                                              {"area", PseudoNormals::area},
                                                              {"angle", PseudoNormals::angle}};
-const std::map<std::string, Method> methods = {{"multigrid", Method::multigrid}, {"sweep", Method::sweep}};
+const std::map<std::string, Method> methods = {
+    {"equilibrium", Method::equilibrium}, {"multigrid", Method::multigrid}, {"sweep", Method::sweep}};
 
 void add_method_options(CLI::App& command, FairArguments& arguments, const FairingWords& words) {
   FairOptions& options = arguments.options;
-  add_choice(command, "--method", options.method, methods,
-             "The paper's V-cycle over coarser levels, or its plain iteration (default: sweep)")
+  add_choice(
+      command, "--method", options.method, methods,
+      "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
+      "plain iteration (default: sweep)")
       ->group(fairing_group);
-  add_stopping_options(command, arguments, "10000");
+  add_stopping_options(command, arguments);
   CLI::Option* kind = add_choice(command, "--pseudo-normals", options.pseudo_normals, pseudo_normals,
                                  "Normals of nodes: Max's weights around the link; the paper's plain average of face "
                                  "normals; weighted by area; by angle (default: link)")

@@ -52,8 +52,16 @@ void add_constraint_options(CLI::App& command, FairingArguments& arguments, cons
       ->group(holding_group);
 }
 
-void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& limits) {
+void add_stopping_options(CLI::App& command, FairingArguments& arguments) {
   FairOptions& options = arguments.options;
+  command
+      .add_option("--tolerance", options.tolerance,
+                  fmt::format("equilibrium: stop when no node is expected to be further from its final place than "
+                              "this share of the diagonal of the box around the moving nodes (default: {})",
+                              options.tolerance))
+      ->type_name("X")
+      ->check(CLI::PositiveNumber)
+      ->group(fairing_group);
   command
       .add_option(
           "--step-tolerance", options.step_tolerance,
@@ -81,7 +89,7 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments, const 
       ->group(fairing_group);
   command
       .add_option("--max-iterations", options.max_iterations,
-                  fmt::format("Stop after this many iterations (default: {})", limits))
+                  "Stop after this many iterations (default: on each level 200 for equilibrium, 10000 for the others)")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->group(fairing_group);

@@ -15,7 +15,7 @@
 namespace vspring {
 
 enum class Method {
-  equilibrium,  ///< the accelerated solver that goes to the true equilibrium; curves only so far
+  equilibrium,  ///< the accelerated solver that goes to the true equilibrium
   multigrid,    ///< the paper's V-cycle over coarser levels (§4.7)
   sweep         ///< the paper's plain iteration (§4.1)
 };
@@ -110,6 +110,9 @@ struct FairResult {
 /// Curves go to the equilibrium of the V-Spring equations: between constraints curvature is linear in arc length, an
 /// Euler spiral; see docs/curves.md. An end without a tangent is free to turn. A given normal leaves the tangent free
 /// to turn about it; on a planar curve it gives the tangent.
+///
+/// Surfaces by Method::equilibrium go to where no node is displaced any more; the report says how far off they are
+/// expected to be. Memory: about 2 kB for every moving node.
 ///
 /// With options.fair_boundary the boundary of a surface is faired first as a curve, under the positions and tangents
 /// that the constraints give there (normals act on the surface), always to its equilibrium; throws as for a curve.

@@ -188,7 +188,8 @@ void straighten(CurveLevel& level) {
       const Vector3 start = net.positions[strand.nodes[from]];
       const Vector3 chord = net.positions[strand.nodes[to]] - start;
       if (!(chord.dot(chord) > net.tiny)) continue;
-      for (std::size_t k = (from + 1) % count; k != to; k = (k + 1) % count) {
+      const auto after = [&](std::size_t k) { return k + 1 == count ? 0 : k + 1; };
+      for (std::size_t k = after(from); k != to; k = after(k)) {
         const double along = at[k] - at[from] + (k > from ? 0 : once_around);
         net.positions[strand.nodes[k]] = start + along / (at[to] - at[from] + once_around) * chord;
       }

@@ -1,8 +1,7 @@
 #include <algorithm>
 
+#include "levels/balance.hpp"
 #include "levels/surface_levels.hpp"
-#include "shape/direction.hpp"
-#include "spring/v_spring.hpp"
 
 namespace vspring {
 
@@ -12,31 +11,6 @@ constexpr std::size_t nodes_per_task = 16384;
 // Passes over a shape that was handed up until its nodes lie about as the regularisation (§4.4) wants them: a sweep
 // would move them along their tangent planes, off curved surfaces, by the square of how far they have to go.
 constexpr int passes = 3;
-
-struct Place {
-  Vector3 position;
-  Vector3 normal;
-};
-
-/// Where the V-Springs (Eq. 4) to other nodes j balance. for_each(use) calls use(j, weight), weights of sum 1. Of a
-/// sphere, the weighted means q of positions and n of normals lie on one ray from the centre, and each V-Spring from q
-/// along n ends on the sphere: d·(n + N) / (1 + n·N) is the same for all nodes. On other surfaces the error of n counts
-/// little because the weighted mean of all d is zero.
-template <typename ForEach>
-Place balance(const Net& net, const ForEach& for_each) {
-  Place place = {Vector3::Zero(), Vector3::Zero()};
-  for_each([&](std::size_t j, double weight) {
-    place.position += weight * net.positions[j];
-    place.normal += (place.normal.dot(net.normals[j]) < 0 ? -weight : weight) * net.normals[j];
-  });
-  place.normal = direction(place.normal, 1);
-  double lift = 0;
-  for_each([&](std::size_t j, double weight) {
-    lift += weight * spring_difference(net.positions[j] - place.position, place.normal, net.normals[j]);
-  });
-  place.position += lift * place.normal;
-  return place;
-}
 
 void put(Net& net, std::size_t i, const Place& place) {
   if (i < net.moving) net.positions[i] = place.position;

@@ -1,24 +1,35 @@
 #pragma once
 
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "levels/curve_levels.hpp"
+#include "solve/curve_preconditioner.hpp"
 #include "solve/hierarchy.hpp"
 
 namespace vspring {
 
+/// The levels of a curve.
 class CurveHierarchy final : public Hierarchy {
  public:
   explicit CurveHierarchy(std::vector<CurveLevel> levels) : levels_(std::move(levels)) {}
 
-  [[nodiscard]] std::size_t size() const override { return levels_.size(); }
+  [[nodiscard]] std::size_t count() const override { return levels_.size(); }
   Net& net(std::size_t level) override { return levels_[level].curve.net; }
   void limit(std::size_t levels) override {
     if (levels < levels_.size()) levels_.erase(levels_.begin(), levels_.end() - static_cast<std::ptrdiff_t>(levels));
   }
   void restrict_from(std::size_t level) override { restrict_shape(levels_[level], levels_[level - 1]); }
-  void prolong_from(std::size_t level, ThreadTeam& /*team*/) override { prolong(levels_[level], levels_[level + 1]); }
+  void prolong_from(std::size_t level) override { prolong(levels_[level], levels_[level + 1]); }
+  // Levels are made with the start, averaged.
+  void start() override { untangle(levels_.front()); }
+  void forget_shape() override { straighten(levels_.front()); }
+  std::unique_ptr<Preconditioner> preconditioner(std::size_t level) override {
+    return std::make_unique<CurvePreconditioner>(levels_[level].curve);
+  }
+
+  CurveNet take() && { return std::move(levels_.back().curve); }
 
  private:
   std::vector<CurveLevel> levels_;

@@ -15,6 +15,7 @@ constexpr std::size_t depth = 6;
 constexpr std::size_t nodes_per_task = 2048;
 // No edge may turn or stretch by more than about this in one step: the equations are near to linear up to there.
 constexpr double greatest_turn = 0.3;
+constexpr double stretch_share = 0.4;
 // Iterations that do not get nearer, with steps of full length, before rounding is taken to have the last word.
 constexpr int patience = 12;
 
@@ -99,6 +100,12 @@ class Solver {
     return std::sqrt(greatest_over_nodes([&](std::size_t i) { return correction_[i].squaredNorm(); }));
   }
 
+  /// How much of a difference between two ends of an edge counts. Along a surface the equations are nearly linear.
+  [[nodiscard]] double change(const Vector3& difference, std::size_t i) const {
+    if (!net_.tangents.empty()) return difference.norm();
+    return std::max(std::abs(difference.dot(net_.normals[i])), stretch_share * difference.norm());
+  }
+
   /// The largest turn or stretch of an edge by the step in correction_.
   double largest_turn() {
     return greatest_over_nodes([&](std::size_t i) {
@@ -110,7 +117,7 @@ class Solver {
         const Vector3 edge = net_.positions[j] - net_.positions[i];
         // An edge far shorter than its neighbours is out of place, and has to turn.
         const double length = std::max(edge.norm(), 0.25 * forces_[i].mean_edge);
-        greatest = std::max(greatest, difference.norm() / length);
+        greatest = std::max(greatest, change(difference, i) / length);
       }
       return greatest;
     });

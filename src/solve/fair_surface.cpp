@@ -1,14 +1,15 @@
 #include <chrono>
+#include <utility>
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
 #include "fairness/measure.hpp"
 #include "solve/account.hpp"
+#include "solve/equilibrium_method.hpp"
 #include "solve/fair_boundary.hpp"
 #include "solve/multigrid_method.hpp"
 #include "solve/surface_hierarchy.hpp"
 #include "solve/sweep_method.hpp"
-#include "vspring/error.hpp"
 #include "vspring/fair.hpp"
 
 namespace vspring {
@@ -21,12 +22,10 @@ FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const F
     result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;
   }
-  if (options.method == Method::equilibrium)
-    throw Error(ErrorCode::invalid_argument, "surfaces are faired by the methods multigrid and sweep only so far");
   FairResult result;
   FairReport& report = result.report;
-  report.method = options.method.value_or(Method::sweep);
   report.warnings = check_constraints(mesh, constraints);
+  report.method = options.method.value_or(Method::sweep);
 
   ProgressReporter progress(context);
   progress.report("preparing", 0);
@@ -38,13 +37,14 @@ FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const F
   report.before = measure(mesh, &constraints, team);
 
   const auto model = surface_model(options.pseudo_normals);
-  if (report.method == Method::multigrid) {
-    SurfaceHierarchy hierarchy(surface_levels(std::move(net), *model, options.distribution, team));
-    run_multigrid(hierarchy, *model, options, team, context, progress, report);
-    net = std::move(hierarchy.net(hierarchy.size() - 1));
-  } else {
+  if (report.method == Method::sweep) {
     distribute(net, *model, options.distribution, team);
     run_sweeps(net, *model, options, team, context, progress, report);
+  } else {
+    SurfaceHierarchy hierarchy(surface_levels(std::move(net), *model, options.distribution, team), team);
+    const auto run = report.method == Method::multigrid ? run_multigrid : run_equilibrium;
+    run(hierarchy, *model, options, team, context, progress, report);
+    net = std::move(hierarchy).take();
   }
 
   result.positions = scatter_positions(net, mesh.positions(), constraints, options.strength);

@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
-#include "base/threads.hpp"
+#include "solve/preconditioner.hpp"
 #include "spring/net.hpp"
 
 namespace vspring {
 
-/// A shape and its coarser versions (§4.7), whatever the shape is made of. Level 0 is the coarsest.
+/// A shape and its coarser versions (§4.7) as the solvers see them, whatever the shape is made of: the coarsest level
+/// is number 0, the shape itself the last.
 class Hierarchy {
  public:
   Hierarchy() = default;
@@ -15,14 +17,22 @@ class Hierarchy {
   Hierarchy(const Hierarchy&) = delete;
   Hierarchy& operator=(const Hierarchy&) = delete;
 
-  [[nodiscard]] virtual std::size_t size() const = 0;
+  [[nodiscard]] virtual std::size_t count() const = 0;
   virtual Net& net(std::size_t level) = 0;
   /// Leaves out the coarsest levels until `levels` are left.
   virtual void limit(std::size_t levels) = 0;
+
   /// Hands the shape of a level down to the next coarser one.
   virtual void restrict_from(std::size_t level) = 0;
   /// Hands the shape of a level up to the next finer one. Needs directions on it.
-  virtual void prolong_from(std::size_t level, ThreadTeam& team) = 0;
+  virtual void prolong_from(std::size_t level) = 0;
+
+  /// Hands the start down to all levels without its noise, and makes it fit to start from on the coarsest.
+  virtual void start() = 0;
+  /// The start of last resort on the coarsest level, which forgets the shape.
+  virtual void forget_shape() = 0;
+  /// For that level; used up before the next one is asked for.
+  virtual std::unique_ptr<Preconditioner> preconditioner(std::size_t level) = 0;
 };
 
 }  // namespace vspring

@@ -19,8 +19,8 @@ constexpr std::size_t few_enough = 150;
 constexpr double coarsest_share = 1e-3;
 
 std::size_t default_levels(Hierarchy& hierarchy) {
-  std::size_t levels = std::min(papers_levels, hierarchy.size());
-  while (levels < hierarchy.size() && hierarchy.net(hierarchy.size() - levels).moving > few_enough) ++levels;
+  std::size_t levels = std::min(papers_levels, hierarchy.count());
+  while (levels < hierarchy.count() && hierarchy.net(hierarchy.count() - levels).moving > few_enough) ++levels;
   return levels;
 }
 
@@ -38,8 +38,8 @@ class Cycle {
 
   void run() {
     hierarchy_.limit(options_.levels ? static_cast<std::size_t>(*options_.levels) : default_levels(hierarchy_));
-    const std::size_t finest = hierarchy_.size() - 1;
-    report_.levels.resize(hierarchy_.size());
+    const std::size_t finest = hierarchy_.count() - 1;
+    report_.levels.resize(hierarchy_.count());
     for (std::size_t k = 0; k <= finest; ++k)
       report_.levels[k].moving_nodes = static_cast<Index>(hierarchy_.net(k).moving);
     for (std::size_t k = finest; k > 0; --k) {
@@ -56,7 +56,7 @@ class Cycle {
       if (result.lost) lost_ = true;
       if (k == finest) break;
       update_directions(hierarchy_.net(k), model_, team_);
-      hierarchy_.prolong_from(k, team_);
+      hierarchy_.prolong_from(k);
     }
     if (lost_) report_.warnings.emplace_back(lost_warning);
   }
@@ -66,7 +66,7 @@ class Cycle {
     const auto begin = Clock::now();
     SweepTask task{.step_tolerance = step_tolerance, .max_iterations = max_iterations};
     const auto nodes = static_cast<double>(hierarchy_.net(level).moving);
-    const double share = nodes / static_cast<double>(hierarchy_.net(hierarchy_.size() - 1).moving);
+    const double share = nodes / static_cast<double>(hierarchy_.net(hierarchy_.count() - 1).moving);
     task.on_iteration = [&](double residual) {
       report_.history.push_back(residual);
       ++report_.iterations;

@@ -1,27 +1,45 @@
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "levels/surface_levels.hpp"
 #include "solve/hierarchy.hpp"
+#include "solve/multigrid_solver.hpp"
 
 namespace vspring {
 
+/// The levels of a surface (§4.7).
 class SurfaceHierarchy final : public Hierarchy {
  public:
-  explicit SurfaceHierarchy(std::vector<SurfaceLevel> levels) : levels_(std::move(levels)) {}
+  SurfaceHierarchy(std::vector<SurfaceLevel> levels, ThreadTeam& team) : levels_(std::move(levels)), team_(&team) {}
 
-  [[nodiscard]] std::size_t size() const override { return levels_.size(); }
+  [[nodiscard]] std::size_t count() const override { return levels_.size(); }
   Net& net(std::size_t level) override { return levels_[level].net; }
-  void limit(std::size_t levels) override {
-    if (levels < levels_.size()) levels_.erase(levels_.begin(), levels_.end() - static_cast<std::ptrdiff_t>(levels));
-  }
+  void limit(std::size_t levels) override;
   void restrict_from(std::size_t level) override { restrict_shape(levels_[level], levels_[level - 1]); }
-  void prolong_from(std::size_t level, ThreadTeam& team) override { prolong(levels_[level], levels_[level + 1], team); }
+  /// Nodes go along the shape that was handed up to where the finer level wants them.
+  void prolong_from(std::size_t level) override;
+  /// Nodes take half of their neighbours' mean place with them to each coarser level: noise is not a shape.
+  void start() override;
+  /// All nodes at the mean of their neighbours.
+  void forget_shape() override;
+  std::unique_ptr<Preconditioner> preconditioner(std::size_t level) override;
+
+  Net take() && { return std::move(levels_.back().net); }
 
  private:
+  /// Moves the nodes of a level along their surface to where the regularisation (§4.4) wants them.
+  void spread_along(std::size_t level);
+  /// Makes the interpolations for multigrid on a level; none where there are few nodes.
+  void interpolate(std::size_t level);
+
   std::vector<SurfaceLevel> levels_;
+  std::vector<Interpolation> interpolations_;
+  std::optional<std::size_t> interpolated_;  ///< the level that they are for
+  ThreadTeam* team_;
 };
 
 }  // namespace vspring

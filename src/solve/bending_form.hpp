@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "base/threads.hpp"
+#include "solve/sparse_rows.hpp"
+#include "spring/net.hpp"
+
+namespace vspring {
+
+/// The derivative of V-Spring on a surface where slopes are small, up to a factor: forces are F ≈ −κ D⁻¹ B h for
+/// displacements h along the normals, with B = Lᵀ D L + C over the moving nodes and D the sums of w = 1/ℓ over a node's
+/// edges. A row of L is a node's mean curvature: Σ s_j h_j − h_i with shares s near w_j / Σ w that take linear
+/// functions of the place in the tangent plane to zero, as V-Spring does. C holds what is none of a moving node inside:
+/// a node with a given normal bends against each edge by itself; a held node with a computed one bends like a moving
+/// node, unless it lies on the boundary; a moving node there bends along the boundary only.
+/// Returns B. Cost: linear in the moving nodes.
+SparseRows bending_form(const Net& net, ThreadTeam& team);
+
+/// D, the sum of 1/ℓ over the edges of every moving node, by the lengths that they have now.
+void weigh_edges(const Net& net, ThreadTeam& team, std::vector<double>& sums);
+
+/// The Laplacian of the moving nodes' graph with weights of one: what the regularisation (§4.4) spreads nodes by.
+SparseRows spreading_form(const Net& net, ThreadTeam& team);
+
+/// What V-Spring is of −D⁻¹ B h on meshes like this one: 3/4 on triangles, 1 on quads.
+double bending_factor(const Net& net);
+
+}  // namespace vspring

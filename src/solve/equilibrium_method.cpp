@@ -1,0 +1,155 @@
+#include "solve/equilibrium_method.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "solve/equilibrium.hpp"
+
+namespace vspring {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int default_limit = 200;
+// The coarsest level needs 10 to 40 iterations from any shape that is not tangled up.
+constexpr int first_try = 80;
+// An expected error, as a share of the diagonal, from which a shape on the coarsest level is no use.
+constexpr double lost_at = 1e-3;
+// What a coarse level leaves undone, the finer ones have to do with more nodes.
+constexpr double coarse_share = 0.3;
+constexpr double greatest_displacement_ratio = 4;
+constexpr std::size_t nodes_per_task = 2048;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+/// Of the box around the net.
+double diagonal(const Net& net) {
+  Eigen::AlignedBox<double, 3> box;
+  for (const Vector3& position : net.positions) box.extend(position);
+  return box.isEmpty() ? 1 : box.diagonal().norm();
+}
+
+class Run {
+ public:
+  Run(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
+      ProgressReporter& progress, FairReport& report)
+      : hierarchy_(hierarchy),
+        model_(model),
+        options_(options),
+        size_(diagonal(hierarchy.net(hierarchy.count() - 1))),
+        team_(team),
+        context_(context),
+        progress_(progress),
+        report_(report) {}
+
+  void run() {
+    const std::size_t last = hierarchy_.count() - 1;
+    Net& finest = hierarchy_.net(last);
+    const std::vector<Vector3> start = finest.positions;
+    report_.outcome = context_.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
+    if (context_.cancelled() || options_.max_iterations == 0) return;
+    if (may_be_there(finest) && relax(last, 1) != Outcome::converged && last > 0) finest.positions = start;
+    if (report_.outcome == Outcome::iteration_limit) go_down();
+  }
+
+ private:
+  void go_down() {
+    const int limit = options_.max_iterations.value_or(default_limit);
+    const std::size_t last = hierarchy_.count() - 1;
+    hierarchy_.start();
+    std::vector<Vector3> own_start;
+    for (std::size_t k = 0; k <= last; ++k) {
+      (void)relax(k, k == 0 ? std::min(limit, first_try) : limit);
+      if (k == 0 && limit > first_try && unfinished()) {
+        if (lost()) hierarchy_.forget_shape();
+        (void)relax(k, limit);
+      }
+      if (k > 0 && unfinished() && lost()) try_own_start(k, own_start, limit);
+      if (k == last) break;
+      own_start = hierarchy_.net(k + 1).positions;
+      update_directions(hierarchy_.net(k), model_, team_);
+      hierarchy_.prolong_from(k);
+    }
+  }
+
+  /// A level too coarse for the shape to have an equilibrium hands up what is no help: then the start itself may be
+  /// one. The better of both stays.
+  void try_own_start(std::size_t level, std::vector<Vector3> start, int limit) {
+    Net& net = hierarchy_.net(level);
+    const double residual = report_.residual;
+    const Outcome outcome = report_.outcome;
+    std::swap(net.positions, start);
+    (void)relax(level, limit);
+    if (!unfinished() || report_.residual < residual) return;
+    net.positions = std::move(start);
+    report_.outcome = outcome;
+    report_.residual = residual;
+    report_.expected_error = residual;
+  }
+
+  [[nodiscard]] bool lost() const { return !(report_.residual < lost_at); }
+
+  /// False where displacements are so large that corrections cannot be within the tolerance: as displacements of an
+  /// equilibrium that is off by one correction they are at most a few times as large.
+  bool may_be_there(Net& net) {
+    model_.prepare(net);
+    update_directions(net, model_, team_);
+    std::vector<NodeForce> forces(net.moving);
+    parallel_ranges(team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      model_.find_forces(net, {begin, end}, forces);
+    });
+    const double greatest = greatest_displacement_ratio * options_.tolerance * size_;
+    return std::none_of(forces.begin(), forces.end(), [&](const NodeForce& force) {
+      return (force.spring + force.regularisation).squaredNorm() > greatest * greatest;
+    });
+  }
+
+  [[nodiscard]] bool unfinished() const {
+    return report_.outcome == Outcome::iteration_limit || report_.outcome == Outcome::stalled;
+  }
+
+  Outcome relax(std::size_t level, int max_iterations) {
+    const auto begin = Clock::now();
+    const std::size_t last = hierarchy_.count() - 1;
+    Net& net = hierarchy_.net(level);
+    const double share = static_cast<double>(net.moving) / static_cast<double>(hierarchy_.net(last).moving);
+    const auto preconditioner = hierarchy_.preconditioner(level);
+    EquilibriumTask task;
+    task.tolerance = options_.tolerance * size_ * (level == last ? 1 : coarse_share);
+    task.max_iterations = max_iterations;
+    task.on_iteration = [&](double expected) {
+      report_.history.push_back(expected / size_);
+      progress_.report("fairing", share / 2, static_cast<int>(report_.history.size()), expected / size_);
+    };
+    const EquilibriumResult result = go_to_equilibrium(net, model_, *preconditioner, task, team_, context_);
+    report_.iterations += result.iterations;
+    report_.levels.push_back({.moving_nodes = static_cast<Index>(net.moving),
+                              .iterations = result.iterations,
+                              .seconds = seconds_since(begin)});
+    report_.outcome = result.outcome;
+    report_.residual = result.expected_error / size_;
+    report_.expected_error = report_.residual;
+    return result.outcome;
+  }
+
+  Hierarchy& hierarchy_;
+  const Model& model_;
+  const FairOptions& options_;
+  double size_;
+  ThreadTeam& team_;
+  Context& context_;
+  ProgressReporter& progress_;
+  FairReport& report_;
+};
+
+}  // namespace
+
+void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
+                     Context& context, ProgressReporter& progress, FairReport& report) {
+  Run(hierarchy, model, options, team, context, progress, report).run();
+}
+
+}  // namespace vspring

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "base/progress.hpp"
+#include "base/threads.hpp"
+#include "solve/hierarchy.hpp"
+#include "spring/model.hpp"
+#include "vspring/fair.hpp"
+
+namespace vspring {
+
+/// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the shape is
+/// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history.
+void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
+                     Context& context, ProgressReporter& progress, FairReport& report);
+
+}  // namespace vspring

@@ -1,0 +1,121 @@
+#include "solve/surface_hierarchy.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "levels/surface_slide.hpp"
+#include "solve/bending_form.hpp"
+#include "solve/interpolation.hpp"
+#include "solve/surface_preconditioner.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Passes of means over the few nodes of the coarsest level, until they lie as on a soap film.
+constexpr int film_passes = 500;
+// Of nodes along the surface that was handed up. A step of less than this many edges is left to the solver.
+constexpr int slide_passes = 6;
+constexpr double worth_sliding = 0.5;
+constexpr double slide_reduction = 0.02;
+constexpr std::size_t nodes_per_task = 2048;
+// Moving nodes up to which Cholesky factors are faster than multigrid.
+constexpr std::size_t few_enough_to_factor = 3000;
+
+/// The mean of a node's neighbours.
+Vector3 mean_place(const Net& net, std::size_t i) {
+  Vector3 mean = Vector3::Zero();
+  double spokes = 0;
+  for (const Link link : net.rings.links(i)) {
+    if (!link.spoke()) continue;
+    mean += net.positions[link.node()];
+    spokes += 1;
+  }
+  return spokes > 0 ? Vector3(mean / spokes) : net.positions[i];
+}
+
+}  // namespace
+
+void SurfaceHierarchy::limit(std::size_t levels) {
+  if (levels < levels_.size()) levels_.erase(levels_.begin(), levels_.end() - static_cast<std::ptrdiff_t>(levels));
+}
+
+std::unique_ptr<Preconditioner> SurfaceHierarchy::preconditioner(std::size_t level) {
+  interpolate(level);
+  return std::make_unique<SurfacePreconditioner>(levels_[level].net, interpolations_, *team_);
+}
+
+void SurfaceHierarchy::interpolate(std::size_t level) {
+  // Nodes that slide take their neighbours with them: shares hold for as long as the level is worked on.
+  if (interpolated_ == level) return;
+  interpolated_ = level;
+  interpolations_.clear();
+  std::vector<Vector3> positions = levels_[level].net.positions;
+  for (std::size_t k = level; k > 0 && levels_[k].net.moving > few_enough_to_factor; --k) {
+    const SurfaceLevel& coarse = levels_[k - 1];
+    interpolations_.push_back(interpolation(levels_[k].net, positions, coarse.net, coarse.finer, *team_));
+    std::vector<Vector3> kept;
+    kept.reserve(coarse.finer.size());
+    for (const std::uint32_t i : coarse.finer) kept.push_back(positions[i]);
+    positions = std::move(kept);
+  }
+}
+
+void SurfaceHierarchy::start() {
+  for (std::size_t k = levels_.size(); k-- > 1;) {
+    const Net& fine = levels_[k].net;
+    SurfaceLevel& coarse = levels_[k - 1];
+    // Only the finest level keeps a distribution: that of a coarse one may ask for faces that turn over.
+    coarse.net.shares.clear();
+    for (std::size_t i = 0; i < coarse.net.moving; ++i) {
+      const std::size_t at = coarse.finer[i];
+      coarse.net.positions[i] = 0.5 * (fine.positions[at] + mean_place(fine, at));
+    }
+  }
+}
+
+void SurfaceHierarchy::forget_shape() {
+  Net& net = levels_.front().net;
+  for (int pass = 0; pass < film_passes; ++pass) {
+    for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = mean_place(net, i);
+  }
+}
+
+void SurfaceHierarchy::prolong_from(std::size_t level) {
+  prolong(levels_[level], levels_[level + 1], *team_);
+  interpolated_.reset();
+  spread_along(level + 1);
+}
+
+void SurfaceHierarchy::spread_along(std::size_t level) {
+  Net& net = levels_[level].net;
+  interpolate(level);
+  const auto solver = linear_solver(interpolations_, slide_reduction, *team_);
+  solver->build(spreading_form(net, *team_));
+  std::vector<NodeForce> forces(net.moving);
+  std::vector<Vector3> steps(net.moving);
+  Eigen::MatrixXd values(static_cast<Eigen::Index>(net.moving), 3);
+  for (int pass = 0; pass < slide_passes; ++pass) {
+    parallel_ranges(*team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        forces[i] = node_force(i, net.rings.links(i), net.positions, net.normals, net.shares_of(i), net.tiny);
+        const auto links = net.rings.links(i);
+        const auto spokes = std::count_if(links.begin(), links.end(), [](Link link) { return link.spoke(); });
+        values.row(static_cast<Eigen::Index>(i)) = static_cast<double>(spokes) * forces[i].regularisation.transpose();
+      }
+    });
+    solver->solve(values);
+    bool worth_it = false;
+    for (std::size_t i = 0; i < net.moving; ++i) {
+      const Vector3 step = values.row(static_cast<Eigen::Index>(i)).transpose();
+      steps[i] = step - step.dot(net.normals[i]) * net.normals[i];
+      worth_it = worth_it || steps[i].norm() > worth_sliding * forces[i].mean_edge;
+    }
+    if (!worth_it) break;
+    slide(net, steps, *team_);
+  }
+}
+
+}  // namespace vspring

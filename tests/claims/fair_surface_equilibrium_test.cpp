@@ -1,0 +1,272 @@
+// What going to the equilibrium of a surface is claimed to do.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "vspring/vspring.hpp"
+
+namespace vspring {
+namespace {
+
+using generate::Faces;
+
+constexpr double degree = std::numbers::pi / 180;
+
+FairOptions to_equilibrium(double tolerance = 1e-5) {
+  FairOptions options;
+  options.method = Method::equilibrium;
+  options.tolerance = tolerance;
+  return options;
+}
+
+Constraints boundary_on_sphere(const PolygonMesh& mesh, bool normals = true) {
+  Constraints constraints(mesh.node_count());
+  fix_boundary_positions(constraints, mesh);
+  for (Index i = 0; i < mesh.node_count() && normals; ++i) {
+    if (constraints.position_fixed(i)) constraints.fix_normal(i, mesh.position(i));
+  }
+  return constraints;
+}
+
+double distance_from_unit_sphere(const std::vector<Vector3>& positions) {
+  double greatest = 0;
+  for (const Vector3& position : positions) greatest = std::max(greatest, std::abs(position.norm() - 1));
+  return greatest;
+}
+
+double greatest_distance(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
+  double greatest = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
+  return greatest;
+}
+
+double diagonal(const PolygonMesh& mesh) {
+  Eigen::AlignedBox<double, 3> box;
+  for (const Vector3& position : mesh.positions()) box.extend(position);
+  return box.diagonal().norm();
+}
+
+PolygonMesh with_positions(PolygonMesh mesh, std::vector<Vector3> positions) {
+  mesh.set_positions(std::move(positions));
+  return mesh;
+}
+
+/// What the rim of a cap holds, flat, with noise. Angles along meridians become radii, so that nothing folds over.
+PolygonMesh flattened(const PolygonMesh& cap, double half_angle, double noise) {
+  std::vector<Vector3> flat = cap.positions();
+  for (Vector3& p : flat) {
+    const double radius = std::hypot(p.x(), p.y());
+    const double angle = std::atan2(radius, p.z()) / (half_angle * degree);
+    const double scale = radius > 0 ? angle * std::sin(half_angle * degree) / radius : 0;
+    p = Vector3(scale * p.x(), scale * p.y(), std::cos(half_angle * degree));
+  }
+  return generate::add_noise(with_positions(cap, flat), noise, 5);
+}
+
+/// Boundary positions and the normals that the mesh has there.
+Constraints held_boundary(const PolygonMesh& mesh) {
+  Constraints constraints(mesh.node_count());
+  fix_boundary_positions(constraints, mesh);
+  fix_boundary_normals(constraints, mesh);
+  return constraints;
+}
+
+TEST(SurfaceEquilibrium, AFlatDiscWithNoiseBecomesTheSphereThatItsRimAsksFor) {
+  for (const Index nodes : {100, 1000, 10000}) {
+    SCOPED_TRACE(nodes);
+    const PolygonMesh cap = generate::cap({.nodes = nodes, .half_angle = 60, .jitter = 0.3});
+    const FairResult result = fair(flattened(cap, 60, 0.02), boundary_on_sphere(cap), to_equilibrium(1e-12));
+    EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-10);
+    EXPECT_LE(result.report.levels.back().iterations, 40);
+  }
+}
+
+TEST(SurfaceEquilibrium, SoDoesEveryKindOfFace) {
+  for (const Faces faces : {Faces::triangles, Faces::quads, Faces::mixed, Faces::hexagons}) {
+    for (const double jitter : {0.0, 0.3}) {
+      SCOPED_TRACE(fmt::format("{}, jitter {}", static_cast<int>(faces), jitter));
+      const PolygonMesh patch =
+          generate::sphere_patch({.columns = 32, .rows = 32, .faces = faces, .jitter = jitter}, 1, 80);
+      const Constraints constraints = boundary_on_sphere(patch);
+      std::vector<Vector3> flat = patch.positions();
+      for (Index i = 0; i < patch.node_count(); ++i) {
+        if (!constraints.position_fixed(i)) flat[static_cast<std::size_t>(i)].z() = 0.7;
+      }
+      const PolygonMesh start = generate::add_noise(with_positions(patch, flat), 0.02, 3);
+      const FairResult result = fair(start, constraints, to_equilibrium(1e-12));
+      EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-10);
+      EXPECT_LE(result.report.levels.back().iterations, 60);
+    }
+  }
+}
+
+TEST(SurfaceEquilibrium, IterationsHardlyGrowWithTheNodes) {
+  for (const Index nodes : {100, 1000, 10000}) {
+    SCOPED_TRACE(nodes);
+    const PolygonMesh cap = generate::cap({.nodes = nodes, .half_angle = 60});
+    const FairResult result = fair(flattened(cap, 60, 0.02), boundary_on_sphere(cap), to_equilibrium());
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_LE(result.report.levels.back().iterations, 7);
+    EXPECT_LT(distance_from_unit_sphere(result.positions), 2e-5);
+  }
+}
+
+TEST(SurfaceEquilibrium, KeepsTheDistributionOfTheNodes) {
+  const PolygonMesh cap = generate::cap({.nodes = 3000, .half_angle = 60, .jitter = 0.4});
+  FairOptions options = to_equilibrium(1e-10);
+  options.distribution = Distribution::keep;
+  const FairResult result = fair(flattened(cap, 60, 0), boundary_on_sphere(cap), options);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-8);
+}
+
+TEST(SurfaceEquilibrium, CapsOfMoreThanHalfASphere) {
+  for (const double half_angle : {30.0, 90.0, 105.0, 120.0}) {
+    SCOPED_TRACE(half_angle);
+    const PolygonMesh cap = generate::cap({.nodes = 2000, .half_angle = half_angle});
+    const FairResult result = fair(flattened(cap, half_angle, 0.01), boundary_on_sphere(cap), to_equilibrium(1e-10));
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-8);
+  }
+}
+
+TEST(SurfaceEquilibrium, ABoundaryWithoutNormalsIsFlatAndOneNormalTiltsTheMiddle) {
+  const PolygonMesh disc = generate::flat_disc({.nodes = 1000, .jitter = 0.3});
+  Constraints constraints = boundary_on_sphere(disc, false);
+  const PolygonMesh noisy = generate::add_noise(disc, 0.05, 5);
+  const FairResult flat = fair(noisy, constraints, to_equilibrium(1e-10));
+  EXPECT_EQ(flat.report.outcome, Outcome::converged);
+  for (const Vector3& p : flat.positions) EXPECT_NEAR(p.z(), 0, 1e-8);
+
+  // Node 0 is the centre.
+  constraints.fix_normal(0, Vector3(0.3, 0, 1));
+  const FairResult tilted = fair(noisy, constraints, to_equilibrium(1e-8));
+  EXPECT_EQ(tilted.report.outcome, Outcome::converged);
+  double highest = 0;
+  for (const Vector3& p : tilted.positions) highest = std::max(highest, std::abs(p.z()));
+  EXPECT_GT(highest, 0.005);
+  EXPECT_LT(highest, 0.5);
+}
+
+TEST(SurfaceEquilibrium, DoesNotDependOnTheStart) {
+  const PolygonMesh funnel = generate::funnel(600);
+  const Constraints constraints = held_boundary(funnel);
+  const FairResult expected = fair(funnel, constraints, to_equilibrium(1e-11));
+  ASSERT_EQ(expected.report.outcome, Outcome::converged);
+  std::vector<PolygonMesh> starts;
+  for (const double noise : {0.05, 0.3, 1.0}) starts.push_back(generate::add_noise(funnel, noise, 9));
+  std::vector<Vector3> bulged = funnel.positions();
+  for (Vector3& p : bulged) p.z() += 0.3 * std::sin(3 * p.x()) * p.y();
+  starts.push_back(with_positions(funnel, bulged));
+  starts.push_back(with_positions(
+      funnel, std::vector<Vector3>(static_cast<std::size_t>(funnel.node_count()), Vector3(0.2, 0.1, 0))));
+  for (std::size_t k = 0; k < starts.size(); ++k) {
+    SCOPED_TRACE(k);
+    const FairResult result = fair(starts[k], constraints, to_equilibrium(1e-11));
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_LT(greatest_distance(result.positions, expected.positions), 1e-8);
+  }
+}
+
+TEST(SurfaceEquilibrium, AFairShapeIsLeftAsItIs) {
+  const PolygonMesh funnel = generate::funnel(1000);
+  const Constraints constraints = held_boundary(funnel);
+  const FairResult once = fair(funnel, constraints, to_equilibrium(1e-10));
+  ASSERT_EQ(once.report.outcome, Outcome::converged);
+  const FairResult twice = fair(with_positions(funnel, once.positions), constraints, to_equilibrium(1e-5));
+  EXPECT_EQ(twice.report.iterations, 1);
+  EXPECT_LT(greatest_distance(once.positions, twice.positions), 1e-9);
+}
+
+TEST(SurfaceEquilibrium, ThreadsGiveTheSameBits) {
+  const PolygonMesh cap = generate::cap({.nodes = 6000, .half_angle = 70});
+  const PolygonMesh start = flattened(cap, 70, 0.02);
+  const auto run = [&](int threads) {
+    Context context;
+    context.threads = threads;
+    return fair(start, boundary_on_sphere(cap), to_equilibrium(), context);
+  };
+  const FairResult one = run(1);
+  for (const int threads : {2, 3}) {
+    const FairResult other = run(threads);
+    EXPECT_EQ(one.positions, other.positions);
+    EXPECT_EQ(one.report.history, other.report.history);
+  }
+}
+
+TEST(SurfaceEquilibrium, CanBeCancelled) {
+  const PolygonMesh cap = generate::cap({.nodes = 20000, .half_angle = 60});
+  const PolygonMesh start = flattened(cap, 60, 0.02);
+  Context before;
+  before.cancel();
+  const FairResult none = fair(start, boundary_on_sphere(cap), to_equilibrium(), before);
+  EXPECT_EQ(none.report.outcome, Outcome::cancelled);
+  EXPECT_LT(greatest_distance(none.positions, start.positions()), 1e-14);
+  Context amid;
+  amid.on_progress = [&](const Progress& progress) {
+    EXPECT_GE(progress.fraction, 0);
+    EXPECT_LE(progress.fraction, 1);
+    if (progress.iteration > 0) amid.cancel();
+  };
+  const FairResult some = fair(start, boundary_on_sphere(cap), to_equilibrium(), amid);
+  EXPECT_EQ(some.report.outcome, Outcome::cancelled);
+  for (const Vector3& p : some.positions) EXPECT_TRUE(p.allFinite());
+}
+
+TEST(SurfaceEquilibrium, TheExpectedErrorIsNotFarFromTheTrueOne) {
+  struct Case {
+    const char* name;
+    PolygonMesh mesh;
+  };
+  const PolygonMesh cap = generate::cap({.nodes = 1500, .half_angle = 60});
+  const Case cases[] = {{"cap", flattened(cap, 60, 0.02)},
+                        {"funnel", generate::funnel(1500)},
+                        {"annulus", generate::annulus({.nodes = 1500})},
+                        {"pipes", generate::pipe_blend({.cells = 6})}};
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.name);
+    const bool is_cap = one.mesh.node_count() == cap.node_count() && std::string(one.name) == "cap";
+    const Constraints constraints = is_cap ? boundary_on_sphere(cap) : held_boundary(one.mesh);
+    const FairResult truth = fair(one.mesh, constraints, to_equilibrium(1e-12));
+    for (const double tolerance : {1e-3, 1e-5}) {
+      const FairResult result = fair(one.mesh, constraints, to_equilibrium(tolerance));
+      ASSERT_EQ(result.report.outcome, Outcome::converged);
+      ASSERT_TRUE(result.report.expected_error.has_value());
+      EXPECT_LT(*result.report.expected_error, tolerance);
+      const double error = greatest_distance(result.positions, truth.positions) / diagonal(one.mesh);
+      EXPECT_LT(error, 3 * *result.report.expected_error);
+    }
+  }
+}
+
+TEST(SurfaceEquilibrium, ABumpOnASphereFairedAsARegionGoes) {
+  for (const Faces faces : {Faces::triangles, Faces::quads, Faces::mixed, Faces::hexagons}) {
+    SCOPED_TRACE(static_cast<int>(faces));
+    const PolygonMesh sphere =
+        generate::sphere_patch({.columns = 60, .rows = 60, .faces = faces, .jitter = 0.3}, 1, 90);
+    std::vector<Index> region;
+    std::vector<Vector3> bumped = sphere.positions();
+    for (Index i = 0; i < sphere.node_count(); ++i) {
+      const double from_pole = (sphere.position(i) - Vector3(0, 0, 1)).norm();
+      if (from_pole > 0.45) continue;
+      region.push_back(i);
+      bumped[static_cast<std::size_t>(i)] *= 1 + 0.3 * std::exp(-20 * from_pole * from_pole);
+    }
+    const PolygonMesh mesh = with_positions(sphere, bumped);
+    Constraints constraints(mesh.node_count());
+    restrict_to_region(constraints, mesh, region);
+    const FairResult result = fair(mesh, constraints, to_equilibrium(1e-11));
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-7);
+  }
+}
+
+}  // namespace
+}  // namespace vspring

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "choice.hpp"
 #include "fairing.hpp"
@@ -21,16 +22,18 @@ struct FairArguments : FairingArguments {
 };
 
 nlohmann::ordered_json scene_of(const PolygonMesh& before, const FairResult& result, const Constraints& constraints,
-                                const FairArguments& arguments) {
-  // A context of its own: one that was cancelled measures nothing.
-  Context context;
-  context.threads = arguments.threads;
+                                const Context& context) {
   PolygonMesh after = before;
   after.set_positions(result.positions);
-  const PageShape<PolygonMesh> shapes[] = {
-      {"before", &before, list_figures(measure_surface(before, &constraints, context))},
-      {"after", &after, list_figures(measure_surface(after, &constraints, context))}};
-  return scene_of(shapes, {.leading = 1, .reference = 0}, context);
+  std::vector<PageShape<PolygonMesh>> shapes;
+  const auto add = [&](const std::string& title, const PolygonMesh& mesh) {
+    if (context.cancelled()) return;
+    shapes.push_back({title, &mesh, list_figures(measure_surface(mesh, &constraints, context))});
+  };
+  add("before", before);
+  add("after", after);
+  if (context.cancelled()) return {};
+  return scene_of(std::span<const PageShape<PolygonMesh>>(shapes), {.leading = 1, .reference = 0}, context);
 }
 
 int run_fair(FairArguments arguments) {
@@ -47,8 +50,9 @@ int run_fair(FairArguments arguments) {
       warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
     return warnings;
   };
-  return fairing.finish(result.report, file.mesh.positions(), file.warnings,
-                        {.shape = write, .scene = [&] { return scene_of(file.mesh, result, constraints, arguments); }});
+  return fairing.finish(
+      result.report, file.mesh.positions(), file.warnings,
+      {.shape = write, .scene = [&] { return scene_of(file.mesh, result, constraints, fairing.context()); }});
 }
 
 const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNormals::link},

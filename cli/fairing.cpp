@@ -112,23 +112,33 @@ int Fairing::finish(const FairReport& report, const std::vector<Vector3>& before
                     const Writers& writers) {
   bar_.clear();
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
+  nlohmann::ordered_json json;
   {
     const UninterruptedWhileWriting guard;
     for (std::string& warning : writers.shape()) warnings.push_back(std::move(warning));
-    if (!arguments_->report.empty() || !arguments_->html.empty()) {
-      auto json = to_json(report);
-      json["warnings"] = warnings;
-      json["input"] = arguments_->input;
-      json["output"] = arguments_->output;
-      if (!arguments_->report.empty()) write_file(arguments_->report, json.dump(2) + "\n");
-      if (!arguments_->html.empty())
-        write_html_page(arguments_->html, "vspring: " + arguments_->input, json, writers.scene());
-    }
+    json = to_json(report);
+    json["warnings"] = warnings;
+    json["input"] = arguments_->input;
+    json["output"] = arguments_->output;
+    if (!arguments_->report.empty()) write_file(arguments_->report, json.dump(2) + "\n");
   }
+  const bool complete = arguments_->html.empty() || write_page(json, writers);
+  if (!complete) warnings.push_back(arguments_->html + ": not written, as the run was interrupted");
   for (const std::string& warning : warnings) (void)errors_.write(errors_.yellow("warning: ") + warning + "\n");
   if (!arguments_->quiet && !messages_.write(summary(report, diagonal_of(before), messages_)))
     throw Error(ErrorCode::unusable_file, "standard output: takes no more; the shape is written nonetheless");
-  return exit_status(report.outcome);
+  return complete ? exit_status(report.outcome) : exit_interrupted;
+}
+
+bool Fairing::write_page(const nlohmann::ordered_json& report, const Writers& writers) const {
+  if (context_.cancelled()) return false;
+  const nlohmann::ordered_json scene = writers.scene();
+  if (context_.cancelled()) return false;
+  const std::string page = html_page("vspring: " + arguments_->input, report, scene);
+  if (context_.cancelled()) return false;
+  const UninterruptedWhileWriting guard;
+  write_file(arguments_->html, page);
+  return true;
 }
 
 }  // namespace vspring::cli

@@ -28,15 +28,20 @@ class Fairing {
   struct Writers {
     /// Writes all but report and page, and returns warnings.
     std::function<std::vector<std::string>()> shape;
-    /// The scene of the page, see scene_of(); asked for with --html only.
+    /// The scene of the page, see scene_of(); asked for with --html only. What it returns once the context is cancelled
+    /// is not used.
     std::function<nlohmann::ordered_json()> scene;
   };
 
-  /// Writes the files, says what happened, and returns the exit status. before: the nodes of the input.
+  /// Writes the files, says what happened, and returns the exit status. before: the nodes of the input. A run that was
+  /// interrupted gets no page: it takes long to measure what a large one shows.
   int finish(const FairReport& report, const std::vector<Vector3>& before, std::vector<std::string> warnings,
              const Writers& writers);
 
  private:
+  /// Returns whether the page was written.
+  bool write_page(const nlohmann::ordered_json& report, const Writers& writers) const;
+
   const FairingArguments* arguments_;
   // What people read goes to standard output unless the shape itself goes there.
   Terminal errors_;

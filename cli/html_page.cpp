@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "page_template.hpp"
-#include "vspring/output_file.hpp"
 
 namespace vspring::cli {
 
@@ -39,8 +38,8 @@ std::string in_markup(std::string_view text) {
 
 }  // namespace
 
-void write_html_page(const std::string& path, const std::string& title, const nlohmann::ordered_json& report,
-                     const nlohmann::ordered_json& scene) {
+std::string html_page(const std::string& title, const nlohmann::ordered_json& report,
+                      const nlohmann::ordered_json& scene) {
   const std::pair<std::string_view, std::string> parts[] = {
       {"@TITLE@", in_markup(title)}, {"@FIGURES@", in_script(report)}, {"@SCENE@", in_script(scene)}};
   std::string page;
@@ -60,7 +59,7 @@ void write_html_page(const std::string& path, const std::string& title, const nl
     page += text;
     rest.remove_prefix(taken.size());
   }
-  write_file(path, page);
+  return page;
 }
 
 }  // namespace vspring::cli

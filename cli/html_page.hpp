@@ -5,9 +5,9 @@
 
 namespace vspring::cli {
 
-/// Writes a page to look at offline, one file without anything from outside. report: what --report writes, which the
-/// page carries too. scene: see scene_of().
-void write_html_page(const std::string& path, const std::string& title, const nlohmann::ordered_json& report,
-                     const nlohmann::ordered_json& scene);
+/// A page to look at offline, without anything from outside. report: what --report writes, which the page carries too.
+/// scene: see scene_of().
+[[nodiscard]] std::string html_page(const std::string& title, const nlohmann::ordered_json& report,
+                                    const nlohmann::ordered_json& scene);
 
 }  // namespace vspring::cli

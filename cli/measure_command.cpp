@@ -16,6 +16,7 @@
 #include "html_page.hpp"
 #include "measure_table.hpp"
 #include "page_scene.hpp"
+#include "signals.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::cli {
@@ -67,6 +68,11 @@ Json definitions_of(const std::vector<Figure>& figures) {
   for (const Figure& figure : figures)
     json[std::string(figure.key)] = {{"name", figure.name}, {"unit", figure.unit}, {"definition", figure.definition}};
   return json;
+}
+
+void write_whole(const std::string& path, const std::string& bytes) {
+  const UninterruptedWhileWriting guard;
+  write_file(path, bytes);
 }
 
 /// How far two shapes lie apart.
@@ -160,14 +166,14 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
     json["seconds"] = seconds.count();
     json["threads"] = context.thread_count();
     json["version"] = version();
-    if (!arguments.report.empty()) write_file(arguments.report, json.dump(2) + "\n");
+    if (!arguments.report.empty()) write_whole(arguments.report, json.dump(2) + "\n");
     if (!arguments.html.empty()) {
       using Shape = std::remove_cvref_t<decltype(shape_of(file))>;
       std::vector<PageShape<Shape>> shapes = {{columns[0].title, &shape_of(file), columns[0].figures}};
       if (other) shapes.push_back({columns[1].title, &shape_of(*other), columns[1].figures});
       const PageRoles roles = {.leading = 0, .reference = other ? std::optional(1) : std::nullopt};
-      write_html_page(arguments.html, "vspring: " + arguments.input, json,
-                      scene_of(std::span<const PageShape<Shape>>(shapes), roles, context));
+      write_whole(arguments.html, html_page("vspring: " + arguments.input, json,
+                                            scene_of(std::span<const PageShape<Shape>>(shapes), roles, context)));
     }
   }
   const Terminal errors(2, arguments.colour);

@@ -184,6 +184,7 @@ Json scene_of(std::span<const PageShape<PolygonMesh>> shapes, const PageRoles& r
   json["view"] = to_json(rows);
   json["shapes"] = Json::array();
   for (const auto& shape : shapes) {
+    if (context.cancelled()) return {};
     // D is the shape's own, as in its figures.
     Frame own;
     own.add(*shape.shape);

@@ -26,7 +26,7 @@ struct PageRoles {
 };
 
 /// The shapes as page/data.js reads them. All are moved and scaled together into a box of side 1 about the origin;
-/// faces and chains leave out what has no finite coordinates.
+/// faces and chains leave out what has no finite coordinates. Once cancelled, what they return is of no use.
 [[nodiscard]] nlohmann::ordered_json scene_of(std::span<const PageShape<PolygonMesh>> shapes, const PageRoles& roles,
                                               const Context& context);
 [[nodiscard]] nlohmann::ordered_json scene_of(std::span<const PageShape<PolygonCurve>> shapes, const PageRoles& roles,

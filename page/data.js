@@ -1,4 +1,4 @@
-// What the program put into the page: see cli/page_data.cpp for the encodings.
+// What the program put into the page: see cli/page_bytes.cpp for the encodings.
 
 export function jsonOf(id) {
   return JSON.parse(document.getElementById(id).textContent);

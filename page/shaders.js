@@ -8,11 +8,13 @@ uniform float lift;  // of lines towards the eye, so that the faces at them do n
 in vec3 position;
 in vec3 normal;
 in float value;
+out vec3 place;
 out vec3 facing;
 out float height;
 void main() {
   vec3 seen = turn * (position - middle);
   gl_Position = vec4(seen.xy * scale, -0.2 * (seen.z + lift), 1.0);
+  place = seen;
   facing = turn * normal;
   height = value;
 }`;
@@ -24,6 +26,7 @@ uniform int kind;
 uniform vec3 colour;
 uniform vec3 stops[9];
 uniform vec2 range;
+in vec3 place;
 in vec3 facing;
 in float height;
 out vec4 result;
@@ -36,7 +39,8 @@ vec3 colour_of(float share) {
 
 void main() {
   vec3 n = normalize(facing);
-  if (n.z < 0.0) n = -n;  // a surface is seen from both sides
+  // A surface is seen from both sides: the normal is on that of the face that is seen.
+  if (dot(n, cross(dFdx(place), dFdy(place))) < 0.0) n = -n;
   if (kind == 0) {
     result = vec4(colour, 1.0);
   } else if (kind == 1) {

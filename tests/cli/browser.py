@@ -93,13 +93,18 @@ class Browser:
             self.requests.append(detail["request"]["url"])
 
     def open(self, path):
-        self.loaded = False
+        """Shows a file; complaints and requests are those since then."""
+        self.loaded, self.faults, self.requests = False, [], []
         self.call("Page.navigate", url=path.as_uri())
         begin = time.monotonic()
         while not self.loaded:
             self.receive()
             if time.monotonic() - begin > 180:
                 raise RuntimeError("the page does not load")
+        self.settle()
+
+    def theme(self, name):
+        self.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": name}])
         self.settle()
 
     def evaluate(self, expression):
@@ -146,16 +151,35 @@ class Browser:
         if selector is None:
             return base64.b64decode(self.call("Page.captureScreenshot", captureBeyondViewport=True)["data"])
         self.place(selector)
+        # Whole pixels: a picture of parts of them would be blurred.
         box = self.evaluate(f"(() => {{ const b = document.querySelector({json.dumps(selector)}).getBoundingClientRect();"
-                            "return {x: b.x + scrollX, y: b.y + scrollY, width: b.width, height: b.height, scale: 1}; })()")
-        return base64.b64decode(self.call("Page.captureScreenshot", clip=box)["data"])
+                            "const [x, y, width, height] = [b.x + scrollX, b.y + scrollY, b.width, b.height].map(Math.round);"
+                            "return {x, y, width, height, scale: 1}; })()")
+        return base64.b64decode(self.call("Page.captureScreenshot", clip=box, optimizeForSpeed=True)["data"])
 
     def pixels(self, selector):
         return pixels_of(self.screenshot(selector))
 
 
+class Picture(list):
+    """Pixels as tuples of red, green and blue, row by row."""
+
+    def __init__(self, width):
+        super().__init__()
+        self.width = width
+
+    @property
+    def height(self):
+        return len(self) // self.width
+
+    def around(self, x, y):
+        """The nine pixels at a place in pixels."""
+        column, row = int(x), int(y)
+        return [self[k * self.width + i] for k in range(row - 1, row + 2) for i in range(column - 1, column + 2)]
+
+
 def pixels_of(png):
-    """The pixels of a PNG of eight bits a channel, as a list of tuples."""
+    """The picture of a PNG of eight bits a channel."""
     at, data, header = 8, b"", None
     while at < len(png):
         length, kind = struct.unpack(">I4s", png[at:at + 8])
@@ -166,7 +190,7 @@ def pixels_of(png):
             data += body
         at += length + 12
     width, height, channels = header[0], header[1], {2: 3, 6: 4}[header[3]]
-    raw, stride, last, pixels = zlib.decompress(data), width * channels, bytes(width * channels), []
+    raw, stride, last, pixels = zlib.decompress(data), width * channels, bytes(width * channels), Picture(width)
     for row in range(height):
         kind, line = raw[row * (stride + 1)], bytearray(raw[row * (stride + 1) + 1:(row + 1) * (stride + 1)])
         for i in range(stride):

@@ -5,13 +5,21 @@ import re
 
 import browser
 import support
-from support import Case, OCTAHEDRON, grid, hat, run
+from support import Case, OCTAHEDRON, grid, hat, run, vertex_lines
 
 
 def arc(count=60, noise=0.01):
     return "x,y\n" + "".join(
         f"{(1 + noise * math.sin(7 * k)) * math.cos(2 * k / count):.17g},{(1 + noise * math.sin(7 * k)) * math.sin(2 * k / count):.17g}\n"
         for k in range(count))
+
+
+def flat(x, y):
+    return 0
+
+
+def nodes_of(text):
+    return [tuple(map(float, line.split()[1:])) for line in vertex_lines(text)]
 
 
 def block(page, name):
@@ -112,10 +120,14 @@ class File(Html):
 
 @support.unittest.skipUnless(browser.PROGRAM, "chromium is not installed")
 class Page(Html):
+    @classmethod
+    def setUpClass(cls):
+        cls.shared = browser.Browser()
+        cls.addClassCleanup(cls.shared.close)
+
     def show(self, *arguments, **options):
-        self.make(*arguments, **options)
-        self.browser = browser.Browser()
-        self.addCleanup(self.browser.close)
+        self.text = self.make(*arguments, **options)
+        self.browser = self.shared
         self.browser.open(self.folder / "page.html")
         return self.browser
 
@@ -146,12 +158,15 @@ class Page(Html):
         page = self.show("fair", self.write("in.obj", grid(24)), "-o", self.folder / "out.obj", "--max-iterations", "200")
         modes = ("shaded", "wire", "zebra", "mean", "gaussian", "deviation")
         after = {mode: self.show_mode(mode) for mode in modes}
+        bare = after["shaded"][0]
+        surface = [k for k, p in enumerate(after["shaded"]) if p != bare]
+        self.assertGreater(len(surface), 0.15 * len(after["shaded"]))
         for first in modes:
             for second in modes[:modes.index(first)]:
-                self.assertGreater(self.changed(after[first], after[second]), 0.05, (first, second))
+                share = self.changed([after[first][k] for k in surface], [after[second][k] for k in surface])
+                self.assertGreater(share, 0.5, (first, second))
         # Reflection lines are black and white; colours are colours; the ground stays.
         grey = lambda p: max(p) - min(p) < 12
-        bare = after["shaded"][0]
         self.assertTrue(all(grey(p) for p in after["zebra"]))
         self.assertGreater(sum(max(p) < 60 for p in after["zebra"]), 1000)
         self.assertGreater(sum(min(p) > 150 and p != bare for p in after["zebra"]), 1000)
@@ -164,11 +179,92 @@ class Page(Html):
         for mode in modes:
             self.assertGreater(self.changed(after[mode], self.show_mode(mode)), 0.02, mode)
 
-    def test_wire_shows_all_edges(self):
-        self.show("measure", self.write("in.obj", grid(6).replace("0.3", "0")))
-        pixels = self.show_mode("wire")
-        ink = sum(max(p) < 200 for p in pixels) / len(pixels)
-        self.assertGreater(ink, 0.015)
+    def place_of(self, nodes, picture):
+        """Takes points to where they are in the picture of a shape of these nodes: all of it is in view, from its side."""
+        rows = block(self.text, "scene")["view"]
+        low, high = ([end(part) for part in zip(*nodes)] for end in (min, max))
+        side = max(b - a for a, b in zip(low, high))
+        along = lambda row, point: sum(r * (p - (a + b) / 2) / side for r, p, a, b in zip(row, point, low, high))
+        across, up = (2.2 * max(abs(along(row, node)) for node in nodes) for row in rows[:2])
+        scale = min(picture.width / across, picture.height / up)
+        return lambda point: (picture.width / 2 + scale * along(rows[0], point), picture.height / 2 - scale * along(rows[1], point))
+
+    def check_wire(self, text, seen_count):
+        """Shows a mesh with and without wire. Edges are where they belong and those behind faces are not seen."""
+        self.show("measure", self.write("in.obj", text))
+        shaded, wire = self.show_mode("shaded"), self.show_mode("wire")
+        bare = shaded[0]
+        nodes = nodes_of(text)
+        faces = [[nodes[int(part) - 1] for part in line.split()[1:]] for line in text.splitlines() if line.startswith("f ")]
+        place = self.place_of(nodes, wire)
+
+        def towards_the_eye(face):
+            (ax, ay), (bx, by), (cx, cy) = map(place, face)
+            return (bx - ax) * (cy - ay) - (cx - ax) * (by - ay) < 0
+
+        edges = lambda some: {tuple(sorted((face[k - 1], face[k]))) for face in some for k in range(3)}
+        seen = list(filter(towards_the_eye, faces))
+        self.assertEqual(len(seen), seen_count)
+        for a, b in edges(faces):
+            for t in (0.3, 0.5, 0.7):
+                ink = min(map(max, wire.around(*place([p + t * (q - p) for p, q in zip(a, b)]))))
+                (self.assertLess if (a, b) in edges(seen) else self.assertGreater)(ink, 180, (a, b, t))
+        # Between edges faces are as the ground.
+        for face in seen:
+            self.assertEqual(set(wire.around(*place([sum(parts) / 3 for parts in zip(*face)]))), {bare})
+        # Every pixel of the shape is another one; beside it there is nothing.
+        changed = [k for k, (p, q) in enumerate(zip(shaded, wire)) if p != q]
+        surface = [k for k, p in enumerate(shaded) if p != bare]
+        self.assertGreater(len(surface), 0.15 * len(shaded))
+        self.assertTrue(set(surface) <= set(changed))
+        for k in set(changed) - set(surface):
+            self.assertNotEqual(set(shaded.around(k % shaded.width, k // shaded.width)), {bare})
+        return shaded
+
+    def test_wire_shows_every_edge(self):
+        shaded = self.check_wire(grid(6, flat), 72)
+        self.assertGreater(min(map(max, shaded)), 140)  # no edge is seen there
+
+    def test_wire_hides_what_is_behind(self):
+        self.check_wire(OCTAHEDRON, 4)
+
+    def test_colours_follow_gaussian_curvature(self):
+        """Violet where it is negative, orange where it is positive."""
+        height = lambda x, y: 1.2 * ((x - 0.5) ** 3 + (y - 0.5) ** 2 / 2)
+        text = grid(24, height)
+        self.show("measure", self.write("in.obj", text))
+        picture = self.show_mode("gaussian")
+        place = self.place_of(nodes_of(text), picture)
+        for x in (0.1, 0.2, 0.3, 0.7, 0.8, 0.9):
+            for y in (0.5, 0.8):
+                red, _, blue = picture.around(*place((x, y, height(x, y))))[4]
+                self.assertGreater((red - blue) * (x - 0.5), 0, (x, y))
+
+    def test_a_plane_is_of_one_colour(self):
+        self.show("measure", self.write("in.obj", grid(6, flat)))
+        colours = []
+        for mode in ("zebra", "mean", "gaussian"):
+            picture = self.show_mode(mode)
+            place = self.place_of(nodes_of(grid(6, flat)), picture)
+            inside = {picture.around(*place((x / 10, y / 10, 0)))[4] for x in range(1, 7) for y in range(3, 10)}
+            self.assertEqual(len(inside), 1, mode)
+            colours += inside
+        self.assertEqual(len(set(colours)), 3)
+
+    def test_both_themes(self):
+        page = self.show("fair", self.write("in.obj", grid(8)), "-o", self.folder / "out.obj")
+        self.addCleanup(page.theme, "")
+        grounds = {}
+        for theme in ("light", "dark"):
+            page.theme(theme)
+            panel = page.evaluate("getComputedStyle(document.getElementById('stage')).backgroundColor")
+            for mode in ("shaded", "wire"):
+                picture = self.show_mode(mode)
+                self.assertEqual(f"rgb({', '.join(map(str, picture[0]))})", panel)
+            # Edges stand out from the ground.
+            grounds[theme] = max(picture[0])
+            self.assertGreater(max(abs(max(p) - max(picture[0])) for p in picture), 120, theme)
+        self.assertGreater(grounds["light"], grounds["dark"] + 150)
 
     def test_the_legend(self):
         page = self.show("fair", self.write("in.obj", grid(10)), "-o", self.folder / "out.obj")
@@ -230,6 +326,23 @@ class Page(Html):
         # Nodes of another mesh have no deviation node by node, be they as many.
         self.assertEqual(self.browser.evaluate("document.querySelectorAll('[value=deviation]').length"), 0)
 
+    def test_the_table_of_a_run_is_what_measuring_its_files_gives(self):
+        path, out = self.write("in.obj", grid(12)), self.folder / "out.obj"
+        self.show("fair", path, "-o", out)
+        fairness = self.read_json("report.json")["fairness"]
+        table = self.table()
+        self.assertEqual(run("measure", out, "--compare", path, "--fix", "boundary", "--quiet",
+                             "--report", self.folder / "measured.json").returncode, 0)
+        measured = self.read_json("measured.json")
+        columns = [measured["compared_with"]["figures"], measured["figures"]]
+        self.assertEqual(set(table), set(columns[0]))
+        self.assertLessEqual(set(fairness["before"]), set(table))
+        for key, shown in table.items():
+            for value, column, figures in zip(shown, ("before", "after"), columns, strict=True):
+                self.assertTrue(math.isclose(value, figures[key], rel_tol=1e-3, abs_tol=1e-300), (key, column))
+                if key in fairness[column]:
+                    self.assertTrue(math.isclose(value, fairness[column][key], rel_tol=1e-3, abs_tol=1e-300), (key, column))
+
     def test_charts_of_a_surface(self):
         self.show("fair", self.write("in.obj", grid(12)), "-o", self.folder / "out.obj")
         self.assertEqual(self.browser.evaluate("[...document.querySelectorAll('#charts figure')].map((f) => f.id)"),
@@ -257,7 +370,7 @@ class Page(Html):
         self.show("measure", self.write("in.csv", "0,0\n1,0\n"))
 
     def test_a_plane(self):
-        self.show("measure", self.write("in.obj", grid(2).replace("0.3", "0")))
+        self.show("measure", self.write("in.obj", grid(2, flat)))
 
 
 if __name__ == "__main__":

@@ -28,7 +28,7 @@ function addHistogram(parent, {id, title, x, of, sets}) {
   if (filled.length === 0) return;
   const outlines = filled.map(({values}) => outlineOf(values, x));
   const high = Math.max(...outlines.flat().map((point) => point[1]));
-  addChart(parent, {id, title, x, y: {label: `share of ${of}, %`, low: 0, high},
+  addChart(parent, {id, title, x, y: {label: `share of ${of}, %`, low: 0, high: 1.05 * high},
     series: filled.map(({name, style}, k) => ({name, style, lines: [outlines[k]]}))});
 }
 
@@ -41,7 +41,8 @@ function addHistory(parent, report) {
     y: {label: 'residual', low, high, log: true}, series: [{name: report.method, style: 'second', lines: [history]}]});
 }
 
-export function addSurfaceCharts(parent, shapes, report) {
+// leading: the shape whose curvature is shown all but whole.
+export function addSurfaceCharts(parent, shapes, leading, report) {
   const sets = (valuesOf) => shapes.map((shape, k) =>
     ({name: shape.title, style: styleOf(k, shapes.length), values: valuesOf(shape)}));
   const turns = shapes.flatMap((shape) => shape.turns);
@@ -49,10 +50,13 @@ export function addSurfaceCharts(parent, shapes, report) {
   const least = Math.max(low, high / 1e4, 1e-4);
   addHistogram(parent, {id: 'turns', title: 'Turns at edges', of: 'edges', sets: sets((shape) => shape.turns),
     x: {label: 'angle between the normals of two faces, degrees', low: least, high: Math.max(high, 2 * least), log: true}});
-  const [bottom, top] = quantiles(shapes.flatMap((shape) => Array.from(shape.mean)), [0.01, 0.99]);
+  // Creases of the others would leave no room for it.
+  const bounds = shapes.map(({mean}, k) => quantiles(mean, k === leading ? [0.005, 0.995] : [0.1, 0.9]));
+  const bottom = Math.min(...bounds.map((pair) => pair[0]));
+  const top = Math.max(...bounds.map((pair) => pair[1]));
   const half = Math.max((top - bottom) / 2, 1e-3);
   addHistogram(parent, {id: 'mean-curvature', title: 'Mean curvature', of: 'nodes', sets: sets((shape) => shape.mean),
-    x: {label: 'H × D', low: (top + bottom) / 2 - half, high: (top + bottom) / 2 + half}});
+    x: {label: 'H × D, the rest in the columns at the ends', low: (top + bottom) / 2 - half, high: (top + bottom) / 2 + half}});
   addHistory(parent, report);
 }
 

@@ -16,13 +16,12 @@ export function addChoice(form, name, title, choices, chosen, changed) {
   return inputs;
 }
 
-export function addSlider(form, id, text, {low, high, step, value}, changed) {
+export function addSlider(parent, id, text, {low, high, step, value}, changed) {
   const label = Object.assign(document.createElement('label'), {className: 'plain'});
   const input = Object.assign(document.createElement('input'), {type: 'range', id, min: low, max: high, step, value});
   input.addEventListener('input', () => changed(input.valueAsNumber));
   label.append(text, input);
-  form.append(label);
-  return label;
+  parent.append(label);
 }
 
 export function addSwitch(form, id, text, checked, changed) {

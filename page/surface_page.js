@@ -45,7 +45,7 @@ function showLegend(legend, field, range) {
 // Returns what draws the view, given the camera, and what goes on to the next shape.
 export function makeSurfacePage({canvas, form, legend, charts}, scene, report, redraw) {
   const shapes = scene.shapes.map(prepared);
-  addSurfaceCharts(charts, shapes, report);
+  addSurfaceCharts(charts, shapes, scene.leading, report);
   const fields = fieldsOf(shapes, scene);
   const view = new SurfaceView(canvas, shapes);
   const state = {shape: scene.leading, mode: 'shaded', spread: 1};
@@ -60,14 +60,12 @@ export function makeSurfacePage({canvas, form, legend, charts}, scene, report, r
   const shown = names.filter(([mode]) => mode !== 'deviation' || fields.deviation);
   addChoice(form, 'mode', 'Show', shown, state.mode, (mode) => {
     state.mode = mode;
-    slider.hidden = !fields[mode];
     redraw();
   });
-  const slider = addSlider(form, 'spread', 'Range of colours', {low: -3, high: 3, step: 0.1, value: 0}, (power) => {
+  addSlider(legend, 'spread', 'Range of colours', {low: -3, high: 3, step: 0.1, value: 0}, (power) => {
     state.spread = 2 ** power;
     redraw();
   });
-  slider.hidden = true;
   return {
     draw(camera) {
       const field = fields[state.mode];

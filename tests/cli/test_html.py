@@ -206,9 +206,16 @@ class Page(Html):
         seen = list(filter(towards_the_eye, faces))
         self.assertEqual(len(seen), seen_count)
         for a, b in edges(faces):
-            for t in (0.3, 0.5, 0.7):
-                ink = min(map(max, wire.around(*place([p + t * (q - p) for p, q in zip(a, b)]))))
-                (self.assertLess if (a, b) in edges(seen) else self.assertGreater)(ink, 180, (a, b, t))
+            ink = [min(map(max, wire.around(*place([p + k / 40 * (q - p) for p, q in zip(a, b)])))) for k in range(41)]
+            if (a, b) in edges(seen):
+                self.assertLess(max(ink), 200, (a, b))
+            else:
+                self.assertGreater(min(ink[12], ink[20], ink[28]), 200, (a, b))
+        # Lines are a pixel wide all along, but for those that nearly cover each other.
+        length = sum(math.dist(place(a), place(b)) for a, b in edges(seen))
+        black = min(map(max, wire))
+        drawn = sum((max(bare) - max(p)) / (max(bare) - black) for p in wire)
+        self.assertGreater(drawn, 0.75 * length)
         # Between edges faces are as the ground.
         for face in seen:
             self.assertEqual(set(wire.around(*place([sum(parts) / 3 for parts in zip(*face)]))), {bare})
@@ -255,15 +262,16 @@ class Page(Html):
         page = self.show("fair", self.write("in.obj", grid(8)), "-o", self.folder / "out.obj")
         self.addCleanup(page.theme, "")
         grounds = {}
-        for theme in ("light", "dark"):
-            page.theme(theme)
-            panel = page.evaluate("getComputedStyle(document.getElementById('stage')).backgroundColor")
-            for mode in ("shaded", "wire"):
-                picture = self.show_mode(mode)
+        for mode in ("shaded", "wire"):
+            self.show_mode(mode)
+            for theme in ("light", "dark"):
+                page.theme(theme)
+                panel = page.evaluate("getComputedStyle(document.getElementById('stage')).backgroundColor")
+                picture = page.pixels("#canvas")
                 self.assertEqual(f"rgb({', '.join(map(str, picture[0]))})", panel)
-            # Edges stand out from the ground.
-            grounds[theme] = max(picture[0])
-            self.assertGreater(max(abs(max(p) - max(picture[0])) for p in picture), 120, theme)
+                # The shape stands out from the ground.
+                grounds[theme] = max(picture[0])
+                self.assertGreater(max(abs(max(p) - max(picture[0])) for p in picture), 120, (mode, theme))
         self.assertGreater(grounds["light"], grounds["dark"] + 150)
 
     def test_the_legend(self):

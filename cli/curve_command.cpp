@@ -11,6 +11,7 @@
 #include "choice.hpp"
 #include "closed_chains.hpp"
 #include "fairing.hpp"
+#include "page_scene.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::cli {
@@ -30,12 +31,22 @@ void refuse_other_pictures(const std::string& path) {
     throw Error(ErrorCode::invalid_argument, path + ": pictures of curves are SVG; name it .svg");
 }
 
+/// start: what was faired, resampled where that was asked for, as the figures of the report are of it too.
+nlohmann::ordered_json scene_of(const PolygonCurve& start, const FairResult& result, const Constraints& constraints) {
+  PolygonCurve after = start;
+  after.set_positions(result.positions);
+  const PageShape<PolygonCurve> shapes[] = {{"before", &start, list_figures(measure_curve(start, &constraints))},
+                                            {"after", &after, list_figures(measure_curve(after, &constraints))}};
+  return scene_of(shapes, {.leading = 1, .reference = 0}, Context());
+}
+
 int run_curve(CurveArguments arguments) {
   if (arguments.paper) {
     arguments.options.curve = CurveRules::paper();
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
   refuse_other_pictures(arguments.picture);
+  refuse_shared_page(arguments, {{"--picture", arguments.picture}});
   Fairing fairing(arguments);
   CurveFile file = read_curve(arguments.input, arguments.format);
   std::vector<std::string> warnings = file.warnings;
@@ -56,14 +67,16 @@ int run_curve(CurveArguments arguments) {
     for (const Repeat& repeat : repeats)
       result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
   }
-  return fairing.finish(result.report, before.positions(), std::move(warnings), [&] {
+  const auto write = [&] {
     std::vector<std::string> lost_warnings;
     for (const std::string& lost : write_curve(arguments.output, file, result.positions, arguments.format))
       lost_warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
     if (!arguments.picture.empty())
       write_curve(arguments.picture, file, result.positions, CurveFormat::svg, {.before = &before});
     return lost_warnings;
-  });
+  };
+  return fairing.finish(result.report, before.positions(), std::move(warnings),
+                        {.shape = write, .scene = [&] { return scene_of(file.curve, result, constraints); }});
 }
 
 const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj},

@@ -6,9 +6,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "choice.hpp"
 #include "fairing.hpp"
+#include "page_scene.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::cli {
@@ -19,19 +21,38 @@ struct FairArguments : FairingArguments {
   std::optional<SurfaceFormat> format;
 };
 
+nlohmann::ordered_json scene_of(const PolygonMesh& before, const FairResult& result, const Constraints& constraints,
+                                const Context& context) {
+  PolygonMesh after = before;
+  after.set_positions(result.positions);
+  std::vector<PageShape<PolygonMesh>> shapes;
+  const auto add = [&](const std::string& title, const PolygonMesh& mesh) {
+    if (context.cancelled()) return;
+    shapes.push_back({title, &mesh, list_figures(measure_surface(mesh, &constraints, context))});
+  };
+  add("before", before);
+  add("after", after);
+  if (context.cancelled()) return {};
+  return scene_of(std::span<const PageShape<PolygonMesh>>(shapes), {.leading = 1, .reference = 0}, context);
+}
+
 int run_fair(FairArguments arguments) {
   if (arguments.paper) arguments.options.pseudo_normals = PseudoNormals::average;
+  refuse_shared_page(arguments);
   Fairing fairing(arguments);
   const SurfaceFile file = read_surface(arguments.input, arguments.format);
   const Constraints constraints =
       make_constraints(arguments, file.mesh, {.groups = &file.groups, .normals = &file.normals});
   const FairResult result = fair(file.mesh, constraints, arguments.options, fairing.context());
-  return fairing.finish(result.report, file.mesh.positions(), file.warnings, [&] {
+  const auto write = [&] {
     std::vector<std::string> warnings;
     for (const std::string& lost : write_surface(arguments.output, file, result.positions, arguments.format))
       warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
     return warnings;
-  });
+  };
+  return fairing.finish(
+      result.report, file.mesh.positions(), file.warnings,
+      {.shape = write, .scene = [&] { return scene_of(file.mesh, result, constraints, fairing.context()); }});
 }
 
 const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNormals::link},

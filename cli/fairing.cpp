@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "exit_status.hpp"
+#include "html_page.hpp"
 #include "report.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
@@ -71,6 +72,24 @@ Constraints constraints_of(const FairingArguments& arguments, const Shape& shape
 
 }  // namespace
 
+void refuse_shared_page(const FairingArguments& arguments,
+                        const std::vector<std::pair<std::string, std::string>>& others) {
+  const std::string& page = arguments.html;
+  if (page.empty()) return;
+  const auto refuse = [&](const std::string& option, const std::string& path, bool output) {
+    // Of standard streams, only two outputs are one.
+    if (path != page || (page == "-" && !output)) return;
+    throw Error(ErrorCode::invalid_argument, fmt::format("--html: {} is {} already; give the page a file of its own",
+                                                         page == "-" ? "standard output" : page, option));
+  };
+  refuse("the input", arguments.input, false);
+  refuse("--output", arguments.output, true);
+  refuse("--report", arguments.report, true);
+  refuse("--constraints", arguments.rules, false);
+  refuse("--region", arguments.region, false);
+  for (const auto& [option, path] : others) refuse(option, path, true);
+}
+
 Constraints make_constraints(const FairingArguments& arguments, const PolygonMesh& mesh, const RuleInput& input) {
   return constraints_of(arguments, mesh, input);
 }
@@ -82,7 +101,7 @@ Constraints make_constraints(const FairingArguments& arguments, const PolygonCur
 Fairing::Fairing(const FairingArguments& arguments)
     : arguments_(&arguments),
       errors_(2, arguments.colour),
-      messages_(arguments.output == "-" ? 2 : 1, arguments.colour),
+      messages_(arguments.output == "-" || arguments.html == "-" ? 2 : 1, arguments.colour),
       cancelling_(context_),
       bar_(errors_) {
   context_.threads = arguments.threads;
@@ -90,24 +109,36 @@ Fairing::Fairing(const FairingArguments& arguments)
 }
 
 int Fairing::finish(const FairReport& report, const std::vector<Vector3>& before, std::vector<std::string> warnings,
-                    const std::function<std::vector<std::string>()>& write) {
+                    const Writers& writers) {
   bar_.clear();
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
+  nlohmann::ordered_json json;
   {
     const UninterruptedWhileWriting guard;
-    for (std::string& warning : write()) warnings.push_back(std::move(warning));
-    if (!arguments_->report.empty()) {
-      auto json = to_json(report);
-      json["warnings"] = warnings;
-      json["input"] = arguments_->input;
-      json["output"] = arguments_->output;
-      write_file(arguments_->report, json.dump(2) + "\n");
-    }
+    for (std::string& warning : writers.shape()) warnings.push_back(std::move(warning));
+    json = to_json(report);
+    json["warnings"] = warnings;
+    json["input"] = arguments_->input;
+    json["output"] = arguments_->output;
+    if (!arguments_->report.empty()) write_file(arguments_->report, json.dump(2) + "\n");
   }
+  const bool complete = arguments_->html.empty() || write_page(json, writers);
+  if (!complete) warnings.push_back(arguments_->html + ": not written, as the run was interrupted");
   for (const std::string& warning : warnings) (void)errors_.write(errors_.yellow("warning: ") + warning + "\n");
   if (!arguments_->quiet && !messages_.write(summary(report, diagonal_of(before), messages_)))
     throw Error(ErrorCode::unusable_file, "standard output: takes no more; the shape is written nonetheless");
-  return exit_status(report.outcome);
+  return complete ? exit_status(report.outcome) : exit_interrupted;
+}
+
+bool Fairing::write_page(const nlohmann::ordered_json& report, const Writers& writers) const {
+  if (context_.cancelled()) return false;
+  const nlohmann::ordered_json scene = writers.scene();
+  if (context_.cancelled()) return false;
+  const std::string page = html_page("vspring: " + arguments_->input, report, scene);
+  if (context_.cancelled()) return false;
+  const UninterruptedWhileWriting guard;
+  write_file(arguments_->html, page);
+  return true;
 }
 
 }  // namespace vspring::cli

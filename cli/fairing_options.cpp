@@ -118,6 +118,11 @@ void add_run_options(CLI::App& command, FairingArguments& arguments) {
   command.add_option("--report", arguments.report, "Write what happened, JSON")
       ->type_name("FILE.json")
       ->group(run_group);
+  command
+      .add_option("--html", arguments.html,
+                  "Write a page to look at offline, one file: the shape to turn round, charts, figures")
+      ->type_name("OUT.html")
+      ->group(run_group);
   command.add_flag("--quiet", arguments.quiet, "No progress and no summary; warnings and errors stay (default: off)")
       ->group(run_group);
   add_choice(command, "--color", arguments.colour, colours,

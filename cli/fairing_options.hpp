@@ -22,6 +22,7 @@ struct FairingArguments {
   bool paper = false;
   int threads = 0;
   std::string report;
+  std::string html;
   bool quiet = false;
   Colour colour = Colour::automatic;
 };

@@ -13,7 +13,10 @@
 #include "closed_chains.hpp"
 #include "exit_status.hpp"
 #include "fairing.hpp"
+#include "html_page.hpp"
 #include "measure_table.hpp"
+#include "page_scene.hpp"
+#include "signals.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::cli {
@@ -65,6 +68,11 @@ Json definitions_of(const std::vector<Figure>& figures) {
   for (const Figure& figure : figures)
     json[std::string(figure.key)] = {{"name", figure.name}, {"unit", figure.unit}, {"definition", figure.definition}};
   return json;
+}
+
+void write_whole(const std::string& path, const std::string& bytes) {
+  const UninterruptedWhileWriting guard;
+  write_file(path, bytes);
 }
 
 /// How far two shapes lie apart.
@@ -141,7 +149,7 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
 
-  if (!arguments.report.empty()) {
+  if (!arguments.report.empty() || !arguments.html.empty()) {
     Json json = {{"shape", arguments.input}, {"kind", std::is_same_v<File, SurfaceFile> ? "surface" : "curve"}};
     json.update(counts_of(shape_of(file)));
     json["figures"] = to_json(columns.front().figures);
@@ -158,13 +166,21 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
     json["seconds"] = seconds.count();
     json["threads"] = context.thread_count();
     json["version"] = version();
-    write_file(arguments.report, json.dump(2) + "\n");
+    if (!arguments.report.empty()) write_whole(arguments.report, json.dump(2) + "\n");
+    if (!arguments.html.empty()) {
+      using Shape = std::remove_cvref_t<decltype(shape_of(file))>;
+      std::vector<PageShape<Shape>> shapes = {{columns[0].title, &shape_of(file), columns[0].figures}};
+      if (other) shapes.push_back({columns[1].title, &shape_of(*other), columns[1].figures});
+      const PageRoles roles = {.leading = 0, .reference = other ? std::optional(1) : std::nullopt};
+      write_whole(arguments.html, html_page("vspring: " + arguments.input, json,
+                                            scene_of(std::span<const PageShape<Shape>>(shapes), roles, context)));
+    }
   }
   const Terminal errors(2, arguments.colour);
   for (const std::string& warning : warnings) (void)errors.write(errors.yellow("warning: ") + warning + "\n");
   if (arguments.quiet) return exit_converged;
   // What people read goes to standard output unless the report itself goes there.
-  const Terminal messages(arguments.report == "-" ? 2 : 1, arguments.colour);
+  const Terminal messages(arguments.report == "-" || arguments.html == "-" ? 2 : 1, arguments.colour);
   const std::string text =
       figure_table(columns, messages) + (apart ? "\n" + distance_lines(*apart, messages) : std::string());
   if (!messages.write(text)) throw Error(ErrorCode::unusable_file, "standard output: takes no more");
@@ -172,6 +188,7 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
 }
 
 int run_measure(const MeasureArguments& arguments) {
+  refuse_shared_page(arguments, {{"--compare", arguments.compare}});
   AnyShape shape = read_shape(arguments.input, arguments.format, arguments.curve);
   std::optional<AnyShape> other;
   if (!arguments.compare.empty())

@@ -32,12 +32,16 @@ def hat(rings=4, sides=12):
     return "\n".join(lines) + "\n"
 
 
-def grid(size):
-    """A square of triangles with bumps, as OBJ."""
+def bumps(x, y):
+    return 0.3 * math.sin(9 * x) * math.sin(7 * y)
+
+
+def grid(size, height=bumps):
+    """A square of triangles with bumps or of another height, as OBJ."""
     lines = []
     for y in range(size + 1):
         for x in range(size + 1):
-            lines.append(f"v {x / size} {y / size} {0.3 * math.sin(9 * x / size) * math.sin(7 * y / size)}")
+            lines.append(f"v {x / size} {y / size} {height(x / size, y / size)}")
     for y in range(size):
         for x in range(size):
             a = y * (size + 1) + x + 1

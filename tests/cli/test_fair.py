@@ -166,6 +166,24 @@ class Fair(Case):
             self.assertEqual(len(vertex_lines((self.folder / "out.obj").read_text())), 121 * 121)
             self.assertEqual(self.files(), ["in.obj", "out.obj", "report.json"])
 
+    def test_ctrl_c_ends_measuring_for_the_page(self):
+        path, out, page = self.write("in.obj", grid(250)), self.folder / "out.obj", self.folder / "page.html"
+        process = subprocess.Popen([PROGRAM, "fair", path, "-o", out, "--max-iterations", "1", "--threads", "1", "--html", page,
+                                    "--report", self.folder / "report.json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        # The report is the last file before the page, of a shape that takes long to measure.
+        while not (self.folder / "report.json").exists():
+            self.assertIsNone(process.poll())
+            time.sleep(0.001)
+        process.send_signal(signal.SIGINT)
+        output, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        self.assertIn("page.html: not written", errors.decode())
+        self.assertIn("nodes", output.decode())
+        self.assertEqual(self.files(), ["in.obj", "out.obj", "report.json"])
+        self.assertEqual(len(vertex_lines(out.read_text())), 251 * 251)
+        self.assertEqual(run("measure", out, "--compare", path, "--html", page).returncode, 0)
+        self.assertTrue(page.read_text().endswith("</html>\n"))
+
     def test_version_and_help(self):
         self.assertRegex(run("--version").stdout.decode(), r"^vspring \d+\.\d+\.\d+\n$")
         text = run("fair", "--help").stdout.decode()

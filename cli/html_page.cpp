@@ -1,0 +1,65 @@
+#include "html_page.hpp"
+
+#include <string_view>
+#include <utility>
+
+#include "page_template.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+/// JSON that no name of a file or group can end early: "<" is written as an escape.
+std::string in_script(const nlohmann::ordered_json& json) {
+  const std::string text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  std::string safe;
+  safe.reserve(text.size());
+  for (const char c : text) {
+    if (c == '<')
+      safe += "\\u003c";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+std::string in_markup(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '<')
+      safe += "&lt;";
+    else if (c == '&')
+      safe += "&amp;";
+    else
+      safe += c;
+  }
+  return safe;
+}
+
+}  // namespace
+
+std::string html_page(const std::string& title, const nlohmann::ordered_json& report,
+                      const nlohmann::ordered_json& scene) {
+  const std::pair<std::string_view, std::string> parts[] = {
+      {"@TITLE@", in_markup(title)}, {"@FIGURES@", in_script(report)}, {"@SCENE@", in_script(scene)}};
+  std::string page;
+  // One pass, so that nothing that was filled in is taken for a place.
+  for (std::string_view rest = page_template; !rest.empty();) {
+    const std::size_t at = rest.find('@');
+    page += rest.substr(0, at);
+    if (at == std::string_view::npos) break;
+    rest.remove_prefix(at);
+    std::string_view taken = rest.substr(0, 1);
+    std::string_view text = taken;
+    for (const auto& [place, filling] : parts) {
+      if (!rest.starts_with(place)) continue;
+      taken = place;
+      text = filling;
+    }
+    page += text;
+    rest.remove_prefix(taken.size());
+  }
+  return page;
+}
+
+}  // namespace vspring::cli

@@ -1,0 +1,220 @@
+#include "page_scene.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "page_bytes.hpp"
+#include "vspring/curvature.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Box = Eigen::AlignedBox<double, 3>;
+
+/// Takes the box around all shapes to one of side 1. Halves keep coordinates near the end of their range from
+/// overflowing.
+class Frame {
+ public:
+  void add(const PolygonMesh& mesh) {
+    for (Index f = 0; f < mesh.face_count(); ++f) add(mesh.positions(), mesh.face(f));
+  }
+  void add(const PolygonCurve& curve) {
+    for (const PolygonCurve::Chain& chain : curve.chains()) add(curve.positions(), chain.nodes);
+  }
+
+  [[nodiscard]] double half_side() const {
+    const double side = box_.isEmpty() ? 0 : box_.sizes().maxCoeff();
+    return side > 0 ? side : 1;
+  }
+  [[nodiscard]] double side() const { return 2 * std::min(half_side(), std::numeric_limits<double>::max() / 2); }
+  [[nodiscard]] double diagonal() const { return box_.isEmpty() ? 0 : (box_.sizes() / half_side()).norm(); }
+
+  /// Nodes that no face or chain has may lie anywhere; they are not seen.
+  [[nodiscard]] std::vector<Vector3> inside(const std::vector<Vector3>& positions) const {
+    std::vector<Vector3> points(positions.size(), Vector3::Zero());
+    if (box_.isEmpty()) return points;
+    const Vector3 centre = box_.center();
+    for (std::size_t n = 0; n < positions.size(); ++n) {
+      if (positions[n].allFinite()) points[n] = (positions[n] / 2 - centre) / half_side();
+    }
+    return points;
+  }
+
+ private:
+  void add(const std::vector<Vector3>& positions, std::span<const Index> nodes) {
+    for (const Index node : nodes) {
+      const Vector3& position = positions[static_cast<std::size_t>(node)];
+      if (position.allFinite()) box_.extend(position / 2);
+    }
+  }
+
+  Box box_;
+};
+
+/// Key, texts, and the values of every shape, null where one lacks the figure.
+template <typename Shape>
+Json figures_of(std::span<const PageShape<Shape>> shapes) {
+  Json rows = Json::array();
+  for (const Figure& figure : shapes.front().figures) {
+    Json values = Json::array();
+    for (const PageShape<Shape>& shape : shapes) {
+      const auto found = std::find_if(shape.figures.begin(), shape.figures.end(),
+                                      [&](const Figure& other) { return other.key == figure.key; });
+      values.push_back(found == shape.figures.end() ? Json() : Json(found->value));
+    }
+    rows.push_back({{"key", figure.key},
+                    {"name", figure.name},
+                    {"unit", figure.unit},
+                    {"definition", figure.definition},
+                    {"whole", figure.whole},
+                    {"values", std::move(values)}});
+  }
+  return rows;
+}
+
+template <typename Shape>
+Json frame_of(std::span<const PageShape<Shape>> shapes, const PageRoles& roles, const Frame& frame) {
+  Json json;
+  json["figures"] = figures_of(shapes);
+  json["columns"] = Json::array();
+  for (const PageShape<Shape>& shape : shapes) json["columns"].push_back(shape.title);
+  json["leading"] = roles.leading;
+  json["reference"] = roles.reference ? Json(*roles.reference) : Json();
+  json["unit"] = frame.side();
+  json["size"] = std::max(frame.diagonal(), 1e-3);
+  return json;
+}
+
+Json to_json(const Eigen::Matrix3d& rows) {
+  Json json = Json::array();
+  for (Eigen::Index r = 0; r < 3; ++r) json.push_back({rows(r, 0), rows(r, 1), rows(r, 2)});
+  return json;
+}
+
+/// The number of nodes of every face, 0 where they differ.
+std::size_t common_length(const PolygonMesh& mesh) {
+  const std::size_t first = mesh.face_count() > 0 ? mesh.face(0).size() : 0;
+  for (Index f = 1; f < mesh.face_count(); ++f) {
+    if (mesh.face(f).size() != first) return 0;
+  }
+  return first;
+}
+
+Json shape_of(const PolygonMesh& mesh, const Frame& frame, double diagonal, const Context& context) {
+  const std::size_t length = common_length(mesh);
+  RunEncoder faces(length);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto nodes = mesh.face(f);
+    if (std::all_of(nodes.begin(), nodes.end(), [&](Index node) { return mesh.position(node).allFinite(); }))
+      faces.add(nodes);
+  }
+  std::vector<double> mean;
+  std::vector<double> gaussian;
+  const auto finite = [](double value) { return std::isfinite(value) ? value : 0; };
+  for (const NodeCurvature& curvature : curvatures(mesh, context)) {
+    mean.push_back(finite(curvature.mean() * diagonal));
+    gaussian.push_back(finite(curvature.gaussian() * diagonal * diagonal));
+  }
+  return {{"nodes", encode_coordinates(frame.inside(mesh.positions()))},
+          {"length", length},
+          {"runs", faces.take()},
+          {"mean", encode_halves(mean)},
+          {"gaussian", encode_halves(gaussian)}};
+}
+
+Json shape_of(const PolygonCurve& curve, const Frame& frame) {
+  RunEncoder chains;
+  Json closed = Json::array();
+  for (const PolygonCurve::Chain& chain : curve.chains()) {
+    std::vector<Index> nodes = chain.nodes;
+    std::erase_if(nodes, [&](Index node) { return !curve.position(node).allFinite(); });
+    chains.add(nodes);
+    closed.push_back(chain.closed);
+  }
+  return {{"nodes", encode_doubles(frame.inside(curve.positions()))},
+          {"length", 0},
+          {"runs", chains.take()},
+          {"closed", std::move(closed)}};
+}
+
+/// From where a curve is seen: along the normal of its best plane, which is that of x and y for what lies there.
+struct Plane {
+  Eigen::Matrix3d rows = Eigen::Matrix3d::Identity();
+  bool planar = true;
+};
+
+Plane plane_of(const std::vector<Vector3>& points) {
+  constexpr double flat = 1e-9;  // of the side of the box, more than rounding and less than anyone sees
+  Plane plane;
+  const bool level = std::all_of(points.begin(), points.end(),
+                                 [&](const Vector3& p) { return std::abs(p.z() - points.front().z()) <= flat; });
+  if (level) return plane;
+  Vector3 centre = Vector3::Zero();
+  for (const Vector3& p : points) centre += p / static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vector3& p : points) spread += (p - centre) * (p - centre).transpose();
+  const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
+  Vector3 across = axes.col(2);
+  Vector3 up = axes.col(1);
+  if (across.sum() < 0) across = -across;
+  if (up.sum() < 0) up = -up;
+  plane.rows << across.transpose(), up.transpose(), across.cross(up).transpose();
+  plane.planar = std::all_of(points.begin(), points.end(),
+                             [&](const Vector3& p) { return std::abs((p - centre).dot(axes.col(0))) <= flat; });
+  return plane;
+}
+
+}  // namespace
+
+Json scene_of(std::span<const PageShape<PolygonMesh>> shapes, const PageRoles& roles, const Context& context) {
+  Frame frame;
+  for (const auto& shape : shapes) frame.add(*shape.shape);
+  Json json = frame_of(shapes, roles, frame);
+  json["kind"] = "surface";
+  // From above and in front, z upwards.
+  const Vector3 towards = Vector3(1, -2, 1.5).normalized();
+  const Vector3 across = Vector3::UnitZ().cross(towards).normalized();
+  Eigen::Matrix3d rows;
+  rows << across.transpose(), towards.cross(across).transpose(), towards.transpose();
+  json["view"] = to_json(rows);
+  json["shapes"] = Json::array();
+  for (const auto& shape : shapes) {
+    if (context.cancelled()) return {};
+    // D is the shape's own, as in its figures.
+    Frame own;
+    own.add(*shape.shape);
+    Json& entry =
+        json["shapes"].emplace_back(shape_of(*shape.shape, frame, own.diagonal() * own.half_side() * 2, context));
+    entry["title"] = shape.title;
+    // What a shape has in common with the first need not be said twice.
+    if (json["shapes"].size() > 1 && entry["runs"] == json["shapes"][0]["runs"]) entry["runs"] = nullptr;
+  }
+  return json;
+}
+
+Json scene_of(std::span<const PageShape<PolygonCurve>> shapes, const PageRoles& roles, const Context& /*context*/) {
+  Frame frame;
+  for (const auto& shape : shapes) frame.add(*shape.shape);
+  Json json = frame_of(shapes, roles, frame);
+  json["kind"] = "curve";
+  json["shapes"] = Json::array();
+  std::vector<Vector3> points;
+  for (const auto& shape : shapes) {
+    json["shapes"].emplace_back(shape_of(*shape.shape, frame))["title"] = shape.title;
+    const std::vector<Vector3> inside = frame.inside(shape.shape->positions());
+    for (const PolygonCurve::Chain& chain : shape.shape->chains()) {
+      for (const Index node : chain.nodes) points.push_back(inside[static_cast<std::size_t>(node)]);
+    }
+  }
+  const Plane plane = plane_of(points);
+  json["view"] = to_json(plane.rows);
+  json["planar"] = plane.planar;
+  return json;
+}
+
+}  // namespace vspring::cli

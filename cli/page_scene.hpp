@@ -1,0 +1,35 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vspring/context.hpp"
+#include "vspring/figures.hpp"
+
+namespace vspring::cli {
+
+/// A shape as a page shows it, with its column of the table. The shape must outlive it.
+template <typename Shape>
+struct PageShape {
+  std::string title;
+  const Shape* shape;
+  std::vector<Figure> figures;
+};
+
+/// What of the shapes is seen first, and from which of them deviations are measured.
+struct PageRoles {
+  int leading = 0;
+  std::optional<int> reference = std::nullopt;
+};
+
+/// The shapes as page/data.js reads them. All are moved and scaled together into a box of side 1 about the origin;
+/// faces and chains leave out what has no finite coordinates. Once cancelled, what they return is of no use.
+[[nodiscard]] nlohmann::ordered_json scene_of(std::span<const PageShape<PolygonMesh>> shapes, const PageRoles& roles,
+                                              const Context& context);
+[[nodiscard]] nlohmann::ordered_json scene_of(std::span<const PageShape<PolygonCurve>> shapes, const PageRoles& roles,
+                                              const Context& context);
+
+}  // namespace vspring::cli

@@ -1,0 +1,33 @@
+// Numbers for people, and what is said of many of them.
+
+// Four digits, as in the table on the terminal.
+export function short(value, whole = false) {
+  if (value === null || value === undefined) return '';
+  if (whole) return String(value);
+  const size = Math.abs(value);
+  if (size !== 0 && (size < 1e-4 || size >= 1e6)) return value.toExponential(3).replace(/\.?0+e/, 'e').replace('-', '−');
+  return String(Number(value.toPrecision(4))).replace('-', '−');
+}
+
+export function quantiles(values, shares) {
+  const sorted = Float64Array.from(values).sort();
+  return shares.map((share) => sorted.length ? sorted[Math.round(share * (sorted.length - 1))] : 0);
+}
+
+// Round numbers within a range, for an axis.
+export function ticksOf(low, high, wanted = 6) {
+  const rough = (high - low) / wanted;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * [1, 2, 5, 10].find((factor) => factor * power >= rough * 0.999);
+  const ticks = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + step * 1e-9; ++k) ticks.push(k * step);
+  return ticks;
+}
+
+// Powers of ten within a range, not more than some eight of them.
+export function powersOf(low, high) {
+  const first = Math.ceil(Math.log10(low) - 1e-9);
+  const last = Math.floor(Math.log10(high) + 1e-9);
+  const step = Math.max(1, Math.ceil((last - first) / 7));
+  return Array.from({length: Math.max(0, Math.floor((last - first) / step) + 1)}, (_, k) => 10 ** (first + k * step));
+}

@@ -50,18 +50,20 @@ class Solver {
         result.outcome = Outcome::stalled;
         break;
       }
-      // Corrections shrink about geometrically: what is left after this one is a share of it.
-      const double expected = size / (1 - std::min(0.75, before > 0 ? size / before : 0.5));
+      // Corrections shrink about geometrically. Never by less than half: then a shape that was once near enough still
+      // is when it is looked at without its history.
+      const double expected = size / (1 - std::clamp(before > 0 ? size / before : 0, 0.5, 0.75));
       without_gain = expected < 0.7 * best.residual() ? 0 : without_gain + 1;
       best.look(expected);
       if (task.on_iteration) task.on_iteration(expected);
-      const bool limited = take_step();
-      if (limited) without_gain = 0;
-      if (expected < task.tolerance && !limited) {
+      // The last correction is not taken: what it says of the shape is true of the shape before it.
+      if (expected < task.tolerance && largest_turn() <= greatest_turn) {
         result.outcome = Outcome::converged;
         result.expected_error = expected;
         return result;
       }
+      const bool limited = take_step();
+      if (limited) without_gain = 0;
       before = limited ? 0 : size;
       if (without_gain >= patience) {
         result.outcome = Outcome::stalled;

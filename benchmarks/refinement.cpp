@@ -95,6 +95,7 @@ int main() {
         return fmt::format("{:.1e}", greatest);
       };
       options.method = Method::multigrid;
+      options.levels = 6;
       options.max_iterations = 200'000;
       const double lowered = 1e-3 * std::pow(0.5, 4 * halvings);
       for (const double e : {1e-3, lowered}) {

@@ -73,10 +73,10 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments) {
       ->check(CLI::PositiveNumber)
       ->group(fairing_group);
   command
-      .add_option(
-          "--levels", options.levels,
-          "multigrid: number of levels, fewer where there are too few nodes (default: 6, more where the coarsest "
-          "would be large)")
+      .add_option("--levels", options.levels,
+                  "multigrid: number of levels, fewer where there are too few nodes (default: 6 as in the paper, fewer "
+                  "where the "
+                  "coarsest would have under 60 moving nodes, more where there are enough for another)")
       ->type_name("L")
       ->check(CLI::Range(1, 64))
       ->group(fairing_group);

@@ -40,8 +40,8 @@ struct FairOptions {
   /// Where not given: 10,000 sweeps, with multigrid on each level; 200 iterations of the equilibrium solver on each of
   /// its levels.
   std::optional<int> max_iterations = std::nullopt;
-  /// Multigrid: levels, the shape itself among them; fewer where that has too few nodes. Where not given: 6, and more
-  /// until the coarsest has no more than 150 moving nodes.
+  /// Multigrid: levels, the shape itself among them; fewer where that has too few nodes. Where not given: 6 as in the
+  /// paper, but fewer where the coarsest would have under 60 moving nodes, and more where there are enough for another.
   std::optional<int> levels = std::nullopt;
   /// Multigrid: iterations on each level on the way down.
   int pre_smoothing = 5;

@@ -11,16 +11,15 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Where no number of levels is asked for: as many as the paper had, and more until the coarsest has no more moving
-// nodes than this, for which the plain iteration goes to the equilibrium at once.
-constexpr std::size_t papers_levels = 6;
-constexpr std::size_t few_enough = 150;
+// Moving nodes that the coarsest level has at least where no number of levels is asked for: with fewer, more than one
+// shape passes for fair. With this many the plain iteration goes to the equilibrium at once.
+constexpr std::size_t too_few = 60;
 // The coarsest level goes on until steps are this much smaller than on the others.
 constexpr double coarsest_share = 1e-3;
 
 std::size_t default_levels(Hierarchy& hierarchy) {
-  std::size_t levels = std::min(papers_levels, hierarchy.count());
-  while (levels < hierarchy.count() && hierarchy.net(hierarchy.count() - levels).moving > few_enough) ++levels;
+  std::size_t levels = hierarchy.count();
+  while (levels > 1 && hierarchy.net(hierarchy.count() - levels).moving < too_few) --levels;
   return levels;
 }
 

@@ -66,7 +66,9 @@ TEST(Multigrid, GetsFarNearerThanThePlainIterationWithTheSameTest) {
 TEST(Multigrid, GetsNearerWithFinerMeshesWhereTheTestGoesWithTheFourthPowerOfTheSpacing) {
   const auto error = [](Index nodes, double e) {
     const PolygonMesh cap = generate::cap({.nodes = nodes, .radius = 1, .half_angle = 60});
-    const FairResult result = fair(flattened(cap), held_rim(cap), multigrid(e));
+    FairOptions options = multigrid(e);
+    options.levels = 6;
+    const FairResult result = fair(flattened(cap), held_rim(cap), options);
     EXPECT_EQ(result.report.outcome, Outcome::converged);
     return distance_from_sphere(result.positions);
   };
@@ -79,6 +81,7 @@ TEST(Multigrid, GetsNearerWithFinerMeshesWhereTheTestGoesWithTheFourthPowerOfThe
 TEST(Multigrid, TellsOfEveryLevel) {
   const PolygonMesh cap = generate::cap({.nodes = 4921, .radius = 1, .half_angle = 60});
   FairOptions options = multigrid();
+  options.levels = 6;
   const FairReport six = fair(cap, held_rim(cap), options).report;
   ASSERT_GE(six.levels.size(), 5U);
   ASSERT_LE(six.levels.size(), 6U);
@@ -172,6 +175,24 @@ TEST(Multigrid, CurvesHaveLevelsToo) {
   EXPECT_EQ(result.report.outcome, Outcome::converged);
   EXPECT_GT(result.report.levels.size(), 2U);
   EXPECT_LT(distance_from_sphere(result.positions), 1e-3);
+}
+
+TEST(Multigrid, CoarseLevelsFoldNothing) {
+  // On levels of some forty nodes this annulus has a second equilibrium, with a crease.
+  const PolygonMesh annulus = generate::annulus({.nodes = 60'000, .boundary_nodes = 1225});
+  Constraints constraints(annulus.node_count());
+  fix_boundary_positions(constraints, annulus);
+  fix_boundary_normals(constraints, annulus);
+  for (const Method method : {Method::multigrid, Method::equilibrium}) {
+    for (const PseudoNormals normals : {PseudoNormals::link, PseudoNormals::angle}) {
+      FairOptions options;
+      options.method = method;
+      options.pseudo_normals = normals;
+      const FairResult result = fair(annulus, constraints, options);
+      EXPECT_EQ(result.report.outcome, Outcome::converged);
+      EXPECT_LT(result.report.after.greatest_turn, 15);
+    }
+  }
 }
 
 }  // namespace

@@ -183,15 +183,14 @@ TEST(Multigrid, CoarseLevelsFoldNothing) {
   Constraints constraints(annulus.node_count());
   fix_boundary_positions(constraints, annulus);
   fix_boundary_normals(constraints, annulus);
-  for (const Method method : {Method::multigrid, Method::equilibrium}) {
-    for (const PseudoNormals normals : {PseudoNormals::link, PseudoNormals::angle}) {
-      FairOptions options;
-      options.method = method;
-      options.pseudo_normals = normals;
-      const FairResult result = fair(annulus, constraints, options);
-      EXPECT_EQ(result.report.outcome, Outcome::converged);
-      EXPECT_LT(result.report.after.greatest_turn, 15);
-    }
+  for (const auto& [method, normals] :
+       {std::pair(Method::multigrid, PseudoNormals::link), std::pair(Method::equilibrium, PseudoNormals::angle)}) {
+    FairOptions options;
+    options.method = method;
+    options.pseudo_normals = normals;
+    const FairResult result = fair(annulus, constraints, options);
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_LT(result.report.after.greatest_turn, 15);
   }
 }
 

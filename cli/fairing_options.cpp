@@ -76,7 +76,9 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments) {
       .add_option("--levels", options.levels,
                   "multigrid: number of levels, fewer where there are too few nodes (default: 6 as in the paper, fewer "
                   "where the "
-                  "coarsest would have under 60 moving nodes, more where there are enough for another)")
+                  "coarsest would have under 60 moving nodes, more where there are enough for another; curves: down to "
+                  "24 to 47 "
+                  "edges)")
       ->type_name("L")
       ->check(CLI::Range(1, 64))
       ->group(fairing_group);

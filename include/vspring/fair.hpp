@@ -41,7 +41,8 @@ struct FairOptions {
   /// its levels.
   std::optional<int> max_iterations = std::nullopt;
   /// Multigrid: levels, the shape itself among them; fewer where that has too few nodes. Where not given: 6 as in the
-  /// paper, but fewer where the coarsest would have under 60 moving nodes, and more where there are enough for another.
+  /// paper, but fewer where the coarsest would have under 60 moving nodes, and more where there are enough for another;
+  /// on curves as many as there are, down to 24 to 47 edges between held nodes.
   std::optional<int> levels = std::nullopt;
   /// Multigrid: iterations on each level on the way down.
   int pre_smoothing = 5;

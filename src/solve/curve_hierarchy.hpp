@@ -17,6 +17,8 @@ class CurveHierarchy final : public Hierarchy {
 
   [[nodiscard]] std::size_t count() const override { return levels_.size(); }
   Net& net(std::size_t level) override { return levels_[level].curve.net; }
+  /// There are none with fewer than are of use.
+  [[nodiscard]] std::size_t fewest_nodes() const override { return 0; }
   void limit(std::size_t levels) override {
     if (levels < levels_.size()) levels_.erase(levels_.begin(), levels_.end() - static_cast<std::ptrdiff_t>(levels));
   }

@@ -21,8 +21,6 @@ constexpr int first_try = 80;
 constexpr double lost_at = 1e-3;
 // What a coarse level leaves undone, the finer ones have to do with more nodes.
 constexpr double coarse_share = 0.3;
-// Moving nodes of a surface's level, below which more than one shape passes for fair.
-constexpr std::size_t too_few = 60;
 // Moving nodes up to which a second start costs next to nothing.
 constexpr std::size_t few = 2000;
 // The cosine of 60°.
@@ -68,8 +66,7 @@ class Run {
     const std::size_t last = hierarchy_.count() - 1;
     hierarchy_.start();
     std::vector<Vector3> own_start;
-    std::size_t first = 0;
-    while (first < last && hierarchy_.net(first).tangents.empty() && hierarchy_.net(first).moving < too_few) ++first;
+    const std::size_t first = hierarchy_.first_of_use();
     for (std::size_t k = first; k <= last; ++k) {
       (void)relax(k, k == first ? std::min(limit, first_try) : limit);
       if (k == first && limit > first_try && unfinished()) {

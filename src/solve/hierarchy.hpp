@@ -19,6 +19,14 @@ class Hierarchy {
 
   [[nodiscard]] virtual std::size_t count() const = 0;
   virtual Net& net(std::size_t level) = 0;
+  /// Moving nodes without which a level does not tell shapes apart: more than one passes for fair.
+  [[nodiscard]] virtual std::size_t fewest_nodes() const = 0;
+  /// The coarsest level that has as many; the shape itself where none has.
+  std::size_t first_of_use() {
+    std::size_t level = 0;
+    while (level + 1 < count() && net(level).moving < fewest_nodes()) ++level;
+    return level;
+  }
   /// Leaves out the coarsest levels until `levels` are left.
   virtual void limit(std::size_t levels) = 0;
 

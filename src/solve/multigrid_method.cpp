@@ -11,17 +11,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Moving nodes that the coarsest level has at least where no number of levels is asked for: with fewer, more than one
-// shape passes for fair. With this many the plain iteration goes to the equilibrium at once.
-constexpr std::size_t too_few = 60;
 // The coarsest level goes on until steps are this much smaller than on the others.
 constexpr double coarsest_share = 1e-3;
-
-std::size_t default_levels(Hierarchy& hierarchy) {
-  std::size_t levels = hierarchy.count();
-  while (levels > 1 && hierarchy.net(hierarchy.count() - levels).moving < too_few) --levels;
-  return levels;
-}
 
 class Cycle {
  public:
@@ -36,7 +27,8 @@ class Cycle {
         report_(report) {}
 
   void run() {
-    hierarchy_.limit(options_.levels ? static_cast<std::size_t>(*options_.levels) : default_levels(hierarchy_));
+    const std::size_t by_default = hierarchy_.count() - hierarchy_.first_of_use();
+    hierarchy_.limit(options_.levels ? static_cast<std::size_t>(*options_.levels) : by_default);
     const std::size_t finest = hierarchy_.count() - 1;
     report_.levels.resize(hierarchy_.count());
     for (std::size_t k = 0; k <= finest; ++k)

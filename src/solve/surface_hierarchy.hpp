@@ -19,6 +19,7 @@ class SurfaceHierarchy final : public Hierarchy {
 
   [[nodiscard]] std::size_t count() const override { return levels_.size(); }
   Net& net(std::size_t level) override { return levels_[level].net; }
+  [[nodiscard]] std::size_t fewest_nodes() const override { return 60; }
   void limit(std::size_t levels) override;
   void restrict_from(std::size_t level) override { restrict_shape(levels_[level], levels_[level - 1]); }
   /// Nodes go along the shape that was handed up to where the finer level wants them.

@@ -12,14 +12,15 @@ namespace vspring {
 
 namespace {
 
-// Of residuals; the iteration around the solver does the rest.
+// Of the greatest error of a value; the iteration around the solver does the rest.
 constexpr double bending_reduction = 0.05;
 constexpr double spreading_reduction = 0.02;
 
-/// Calls use(i, area) for the moving nodes with moving neighbours only. area: of the node's Voronoi cell if its
-/// neighbours lay evenly around it.
-template <typename Use>
-void for_inner_nodes(const Net& net, const Use& use) {
+/// The form of functions with a slope of one, per area, at moving nodes with moving neighbours only. A node has the
+/// area of its Voronoi cell if its neighbours lay evenly around it.
+double spreading_unit(const Net& net, const FloatRows& rows) {
+  double form = 0;
+  double area = 0;
   for (std::size_t i = 0; i < net.moving; ++i) {
     double spokes = 0;
     double square = 0;
@@ -30,19 +31,11 @@ void for_inner_nodes(const Net& net, const Use& use) {
       spokes += 1;
       square += (net.positions[link.node()] - net.positions[i]).squaredNorm();
     }
-    if (inner && spokes > 2) use(i, 0.25 * square * std::tan(std::numbers::pi / spokes));
-  }
-}
-
-/// Of functions with a slope of one.
-double spreading_unit(const Net& net, const FloatRows& rows) {
-  double form = 0;
-  double area = 0;
-  for_inner_nodes(net, [&](std::size_t i, double cell) {
+    if (!inner || spokes <= 2) continue;
+    area += 0.25 * square * std::tan(std::numbers::pi / spokes);
     for (const FloatRows::Entry& entry : rows.row(i))
       form -= 0.25 * entry.value * (net.positions[entry.column] - net.positions[i]).squaredNorm();
-    area += cell;
-  });
+  }
   return area > 0 ? form / area : 1;
 }
 

@@ -177,6 +177,28 @@ TEST(Multigrid, CurvesHaveLevelsToo) {
   EXPECT_LT(distance_from_sphere(result.positions), 1e-3);
 }
 
+TEST(Multigrid, CurvesOfAHundredEdgesHaveLevels) {
+  std::vector<Vector3> line;
+  for (int k = 0; k <= 100; ++k) line.emplace_back(0.01 * k, 0, 0);
+  Constraints constraints(101);
+  fix_boundary_positions(constraints, PolygonCurve(line));
+  constraints.fix_tangent(0, {1, 1, 0});
+  constraints.fix_tangent(100, {1, -1, 0});
+  // The arc of 90° over a chord of 1.
+  const auto distance_from_arc = [&](Method method) {
+    FairOptions options;
+    options.method = method;
+    const FairResult result = fair(PolygonCurve(line), constraints, options);
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_EQ(result.report.levels.size() > 1, method == Method::multigrid);
+    double greatest = 0;
+    for (const Vector3& p : result.positions)
+      greatest = std::max(greatest, std::abs((p - Vector3(0.5, -0.5, 0)).norm() - std::sqrt(0.5)));
+    return greatest;
+  };
+  EXPECT_LT(10 * distance_from_arc(Method::multigrid), distance_from_arc(Method::sweep));
+}
+
 TEST(Multigrid, CoarseLevelsFoldNothing) {
   // On levels of some forty nodes this annulus has a second equilibrium, with a crease.
   const PolygonMesh annulus = generate::annulus({.nodes = 60'000, .boundary_nodes = 1225});

@@ -1,9 +1,10 @@
 #include "levels/surface_slide.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <vector>
 
+#include "base/definite3.hpp"
 #include "levels/balance.hpp"
 
 namespace vspring {
@@ -70,7 +71,7 @@ void weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector
     return;
   }
   spread += size * normal * normal.transpose() + 1e-9 * size * Eigen::Matrix3d::Identity();
-  const Vector3 slope = spread.ldlt().solve(mean);
+  const Vector3 slope = solve_definite(spread, mean);
   double total = 0;
   for (Neighbour& one : neighbours) {
     one.weight = std::max(0.0, one.weight * (1 - slope.dot(across(one.node))));

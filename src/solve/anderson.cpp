@@ -25,29 +25,29 @@ void Anderson::accelerate(std::vector<Vector3>& correction) {
   // The products of all columns with each other and with the correction; the newest column is made on the way.
   const std::size_t tasks = (size_ + vectors_per_task - 1) / vectors_per_task;
   std::vector<Eigen::MatrixXd> parts(tasks, Eigen::MatrixXd::Zero(columns, columns + 1));
+  last_correction_.resize(size_);
   parallel_ranges(*team_, size_, vectors_per_task, [&](std::size_t begin, std::size_t end) {
     Eigen::MatrixXd& part = parts[begin / vectors_per_task];
     if (remembers) {
       for (std::size_t i = begin; i < end; ++i) {
-        corrections_[newest][i] = correction[i] - last_correction_[i];
+        corrections_[newest][i] = (correction[i] - last_correction_[i].cast<double>()).cast<float>();
         steps_[newest][i] = last_step_[i];
       }
     }
+    for (std::size_t i = begin; i < end; ++i) last_correction_[i] = correction[i].cast<float>();
     for (Eigen::Index a = 0; a < columns; ++a) {
       const auto& column_a = corrections_[static_cast<std::size_t>(a)];
-      for (Eigen::Index b = 0; b <= a; ++b) {
-        const auto& column_b = corrections_[static_cast<std::size_t>(b)];
+      const auto with_a = [&](const auto& other) {
         double sum = 0;
-        for (std::size_t i = begin; i < end; ++i) sum += column_a[i].dot(column_b[i]);
-        part(a, b) = sum;
-      }
-      double sum = 0;
-      for (std::size_t i = begin; i < end; ++i) sum += column_a[i].dot(correction[i]);
-      part(a, columns) = sum;
+        for (std::size_t i = begin; i < end; ++i)
+          sum += column_a[i].cast<double>().dot(other[i].template cast<double>());
+        return sum;
+      };
+      for (Eigen::Index b = 0; b <= a; ++b) part(a, b) = with_a(corrections_[static_cast<std::size_t>(b)]);
+      part(a, columns) = with_a(correction);
     }
   });
   if (remembers) next_ = (next_ + 1) % depth_;
-  last_correction_ = correction;
   if (columns > 0) {
     Eigen::MatrixXd products = Eigen::MatrixXd::Zero(columns, columns + 1);
     for (const Eigen::MatrixXd& part : parts) products += part;
@@ -62,12 +62,16 @@ void Anderson::accelerate(std::vector<Vector3>& correction) {
       parallel_ranges(*team_, size_, vectors_per_task, [&](std::size_t begin, std::size_t end) {
         for (std::size_t a = 0; a < used_; ++a) {
           const double share = shares[static_cast<Eigen::Index>(a)];
-          for (std::size_t i = begin; i < end; ++i) correction[i] -= share * (corrections_[a][i] + steps_[a][i]);
+          for (std::size_t i = begin; i < end; ++i)
+            correction[i] -= share * (corrections_[a][i] + steps_[a][i]).cast<double>();
         }
       });
     }
   }
-  last_step_ = correction;
+  last_step_.resize(size_);
+  parallel_ranges(*team_, size_, vectors_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) last_step_[i] = correction[i].cast<float>();
+  });
 }
 
 }  // namespace vspring

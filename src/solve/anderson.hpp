@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -32,12 +33,13 @@ class Anderson {
   std::size_t depth_;
   std::size_t size_;
   ThreadTeam* team_;
-  std::size_t used_ = 0;                           // columns in use
-  std::size_t next_ = 0;                           // the column to be overwritten
-  std::vector<std::vector<Vector3>> corrections_;  // differences of successive corrections
-  std::vector<std::vector<Vector3>> steps_;        // differences of successive iterates
-  std::vector<Vector3> last_correction_;
-  std::vector<Vector3> last_step_;
+  std::size_t used_ = 0;  // columns in use
+  std::size_t next_ = 0;  // the column to be overwritten
+  // In single precision: rounding is small against each difference, and so against the step.
+  std::vector<std::vector<Eigen::Vector3f>> corrections_;  // differences of successive corrections
+  std::vector<std::vector<Eigen::Vector3f>> steps_;        // differences of successive iterates
+  std::vector<Eigen::Vector3f> last_correction_;
+  std::vector<Eigen::Vector3f> last_step_;
 };
 
 }  // namespace vspring

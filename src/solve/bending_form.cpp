@@ -1,8 +1,11 @@
 #include "solve/bending_form.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+
+#include "base/definite3.hpp"
+#include "solve/sparse_sum.hpp"
 
 namespace vspring {
 
@@ -48,7 +51,7 @@ double curvature_row(const Net& net, std::size_t i, const Wanted& wanted, Sparse
   const double size = spread.trace();
   if (!(size > 0) || row.size() < 3) return sum;
   spread += size * normal * normal.transpose() + 1e-9 * size * Eigen::Matrix3d::Identity();
-  Vector3 slope = spread.ldlt().solve(mean);
+  Vector3 slope = solve_definite(spread, mean);
   // Neighbours all to one side leave next to nothing.
   const double left = 1 - mean.dot(slope) / sum;
   if (left < least_left) slope *= (1 - least_left) / (1 - left);
@@ -65,14 +68,15 @@ bool on_boundary(std::span<const Link> links) { return !links.empty() && links.f
 
 }  // namespace
 
-void weigh_edges(const Net& net, ThreadTeam& team, std::vector<double>& sums) {
+void weigh_edges(const Net& net, ThreadTeam& team, std::vector<float>& sums) {
   sums.resize(net.moving);
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      sums[i] = 0;
+      double sum = 0;
       for (const Link link : net.rings.links(i)) {
-        if (link.spoke()) sums[i] += edge_weight(net, i, link.node());
+        if (link.spoke()) sum += edge_weight(net, i, link.node());
       }
+      sums[i] = static_cast<float>(sum);
     }
   });
 }
@@ -165,11 +169,10 @@ template BasicSparseRows<float> bending_rows<float>(const Net& net, ThreadTeam& 
 
 SparseRows bending_form(const Net& net, ThreadTeam& team) {
   const auto rows = bending_rows<double>(net, team);
-  return product<double>(rows.transposed(), rows, team);
+  return product(rows.transposed(), rows, team);
 }
 
-template <typename Scalar>
-BasicSparseRows<Scalar> spreading_form(const Net& net, ThreadTeam& team) {
+SparseRows spreading_form(const Net& net, ThreadTeam& team) {
   // Symmetric: of two different shares of an edge, half each.
   const auto one_way = [&](std::size_t from, std::size_t to) {
     const auto links = net.rings.links(from);
@@ -184,23 +187,20 @@ BasicSparseRows<Scalar> spreading_form(const Net& net, ThreadTeam& team) {
     }
     return std::max(spokes * share, least_weight);
   };
-  return BasicSparseRows<Scalar>::build(team, net.moving, net.moving, [&] {
-    return [&](std::size_t i, typename BasicSparseRows<Scalar>::Row& row) {
+  return SparseRows::build(team, net.moving, net.moving, [&] {
+    return [&](std::size_t i, SparseRows::Row& row) {
       double sum = 0;
       for (const Link link : net.rings.links(i)) {
         if (!link.spoke()) continue;
         const std::size_t j = link.node();
         const double weight = j < net.moving ? 0.5 * (one_way(i, j) + one_way(j, i)) : one_way(i, j);
         sum += weight;
-        if (j < net.moving) row.push_back({static_cast<std::uint32_t>(j), static_cast<Scalar>(-weight)});
+        if (j < net.moving) row.push_back({static_cast<std::uint32_t>(j), -weight});
       }
-      row.push_back({static_cast<std::uint32_t>(i), static_cast<Scalar>(sum * (1 + shift))});
+      row.push_back({static_cast<std::uint32_t>(i), sum * (1 + shift)});
     };
   });
 }
-
-template BasicSparseRows<double> spreading_form<double>(const Net& net, ThreadTeam& team);
-template BasicSparseRows<float> spreading_form<float>(const Net& net, ThreadTeam& team);
 
 double bending_factor(const Net& net) {
   std::size_t edges = 0;

@@ -24,11 +24,10 @@ BasicSparseRows<Scalar> bending_rows(const Net& net, ThreadTeam& team);
 SparseRows bending_form(const Net& net, ThreadTeam& team);
 
 /// D, the sum of 1/ℓ over the edges of every moving node, by the lengths that they have now.
-void weigh_edges(const Net& net, ThreadTeam& team, std::vector<double>& sums);
+void weigh_edges(const Net& net, ThreadTeam& team, std::vector<float>& sums);
 
 /// The Laplacian of the moving nodes' graph with weights of one: what the regularisation (§4.4) spreads nodes by.
-template <typename Scalar>
-BasicSparseRows<Scalar> spreading_form(const Net& net, ThreadTeam& team);
+SparseRows spreading_form(const Net& net, ThreadTeam& team);
 
 /// What V-Spring is of −D⁻¹ B h on meshes like this one: 3/4 on triangles, 1 on quads.
 double bending_factor(const Net& net);

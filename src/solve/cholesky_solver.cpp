@@ -11,12 +11,12 @@ void CholeskySolver::build(const SparseRows& rows) {
   factor_.factorize(matrix);
 }
 
-void CholeskySolver::solve(std::span<double> values, double /*enough*/) {
+void CholeskySolver::solve(std::span<double> values, const Accuracy& /*accuracy*/) {
   Eigen::Map<Eigen::VectorXd> column(values.data(), static_cast<Eigen::Index>(values.size()));
   column = factor_.solve(column).eval();
 }
 
-void CholeskySolver::solve(std::span<Vector3> values, double /*enough*/) {
+void CholeskySolver::solve(std::span<Vector3> values, const Accuracy& /*accuracy*/) {
   team_->run(3, [&](std::size_t k) {
     Eigen::VectorXd column(static_cast<Eigen::Index>(values.size()));
     for (std::size_t i = 0; i < values.size(); ++i)

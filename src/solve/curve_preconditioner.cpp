@@ -157,13 +157,14 @@ void CurvePreconditioner::carry_frames() {
   }
 }
 
-void CurvePreconditioner::correct(std::span<const NodeForce> forces, double /*enough*/,
-                                  std::vector<Vector3>& correction) {
+void CurvePreconditioner::correct(const Model& model, double /*enough*/, std::vector<Vector3>& correction) {
   const Net& net = curve_->net;
+  forces_.resize(net.moving);
+  model.find_forces(net, {0, net.moving}, forces_);
   carry_frames();
   across_.resize(net.moving);
   for (std::size_t i = 0; i < net.moving; ++i) {
-    const Vector3 force = weight_[i] * forces[i].spring;
+    const Vector3 force = weight_[i] * forces_[i].spring;
     across_[i] = {force.dot(axis_[i]), force.dot(net.tangents[i].cross(axis_[i]))};
   }
   for (const Run& run : runs_) run.bending.solve(std::span(across_).subspan(run.begin, run.bending.size()));
@@ -173,7 +174,7 @@ void CurvePreconditioner::correct(std::span<const NodeForce> forces, double /*en
 
   std::vector<double> along(net.moving);
   for (std::size_t i = 0; i < net.moving; ++i) {
-    Vector3 asked = forces[i].regularisation - correction[i];
+    Vector3 asked = forces_[i].regularisation - correction[i];
     const auto links = net.rings.links(i);
     const auto shares = net.shares_of(i);
     for (std::size_t k = 0; k < links.size(); ++k) {
@@ -189,7 +190,7 @@ void CurvePreconditioner::correct(std::span<const NodeForce> forces, double /*en
   }
   for (std::size_t i = 0; i < net.moving; ++i) {
     // A node without a tangent is not sprung, and goes where the regularisation sends it.
-    correction[i] += net.tangents[i].isZero(0) ? forces[i].regularisation : Vector3(along[i] * net.tangents[i]);
+    correction[i] += net.tangents[i].isZero(0) ? forces_[i].regularisation : Vector3(along[i] * net.tangents[i]);
   }
 }
 

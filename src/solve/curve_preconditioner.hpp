@@ -17,7 +17,7 @@ class CurvePreconditioner final : public Preconditioner {
   explicit CurvePreconditioner(const CurveNet& curve) : curve_(&curve) {}
 
   bool refresh() override;
-  void correct(std::span<const NodeForce> forces, double enough, std::vector<Vector3>& correction) override;
+  void correct(const Model& model, double enough, std::vector<Vector3>& correction) override;
 
  private:
   /// The moving nodes of one strand: a run of local numbers.
@@ -39,6 +39,7 @@ class CurvePreconditioner final : public Preconditioner {
   std::vector<double> below_;
   std::vector<double> above_;
   std::vector<double> pivot_;
+  std::vector<NodeForce> forces_;
   std::vector<Vector3> axis_;            // the frame's first axis across the curve at every node
   std::vector<Eigen::Vector2d> across_;  // the correction in that frame
 };

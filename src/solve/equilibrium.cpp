@@ -16,6 +16,7 @@ constexpr std::size_t nodes_per_task = 2048;
 // No edge may turn or stretch by more than about this in one step: the equations are near to linear up to there.
 constexpr double greatest_turn = 0.3;
 constexpr double stretch_share = 0.4;
+constexpr double shortest_share = 0.25;
 // Iterations that do not get nearer, with steps of full length, before rounding is taken to have the last word.
 constexpr int patience = 12;
 // A share of the tolerance.
@@ -24,12 +25,7 @@ constexpr double negligible = 0.01;
 class Solver {
  public:
   Solver(Net& net, const Model& model, Preconditioner& preconditioner, ThreadTeam& team)
-      : net_(net),
-        model_(model),
-        preconditioner_(preconditioner),
-        team_(team),
-        anderson_(depth, net.moving, team),
-        forces_(net.moving) {
+      : net_(net), model_(model), preconditioner_(preconditioner), team_(team), anderson_(depth, net.moving, team) {
     model.prepare(net);
   }
 
@@ -77,11 +73,8 @@ class Solver {
  private:
   void find_correction(double enough) {
     update_directions(net_, model_, team_);
-    parallel_ranges(team_, net_.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-      model_.find_forces(net_, {begin, end}, forces_);
-    });
     if (preconditioner_.refresh()) anderson_.forget();
-    preconditioner_.correct(forces_, enough, correction_);
+    preconditioner_.correct(model_, enough, correction_);
   }
 
   template <typename Value>
@@ -113,15 +106,23 @@ class Solver {
   /// The largest turn or stretch of an edge by the step in correction_.
   double largest_turn() {
     return greatest_over_nodes([&](std::size_t i) {
+      const auto links = net_.rings.links(i);
+      double lengths = 0;
+      double spokes = 0;
+      for (const Link link : links) {
+        if (!link.spoke()) continue;
+        lengths += (net_.positions[link.node()] - net_.positions[i]).norm();
+        spokes += 1;
+      }
+      // An edge far shorter than its neighbours is out of place, and has to turn.
+      const double shortest = spokes > 0 ? shortest_share * lengths / spokes : 0;
       double greatest = 0;
-      for (const Link link : net_.rings.links(i)) {
+      for (const Link link : links) {
         if (!link.spoke()) continue;
         const std::size_t j = link.node();
         const Vector3 difference = (j < net_.moving ? correction_[j] : Vector3(Vector3::Zero())) - correction_[i];
         const Vector3 edge = net_.positions[j] - net_.positions[i];
-        // An edge far shorter than its neighbours is out of place, and has to turn.
-        const double length = std::max(edge.norm(), 0.25 * forces_[i].mean_edge);
-        greatest = std::max(greatest, change(difference, i) / length);
+        greatest = std::max(greatest, change(difference, i) / std::max(edge.norm(), shortest));
       }
       return greatest;
     });
@@ -142,7 +143,9 @@ class Solver {
         share = greatest_turn / accelerated;
       }
     }
-    for (std::size_t i = 0; i < net_.moving; ++i) net_.positions[i] += share * correction_[i];
+    parallel_ranges(team_, net_.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) net_.positions[i] += share * correction_[i];
+    });
     return share < 1;
   }
 
@@ -151,7 +154,6 @@ class Solver {
   Preconditioner& preconditioner_;
   ThreadTeam& team_;
   Anderson anderson_;
-  std::vector<NodeForce> forces_;
   std::vector<Vector3> correction_;
   std::vector<double> greatest_;
 };

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <vector>
 
@@ -53,10 +54,9 @@ class Run {
   void run() {
     const std::size_t last = hierarchy_.count() - 1;
     Net& finest = hierarchy_.net(last);
-    const std::vector<Vector3> start = finest.positions;
     report_.outcome = context_.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
     if (context_.cancelled() || options_.max_iterations == 0) return;
-    if (may_be_there(finest) && relax(last, 1) != Outcome::converged && last > 0) finest.positions = start;
+    if (may_be_there(finest)) (void)relax(last, 1);
     if (report_.outcome == Outcome::iteration_limit) go_down();
   }
 
@@ -121,14 +121,16 @@ class Run {
   bool may_be_there(Net& net) {
     model_.prepare(net);
     update_directions(net, model_, team_);
-    std::vector<NodeForce> forces(net.moving);
-    parallel_ranges(team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-      model_.find_forces(net, {begin, end}, forces);
-    });
     const double greatest = greatest_displacement_ratio * options_.tolerance * size_;
-    return std::none_of(forces.begin(), forces.end(), [&](const NodeForce& force) {
-      return (force.spring + force.regularisation).squaredNorm() > greatest * greatest;
+    std::atomic<bool> may_be = true;
+    parallel_ranges(team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      std::vector<NodeForce> forces(end - begin);
+      model_.find_forces(net, {begin, end}, forces);
+      for (const NodeForce& force : forces) {
+        if ((force.spring + force.regularisation).squaredNorm() > greatest * greatest) may_be = false;
+      }
     });
+    return may_be;
   }
 
   [[nodiscard]] bool unfinished() const {

@@ -1,7 +1,9 @@
 #include "solve/interpolation.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
+
+#include "base/definite3.hpp"
 
 namespace vspring {
 
@@ -36,7 +38,7 @@ void find_shares(const Vector3& centre, std::span<const Vector3> positions, std:
   }
   // Across that plane there is little to be reproduced; a ridge keeps it from being tried.
   spread += ridge * spread.trace() * Eigen::Matrix3d::Identity();
-  Vector3 slope = spread.ldlt().solve(mean);
+  Vector3 slope = solve_definite(spread, mean);
   const double left = 1 - mean.dot(slope) / sum;
   if (left < least_left) slope *= (1 - least_left) / (1 - left);
   double total = 0;

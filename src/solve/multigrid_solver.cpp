@@ -11,7 +11,7 @@ namespace vspring {
 namespace {
 
 constexpr std::size_t rows_per_task = 4096;
-constexpr int degree = 3;
+constexpr int degree = 2;
 constexpr int most_iterations = 60;
 // The smoother sees to eigenvalues from this share of the greatest on.
 constexpr double smoothed_from = 1.0 / 12;
@@ -67,10 +67,21 @@ Value row_times(const FloatRows& matrix, std::size_t i, const std::vector<Value>
 }
 
 template <typename Value>
-Value row_times(const SparseRows& matrix, std::size_t i, const std::vector<Value>& values) {
+Value row_times(const WholeMatrix& matrix, std::size_t i, const std::vector<Value>& values) {
   Sum<Value> sum = wide<Value>(zero<Value>());
-  for (const SparseRows::Entry& entry : matrix.row(i)) sum += entry.value * wide<Value>(values[entry.column]);
+  matrix.for_row(i, [&](std::size_t column, double value) { sum += value * wide<Value>(values[column]); });
   return narrow<Value>(sum);
+}
+
+template <typename Value>
+Value row_times(const GraphLaplacian& matrix, std::size_t i, const std::vector<Value>& values) {
+  Value sum = zero<Value>();
+  float spokes = 0;
+  matrix.for_neighbours(i, [&](std::size_t j) {
+    spokes += 1;
+    if (j < values.size()) sum += values[j];
+  });
+  return std::max(spokes, 1.0F) * values[i] - sum;
 }
 
 /// In fixed pieces, so that the bits do not depend on threads.
@@ -114,52 +125,62 @@ Sum<Value> ratio(const Sum<Value>& a, const Sum<Value>& b) {
     return (b > 0).select(a / b, Sum<Value>::Zero());
 }
 
-/// then(i, y_i) for every i of y = matrix · values. room: for what lies between the factors.
+/// then(i, y_i) for every i of y = matrix · values. room: for what lies between factors.
 template <typename Value, typename Then>
 void multiply(ThreadTeam& team, const LevelMatrix& matrix, const std::vector<Value>& values, std::vector<Value>& room,
               const Then& then) {
-  if (!matrix.whole.empty()) {
-    for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(matrix.whole, i, values)); });
-    return;
+  if (const auto* factored = std::get_if<FactoredMatrix>(&matrix)) {
+    room.resize(factored->rows().rows());
+    for_rows(team, room.size(), [&](std::size_t i) { room[i] = row_times(factored->rows(), i, values); });
+    for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(factored->columns(), i, room)); });
+  } else if (const auto* whole = std::get_if<WholeMatrix>(&matrix)) {
+    for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(*whole, i, values)); });
+  } else {
+    const auto& graph = std::get<GraphLaplacian>(matrix);
+    for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(graph, i, values)); });
   }
-  if (matrix.columns.empty()) {
-    for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(matrix.rows, i, values)); });
-    return;
-  }
-  room.resize(matrix.rows.rows());
-  for_rows(team, room.size(), [&](std::size_t i) { room[i] = row_times(matrix.rows, i, values); });
-  for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(matrix.columns, i, room)); });
+}
+
+std::size_t size_of(const LevelMatrix& matrix) {
+  return std::visit([](const auto& one) { return one.size(); }, matrix);
 }
 
 }  // namespace
 
-MultigridSolver::MultigridSolver(std::span<const Interpolation> interpolations, double reduction, ThreadTeam& team)
-    : interpolations_(interpolations), reduction_(reduction), team_(&team), coarsest_(team) {}
+MultigridSolver::MultigridSolver(std::span<const Interpolation> interpolations, ThreadTeam& team)
+    : interpolations_(interpolations), team_(&team), coarsest_(team) {}
 
-void MultigridSolver::build(std::vector<LevelMatrix> matrices, const SparseRows& coarsest, double coarsest_unit) {
-  levels_.resize(matrices.size());
-  for (std::size_t k = 0; k < matrices.size(); ++k) set_level(levels_[k], std::move(matrices[k]));
-  coarsest_.build(coarsest);
-  coarsest_unit_ = coarsest_unit;
+MultigridSolver::~MultigridSolver() = default;
+
+void MultigridSolver::build(LevelMatrix finest) {
+  levels_.clear();
+  add_level(std::move(finest));
+  for (const Interpolation& between : interpolations_.first(interpolations_.size() - 1))
+    add_level(WholeMatrix(between.down, levels_.back().matrix, between.up, *team_));
+  const Interpolation& last = interpolations_.back();
+  coarsest_.build(galerkin(last.down, levels_.back().matrix, last.up, *team_));
 }
 
-void MultigridSolver::replace_finest(LevelMatrix matrix) { set_level(levels_.front(), std::move(matrix)); }
+void MultigridSolver::add_level(LevelMatrix matrix) {
+  levels_.push_back({.matrix = std::move(matrix)});
+  scale(levels_.back());
+}
 
-void MultigridSolver::set_level(Level& level, LevelMatrix matrix) const {
-  level.matrix = std::move(matrix);
-  const std::size_t rows = level.matrix.size();
+void MultigridSolver::replace_finest(LevelMatrix matrix) {
+  levels_.front().matrix = std::move(matrix);
+  scale(levels_.front());
+}
+
+void MultigridSolver::scale(Level& level) const {
+  const std::size_t rows = size_of(level.matrix);
   level.inverse_diagonal.resize(rows);
-  for_rows(*team_, rows, [&](std::size_t i) {
-    float diagonal = 0;
-    if (!level.matrix.whole.empty()) {
-      diagonal = static_cast<float>(level.matrix.whole.diagonal(i));
-    } else if (level.matrix.columns.empty()) {
-      diagonal = level.matrix.rows.diagonal(i);
-    } else {
-      for (const FloatRows::Entry& entry : level.matrix.columns.row(i)) diagonal += entry.value * entry.value;
-    }
-    level.inverse_diagonal[i] = 1 / std::max(diagonal, 1e-30F);
-  });
+  std::visit(
+      [&](const auto& matrix) {
+        for_rows(*team_, rows, [&](std::size_t i) {
+          level.inverse_diagonal[i] = 1 / std::max(static_cast<float>(matrix.diagonal(i)), 1e-30F);
+        });
+      },
+      level.matrix);
   const bool first = level.rough.empty();
   if (first) {
     // Rough, and along no eigenvector of any shape.
@@ -186,7 +207,7 @@ class MultigridSolver::Cycle {
  public:
   explicit Cycle(MultigridSolver& solver) : solver_(&solver), levels_(solver.levels_.size() + 1) {
     for (std::size_t k = 0; k < levels_.size(); ++k) {
-      const std::size_t rows = k == 0 ? solver.levels_[0].matrix.size() : solver.interpolations_[k - 1].up.columns();
+      const std::size_t rows = k == 0 ? size_of(solver.levels_[0].matrix) : solver.interpolations_[k - 1].up.columns();
       levels_[k].solution.resize(rows);
       if (k + 1 == levels_.size()) break;
       levels_[k].residual.resize(rows);
@@ -194,13 +215,13 @@ class MultigridSolver::Cycle {
     }
   }
 
-  /// solution ≈ matrix⁻¹ right, a symmetric operator.
-  void apply(const std::vector<Value>& right, std::vector<Value>& solution) {
-    levels_[0].residual = right;
-    descend(0);
-    std::swap(levels_[0].solution, solution);
-    levels_[0].solution.resize(solution.size());
-  }
+  /// solution() ≈ matrix⁻¹ right(), a symmetric operator; right() is used up.
+  void apply() { descend(0); }
+  std::vector<Value>& right() { return levels_[0].residual; }
+  [[nodiscard]] const std::vector<Value>& solution() const { return levels_[0].solution; }
+  /// Free between cycles.
+  std::vector<Value>& spare() { return levels_[0].step; }
+  std::vector<Value>& between() { return between_; }
 
  private:
   struct Room {
@@ -217,12 +238,8 @@ class MultigridSolver::Cycle {
     smooth(k, true);
     Room& below = levels_[k + 1];
     const bool coarsest = k + 2 == levels_.size();
-    const double unit_below = coarsest ? solver_->coarsest_unit_ : solver_->levels_[k + 1].matrix.unit;
-    const auto share = static_cast<float>(solver_->levels_[k].matrix.unit / unit_below);
-    // The matrix below is that much too small for the residual from here.
     std::vector<Value>& right = coarsest ? below.solution : below.residual;
-    for_rows(team, right.size(),
-             [&](std::size_t i) { right[i] = row_times(interpolation.down, i, room.residual) / share; });
+    for_rows(team, right.size(), [&](std::size_t i) { right[i] = row_times(interpolation.down, i, room.residual); });
     if (coarsest) {
       solve_coarsest(below.solution);
     } else {
@@ -271,7 +288,7 @@ class MultigridSolver::Cycle {
       else
         wide_values[i] = values[i].template head<3>().matrix().template cast<double>();
     }
-    solver_->coarsest_.solve(std::span<Wide>(wide_values), 0);
+    solver_->coarsest_.solve(std::span<Wide>(wide_values), {});
     for (std::size_t i = 0; i < values.size(); ++i) {
       if constexpr (std::is_same_v<Value, One>)
         values[i] = static_cast<float>(wide_values[i]);
@@ -285,56 +302,66 @@ class MultigridSolver::Cycle {
   std::vector<Value> between_;
 };
 
-template <typename Values>
-void MultigridSolver::solve_any(Values values, double enough) {
-  using Value = std::conditional_t<std::is_same_v<typename Values::element_type, double>, One, Three>;
-  constexpr bool single = std::is_same_v<Value, One>;
+namespace {
+
+float narrowed(double value) { return static_cast<float>(value); }
+Three narrowed(const Vector3& value) {
+  Three result = Three::Zero();
+  result.head<3>() = value.cast<float>().array();
+  return result;
+}
+
+void widen(float value, double& result) { result = static_cast<double>(value); }
+void widen(const Three& value, Vector3& result) { result = value.head<3>().matrix().cast<double>(); }
+
+}  // namespace
+
+void MultigridSolver::solve(std::span<double> values, const Accuracy& accuracy) {
+  if (!cycle_of_one_) cycle_of_one_ = std::make_unique<Cycle<One>>(*this);
+  solve_any(*cycle_of_one_, values, accuracy);
+}
+
+void MultigridSolver::solve(std::span<Vector3> values, const Accuracy& accuracy) {
+  if (!cycle_of_three_) cycle_of_three_ = std::make_unique<Cycle<Three>>(*this);
+  solve_any(*cycle_of_three_, values, accuracy);
+}
+
+template <typename Value, typename Values>
+void MultigridSolver::solve_any(Cycle<Value>& cycle, Values values, const Accuracy& accuracy) {
   const std::size_t rows = values.size();
-  std::vector<Value> residual(rows, zero<Value>());
+  for_rows(*team_, rows, [&](std::size_t i) { cycle.right()[i] = narrowed(values[i]); });
+  cycle.apply();
+  // What is still missing, as far as one cycle can tell.
+  double missing = greatest<Value>(*team_, cycle.solution());
+  const double wanted = std::max(accuracy.enough, accuracy.share * missing);
+  if (!(missing > wanted)) {
+    for_rows(*team_, rows, [&](std::size_t i) { widen(cycle.solution()[i], values[i]); });
+    return;
+  }
+  std::vector<Value> residual(rows);
   std::vector<Value> solution(rows, zero<Value>());
-  std::vector<Value> direction(rows);
-  std::vector<Value> preconditioned(rows);
-  std::vector<Value> image(rows);
-  for_rows(*team_, rows, [&](std::size_t i) {
-    if constexpr (single)
-      residual[i] = static_cast<float>(values[i]);
-    else
-      residual[i].template head<3>() = values[i].template cast<float>().array();
-  });
-  Cycle<Value> cycle(*this);
-  std::vector<Value> between;
+  std::vector<Value> direction(rows, zero<Value>());
+  for_rows(*team_, rows, [&](std::size_t i) { residual[i] = narrowed(values[i]); });
   Sum<Value> size = wide<Value>(zero<Value>());
-  double wanted = enough;
-  for (iterations_ = 0; iterations_ < most_iterations; ++iterations_) {
-    cycle.apply(residual, preconditioned);
-    // What is still missing, as far as one cycle can tell.
-    const double missing = greatest<Value>(*team_, preconditioned);
-    wanted = std::max(wanted, reduction_ * missing);
-    const Sum<Value> next_size = dot<Value>(*team_, residual, preconditioned);
+  for (int iteration = 0; iteration < most_iterations && missing > wanted; ++iteration) {
+    const Sum<Value> next_size = dot<Value>(*team_, residual, cycle.solution());
     const Value keep = narrow<Value>(ratio<Value>(next_size, size));
-    for_rows(*team_, rows, [&](std::size_t i) {
-      direction[i] = iterations_ == 0 ? preconditioned[i] : Value(preconditioned[i] + keep * direction[i]);
-    });
     size = next_size;
-    if (!(missing > wanted)) {
-      // That far it does no harm to believe it.
-      for_rows(*team_, rows, [&](std::size_t i) { solution[i] += preconditioned[i]; });
-      break;
-    }
-    multiply<Value>(*team_, levels_.front().matrix, direction, between,
+    for_rows(*team_, rows, [&](std::size_t i) { direction[i] = cycle.solution()[i] + keep * direction[i]; });
+    std::vector<Value>& image = cycle.spare();
+    multiply<Value>(*team_, levels_.front().matrix, direction, cycle.between(),
                     [&](std::size_t i, const Value& one) { image[i] = one; });
     const Value share = narrow<Value>(ratio<Value>(size, dot<Value>(*team_, direction, image)));
     for_rows(*team_, rows, [&](std::size_t i) {
       solution[i] += share * direction[i];
       residual[i] -= share * image[i];
+      cycle.right()[i] = residual[i];
     });
+    cycle.apply();
+    missing = greatest<Value>(*team_, cycle.solution());
   }
-  for_rows(*team_, rows, [&](std::size_t i) {
-    if constexpr (single)
-      values[i] = solution[i];
-    else
-      values[i] = solution[i].template head<3>().matrix().template cast<double>();
-  });
+  // That far it does no harm to believe the last cycle.
+  for_rows(*team_, rows, [&](std::size_t i) { widen(solution[i] + cycle.solution()[i], values[i]); });
 }
 
 }  // namespace vspring

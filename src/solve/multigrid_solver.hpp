@@ -1,70 +1,59 @@
 #pragma once
 
-#include <cstddef>
+#include <Eigen/Core>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "base/threads.hpp"
 #include "solve/cholesky_solver.hpp"
 #include "solve/interpolation.hpp"
+#include "solve/level_matrix.hpp"
 #include "solve/linear_solver.hpp"
-#include "solve/sparse_rows.hpp"
 
 namespace vspring {
-
-/// A symmetric matrix, in one of three forms: `whole`; `columns` times `rows`, its transpose; or `rows` alone. A
-/// product that is not multiplied out stays positive and exact for what its rows take to zero, in single precision too.
-struct LevelMatrix {
-  SparseRows whole;
-  FloatRows rows;
-  FloatRows columns;
-  /// The form of a smooth function, the same one on every level, per area: what matrices of different levels are
-  /// compared by.
-  double unit = 1;
-
-  [[nodiscard]] std::size_t size() const noexcept { return whole.empty() ? rows.columns() : whole.columns(); }
-};
 
 /// By conjugate gradients, preconditioned by a multigrid cycle: every level has a matrix of its own, Chebyshev
 /// polynomials of it scaled by its diagonal smooth, a sparse factor solves on the coarsest. Cost for n nodes: linear
 /// once, and linear for every column where the number of iterations does not grow.
 class MultigridSolver final : public LinearSolver {
  public:
-  /// interpolations: the finest first; they must outlive the solver. reduction: of the greatest error
-  /// of a value, as far as a cycle can tell it.
-  MultigridSolver(std::span<const Interpolation> interpolations, double reduction, ThreadTeam& team);
+  /// interpolations: the finest first; they must outlive the solver.
+  MultigridSolver(std::span<const Interpolation> interpolations, ThreadTeam& team);
+  ~MultigridSolver() override;
+  MultigridSolver(const MultigridSolver&) = delete;
+  MultigridSolver& operator=(const MultigridSolver&) = delete;
 
-  /// matrices: of all levels but the coarsest, the finest first.
-  void build(std::vector<LevelMatrix> matrices, const SparseRows& coarsest, double coarsest_unit);
+  /// From the matrix of the finest level; coarser ones get Galerkin's. On nets as irregular as coarse ones are, forms
+  /// of their own would differ too much from that of the finest.
+  void build(LevelMatrix finest);
   /// Keeps those of the coarser levels.
   void replace_finest(LevelMatrix matrix);
 
-  void solve(std::span<double> values, double enough) override { solve_any(values, enough); }
-  void solve(std::span<Vector3> values, double enough) override { solve_any(values, enough); }
-
-  /// Of the last solve.
-  [[nodiscard]] int iterations() const noexcept { return iterations_; }
+  void solve(std::span<double> values, const Accuracy& accuracy) override;
+  void solve(std::span<Vector3> values, const Accuracy& accuracy) override;
 
  private:
   struct Level {
     LevelMatrix matrix;
-    std::vector<float> inverse_diagonal;
-    double greatest = 0;       ///< eigenvalue of the matrix scaled by its diagonal
-    std::vector<float> rough;  ///< nearly the vector that belongs to it
+    std::vector<float> inverse_diagonal = {};
+    double greatest = 0;            ///< eigenvalue of the matrix scaled by its diagonal
+    std::vector<float> rough = {};  ///< nearly the vector that belongs to it
   };
   template <typename Value>
   class Cycle;
-  void set_level(Level& level, LevelMatrix matrix) const;
-  template <typename Values>
-  void solve_any(Values values, double enough);
+  void add_level(LevelMatrix matrix);
+  void scale(Level& level) const;
+  template <typename Value, typename Values>
+  void solve_any(Cycle<Value>& cycle, Values values, const Accuracy& accuracy);
 
   std::span<const Interpolation> interpolations_;
-  double reduction_;
   ThreadTeam* team_;
   std::vector<Level> levels_;
   CholeskySolver coarsest_;
-  double coarsest_unit_ = 1;
-  int iterations_ = 0;
+  // Made when they are first used: a solver mostly solves for one kind of values.
+  std::unique_ptr<Cycle<float>> cycle_of_one_;
+  std::unique_ptr<Cycle<Eigen::Array4f>> cycle_of_three_;
 };
 
 }  // namespace vspring

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
-#include "spring/v_spring.hpp"
+#include "spring/model.hpp"
 #include "vspring/types.hpp"
 
 namespace vspring {
@@ -20,8 +19,9 @@ class Preconditioner {
   /// Looks at the shape as it is now. True where that has changed so much that all was built anew.
   virtual bool refresh() = 0;
 
-  /// The correction of every moving node for the forces on them. enough: an error of it that does not matter.
-  virtual void correct(std::span<const NodeForce> forces, double enough, std::vector<Vector3>& correction) = 0;
+  /// The correction of every moving node for the forces that the model puts on them. Needs directions. enough: an error
+  /// of it that does not matter.
+  virtual void correct(const Model& model, double enough, std::vector<Vector3>& correction) = 0;
 };
 
 }  // namespace vspring

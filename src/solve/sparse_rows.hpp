@@ -3,6 +3,7 @@
 #include <Eigen/SparseCore>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -42,18 +43,20 @@ class BasicSparseRows {
       }
     });
     std::partial_sum(matrix.begin_.begin(), matrix.begin_.end(), matrix.begin_.begin());
-    matrix.entries_.resize(matrix.begin_.back());
+    matrix.entries_ = std::make_unique_for_overwrite<Entry[]>(matrix.begin_.back());
+    // Runs go one after the other as they are copied, so that there are never two of all.
     team.run(runs.size(), [&](std::size_t k) {
-      std::copy(runs[k].begin(), runs[k].end(), matrix.entries_.begin() + matrix.begin_[k * rows_per_task]);
+      std::copy(runs[k].begin(), runs[k].end(), matrix.entries_.get() + matrix.begin_[k * rows_per_task]);
+      runs[k] = Row();
     });
     return matrix;
   }
 
-  [[nodiscard]] bool empty() const noexcept { return entries_.empty(); }
+  [[nodiscard]] bool empty() const noexcept { return begin_.back() == 0; }
   [[nodiscard]] std::size_t rows() const noexcept { return begin_.size() - 1; }
   [[nodiscard]] std::size_t columns() const noexcept { return columns_; }
   [[nodiscard]] std::span<const Entry> row(std::size_t i) const {
-    return {entries_.data() + begin_[i], begin_[i + 1] - begin_[i]};
+    return {entries_.get() + begin_[i], begin_[i + 1] - begin_[i]};
   }
   [[nodiscard]] Scalar diagonal(std::size_t i) const {
     for (const Entry& entry : row(i)) {
@@ -62,18 +65,14 @@ class BasicSparseRows {
     return 0;
   }
 
-  void scale(Scalar factor) {
-    for (Entry& entry : entries_) entry.value *= factor;
-  }
-
   /// Columns in ascending order in every row. Cost: linear.
   [[nodiscard]] BasicSparseRows transposed() const {
     BasicSparseRows result;
     result.columns_ = rows();
     result.begin_.assign(columns_ + 1, 0);
-    for (const Entry& entry : entries_) ++result.begin_[entry.column + 1];
+    for (const Entry& entry : entries()) ++result.begin_[entry.column + 1];
     std::partial_sum(result.begin_.begin(), result.begin_.end(), result.begin_.begin());
-    result.entries_.resize(entries_.size());
+    result.entries_ = std::make_unique_for_overwrite<Entry[]>(begin_.back());
     // Where the next entry of each row goes; then the end of the row, which is the beginning of the next one.
     for (std::size_t i = 0; i < rows(); ++i) {
       for (const Entry& entry : row(i))
@@ -88,9 +87,9 @@ class BasicSparseRows {
     std::vector<int> begin(begin_.begin(), begin_.end());
     std::vector<int> columns;
     std::vector<double> values;
-    columns.reserve(entries_.size());
-    values.reserve(entries_.size());
-    for (const Entry& entry : entries_) {
+    columns.reserve(begin_.back());
+    values.reserve(begin_.back());
+    for (const Entry& entry : entries()) {
       columns.push_back(static_cast<int>(entry.column));
       values.push_back(entry.value);
     }
@@ -101,37 +100,16 @@ class BasicSparseRows {
 
  private:
   static constexpr std::size_t rows_per_task = 8192;
+
+  [[nodiscard]] std::span<const Entry> entries() const { return {entries_.get(), begin_.back()}; }
+
   std::size_t columns_ = 0;
   std::vector<std::uint32_t> begin_ = {0};
-  std::vector<Entry> entries_;
+  std::unique_ptr<Entry[]> entries_;  // left as they are until they are set: pages that nothing is in cost nothing
 };
 
 using SparseRows = BasicSparseRows<double>;
 /// In single precision, half as large: for preconditioners of large shapes.
 using FloatRows = BasicSparseRows<float>;
-
-/// a b. Cost: the multiplications, and the columns of b for every 8192 rows.
-template <typename Scalar, typename ScalarA, typename ScalarB>
-BasicSparseRows<Scalar> product(const BasicSparseRows<ScalarA>& a, const BasicSparseRows<ScalarB>& b,
-                                ThreadTeam& team) {
-  using Entry = typename BasicSparseRows<Scalar>::Entry;
-  constexpr auto none = static_cast<std::uint32_t>(-1);
-  return BasicSparseRows<Scalar>::build(team, a.rows(), b.columns(), [&] {
-    return [&, place = std::vector<std::uint32_t>(b.columns(), none)](std::size_t i, std::vector<Entry>& run) mutable {
-      const std::size_t before = run.size();
-      for (const auto& outer : a.row(i)) {
-        for (const auto& inner : b.row(outer.column)) {
-          std::uint32_t& at = place[inner.column];
-          if (at == none) {
-            at = static_cast<std::uint32_t>(run.size());
-            run.push_back({inner.column, 0});
-          }
-          run[at].value += static_cast<Scalar>(outer.value) * static_cast<Scalar>(inner.value);
-        }
-      }
-      for (std::size_t k = before; k < run.size(); ++k) place[run[k].column] = none;
-    };
-  });
-}
 
 }  // namespace vspring

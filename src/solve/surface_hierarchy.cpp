@@ -19,6 +19,7 @@ constexpr int film_passes = 500;
 constexpr int slide_passes = 6;
 constexpr double worth_sliding = 0.5;
 constexpr double negligible_slide = 0.05;
+constexpr double slide_share = 0.15;
 constexpr std::size_t nodes_per_task = 2048;
 // Moving nodes up to which Cholesky factors are faster than multigrid.
 constexpr std::size_t few_enough_to_factor = 3000;
@@ -51,12 +52,10 @@ void SurfaceHierarchy::make_systems(std::size_t level) {
   if (systems_of_ == level) return;
   systems_of_ = level;
   spreading_.reset();
-  system_levels_ = {};
-  system_levels_.nets.push_back(&levels_[level].net);
+  system_levels_ = {.net = &levels_[level].net};
   for (std::size_t k = level; k > 0 && levels_[k].net.moving > few_enough_to_factor; --k) {
     SurfaceLevel& coarse = levels_[k - 1];
     restrict_shape(levels_[k], coarse);
-    system_levels_.nets.push_back(&coarse.net);
     system_levels_.interpolations.push_back(interpolation(levels_[k].net, coarse.net, coarse.finer, *team_));
   }
   spreading_ = spreading_solver(system_levels_, *team_);
@@ -104,7 +103,7 @@ void SurfaceHierarchy::spread_along(std::size_t level) {
     });
     double least_edge = forces.front().mean_edge;
     for (const NodeForce& force : forces) least_edge = std::min(least_edge, force.mean_edge);
-    spreading_->solve(steps, negligible_slide * least_edge);
+    spreading_->solve(steps, {.enough = negligible_slide * least_edge, .share = slide_share});
     bool worth_it = false;
     for (std::size_t i = 0; i < net.moving; ++i) {
       steps[i] -= steps[i].dot(net.normals[i]) * net.normals[i];

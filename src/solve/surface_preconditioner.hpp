@@ -21,11 +21,12 @@ class SurfacePreconditioner final : public Preconditioner {
   SurfacePreconditioner(const SystemLevels& levels, LinearSolver& spreading, ThreadTeam& team);
 
   bool refresh() override;
-  void correct(std::span<const NodeForce> forces, double enough, std::vector<Vector3>& correction) override;
+  void correct(const Model& model, double enough, std::vector<Vector3>& correction) override;
 
  private:
-  /// What the regularisation is to do beside the correction along the normals, by the graph's Laplacian.
-  [[nodiscard]] Vector3 asked_across(std::size_t i, const NodeForce& force) const;
+  /// Turns what the regularisation asks of a node into what it is to do beside the correction along the normals, by the
+  /// graph's Laplacian.
+  [[nodiscard]] Vector3 asked_across(std::size_t i, const Vector3& regularisation) const;
 
   const Net* net_;
   ThreadTeam* team_;
@@ -34,9 +35,9 @@ class SurfacePreconditioner final : public Preconditioner {
   LinearSolver* spreading_;
   /// The sums of 1/ℓ of every moving node by the lengths that its edges have now: then what neighbours ask of each
   /// other cancels, and what is rough in the forces leaves no trace in long waves.
-  std::vector<double> weight_;
-  std::vector<double> built_weight_;  // and by those when the bending form was built
-  std::vector<double> along_;         // the correction along the normals
+  std::vector<float> weight_;
+  std::vector<float> built_weight_;  // and by those when the bending form was built
+  std::vector<double> along_;        // the correction along the normals
 };
 
 }  // namespace vspring

@@ -11,15 +11,14 @@
 
 namespace vspring {
 
-/// The levels that a system is solved over, the finest first: nets that have one shape, with directions, and between
-/// each and the next one an interpolation. With one level a sparse factor solves, with more multigrid does. All must
-/// outlive what is made of them.
+/// What a system is of, a net with directions, and the interpolations between it and coarser versions of it, the finest
+/// first. Without any a sparse factor solves, with them multigrid does. Must outlive what is made of it.
 struct SystemLevels {
-  std::vector<const Net*> nets;
-  std::vector<Interpolation> interpolations;
+  const Net* net = nullptr;
+  std::vector<Interpolation> interpolations = {};
 };
 
-/// Solves with the bending form of the finest net, see bending_form().
+/// Solves with the bending form of the net, see bending_form().
 class BendingSystem {
  public:
   BendingSystem(const SystemLevels& levels, ThreadTeam& team);
@@ -29,17 +28,16 @@ class BendingSystem {
 
   /// Builds the form from where the nodes are now; that of coarser levels once.
   void build();
-  void solve(std::span<double> values, double enough);
+  void solve(std::span<double> values, const Accuracy& accuracy);
 
  private:
   const SystemLevels* levels_;
   ThreadTeam* team_;
   std::unique_ptr<class CholeskySolver> factor_;
   std::unique_ptr<class MultigridSolver> multigrid_;
-  bool built_ = false;
 };
 
-/// A solver with the Laplacian of the finest net's graph, see spreading_form().
+/// A solver with the Laplacian of the net's graph, see spreading_form().
 std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team);
 
 }  // namespace vspring

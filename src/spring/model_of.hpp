@@ -43,7 +43,7 @@ class ModelOf final : public Model {
   }
 
   void find_forces(const Net& net, Block block, std::span<NodeForce> forces) const override {
-    for (std::size_t i = block.begin; i < block.end; ++i) forces[i] = rules_.force(net, i);
+    for (std::size_t i = block.begin; i < block.end; ++i) forces[i - block.begin] = rules_.force(net, i);
   }
 
  private:

@@ -52,7 +52,7 @@ double left_over(const Bent& curve, Distribution distribution) {
   model->find_forces(net, {0, net.moving}, forces);
   preconditioner.refresh();
   std::vector<Vector3> correction;
-  preconditioner.correct(forces, 0, correction);
+  preconditioner.correct(*model, 0, correction);
   for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += correction[i];
   const auto corrected = scatter_positions(net, curve.nodes, curve.constraints, 1);
   return greatest_distance(corrected, curve.equilibrium) / greatest_distance(curve.nodes, curve.equilibrium);
@@ -119,7 +119,7 @@ TEST(CurvePreconditioner, CutsClosedChainsAtAHeldNodeWithoutATrace) {
     model->find_forces(net, {0, net.moving}, forces);
     preconditioner.refresh();
     std::vector<Vector3> correction;
-    preconditioner.correct(forces, 0, correction);
+    preconditioner.correct(*model, 0, correction);
     for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += correction[i];
     results.push_back(scatter_positions(net, nodes, constraints, 1));
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -26,7 +28,7 @@ class Constraints {
   void free_position(Index node);
   [[nodiscard]] bool position_fixed(Index node) const { return (flags_[at(node)] & position_flag) != 0; }
   /// Meaningful where position_fixed().
-  [[nodiscard]] const Vector3& position(Index node) const { return positions_[at(node)]; }
+  [[nodiscard]] const Vector3& position(Index node) const { return positions_.of(at(node)); }
 
   /// The node's normal is `normal`, made unit length; its sense does not matter. Throws Error(unusable_constraint)
   /// naming the node when it is zero or not finite.
@@ -34,7 +36,7 @@ class Constraints {
   void free_normal(Index node);
   [[nodiscard]] bool normal_fixed(Index node) const { return (flags_[at(node)] & normal_flag) != 0; }
   /// Unit length; meaningful where normal_fixed().
-  [[nodiscard]] const Vector3& normal(Index node) const { return normals_[at(node)]; }
+  [[nodiscard]] const Vector3& normal(Index node) const { return normals_.of(at(node)); }
 
   /// Of curves: the tangent at the node is `tangent`, made unit length, in the direction in which the curve runs.
   /// Throws Error(unusable_constraint) naming the node when it is zero or not finite.
@@ -42,7 +44,7 @@ class Constraints {
   void free_tangent(Index node);
   [[nodiscard]] bool tangent_fixed(Index node) const { return (flags_[at(node)] & tangent_flag) != 0; }
   /// Unit length; meaningful where tangent_fixed().
-  [[nodiscard]] const Vector3& tangent(Index node) const { return tangents_[at(node)]; }
+  [[nodiscard]] const Vector3& tangent(Index node) const { return tangents_.of(at(node)); }
 
  private:
   static constexpr std::uint8_t position_flag = 1;
@@ -51,10 +53,22 @@ class Constraints {
   /// Throws Error(unusable_constraint) for a node number out of range.
   [[nodiscard]] std::size_t at(Index node) const;
 
+  /// A vector for some of the nodes: most have no constraint of most kinds.
+  class Vectors {
+   public:
+    /// Zero where there is none.
+    [[nodiscard]] const Vector3& of(std::size_t node) const;
+    void set(std::size_t node, std::size_t node_count, const Vector3& value);
+
+   private:
+    std::vector<std::uint32_t> place_;  // of every node's vector; the first one stands for all that have none
+    std::vector<Vector3> values_;
+  };
+
   std::vector<std::uint8_t> flags_;
-  std::vector<Vector3> positions_;
-  std::vector<Vector3> normals_;
-  std::vector<Vector3> tangents_;  // empty until one is given
+  Vectors positions_;
+  Vectors normals_;
+  Vectors tangents_;
 };
 
 /// Fixes the boundary nodes of the mesh, or the end nodes of the curve, where they are. Cost: linear.

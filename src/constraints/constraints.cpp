@@ -21,10 +21,24 @@ Vector3 unit(Index node, const Vector3& vector, const char* what) {
 
 }  // namespace
 
-Constraints::Constraints(Index node_count)
-    : flags_(static_cast<std::size_t>(node_count), 0),
-      positions_(static_cast<std::size_t>(node_count), Vector3::Zero()),
-      normals_(static_cast<std::size_t>(node_count), Vector3::Zero()) {}
+Constraints::Constraints(Index node_count) : flags_(static_cast<std::size_t>(node_count), 0) {}
+
+const Vector3& Constraints::Vectors::of(std::size_t node) const {
+  static const Vector3 none = Vector3::Zero();
+  return place_.empty() ? none : values_[place_[node]];
+}
+
+void Constraints::Vectors::set(std::size_t node, std::size_t node_count, const Vector3& value) {
+  if (place_.empty()) {
+    place_.assign(node_count, 0);
+    values_.emplace_back(Vector3::Zero());
+  }
+  if (place_[node] == 0) {
+    place_[node] = static_cast<std::uint32_t>(values_.size());
+    values_.emplace_back();
+  }
+  values_[place_[node]] = value;
+}
 
 std::size_t Constraints::at(Index node) const {
   if (node < 0 || node >= node_count())
@@ -35,7 +49,7 @@ std::size_t Constraints::at(Index node) const {
 
 void Constraints::fix_position(Index node, const Vector3& position) {
   const std::size_t i = at(node);
-  positions_[i] = position;
+  positions_.set(i, flags_.size(), position);
   flags_[i] |= position_flag;
 }
 
@@ -43,7 +57,7 @@ void Constraints::free_position(Index node) { flags_[at(node)] &= static_cast<st
 
 void Constraints::fix_normal(Index node, const Vector3& normal) {
   const std::size_t i = at(node);
-  normals_[i] = unit(node, normal, "normal");
+  normals_.set(i, flags_.size(), unit(node, normal, "normal"));
   flags_[i] |= normal_flag;
 }
 
@@ -51,9 +65,7 @@ void Constraints::free_normal(Index node) { flags_[at(node)] &= static_cast<std:
 
 void Constraints::fix_tangent(Index node, const Vector3& tangent) {
   const std::size_t i = at(node);
-  const Vector3 direction = unit(node, tangent, "tangent");
-  if (tangents_.empty()) tangents_.assign(flags_.size(), Vector3::Zero());
-  tangents_[i] = direction;
+  tangents_.set(i, flags_.size(), unit(node, tangent, "tangent"));
   flags_[i] |= tangent_flag;
 }
 

@@ -139,6 +139,7 @@ std::vector<Removals> coarsen(Triangulation& triangulation, std::vector<std::uin
   Coarsening coarsening(triangulation, kept);
   parallel_ranges(team, nodes, piece, [&](std::size_t begin, std::size_t end) {
     left[begin / piece] = coarsening.remove_within(begin, end, removals[begin / piece]);
+    removals[begin / piece].close();
   });
   std::vector<std::uint32_t> rest;
   for (const auto& part : left) rest.insert(rest.end(), part.begin(), part.end());

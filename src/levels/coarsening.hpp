@@ -25,6 +25,12 @@ struct Removals {
     parents.insert(parents.end(), neighbours.begin(), neighbours.end());
     begin.push_back(static_cast<std::uint32_t>(parents.size()));
   }
+  /// Gives back the room for more.
+  void close() {
+    nodes.shrink_to_fit();
+    begin.shrink_to_fit();
+    parents.shrink_to_fit();
+  }
 };
 
 /// Removes from a triangulation all nodes but those kept, each drawn into a neighbour, so far as it stays a surface;

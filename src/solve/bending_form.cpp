@@ -141,35 +141,72 @@ std::vector<SparseRows::Row> extra_rows(const Net& net) {
 
 }  // namespace
 
-template <typename Scalar>
-BasicSparseRows<Scalar> bending_rows(const Net& net, ThreadTeam& team) {
-  using Row = typename BasicSparseRows<Scalar>::Row;
-  const std::vector<SparseRows::Row> extra = extra_rows(net);
-  const auto bends_evenly = [&](std::size_t i) { return !net.normal_given(i) && !on_boundary(net.rings.links(i)); };
-  return BasicSparseRows<Scalar>::build(team, net.moving + extra.size(), net.moving, [&] {
-    return [&, whole = SparseRows::Row()](std::size_t i, Row& row) mutable {
-      if (i >= net.moving) {
-        for (const auto& entry : extra[i - net.moving]) row.push_back({entry.column, static_cast<Scalar>(entry.value)});
-        return;
-      }
-      if (!bends_evenly(i)) return;
-      const double sum = curvature_row(
-          net, i, [](std::size_t) { return true; }, whole);
-      const double scale = sum > 0 ? 1 / std::sqrt(sum) : 0;
-      row.push_back({static_cast<std::uint32_t>(i), static_cast<Scalar>(-sum * scale)});
-      for (const auto& entry : whole) {
-        if (entry.column < net.moving) row.push_back({entry.column, static_cast<Scalar>(entry.value * scale)});
-      }
-    };
-  });
+namespace {
+
+bool bends_evenly(const Net& net, std::size_t i) { return !net.normal_given(i) && !on_boundary(net.rings.links(i)); }
+
+/// The row of G of a moving node: with(i, value) and with(k, value) for its links to moving nodes. whole: room for it.
+template <typename WithNode, typename WithLink>
+void for_bending_row(const Net& net, std::size_t i, SparseRows::Row& whole, const WithNode& with_node,
+                     const WithLink& with_link) {
+  if (!bends_evenly(net, i)) return;
+  const double sum = curvature_row(
+      net, i, [](std::size_t) { return true; }, whole);
+  if (!(sum > 0)) return;
+  const double scale = 1 / std::sqrt(sum);
+  with_node(-sum * scale);
+  const auto links = net.rings.links(i);
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (!links[k].spoke()) continue;
+    const SparseRows::Entry& entry = whole[next++];
+    if (entry.column < net.moving) with_link(k, entry.value * scale);
+  }
 }
 
-template BasicSparseRows<double> bending_rows<double>(const Net& net, ThreadTeam& team);
-template BasicSparseRows<float> bending_rows<float>(const Net& net, ThreadTeam& team);
+}  // namespace
 
 SparseRows bending_form(const Net& net, ThreadTeam& team) {
-  const auto rows = bending_rows<double>(net, team);
+  const std::vector<SparseRows::Row> extra = extra_rows(net);
+  const auto rows = SparseRows::build(team, net.moving + extra.size(), net.moving, [&] {
+    return [&, whole = SparseRows::Row()](std::size_t i, SparseRows::Row& row) mutable {
+      if (i >= net.moving) {
+        row.insert(row.end(), extra[i - net.moving].begin(), extra[i - net.moving].end());
+        return;
+      }
+      const auto links = net.rings.links(i);
+      for_bending_row(
+          net, i, whole,
+          [&](double value) {
+            row.push_back({static_cast<std::uint32_t>(i), value});
+          },
+          [&](std::size_t k, double value) {
+            row.push_back({static_cast<std::uint32_t>(links[k].node()), value});
+          });
+    };
+  });
   return product(rows.transposed(), rows, team);
+}
+
+FactoredMatrix factored_bending_form(const Net& net, ThreadTeam& team) {
+  const std::vector<SparseRows::Row> extra = extra_rows(net);
+  LinkedRows rows;
+  rows.diagonal.assign(net.moving, 0);
+  rows.beside.assign(net.moving == 0 ? 0 : net.rings.begin(net.moving), 0);
+  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    SparseRows::Row whole;
+    for (std::size_t i = begin; i < end; ++i) {
+      for_bending_row(
+          net, i, whole, [&](double value) { rows.diagonal[i] = static_cast<float>(value); },
+          [&](std::size_t k, double value) { rows.beside[net.rings.begin(i) + k] = static_cast<float>(value); });
+    }
+  });
+  rows.further = FloatRows::build(team, extra.size(), net.moving, [&] {
+    return [&](std::size_t k, FloatRows::Row& row) {
+      for (const SparseRows::Entry& entry : extra[k]) row.push_back({entry.column, static_cast<float>(entry.value)});
+    };
+  });
+  return {net, std::move(rows), team};
 }
 
 SparseRows spreading_form(const Net& net, ThreadTeam& team) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/threads.hpp"
+#include "solve/level_matrix.hpp"
 #include "solve/sparse_rows.hpp"
 #include "spring/net.hpp"
 
@@ -16,12 +17,11 @@ namespace vspring {
 /// node, unless it lies on the boundary; a moving node there bends along the boundary only.
 /// B = Gᵀ G with G = [√D L; the roots of C's terms]: first a row for every moving node, which is empty where C has the
 /// rest, then those of C.
-/// Returns G. Cost: linear in the moving nodes.
-template <typename Scalar>
-BasicSparseRows<Scalar> bending_rows(const Net& net, ThreadTeam& team);
-
-/// B.
+/// Returns B. Cost: linear in the moving nodes.
 SparseRows bending_form(const Net& net, ThreadTeam& team);
+
+/// B as the product that it is. The net must outlive it.
+FactoredMatrix factored_bending_form(const Net& net, ThreadTeam& team);
 
 /// D, the sum of 1/ℓ over the edges of every moving node, by the lengths that they have now.
 void weigh_edges(const Net& net, ThreadTeam& team, std::vector<float>& sums);

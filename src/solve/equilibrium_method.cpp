@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <span>
 #include <vector>
 
 #include "solve/equilibrium.hpp"
@@ -38,6 +39,13 @@ double diagonal(const Net& net) {
   return box.isEmpty() ? 1 : box.diagonal().norm();
 }
 
+/// The places of the moving nodes, as precise as a start need be.
+std::vector<Eigen::Vector3f> rounded(const Net& net) {
+  std::vector<Eigen::Vector3f> result(net.moving);
+  for (std::size_t i = 0; i < net.moving; ++i) result[i] = net.positions[i].cast<float>();
+  return result;
+}
+
 class Run {
  public:
   Run(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
@@ -65,7 +73,7 @@ class Run {
     const int limit = options_.max_iterations.value_or(default_limit);
     const std::size_t last = hierarchy_.count() - 1;
     hierarchy_.start();
-    std::vector<Vector3> own_start;
+    std::vector<Eigen::Vector3f> own_start;
     const std::size_t first = hierarchy_.first_of_use();
     for (std::size_t k = first; k <= last; ++k) {
       (void)relax(k, k == first ? std::min(limit, first_try) : limit);
@@ -75,7 +83,7 @@ class Run {
       }
       if (k > first && ((unfinished() && lost()) || caught_in_a_fold(k))) try_own_start(k, own_start, limit);
       if (k == last) break;
-      own_start = hierarchy_.net(k + 1).positions;
+      own_start = rounded(hierarchy_.net(k + 1));
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
     }
@@ -83,20 +91,21 @@ class Run {
 
   /// A level too coarse for the shape to have an equilibrium, or to have the right one, hands up what is no help: then
   /// the start itself may be one. The better of both stays.
-  void try_own_start(std::size_t level, std::vector<Vector3> start, int limit) {
+  void try_own_start(std::size_t level, std::span<const Eigen::Vector3f> start, int limit) {
     Net& net = hierarchy_.net(level);
+    const std::vector<Vector3> reached = net.positions;
     const bool was_unfinished = unfinished();
     const double residual = report_.residual;
     const Outcome outcome = report_.outcome;
     const double energy = energy_of(net).sum;
-    std::swap(net.positions, start);
+    for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = start[i].cast<double>();
     (void)relax(level, limit);
     if (report_.outcome == Outcome::cancelled) return;
     const bool better = was_unfinished || unfinished()
                             ? !unfinished() || (was_unfinished && report_.residual < residual)
                             : energy_of(net).sum < energy;
     if (better) return;
-    net.positions = std::move(start);
+    net.positions = reached;
     report_.outcome = outcome;
     report_.residual = residual;
     report_.expected_error = residual;

@@ -9,7 +9,7 @@ namespace vspring {
 
 namespace {
 
-constexpr std::size_t nearest = 6;
+constexpr std::size_t nearest = 4;
 // Of the unscaled shares, what has to be left where they are made to reproduce linear functions.
 constexpr double least_left = 0.2;
 constexpr double ridge = 0.01;

@@ -1,5 +1,6 @@
 #include "solve/level_matrix.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -12,11 +13,29 @@ namespace {
 
 using Entry = SparseRows::Entry;
 
+constexpr std::size_t nodes_per_task = 2048;
+
 void multiply(std::span<const Entry> row, const WholeMatrix& matrix, SparseSum& image) {
   image.clear();
   for (const Entry& outer : row) {
     matrix.for_row(outer.column, [&](std::size_t column, double value) {
       image.add(static_cast<std::uint32_t>(column), outer.value * value);
+    });
+  }
+}
+
+/// inner: row · Gᵀ.
+void multiply(std::span<const Entry> row, const FactoredMatrix& matrix, SparseSum& inner, SparseSum& image) {
+  inner.clear();
+  for (const Entry& outer : row) {
+    matrix.for_column(outer.column, [&](std::size_t column, float value) {
+      inner.add(static_cast<std::uint32_t>(column), outer.value * static_cast<double>(value));
+    });
+  }
+  image.clear();
+  for (const Entry& outer : inner.entries()) {
+    matrix.for_row(outer.column, [&](std::size_t column, float value) {
+      image.add(static_cast<std::uint32_t>(column), outer.value * static_cast<double>(value));
     });
   }
 }
@@ -42,9 +61,7 @@ class GalerkinRow {
     here_.clear();
     for (const FloatRows::Entry& entry : down_->row(i)) here_.add(entry.column, static_cast<double>(entry.value));
     if (const auto* factored = std::get_if<FactoredMatrix>(matrix_)) {
-      multiply(here_.entries(), factored->columns(), there_);
-      multiply(there_.entries(), factored->rows(), here_);
-      std::swap(here_, there_);
+      multiply(here_.entries(), *factored, between_, there_);
     } else if (const auto* whole = std::get_if<WholeMatrix>(matrix_)) {
       multiply(here_.entries(), *whole, there_);
     } else {
@@ -59,6 +76,7 @@ class GalerkinRow {
   const LevelMatrix* matrix_;
   const FloatRows* up_;
   SparseSum here_;
+  SparseSum between_;
   SparseSum there_;
 };
 
@@ -89,6 +107,25 @@ WholeMatrix::WholeMatrix(const FloatRows& down, const LevelMatrix& matrix, const
 WholeMatrix::WholeMatrix(const SparseRows& matrix, ThreadTeam& team) : diagonal_(matrix.rows()) {
   beside_ = FloatRows::build(team, matrix.rows(), matrix.columns(), [&] {
     return [&](std::size_t i, FloatRows::Row& row) { diagonal_[i] = round_row(i, matrix.row(i), row); };
+  });
+}
+
+FactoredMatrix::FactoredMatrix(const Net& net, LinkedRows rows, ThreadTeam& team)
+    : net_(&net), rows_(std::move(rows)), further_columns_(rows_.further.transposed()) {
+  across_.assign(rows_.beside.size(), 0);
+  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto links = net.rings.links(i);
+      for (std::size_t k = 0; k < links.size(); ++k) {
+        const std::size_t j = links[k].node();
+        if (!links[k].spoke() || j >= net.moving) continue;
+        const auto back = net.rings.links(j);
+        const auto found = std::find_if(back.begin(), back.end(), [&](Link l) { return l.spoke() && l.node() == i; });
+        if (found != back.end())
+          across_[net.rings.begin(i) + k] =
+              rows_.beside[net.rings.begin(j) + static_cast<std::size_t>(found - back.begin())];
+      }
+    }
   });
 }
 

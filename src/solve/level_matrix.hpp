@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -39,24 +38,62 @@ class WholeMatrix {
   std::vector<double> diagonal_;
 };
 
+/// A matrix with a row and a column for every moving node of a net, whose entries beside the diagonal are between
+/// neighbours, and with further rows below.
+struct LinkedRows {
+  std::vector<float> diagonal;
+  std::vector<float> beside;  ///< one for every link of a moving node; zero for those to held ones
+  FloatRows further;
+};
+
 /// Gᵀ G. A product that is not multiplied out stays positive and exact for what the rows of G take to zero, in single
-/// precision too.
+/// precision too; and where its entries are is known from the net.
 class FactoredMatrix {
  public:
-  explicit FactoredMatrix(FloatRows rows) : rows_(std::move(rows)), columns_(rows_.transposed()) {}
+  /// From G. The net must outlive it. Cost: linear.
+  FactoredMatrix(const Net& net, LinkedRows rows, ThreadTeam& team);
 
-  [[nodiscard]] std::size_t size() const noexcept { return rows_.columns(); }
+  [[nodiscard]] std::size_t size() const noexcept { return net_->moving; }
+  /// Rows of G.
+  [[nodiscard]] std::size_t inner_size() const noexcept { return size() + rows_.further.rows(); }
   [[nodiscard]] double diagonal(std::size_t i) const {
     double sum = 0;
-    for (const FloatRows::Entry& entry : columns_.row(i)) sum += static_cast<double>(entry.value * entry.value);
+    for_column(i, [&](std::size_t, float value) { sum += static_cast<double>(value * value); });
     return sum;
   }
-  [[nodiscard]] const FloatRows& rows() const noexcept { return rows_; }        ///< G
-  [[nodiscard]] const FloatRows& columns() const noexcept { return columns_; }  ///< Gᵀ
+  /// use(column, value) for the entries of row i of G.
+  template <typename Use>
+  void for_row(std::size_t i, const Use& use) const {
+    if (i < size()) {
+      use(i, rows_.diagonal[i]);
+      for_links(i, rows_.beside, use);
+    } else {
+      for (const FloatRows::Entry& entry : rows_.further.row(i - size())) use(entry.column, entry.value);
+    }
+  }
+  /// use(row, value) for the entries of column i of G.
+  template <typename Use>
+  void for_column(std::size_t i, const Use& use) const {
+    use(i, rows_.diagonal[i]);
+    for_links(i, across_, use);
+    for (const FloatRows::Entry& entry : further_columns_.row(i)) use(size() + entry.column, entry.value);
+  }
 
  private:
-  FloatRows rows_;
-  FloatRows columns_;
+  template <typename Use>
+  void for_links(std::size_t i, const std::vector<float>& values, const Use& use) const {
+    const auto links = net_->rings.links(i);
+    const float* value = values.data() + net_->rings.begin(i);
+    for (const Link link : links) {
+      const float one = *value++;
+      if (link.spoke() && link.node() < size()) use(link.node(), one);
+    }
+  }
+
+  const Net* net_;
+  LinkedRows rows_;
+  std::vector<float> across_;  // for every link the entry of the neighbour's row
+  FloatRows further_columns_;
 };
 
 /// The Laplacian of the moving nodes' graph with weights of one, which takes no memory of its own. The net must outlive

@@ -130,9 +130,17 @@ template <typename Value, typename Then>
 void multiply(ThreadTeam& team, const LevelMatrix& matrix, const std::vector<Value>& values, std::vector<Value>& room,
               const Then& then) {
   if (const auto* factored = std::get_if<FactoredMatrix>(&matrix)) {
-    room.resize(factored->rows().rows());
-    for_rows(team, room.size(), [&](std::size_t i) { room[i] = row_times(factored->rows(), i, values); });
-    for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(factored->columns(), i, room)); });
+    room.resize(factored->inner_size());
+    for_rows(team, room.size(), [&](std::size_t i) {
+      Value sum = zero<Value>();
+      factored->for_row(i, [&](std::size_t j, float value) { sum += value * values[j]; });
+      room[i] = sum;
+    });
+    for_rows(team, values.size(), [&](std::size_t i) {
+      Value sum = zero<Value>();
+      factored->for_column(i, [&](std::size_t j, float value) { sum += value * room[j]; });
+      then(i, sum);
+    });
   } else if (const auto* whole = std::get_if<WholeMatrix>(&matrix)) {
     for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(*whole, i, values)); });
   } else {

@@ -20,7 +20,7 @@ void BendingSystem::build() {
     factor_->build(bending_form(*levels_->net, *team_));
     return;
   }
-  FactoredMatrix matrix(bending_rows<float>(*levels_->net, *team_));
+  FactoredMatrix matrix = factored_bending_form(*levels_->net, *team_);
   if (multigrid_) {
     multigrid_->replace_finest(std::move(matrix));
     return;

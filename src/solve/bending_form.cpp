@@ -83,6 +83,12 @@ void weigh_edges(const Net& net, ThreadTeam& team, std::vector<float>& sums) {
 
 namespace {
 
+/// A row of G, over held nodes too.
+struct BendingRow {
+  std::size_t centre;  ///< what lies along its normal bends it
+  SparseRows::Row entries;
+};
+
 /// The rows of C.
 class Extra {
  public:
@@ -94,29 +100,25 @@ class Extra {
     SparseRows::Row row;
     const double sum = curvature_row(*net_, i, wanted, row);
     if (sum == 0) return;
-    std::erase_if(row, [&](const auto& entry) { return entry.column >= net_->moving; });
-    if (i < net_->moving) row.push_back({static_cast<std::uint32_t>(i), -sum});
+    row.push_back({static_cast<std::uint32_t>(i), -sum});
     for (auto& entry : row) entry.value /= std::sqrt(sum);
-    rows_.push_back(std::move(row));
+    rows_.push_back({i, std::move(row)});
   }
 
   /// √w (h_j − h_i).
-  void add_edge(std::size_t i, std::size_t j) {
+  void add_edge(std::size_t centre, std::size_t i, std::size_t j) {
     const double root = std::sqrt(edge_weight(*net_, i, j));
-    SparseRows::Row row;
-    if (i < net_->moving) row.push_back({static_cast<std::uint32_t>(i), -root});
-    if (j < net_->moving) row.push_back({static_cast<std::uint32_t>(j), root});
-    rows_.push_back(std::move(row));
+    rows_.push_back({centre, {{static_cast<std::uint32_t>(i), -root}, {static_cast<std::uint32_t>(j), root}}});
   }
 
-  [[nodiscard]] std::vector<SparseRows::Row> take() && { return std::move(rows_); }
+  [[nodiscard]] std::vector<BendingRow> take() && { return std::move(rows_); }
 
  private:
   const Net* net_;
-  std::vector<SparseRows::Row> rows_;
+  std::vector<BendingRow> rows_;
 };
 
-std::vector<SparseRows::Row> extra_rows(const Net& net) {
+std::vector<BendingRow> extra_rows(const Net& net) {
   Extra extra(net);
   for (std::size_t i = 0; i < net.computed; ++i) {
     const auto links = net.rings.links(i);
@@ -124,7 +126,7 @@ std::vector<SparseRows::Row> extra_rows(const Net& net) {
     const bool open = on_boundary(links);
     if (moves && net.normal_given(i)) {
       for (const Link link : links) {
-        if (link.spoke()) extra.add_edge(i, link.node());
+        if (link.spoke()) extra.add_edge(i, i, link.node());
       }
     } else if (moves && open) {
       extra.add_bend(i, [&](std::size_t k) { return k == 0 || k + 1 == links.size(); });
@@ -133,80 +135,114 @@ std::vector<SparseRows::Row> extra_rows(const Net& net) {
     }
     if (!moves || net.normal_given(i)) continue;
     for (const Link link : links) {
-      if (link.spoke() && link.node() >= net.moving && net.normal_given(link.node())) extra.add_edge(i, link.node());
+      const std::size_t j = link.node();
+      if (link.spoke() && j >= net.moving && net.normal_given(j)) extra.add_edge(j, i, j);
     }
   }
   return std::move(extra).take();
 }
 
-}  // namespace
-
-namespace {
-
 bool bends_evenly(const Net& net, std::size_t i) { return !net.normal_given(i) && !on_boundary(net.rings.links(i)); }
 
-/// The row of G of a moving node: with(i, value) and with(k, value) for its links to moving nodes. whole: room for it.
-template <typename WithNode, typename WithLink>
-void for_bending_row(const Net& net, std::size_t i, SparseRows::Row& whole, const WithNode& with_node,
-                     const WithLink& with_link) {
+/// The row of G of a moving node: with_node(its own entry), and with_spoke(k, entry) for its links to neighbours. room:
+/// for the row.
+template <typename WithNode, typename WithSpoke>
+void for_bending_row(const Net& net, std::size_t i, SparseRows::Row& room, const WithNode& with_node,
+                     const WithSpoke& with_spoke) {
   if (!bends_evenly(net, i)) return;
   const double sum = curvature_row(
-      net, i, [](std::size_t) { return true; }, whole);
+      net, i, [](std::size_t) { return true; }, room);
   if (!(sum > 0)) return;
   const double scale = 1 / std::sqrt(sum);
   with_node(-sum * scale);
   const auto links = net.rings.links(i);
   std::size_t next = 0;
   for (std::size_t k = 0; k < links.size(); ++k) {
-    if (!links[k].spoke()) continue;
-    const SparseRows::Entry& entry = whole[next++];
-    if (entry.column < net.moving) with_link(k, entry.value * scale);
+    if (links[k].spoke()) with_spoke(k, room[next++].value * scale);
   }
 }
 
 }  // namespace
 
 SparseRows bending_form(const Net& net, ThreadTeam& team) {
-  const std::vector<SparseRows::Row> extra = extra_rows(net);
+  const std::vector<BendingRow> extra = extra_rows(net);
   const auto rows = SparseRows::build(team, net.moving + extra.size(), net.moving, [&] {
-    return [&, whole = SparseRows::Row()](std::size_t i, SparseRows::Row& row) mutable {
+    return [&, room = SparseRows::Row()](std::size_t i, SparseRows::Row& row) mutable {
+      const auto add = [&](std::size_t column, double value) {
+        if (column < net.moving) row.push_back({static_cast<std::uint32_t>(column), value});
+      };
       if (i >= net.moving) {
-        row.insert(row.end(), extra[i - net.moving].begin(), extra[i - net.moving].end());
+        for (const SparseRows::Entry& entry : extra[i - net.moving].entries) add(entry.column, entry.value);
         return;
       }
       const auto links = net.rings.links(i);
       for_bending_row(
-          net, i, whole,
-          [&](double value) {
-            row.push_back({static_cast<std::uint32_t>(i), value});
-          },
-          [&](std::size_t k, double value) {
-            row.push_back({static_cast<std::uint32_t>(links[k].node()), value});
-          });
+          net, i, room, [&](double value) { add(i, value); },
+          [&](std::size_t k, double value) { add(links[k].node(), value); });
     };
   });
   return product(rows.transposed(), rows, team);
 }
 
 FactoredMatrix factored_bending_form(const Net& net, ThreadTeam& team) {
-  const std::vector<SparseRows::Row> extra = extra_rows(net);
+  const std::vector<BendingRow> extra = extra_rows(net);
   LinkedRows rows;
   rows.diagonal.assign(net.moving, 0);
   rows.beside.assign(net.moving == 0 ? 0 : net.rings.begin(net.moving), 0);
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    SparseRows::Row whole;
+    SparseRows::Row room;
     for (std::size_t i = begin; i < end; ++i) {
+      const auto links = net.rings.links(i);
       for_bending_row(
-          net, i, whole, [&](double value) { rows.diagonal[i] = static_cast<float>(value); },
-          [&](std::size_t k, double value) { rows.beside[net.rings.begin(i) + k] = static_cast<float>(value); });
+          net, i, room, [&](double value) { rows.diagonal[i] = static_cast<float>(value); },
+          [&](std::size_t k, double value) {
+            if (links[k].node() < net.moving) rows.beside[net.rings.begin(i) + k] = static_cast<float>(value);
+          });
     }
   });
   rows.further = FloatRows::build(team, extra.size(), net.moving, [&] {
     return [&](std::size_t k, FloatRows::Row& row) {
-      for (const SparseRows::Entry& entry : extra[k]) row.push_back({entry.column, static_cast<float>(entry.value)});
+      for (const SparseRows::Entry& entry : extra[k].entries) {
+        if (entry.column < net.moving) row.push_back({entry.column, static_cast<float>(entry.value)});
+      }
     };
   });
   return {net, std::move(rows), team};
+}
+
+std::vector<double> pull_of_held(const Net& net, std::span<const Vector3> moves) {
+  std::vector<double> pull(net.moving, 0);
+  const auto add = [&](std::size_t centre, std::span<const SparseRows::Entry> row) {
+    double bend = 0;
+    for (const SparseRows::Entry& entry : row) {
+      if (entry.column >= net.moving) bend += entry.value * moves[entry.column - net.moving].dot(net.normals[centre]);
+    }
+    if (bend == 0) return;
+    for (const SparseRows::Entry& entry : row) {
+      if (entry.column < net.moving) pull[entry.column] -= entry.value * bend;
+    }
+  };
+  SparseRows::Row room;
+  SparseRows::Row row;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const auto links = net.rings.links(i);
+    const auto moved = [&](Link link) {
+      return link.spoke() && link.node() >= net.moving && !moves[link.node() - net.moving].isZero(0);
+    };
+    if (std::none_of(links.begin(), links.end(), moved)) continue;
+    row.clear();
+    for_bending_row(
+        net, i, room,
+        [&](double value) {
+          row.push_back({static_cast<std::uint32_t>(i), value});
+        },
+        [&](std::size_t k, double value) {
+          row.push_back({static_cast<std::uint32_t>(links[k].node()), value});
+        });
+    add(i, row);
+  }
+  for (const BendingRow& extra : extra_rows(net)) add(extra.centre, extra.entries);
+  return pull;
 }
 
 SparseRows spreading_form(const Net& net, ThreadTeam& team) {

@@ -97,35 +97,38 @@ class Solver {
     return std::sqrt(greatest_over_nodes([&](std::size_t i) { return correction_[i].squaredNorm(); }));
   }
 
-  /// How much of a difference between two ends of an edge counts. Along a surface the equations are nearly linear.
-  [[nodiscard]] double change(const Vector3& difference, std::size_t i) const {
-    if (!net_.tangents.empty()) return difference.norm();
-    return std::max(std::abs(difference.dot(net_.normals[i])), stretch_share * difference.norm());
+  /// How much of a difference between two ends of an edge counts, squared. Along a surface the equations are nearly
+  /// linear.
+  [[nodiscard]] double squared_change(const Vector3& difference, std::size_t i) const {
+    const double all = difference.squaredNorm();
+    if (!net_.tangents.empty()) return all;
+    const double across = difference.dot(net_.normals[i]);
+    return std::max(across * across, stretch_share * stretch_share * all);
   }
 
   /// The largest turn or stretch of an edge by the step in correction_.
   double largest_turn() {
-    return greatest_over_nodes([&](std::size_t i) {
+    return std::sqrt(greatest_over_nodes([&](std::size_t i) {
       const auto links = net_.rings.links(i);
-      double lengths = 0;
+      double squares = 0;
       double spokes = 0;
       for (const Link link : links) {
         if (!link.spoke()) continue;
-        lengths += (net_.positions[link.node()] - net_.positions[i]).norm();
+        squares += (net_.positions[link.node()] - net_.positions[i]).squaredNorm();
         spokes += 1;
       }
       // An edge far shorter than its neighbours is out of place, and has to turn.
-      const double shortest = spokes > 0 ? shortest_share * lengths / spokes : 0;
+      const double least_square = spokes > 0 ? shortest_share * shortest_share * squares / spokes : 0;
       double greatest = 0;
       for (const Link link : links) {
         if (!link.spoke()) continue;
         const std::size_t j = link.node();
         const Vector3 difference = (j < net_.moving ? correction_[j] : Vector3(Vector3::Zero())) - correction_[i];
-        const Vector3 edge = net_.positions[j] - net_.positions[i];
-        greatest = std::max(greatest, change(difference, i) / std::max(edge.norm(), shortest));
+        const double square = (net_.positions[j] - net_.positions[i]).squaredNorm();
+        greatest = std::max(greatest, squared_change(difference, i) / std::max(square, least_square));
       }
       return greatest;
-    });
+    }));
   }
 
   /// Moves the nodes. True where the step had to be shortened.

@@ -25,6 +25,8 @@ constexpr double lost_at = 1e-3;
 constexpr double coarse_share = 0.3;
 // Moving nodes up to which a second start costs next to nothing.
 constexpr std::size_t few = 2000;
+// Moving nodes up to which a second start is of any use where coarser levels led nowhere.
+constexpr std::size_t not_too_many = 100'000;
 // The cosine of 60°.
 constexpr double sharpest_turn = 0.5;
 constexpr double greatest_displacement_ratio = 4;
@@ -59,6 +61,9 @@ class Run {
         progress_(progress),
         report_(report) {}
 
+  /// Without a look at coarser levels.
+  void run_on_shape_itself() { (void)relax(hierarchy_.count() - 1, options_.max_iterations.value_or(default_limit)); }
+
   void run() {
     const std::size_t last = hierarchy_.count() - 1;
     Net& finest = hierarchy_.net(last);
@@ -78,12 +83,16 @@ class Run {
     for (std::size_t k = first; k <= last; ++k) {
       (void)relax(k, k == first ? std::min(limit, first_try) : limit);
       if (k == first && limit > first_try && unfinished()) {
-        if (lost()) hierarchy_.forget_shape(k);
+        if (lost()) {
+          hierarchy_.forget_shape(k);
+          hierarchy_.forget_preconditioner();
+        }
         (void)relax(k, limit);
       }
-      if (k > first && ((unfinished() && lost()) || caught_in_a_fold(k))) try_own_start(k, own_start, limit);
+      if (!own_start.empty() && ((unfinished() && lost()) || caught_in_a_fold(k))) try_own_start(k, own_start, limit);
       if (k == last) break;
-      own_start = rounded(hierarchy_.net(k + 1));
+      own_start = hierarchy_.net(k + 1).moving <= not_too_many ? rounded(hierarchy_.net(k + 1))
+                                                               : std::vector<Eigen::Vector3f>();
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
     }
@@ -99,6 +108,7 @@ class Run {
     const Outcome outcome = report_.outcome;
     const double energy = energy_of(net).sum;
     for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = start[i].cast<double>();
+    hierarchy_.forget_preconditioner();
     (void)relax(level, limit);
     if (report_.outcome == Outcome::cancelled) return;
     const bool better = was_unfinished || unfinished()
@@ -106,6 +116,7 @@ class Run {
                             : energy_of(net).sum < energy;
     if (better) return;
     net.positions = reached;
+    hierarchy_.forget_preconditioner();
     report_.outcome = outcome;
     report_.residual = residual;
     report_.expected_error = residual;
@@ -151,7 +162,6 @@ class Run {
     const std::size_t last = hierarchy_.count() - 1;
     Net& net = hierarchy_.net(level);
     const double share = static_cast<double>(net.moving) / static_cast<double>(hierarchy_.net(last).moving);
-    const auto preconditioner = hierarchy_.preconditioner(level);
     EquilibriumTask task;
     task.tolerance = options_.tolerance * size_ * (level == last ? 1 : coarse_share);
     task.max_iterations = max_iterations;
@@ -159,7 +169,8 @@ class Run {
       report_.history.push_back(expected / size_);
       progress_.report("fairing", share / 2, static_cast<int>(report_.history.size()), expected / size_);
     };
-    const EquilibriumResult result = go_to_equilibrium(net, model_, *preconditioner, task, team_, context_);
+    const EquilibriumResult result =
+        go_to_equilibrium(net, model_, hierarchy_.preconditioner(level), task, team_, context_);
     report_.iterations += result.iterations;
     report_.levels.push_back({.moving_nodes = static_cast<Index>(net.moving),
                               .iterations = result.iterations,
@@ -185,6 +196,11 @@ class Run {
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
                      Context& context, ProgressReporter& progress, FairReport& report) {
   Run(hierarchy, model, options, team, context, progress, report).run();
+}
+
+void run_equilibrium_from_near(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
+                               Context& context, ProgressReporter& progress, FairReport& report) {
+  Run(hierarchy, model, options, team, context, progress, report).run_on_shape_itself();
 }
 
 }  // namespace vspring

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 
 #include "solve/preconditioner.hpp"
 #include "spring/net.hpp"
@@ -39,8 +38,10 @@ class Hierarchy {
   virtual void start() = 0;
   /// The start of last resort on the level that is worked on first, which forgets the shape.
   virtual void forget_shape(std::size_t level) = 0;
-  /// For that level; used up before the next one is asked for.
-  virtual std::unique_ptr<Preconditioner> preconditioner(std::size_t level) = 0;
+  /// For that level; the same one for as long as no other is asked for and nothing is handed up.
+  virtual Preconditioner& preconditioner(std::size_t level) = 0;
+  /// The next one is made anew: the shape has become another one.
+  virtual void forget_preconditioner() = 0;
 };
 
 }  // namespace vspring

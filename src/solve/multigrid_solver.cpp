@@ -172,6 +172,8 @@ void MultigridSolver::build(LevelMatrix finest) {
 void MultigridSolver::add_level(LevelMatrix matrix) {
   levels_.push_back({.matrix = std::move(matrix)});
   scale(levels_.back());
+  // Only the finest level's matrix is replaced and asked again.
+  if (levels_.size() > 1) levels_.back().rough = std::vector<float>();
 }
 
 void MultigridSolver::replace_finest(LevelMatrix matrix) {

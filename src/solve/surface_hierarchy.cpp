@@ -42,15 +42,22 @@ void SurfaceHierarchy::limit(std::size_t levels) {
   if (levels < levels_.size()) levels_.erase(levels_.begin(), levels_.end() - static_cast<std::ptrdiff_t>(levels));
 }
 
-std::unique_ptr<Preconditioner> SurfaceHierarchy::preconditioner(std::size_t level) {
+Preconditioner& SurfaceHierarchy::preconditioner(std::size_t level) {
   make_systems(level);
-  return std::make_unique<SurfacePreconditioner>(system_levels_, *spreading_, *team_);
+  if (!preconditioner_) preconditioner_ = std::make_unique<SurfacePreconditioner>(system_levels_, *spreading_, *team_);
+  return *preconditioner_;
+}
+
+void SurfaceHierarchy::forget_preconditioner() {
+  systems_of_.reset();
+  preconditioner_.reset();
 }
 
 void SurfaceHierarchy::make_systems(std::size_t level) {
   // Nodes that slide take their neighbours with them: shares hold for as long as the level is worked on.
   if (systems_of_ == level) return;
   systems_of_ = level;
+  preconditioner_.reset();
   spreading_.reset();
   system_levels_ = {.net = &levels_[level].net};
   for (std::size_t k = level; k > 0 && levels_[k].net.moving > few_enough_to_factor; --k) {
@@ -83,8 +90,40 @@ void SurfaceHierarchy::forget_shape(std::size_t level) {
 
 void SurfaceHierarchy::prolong_from(std::size_t level) {
   prolong(levels_[level], levels_[level + 1], *team_);
-  systems_of_.reset();
+  forget_preconditioner();
   spread_along(level + 1);
+}
+
+void SurfaceHierarchy::follow(const Constraints& constraints) {
+  Net& net = levels_.back().net;
+  std::vector<Vector3> moves(net.positions.size() - net.moving);
+  for (std::size_t k = 0; k < moves.size(); ++k) {
+    const Index node = net.node[net.moving + k];
+    if (constraints.position_fixed(node))
+      moves[k] = net.frame.to_local(constraints.position(node)) - net.positions[net.moving + k];
+    else
+      moves[k].setZero();
+  }
+  const bool any_moved = std::any_of(moves.begin(), moves.end(), [](const Vector3& move) { return !move.isZero(0); });
+  if (any_moved) {
+    (void)preconditioner(levels_.size() - 1);
+    (void)preconditioner_->refresh();
+    std::vector<Vector3> correction;
+    preconditioner_->follow(moves, correction);
+    for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += correction[i];
+    for (std::size_t k = 0; k < moves.size(); ++k) net.positions[net.moving + k] += moves[k];
+  }
+  for (std::size_t i = 0; i < net.positions.size(); ++i) {
+    if (net.normal_given(i)) net.normals[i] = constraints.normal(net.node[i]);
+  }
+  for (std::size_t level = levels_.size() - 1; level-- > 0;) {
+    const Net& fine = levels_[level + 1].net;
+    SurfaceLevel& coarse = levels_[level];
+    for (std::size_t k = 0; k < coarse.finer.size(); ++k) {
+      if (k >= coarse.net.moving) coarse.net.positions[k] = fine.positions[coarse.finer[k]];
+      if (coarse.net.normal_given(k)) coarse.net.normals[k] = fine.normals[coarse.finer[k]];
+    }
+  }
 }
 
 void SurfaceHierarchy::spread_along(std::size_t level) {

@@ -8,6 +8,7 @@
 #include "levels/surface_levels.hpp"
 #include "solve/hierarchy.hpp"
 #include "solve/linear_solver.hpp"
+#include "solve/surface_preconditioner.hpp"
 #include "solve/surface_systems.hpp"
 
 namespace vspring {
@@ -28,7 +29,12 @@ class SurfaceHierarchy final : public Hierarchy {
   void start() override;
   /// All nodes at the mean of their neighbours.
   void forget_shape(std::size_t level) override;
-  std::unique_ptr<Preconditioner> preconditioner(std::size_t level) override;
+  Preconditioner& preconditioner(std::size_t level) override;
+  void forget_preconditioner() override;
+
+  /// Held nodes of the shape itself go to their new places, and have their new normals, on all levels; moving nodes of
+  /// the shape follow as they would if slopes were small.
+  void follow(const Constraints& constraints);
 
   Net take() && { return std::move(levels_.back().net); }
 
@@ -42,6 +48,7 @@ class SurfaceHierarchy final : public Hierarchy {
   std::optional<std::size_t> systems_of_;  ///< the level that these are for
   SystemLevels system_levels_;
   std::unique_ptr<LinearSolver> spreading_;
+  std::unique_ptr<SurfacePreconditioner> preconditioner_;
   ThreadTeam* team_;
 };
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "base/definite3.hpp"
 #include "solve/bending_form.hpp"
 
 namespace vspring {
@@ -20,27 +19,40 @@ constexpr float greatest_change = 1.15F;
 // Of how far a surface may be taken to fall away, as a share of the step.
 constexpr double steepest = 0.5;
 
-/// How far the surface, curved as the normals around node i tell, falls away from the tangent plane over a step.
+/// How far the surface, curved along the step as the normals around node i tell, falls away from the tangent plane over
+/// it.
 double sagitta(const Net& net, std::size_t i, const Vector3& step) {
+  const double length = step.norm();
+  if (!(length > 0)) return 0;
   const Vector3& normal = net.normals[i];
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+  const Vector3 ahead = step / length;
+  const Vector3 aside = normal.cross(ahead);
+  // Least squares: the normal leans ahead by as much as the places of the neighbours explain.
+  double spread_ahead = 0;
+  double spread_aside = 0;
+  double spread_both = 0;
+  double lean_ahead = 0;
+  double lean_aside = 0;
   for (const Link link : net.rings.links(i)) {
     if (!link.spoke()) continue;
     const Vector3 d = net.positions[link.node()] - net.positions[i];
-    const Vector3 u = d - d.dot(normal) * normal;
     const Vector3& other = net.normals[link.node()];
-    if (other.isZero(0)) continue;
-    const Vector3 difference = (other.dot(normal) < 0 ? Vector3(-other) : other) - normal;
-    spread += u * u.transpose();
-    turn += difference * u.transpose();
+    const double a = d.dot(ahead);
+    const double b = d.dot(aside);
+    const double lean = other.dot(normal) < 0 ? -other.dot(ahead) : other.dot(ahead);
+    spread_ahead += a * a;
+    spread_aside += b * b;
+    spread_both += a * b;
+    lean_ahead += lean * a;
+    lean_aside += lean * b;
   }
-  const double size = spread.trace();
-  if (!(size > 0)) return 0;
-  spread += size * normal * normal.transpose() + 1e-3 * size * Eigen::Matrix3d::Identity();
-  const double fall = 0.5 * step.dot(turn * solve_definite(spread, step));
-  const double most = steepest * step.norm();
-  return std::clamp(fall, -most, most);
+  const double ridge = 1e-3 * (spread_ahead + spread_aside);
+  spread_ahead += ridge;
+  spread_aside += ridge;
+  const double determinant = spread_ahead * spread_aside - spread_both * spread_both;
+  if (!(determinant > 0)) return 0;
+  const double curvature = (lean_ahead * spread_aside - lean_aside * spread_both) / determinant;
+  return std::clamp(0.5 * curvature * length * length, -steepest * length, steepest * length);
 }
 
 }  // namespace
@@ -69,11 +81,6 @@ void SurfacePreconditioner::correct(const Model& model, double enough, std::vect
   const Net& net = *net_;
   along_.resize(net.moving);
   correction.resize(net.moving);
-  const auto in_parallel = [&](const auto& body) {
-    parallel_ranges(*team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) body(i);
-    });
-  };
   parallel_ranges(*team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     std::vector<NodeForce> forces(end - begin);
     model.find_forces(net, {begin, end}, forces);
@@ -83,6 +90,35 @@ void SurfacePreconditioner::correct(const Model& model, double enough, std::vect
       correction[i] = force.regularisation;
     }
   });
+  solve(enough, correction);
+}
+
+void SurfacePreconditioner::follow(std::span<const Vector3> moves, std::vector<Vector3>& correction) {
+  const Net& net = *net_;
+  along_ = pull_of_held(net, moves);
+  correction.assign(net.moving, Vector3::Zero());
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const auto links = net.rings.links(i);
+    const auto shares = net.shares_of(i);
+    double spokes = 0;
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      if (!links[k].spoke()) continue;
+      spokes += 1;
+      const std::size_t j = links[k].node();
+      if (j >= net.moving) correction[i] += (shares.empty() ? 1 : shares[k]) * moves[j - net.moving];
+    }
+    if (shares.empty() && spokes > 0) correction[i] /= spokes;
+  }
+  solve(0, correction);
+}
+
+void SurfacePreconditioner::solve(double enough, std::vector<Vector3>& correction) {
+  const Net& net = *net_;
+  const auto in_parallel = [&](const auto& body) {
+    parallel_ranges(*team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) body(i);
+    });
+  };
   bending_.solve(along_, {.enough = enough, .share = bending_share});
   in_parallel([&](std::size_t i) { correction[i] = asked_across(i, correction[i]); });
   spreading_->solve(correction, {.enough = enough, .share = spreading_share});

@@ -23,7 +23,13 @@ class SurfacePreconditioner final : public Preconditioner {
   bool refresh() override;
   void correct(const Model& model, double enough, std::vector<Vector3>& correction) override;
 
+  /// The correction of every moving node that brings back equilibrium, if slopes are small, where held nodes move:
+  /// moves has a vector for every node from net.moving on. Needs a form that was built.
+  void follow(std::span<const Vector3> moves, std::vector<Vector3>& correction);
+
  private:
+  /// Solves for the correction: from what is asked along the normals, in along_, and by the regularisation.
+  void solve(double enough, std::vector<Vector3>& correction);
   /// Turns what the regularisation asks of a node into what it is to do beside the correction along the normals, by the
   /// graph's Laplacian.
   [[nodiscard]] Vector3 asked_across(std::size_t i, const Vector3& regularisation) const;

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+
+#include "vspring/fair.hpp"
+
+namespace vspring {
+
+/// Fairs one mesh again and again while somebody moves its constraints: levels, equations and their factors are kept,
+/// and each shape starts from the one before.
+class FairingSession {
+ public:
+  /// Throws as fair() does for options out of range. threads: how many work on every call, whatever its context says;
+  /// 0: as many as the machine has.
+  explicit FairingSession(PolygonMesh mesh, const FairOptions& options = {}, int threads = 0);
+  ~FairingSession();
+  FairingSession(FairingSession&&) noexcept;
+  FairingSession& operator=(FairingSession&&) noexcept;
+  FairingSession(const FairingSession&) = delete;
+  FairingSession& operator=(const FairingSession&) = delete;
+
+  /// As fair(), with the constraints as they are now. Where they hold the same nodes as at the last call, only
+  /// elsewhere or with other normals, and that one found an equilibrium, this one starts from there: then it costs a
+  /// few iterations. The shape is the same within the expected error, not to the bit. Otherwise, and always with other
+  /// methods than the equilibrium's and with options.fair_boundary, it costs what fair() costs. report.before is that
+  /// of the mesh.
+  [[nodiscard]] FairResult fair(const Constraints& constraints, Context& context);
+  [[nodiscard]] FairResult fair(const Constraints& constraints);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace vspring

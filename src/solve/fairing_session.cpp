@@ -1,0 +1,39 @@
+#include "vspring/fairing_session.hpp"
+
+#include <utility>
+
+#include "solve/surface_fairing.hpp"
+
+namespace vspring {
+
+struct FairingSession::State {
+  State(PolygonMesh the_mesh, const FairOptions& the_options, int threads)
+      : mesh(std::move(the_mesh)), options(the_options), fairing(mesh, options, threads) {}
+
+  PolygonMesh mesh;
+  FairOptions options;
+  SurfaceFairing fairing;
+};
+
+FairingSession::FairingSession(PolygonMesh mesh, const FairOptions& options, int threads) {
+  options.validate();
+  Context context;
+  context.threads = threads;
+  state_ = std::make_unique<State>(std::move(mesh), options, context.thread_count());
+}
+
+FairingSession::~FairingSession() = default;
+FairingSession::FairingSession(FairingSession&&) noexcept = default;
+FairingSession& FairingSession::operator=(FairingSession&&) noexcept = default;
+
+FairResult FairingSession::fair(const Constraints& constraints, Context& context) {
+  if (!state_->options.fair_boundary) return state_->fairing.fair_again(constraints, context);
+  return vspring::fair(state_->mesh, constraints, state_->options, context);
+}
+
+FairResult FairingSession::fair(const Constraints& constraints) {
+  Context context;
+  return fair(constraints, context);
+}
+
+}  // namespace vspring

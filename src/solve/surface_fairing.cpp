@@ -1,0 +1,114 @@
+#include "solve/surface_fairing.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "solve/account.hpp"
+#include "solve/equilibrium_method.hpp"
+#include "solve/fair_boundary.hpp"
+#include "solve/multigrid_method.hpp"
+#include "solve/sweep_method.hpp"
+
+namespace vspring {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+bool hold_the_same(const Constraints& a, const Constraints& b) {
+  if (a.node_count() != b.node_count()) return false;
+  for (Index i = 0; i < a.node_count(); ++i) {
+    if (a.position_fixed(i) != b.position_fixed(i) || a.normal_fixed(i) != b.normal_fixed(i) ||
+        a.tangent_fixed(i) != b.tangent_fixed(i))
+      return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+SurfaceFairing::SurfaceFairing(const PolygonMesh& mesh, const FairOptions& options, int threads)
+    : mesh_(&mesh), options_(options), team_(threads), model_(surface_model(options.pseudo_normals)) {}
+
+FairResult SurfaceFairing::fair_once(const Constraints& constraints, Context& context) {
+  const auto begin = Clock::now();
+  FairResult result;
+  Net net = run(constraints, context, result.report);
+  if (hierarchy_) net = std::move(*hierarchy_).take();
+  hierarchy_.reset();
+  finish(net, constraints, result);
+  result.report.seconds = seconds_since(begin);
+  return result;
+}
+
+FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& context) {
+  const auto begin = Clock::now();
+  FairResult result;
+  if (!last_ || !hold_the_same(*last_, constraints) || !go_on(constraints, context, result.report)) {
+    result = {};
+    last_.reset();
+    hierarchy_.reset();
+    const Net net = run(constraints, context, result.report);
+    if (!hierarchy_) {
+      finish(net, constraints, result);
+      result.report.seconds = seconds_since(begin);
+      return result;
+    }
+  }
+  finish(hierarchy_->net(hierarchy_->count() - 1), constraints, result);
+  last_.reset();
+  if (result.report.outcome == Outcome::converged && result.report.method == Method::equilibrium) last_ = constraints;
+  result.report.seconds = seconds_since(begin);
+  return result;
+}
+
+Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report) {
+  report.warnings = check_constraints(*mesh_, constraints);
+  report.method = options_.method.value_or(Method::sweep);
+  ProgressReporter progress(context);
+  progress.report("preparing", 0);
+  report.threads = team_.size();
+  Net net = gather_net(*mesh_, constraints);
+  count_nodes(net, constraints, report);
+  report.faces = mesh_->face_count();
+  before_ = measure(*mesh_, &constraints, team_);
+  if (report.method == Method::sweep) {
+    distribute(net, *model_, options_.distribution, team_);
+    run_sweeps(net, *model_, options_, team_, context, progress, report);
+    return net;
+  }
+  hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution, team_), team_);
+  const auto method = report.method == Method::multigrid ? run_multigrid : run_equilibrium;
+  method(*hierarchy_, *model_, options_, team_, context, progress, report);
+  return {};
+}
+
+bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, FairReport& report) {
+  const Net& net = hierarchy_->net(hierarchy_->count() - 1);
+  for (const Index node : net.node) {
+    // What is wrong there is said where all is looked at.
+    if (constraints.position_fixed(node) && !constraints.position(node).allFinite()) return false;
+  }
+  report.method = Method::equilibrium;
+  ProgressReporter progress(context);
+  report.threads = team_.size();
+  count_nodes(net, constraints, report);
+  report.faces = mesh_->face_count();
+  hierarchy_->follow(constraints);
+  run_equilibrium_from_near(*hierarchy_, *model_, options_, team_, context, progress, report);
+  return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
+}
+
+void SurfaceFairing::finish(const Net& net, const Constraints& constraints, FairResult& result) {
+  FairReport& report = result.report;
+  result.positions = scatter_positions(net, mesh_->positions(), constraints, options_.strength);
+  measure_moves(net, mesh_->positions(), result.positions, report);
+  PolygonMesh faired = *mesh_;
+  faired.set_positions(result.positions);
+  report.before = before_;
+  report.after = measure(faired, &constraints, team_);
+}
+
+}  // namespace vspring

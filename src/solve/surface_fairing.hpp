@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "base/progress.hpp"
+#include "base/threads.hpp"
+#include "fairness/measure.hpp"
+#include "solve/surface_hierarchy.hpp"
+#include "spring/model.hpp"
+#include "vspring/fair.hpp"
+
+namespace vspring {
+
+/// Fairs one mesh, once or again and again.
+class SurfaceFairing {
+ public:
+  /// The mesh must outlive it.
+  SurfaceFairing(const PolygonMesh& mesh, const FairOptions& options, int threads);
+
+  /// As fair(), once.
+  FairResult fair_once(const Constraints& constraints, Context& context);
+
+  /// The same, and remembers the shape and how it was found. Where the constraints hold the same nodes as the time
+  /// before and an equilibrium was found then, it starts from there, with what it has.
+  FairResult fair_again(const Constraints& constraints, Context& context);
+
+ private:
+  /// Leaves the shape in the net that it returns, or in hierarchy_.
+  Net run(const Constraints& constraints, Context& context, FairReport& report);
+  /// From the last shape. False where that leads nowhere.
+  bool go_on(const Constraints& constraints, Context& context, FairReport& report);
+  void finish(const Net& net, const Constraints& constraints, FairResult& result);
+
+  const PolygonMesh* mesh_;
+  FairOptions options_;
+  ThreadTeam team_;
+  std::unique_ptr<const Model> model_;
+  Fairness before_;
+  std::optional<SurfaceHierarchy> hierarchy_;
+  // Of the last shape, where that is an equilibrium to go on from.
+  std::optional<Constraints> last_;
+};
+
+}  // namespace vspring

@@ -122,13 +122,17 @@ TEST(SurfaceEquilibrium, DoesNotDependOnTheStart) {
 }
 
 TEST(SurfaceEquilibrium, AFairShapeIsLeftAsItIs) {
-  const PolygonMesh funnel = generate::funnel(1000);
-  const Constraints constraints = clamped_boundary(funnel);
-  const FairResult once = fair(funnel, constraints, to_equilibrium(1e-10));
-  ASSERT_EQ(once.report.outcome, Outcome::converged);
-  const FairResult twice = fair(with_positions(funnel, once.positions), constraints, to_equilibrium(1e-5));
-  EXPECT_EQ(twice.report.iterations, 1);
-  EXPECT_LT(greatest_distance(once.positions, twice.positions), 1e-9);
+  std::vector<PolygonMesh> meshes = {generate::funnel(1000), generate::annulus({.nodes = 1000})};
+  for (const Faces faces : {Faces::triangles, Faces::quads}) meshes.push_back(generate::pipe_blend({.faces = faces}));
+  for (const PolygonMesh& mesh : meshes) {
+    SCOPED_TRACE(mesh.face_count());
+    const Constraints constraints = clamped_boundary(mesh);
+    const FairResult once = fair(mesh, constraints, to_equilibrium());
+    ASSERT_EQ(once.report.outcome, Outcome::converged);
+    const FairResult twice = fair(with_positions(mesh, once.positions), constraints, to_equilibrium());
+    EXPECT_EQ(twice.report.iterations, 1);
+    EXPECT_LT(greatest_distance(once.positions, twice.positions), 1e-14 * diagonal(mesh));
+  }
 }
 
 TEST(SurfaceEquilibrium, ThreadsGiveTheSameBits) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -62,6 +63,13 @@ inline PolygonMesh with_positions(PolygonMesh mesh, std::vector<Vector3> positio
   return mesh;
 }
 
+/// Every node on the unit sphere.
+inline PolygonMesh projected(PolygonMesh mesh) {
+  std::vector<Vector3> positions = mesh.positions();
+  for (Vector3& position : positions) position.normalize();
+  return with_positions(std::move(mesh), std::move(positions));
+}
+
 /// All nodes at one height.
 inline PolygonMesh pressed(PolygonMesh mesh, double height) {
   std::vector<Vector3> positions = mesh.positions();
@@ -80,6 +88,42 @@ inline PolygonMesh flattened(PolygonMesh cap, double half_angle, double noise) {
     p = Vector3(scale * p.x(), scale * p.y(), std::cos(rim));
   }
   return generate::add_noise(with_positions(std::move(cap), std::move(flat)), noise, 5);
+}
+
+/// The polygons around the inner nodes of a mesh of triangles: n-gons of as many sides as nodes have neighbours, with a
+/// node for every triangle that has a node inside.
+inline PolygonMesh dual(const PolygonMesh& triangles) {
+  const std::vector<std::uint8_t> boundary = boundary_nodes(triangles);
+  std::map<std::pair<Index, Index>, Index> face_left_of;
+  MeshBuilder builder;
+  std::vector<Index> number(static_cast<std::size_t>(triangles.face_count()), -1);
+  for (Index f = 0; f < triangles.face_count(); ++f) {
+    const auto face = triangles.face(f);
+    Vector3 centre = Vector3::Zero();
+    bool inner = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      face_left_of[{face[k], face[(k + 1) % 3]}] = f;
+      centre += triangles.position(face[k]) / 3;
+      inner = inner || boundary[static_cast<std::size_t>(face[k])] == 0;
+    }
+    if (inner) number[static_cast<std::size_t>(f)] = builder.add_node(centre);
+  }
+  std::vector<std::uint8_t> done = boundary;
+  for (Index f = 0; f < triangles.face_count(); ++f) {
+    for (const Index node : triangles.face(f)) {
+      if (done[static_cast<std::size_t>(node)]++ != 0) continue;
+      std::vector<Index> around;
+      Index at = f;
+      do {
+        around.push_back(number[static_cast<std::size_t>(at)]);
+        const auto face = triangles.face(at);
+        const auto k = static_cast<std::size_t>(std::find(face.begin(), face.end(), node) - face.begin());
+        at = face_left_of.at({node, face[(k + 2) % 3]});
+      } while (at != f);
+      builder.add_face(around);
+    }
+  }
+  return builder.take();
 }
 
 }  // namespace vspring::support

@@ -90,6 +90,15 @@ void run_regions(const std::filesystem::path& path, Summary& summary) {
   }
 }
 
+/// A regular grid of quads of more nodes than are solved by factors.
+Specimen many_quads() {
+  const PolygonMesh exact =
+      generate::cylinder_patch({.columns = 96, .rows = 96, .faces = generate::Faces::quads, .jitter = 0.2}, 1, 120, 2);
+  return {"cylinder of many quads, noisy, normals estimated", generate::add_noise(exact, 0.02, 3),
+          clamped_boundary(exact), Distribution::even,
+          [](const Vector3& p) { return std::abs(p.head<2>().norm() - 1); }};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -99,6 +108,7 @@ int main(int argc, char** argv) {
       "| true / expected | from the closed form | V-Spring energy |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   Summary summary;
   for (const Specimen& specimen : specimens(cells)) run(specimen, summary.shapes, summary);
+  run(many_quads(), summary.shapes, summary);
   if (argc > 1) {
     std::vector<std::filesystem::path> paths;
     for (const auto& entry : std::filesystem::directory_iterator(argv[1])) {

@@ -64,7 +64,7 @@ struct Problem {
   std::string name;
   PolygonMesh mesh;
   Constraints constraints;
-  /// A ring that is folded over along a line across it keeps two creases, see docs/solver.md; around it, none.
+  /// Around rings: one folded over along a line across it has another equilibrium, see docs/solver.md.
   Vector3 across = Vector3::UnitX();
 };
 

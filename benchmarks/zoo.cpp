@@ -90,7 +90,7 @@ void run_regions(const std::filesystem::path& path, Summary& summary) {
   }
 }
 
-/// A regular grid of quads of more nodes than are solved by factors.
+/// Corrections go up and down on the way to its equilibrium.
 Specimen many_quads() {
   const PolygonMesh exact =
       generate::cylinder_patch({.columns = 96, .rows = 96, .faces = generate::Faces::quads, .jitter = 0.2}, 1, 120, 2);

@@ -14,6 +14,7 @@
 #include "flat_cap.hpp"
 #include "memory.hpp"
 #include "spring/net.hpp"
+#include "support/surfaces.hpp"
 #include "sweep/sweep.hpp"
 #include "vspring/vspring.hpp"
 
@@ -21,6 +22,7 @@ namespace {
 
 using namespace vspring;
 using namespace bench;
+using namespace support;
 
 constexpr double noise = 0.02;
 
@@ -31,7 +33,7 @@ struct Case {
 
 Case flat_start(Index nodes) {
   PolygonMesh cap = exact_cap(nodes);
-  Constraints constraints = hold_rim_on_sphere(cap);
+  Constraints constraints = held_boundary(cap, radial);
   return {flat_cap(std::move(cap), noise), std::move(constraints)};
 }
 
@@ -77,7 +79,7 @@ int main(int argc, char** argv) {
         FairResult result = fair(input.start, input.constraints, options, context);
         if (k > 0 && result.report.seconds > report.seconds) continue;
         memory = peak_memory_mebibytes();
-        error = distance_from_sphere(result.positions);
+        error = distance_from_unit_sphere(result.positions);
         report = std::move(result.report);
       }
       fmt::print("| {} | {} | {:.3f} | {:.0f} | {} | {} | {:.1e} | {:.1e} | {:.0f} |{}\n", nodes, threads,

@@ -3,18 +3,19 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
 namespace {
 
 using namespace vspring;
+using namespace support;
 
 struct Problem {
   PolygonMesh start;
@@ -29,9 +30,7 @@ struct Shape {
 };
 
 Problem held(const PolygonMesh& exact, const std::function<Vector3(const Vector3&)>& start) {
-  Problem problem{exact, Constraints(exact.node_count())};
-  fix_boundary_positions(problem.constraints, exact);
-  fix_boundary_normals(problem.constraints, exact);
+  Problem problem{exact, clamped_boundary(exact)};
   std::vector<Vector3> positions = exact.positions();
   for (Vector3& position : positions) position = start(position);
   problem.start.set_positions(std::move(positions));
@@ -58,21 +57,10 @@ std::vector<Shape> shapes() {
           {"funnel",
            [](int halvings) {
              const Index nodes[] = {127, 469, 1801, 7057};
-             PolygonMesh funnel = generate::funnel(nodes[halvings]);
-             Problem problem{funnel, Constraints(funnel.node_count())};
-             fix_boundary_positions(problem.constraints, funnel);
-             for (Index i = 0; i < funnel.node_count(); ++i) {
-               if (problem.constraints.position_fixed(i)) problem.constraints.fix_normal(i, Vector3::UnitZ());
-             }
-             return problem;
+             const PolygonMesh funnel = generate::funnel(nodes[halvings]);
+             return Problem{funnel, held_boundary(funnel, [](const Vector3&) { return Vector3::UnitZ(); })};
            },
            nullptr}};
-}
-
-double greatest_distance(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
-  double greatest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
-  return greatest;
 }
 
 }  // namespace

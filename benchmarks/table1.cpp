@@ -4,18 +4,19 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <string>
 #include <vector>
 
+#include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
 namespace {
 
 using namespace vspring;
+using namespace support;
 
 constexpr int papers_levels = 6;
 constexpr int most_iterations = 100;
@@ -25,12 +26,6 @@ struct Column {
   Index boundary_nodes;
   double paper_seconds;  ///< 0 where the paper has no figure
 };
-
-double greatest_distance(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
-  double greatest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
-  return greatest;
-}
 
 FairResult run(const PolygonMesh& mesh, const Constraints& constraints, FairOptions options, Method method, int threads,
                int times) {
@@ -43,12 +38,6 @@ FairResult run(const PolygonMesh& mesh, const Constraints& constraints, FairOpti
     if (k == 0 || result.report.seconds < best.report.seconds) best = std::move(result);
   }
   return best;
-}
-
-double diagonal(const PolygonMesh& mesh) {
-  Eigen::AlignedBox<double, 3> box;
-  for (const Vector3& position : mesh.positions()) box.extend(position);
-  return box.diagonal().norm();
 }
 
 }  // namespace
@@ -70,9 +59,7 @@ int main(int argc, char** argv) {
     double last = 0;
     for (const Column& column : columns) {
       const PolygonMesh mesh = generate::annulus({.nodes = column.nodes, .boundary_nodes = column.boundary_nodes});
-      Constraints constraints(mesh.node_count());
-      fix_boundary_positions(constraints, mesh);
-      fix_boundary_normals(constraints, mesh);
+      const Constraints constraints = clamped_boundary(mesh);
       const int times = column.nodes > 20'000 ? 1 : 3;
       FairOptions options;
       options.pseudo_normals = normals;

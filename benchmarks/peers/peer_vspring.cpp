@@ -6,25 +6,15 @@
 #include <utility>
 
 #include "driver.hpp"
-#include "flat_cap.hpp"
-
-namespace {
+#include "support/surfaces.hpp"
 
 using namespace vspring;
-
-Constraints hold_boundary(const PolygonMesh& mesh) {
-  Constraints constraints(mesh.node_count());
-  fix_boundary_positions(constraints, mesh);
-  fix_boundary_normals(constraints, mesh);
-  return constraints;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   return bench::drive(
       argc, argv, [](const PolygonMesh& mesh, int threads, const std::string& variant, bench::Cost& cost) {
-        const Constraints constraints = variant == "sphere" ? bench::hold_rim_on_sphere(mesh) : hold_boundary(mesh);
+        const Constraints constraints =
+            variant == "sphere" ? support::held_boundary(mesh, support::radial) : support::clamped_boundary(mesh);
         FairOptions options;
         options.method = Method::equilibrium;
         Context context;

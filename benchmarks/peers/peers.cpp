@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -19,11 +18,13 @@
 
 #include "driver.hpp"
 #include "flat_cap.hpp"
+#include "support/surfaces.hpp"
 
 namespace {
 
 using namespace vspring;
 using namespace bench;
+using namespace support;
 
 namespace fs = std::filesystem;
 
@@ -101,12 +102,6 @@ std::optional<Cost> run(const fs::path& driver, const std::string& mesh, const s
   return succeeded ? std::optional(cost) : std::nullopt;
 }
 
-double diagonal(const PolygonMesh& mesh) {
-  Eigen::AlignedBox<double, 3> box;
-  for (const Vector3& position : mesh.positions()) box.extend(position);
-  return box.diagonal().norm();
-}
-
 struct Entry {
   Program program;
   int threads = 1;
@@ -154,7 +149,7 @@ void compare(const Case& input, const fs::path& drivers) {
     }
     std::string error;
     if (input.sphere) {
-      error = fmt::format("{:.1e}", distance_from_sphere(faired.positions()));
+      error = fmt::format("{:.1e}", distance_from_unit_sphere(faired.positions()));
     } else if (equilibrium && entry.program.driver != "vspring") {
       error = fmt::format("{:.1e}", distance(faired.positions(), *equilibrium).greatest / size);
     }

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <functional>
 
+#include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring {
 namespace {
 
+using namespace support;
 using generate::Faces;
 
 std::string refusal(const std::function<void()>& call, ErrorCode code) {
@@ -30,12 +32,6 @@ std::string refusal(const PolygonMesh& mesh, const Constraints& constraints, Err
 }
 
 bool says(const std::string& message, const std::string& part) { return message.find(part) != std::string::npos; }
-
-Constraints held_boundary(const PolygonMesh& mesh) {
-  Constraints constraints(mesh.node_count());
-  fix_boundary_positions(constraints, mesh);
-  return constraints;
-}
 
 // A mesh and a second one beside it, in one.
 PolygonMesh beside(const PolygonMesh& a, const PolygonMesh& b) {

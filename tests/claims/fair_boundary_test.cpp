@@ -6,10 +6,13 @@
 #include <cmath>
 #include <set>
 
+#include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring {
 namespace {
+
+using namespace support;
 
 constexpr double half_angle = 50;
 
@@ -47,15 +50,9 @@ FairOptions boundary_first() {
   return options;
 }
 
-double distance_from_sphere(const std::vector<Vector3>& positions) {
-  double greatest = 0;
-  for (const Vector3& position : positions) greatest = std::max(greatest, std::abs(position.norm() - 1));
-  return greatest;
-}
-
 TEST(FairBoundary, ADisturbedRimBecomesTheCircleAndTheSurfaceTheSphere) {
   const DisturbedCap disturbed;
-  ASSERT_GT(distance_from_sphere(disturbed.mesh.positions()), 0.04);
+  ASSERT_GT(distance_from_unit_sphere(disturbed.mesh.positions()), 0.04);
   const FairResult result = fair(disturbed.mesh, disturbed.constraints, boundary_first());
   ASSERT_EQ(result.report.outcome, Outcome::converged);
   const double height = std::cos(half_angle * M_PI / 180);
@@ -65,7 +62,7 @@ TEST(FairBoundary, ADisturbedRimBecomesTheCircleAndTheSurfaceTheSphere) {
     EXPECT_NEAR(position.z(), height, 1e-10);
     EXPECT_NEAR(position.head<2>().norm(), std::sin(half_angle * M_PI / 180), 1e-10);
   }
-  EXPECT_LT(distance_from_sphere(result.positions), 1e-9);
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-9);
   for (const Index i : disturbed.held)
     EXPECT_EQ(result.positions[static_cast<std::size_t>(i)], disturbed.cap.position(i));
 }
@@ -73,10 +70,7 @@ TEST(FairBoundary, ADisturbedRimBecomesTheCircleAndTheSurfaceTheSphere) {
 TEST(FairBoundary, ReportsTheWholeWayAndTheBoundarysOwn) {
   const DisturbedCap disturbed;
   const FairResult result = fair(disturbed.mesh, disturbed.constraints, boundary_first());
-  double greatest = 0;
-  for (Index i = 0; i < disturbed.mesh.node_count(); ++i)
-    greatest = std::max(greatest, (result.positions[static_cast<std::size_t>(i)] - disturbed.mesh.position(i)).norm());
-  EXPECT_DOUBLE_EQ(result.report.greatest_move, greatest);
+  EXPECT_DOUBLE_EQ(result.report.greatest_move, greatest_distance(result.positions, disturbed.mesh.positions()));
   EXPECT_EQ(result.report.fixed_positions, static_cast<Index>(disturbed.held.size()));
   EXPECT_EQ(result.report.moving_nodes, disturbed.mesh.node_count() - static_cast<Index>(disturbed.held.size()));
   ASSERT_TRUE(result.report.boundary);
@@ -98,8 +92,7 @@ TEST(FairBoundary, StrengthGoesThatShareOfTheWholeWay) {
 }
 
 TEST(FairBoundary, OnPolygonsOfEveryKind) {
-  for (const auto faces :
-       {generate::Faces::triangles, generate::Faces::quads, generate::Faces::mixed, generate::Faces::hexagons}) {
+  for (const generate::Faces faces : every_kind) {
     SCOPED_TRACE(static_cast<int>(faces));
     const PolygonMesh patch = generate::sphere_patch({.columns = 8, .rows = 8, .faces = faces}, 1, 40);
     const PolygonMesh mesh = generate::add_noise(patch, 0.02, 5);
@@ -137,7 +130,7 @@ TEST(FairBoundary, ARegionAtTheBoundaryGoesOnSmoothlyOutside) {
   ASSERT_EQ(result.report.outcome, Outcome::converged);
   // Tangents at the rim are exact on a circle; normals from outside are of second order.
   for (const Index i : rim) EXPECT_NEAR(result.positions[static_cast<std::size_t>(i)].z(), centre.z(), 1e-10);
-  EXPECT_LT(distance_from_sphere(result.positions), 1e-3);
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-3);
 }
 
 TEST(FairBoundary, RefusesLoopsThatNothingHolds) {

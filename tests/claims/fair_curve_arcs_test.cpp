@@ -48,12 +48,6 @@ void in_every_way(const std::function<void(int nodes, const Layout& layout, bool
 /// Exact means: to this share of the diagonal of the box around the nodes.
 constexpr double exact = 1e-12;
 
-double size_of(const std::vector<Vector3>& nodes) {
-  Eigen::AlignedBox<double, 3> box;
-  for (const Vector3& p : nodes) box.extend(p);
-  return box.diagonal().norm();
-}
-
 Vector3 on_circle(double angle) { return heading(angle); }
 Vector3 circle_tangent(double angle) { return heading(angle + 90 * degree); }
 
@@ -91,7 +85,7 @@ TEST(FairCurveArcs, NoisyArcsWithEndTangentsReturnToTheCircle) {
         nodes.push_back(on_circle(at * turn * degree));
       const Constraints constraints = held_ends(nodes, circle_tangent(0), circle_tangent(turn * degree));
       const auto result = faired_from_noise(nodes, constraints, 0.03, layout, tilted);
-      EXPECT_LT(distance_from_circle(result), exact * size_of(nodes));
+      EXPECT_LT(distance_from_circle(result), exact * diagonal(nodes));
     });
   }
 }
@@ -104,7 +98,7 @@ TEST(FairCurveArcs, NoisyClosedCurvesReturnToTheCircleThroughTheirHeldNodes) {
     Constraints constraints(count);
     for (const Index node : {count / 10, count / 2, 4 * count / 5}) hold(constraints, nodes, node);
     const auto result = faired_from_noise(nodes, constraints, 0.02, layout, tilted, true);
-    EXPECT_LT(distance_from_circle(result), exact * size_of(nodes));
+    EXPECT_LT(distance_from_circle(result), exact * diagonal(nodes));
   });
 }
 
@@ -119,7 +113,7 @@ TEST(FairCurveArcs, AClosedCurveMayBeHeldByOneNodeWithATangentAndAnother) {
     hold(constraints, nodes, count / 3);
     EXPECT_TRUE(check_constraints(PolygonCurve(nodes, true), constraints).empty());
     const auto result = faired_from_noise(nodes, constraints, 0.02, layouts[4], true, true);
-    EXPECT_LT(distance_from_circle(result), exact * size_of(nodes)) << count;
+    EXPECT_LT(distance_from_circle(result), exact * diagonal(nodes)) << count;
   }
 }
 
@@ -160,7 +154,7 @@ TEST(FairCurveArcs, FlatStartsBecomeTheArcThatTheTangentsAskFor) {
       const Constraints constraints = held_ends(nodes, heading(half * degree), heading(-half * degree));
       auto result = faired(nodes, constraints, to_the_end(layout.distribution));
       for (Vector3& p : result) p.y() += std::cos(half * degree);
-      EXPECT_LT(distance_from_circle(result), exact * size_of(nodes));
+      EXPECT_LT(distance_from_circle(result), exact * diagonal(nodes));
     }
   }
 }

@@ -157,15 +157,13 @@ struct Believed {
 
 Believed believed(const std::vector<Vector3>& start, const Constraints& constraints) {
   Believed worst;
-  Eigen::AlignedBox<double, 3> box;
-  for (const Vector3& p : start) box.extend(p);
   for (const double tolerance : {1e-3, 1e-5, 1e-7, 1e-9}) {
     FairOptions options;
     options.tolerance = tolerance;
     const FairResult result = fair(PolygonCurve(start), constraints, options);
     EXPECT_EQ(result.report.outcome, Outcome::converged);
     EXPECT_LE(*result.report.expected_error, tolerance);
-    const double error = greatest_distance(result.positions, faired(start, constraints)) / box.diagonal().norm();
+    const double error = greatest_distance(result.positions, faired(start, constraints)) / diagonal(start);
     worst.least_of_expected = std::min(worst.least_of_expected, error / *result.report.expected_error);
     worst.of_expected = std::max(worst.of_expected, error / *result.report.expected_error);
     worst.of_tolerance = std::max(worst.of_tolerance, error / tolerance);

@@ -5,33 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring {
 namespace {
 
-Constraints held_rim(const PolygonMesh& mesh) {
-  Constraints constraints(mesh.node_count());
-  fix_boundary_positions(constraints, mesh);
-  for (Index i = 0; i < mesh.node_count(); ++i) {
-    if (constraints.position_fixed(i)) constraints.fix_normal(i, mesh.position(i));
-  }
-  return constraints;
-}
-
-PolygonMesh flattened(const PolygonMesh& cap) {
-  PolygonMesh flat = cap;
-  std::vector<Vector3> positions = cap.positions();
-  for (Vector3& position : positions) position.z() = 0.5;
-  flat.set_positions(std::move(positions));
-  return flat;
-}
-
-double distance_from_sphere(const std::vector<Vector3>& positions) {
-  double greatest = 0;
-  for (const Vector3& position : positions) greatest = std::max(greatest, std::abs(position.norm() - 1));
-  return greatest;
-}
+using namespace support;
 
 FairOptions multigrid(double step_tolerance = 1e-3) {
   FairOptions options;
@@ -41,13 +21,12 @@ FairOptions multigrid(double step_tolerance = 1e-3) {
 }
 
 TEST(Multigrid, AFlatDiscBecomesTheCapOfWhateverPolygons) {
-  for (const auto faces :
-       {generate::Faces::triangles, generate::Faces::quads, generate::Faces::mixed, generate::Faces::hexagons}) {
+  for (const generate::Faces faces : every_kind) {
     SCOPED_TRACE(static_cast<int>(faces));
     const PolygonMesh patch = generate::sphere_patch({.columns = 16, .rows = 16, .faces = faces, .jitter = 0.2}, 1, 60);
-    const FairResult result = fair(generate::add_noise(patch, 0.05, 3), held_rim(patch), multigrid(1e-9));
+    const FairResult result = fair(generate::add_noise(patch, 0.05, 3), held_boundary(patch, radial), multigrid(1e-9));
     EXPECT_EQ(result.report.outcome, Outcome::converged);
-    EXPECT_LT(distance_from_sphere(result.positions), 1e-6);
+    EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-6);
   }
 }
 
@@ -55,12 +34,12 @@ TEST(Multigrid, GetsFarNearerThanThePlainIterationWithTheSameTest) {
   const PolygonMesh cap = generate::cap({.nodes = 1801, .radius = 1, .half_angle = 60});
   FairOptions plain;
   plain.method = Method::sweep;
-  const FairResult swept = fair(flattened(cap), held_rim(cap), plain);
-  const FairResult cycled = fair(flattened(cap), held_rim(cap), multigrid());
+  const FairResult swept = fair(pressed(cap, 0.5), held_boundary(cap, radial), plain);
+  const FairResult cycled = fair(pressed(cap, 0.5), held_boundary(cap, radial), multigrid());
   EXPECT_EQ(swept.report.outcome, Outcome::converged);
   EXPECT_EQ(cycled.report.outcome, Outcome::converged);
-  EXPECT_GT(distance_from_sphere(swept.positions), 0.3);
-  EXPECT_LT(distance_from_sphere(cycled.positions), 0.02);
+  EXPECT_GT(distance_from_unit_sphere(swept.positions), 0.3);
+  EXPECT_LT(distance_from_unit_sphere(cycled.positions), 0.02);
 }
 
 TEST(Multigrid, GetsNearerWithFinerMeshesWhereTheTestGoesWithTheFourthPowerOfTheSpacing) {
@@ -68,9 +47,9 @@ TEST(Multigrid, GetsNearerWithFinerMeshesWhereTheTestGoesWithTheFourthPowerOfThe
     const PolygonMesh cap = generate::cap({.nodes = nodes, .radius = 1, .half_angle = 60});
     FairOptions options = multigrid(e);
     options.levels = 6;
-    const FairResult result = fair(flattened(cap), held_rim(cap), options);
+    const FairResult result = fair(pressed(cap, 0.5), held_boundary(cap, radial), options);
     EXPECT_EQ(result.report.outcome, Outcome::converged);
-    return distance_from_sphere(result.positions);
+    return distance_from_unit_sphere(result.positions);
   };
   const double coarse = error(127, 1e-3);
   const double fine = error(1801, 1e-3 / 256);
@@ -82,7 +61,7 @@ TEST(Multigrid, TellsOfEveryLevel) {
   const PolygonMesh cap = generate::cap({.nodes = 4921, .radius = 1, .half_angle = 60});
   FairOptions options = multigrid();
   options.levels = 6;
-  const FairReport six = fair(cap, held_rim(cap), options).report;
+  const FairReport six = fair(cap, held_boundary(cap, radial), options).report;
   ASSERT_GE(six.levels.size(), 5U);
   ASSERT_LE(six.levels.size(), 6U);
   int iterations = 0;
@@ -97,32 +76,27 @@ TEST(Multigrid, TellsOfEveryLevel) {
   EXPECT_EQ(iterations, six.iterations);
   EXPECT_EQ(six.levels.back().moving_nodes, six.moving_nodes);
   options.levels = 3;
-  EXPECT_EQ(fair(cap, held_rim(cap), options).report.levels.size(), 3U);
+  EXPECT_EQ(fair(cap, held_boundary(cap, radial), options).report.levels.size(), 3U);
   options.levels = 1;
-  EXPECT_EQ(fair(cap, held_rim(cap), options).report.levels.size(), 1U);
+  EXPECT_EQ(fair(cap, held_boundary(cap, radial), options).report.levels.size(), 1U);
 }
 
 TEST(Multigrid, HasFewerLevelsWhereThereIsTooLittle) {
   const PolygonMesh cap = generate::cap({.nodes = 19, .radius = 1, .half_angle = 60});
-  const FairResult result = fair(flattened(cap), held_rim(cap), multigrid(1e-12));
+  const FairResult result = fair(pressed(cap, 0.5), held_boundary(cap, radial), multigrid(1e-12));
   EXPECT_EQ(result.report.levels.size(), 1U);
-  EXPECT_LT(distance_from_sphere(result.positions), 1e-9);
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-9);
 }
 
 TEST(Multigrid, FiveIterationsOnTheWayDownTakeNoiseOut) {
   const PolygonMesh annulus = generate::annulus({.nodes = 553, .boundary_nodes = 121});
   const PolygonMesh noisy = generate::add_noise(annulus, 0.05, 7);
-  Constraints constraints(annulus.node_count());
-  fix_boundary_positions(constraints, annulus);
-  fix_boundary_normals(constraints, annulus);
+  const Constraints constraints = clamped_boundary(annulus);
   const FairResult clean = fair(annulus, constraints, multigrid(1e-7));
   const FairResult rough = fair(noisy, constraints, multigrid(1e-7));
   EXPECT_EQ(rough.report.outcome, Outcome::converged);
   EXPECT_GT(rough.report.before.mean_turn, 5 * rough.report.after.mean_turn);
-  double apart = 0;
-  for (std::size_t i = 0; i < clean.positions.size(); ++i)
-    apart = std::max(apart, (clean.positions[i] - rough.positions[i]).norm());
-  EXPECT_LT(apart, 1e-3);
+  EXPECT_LT(greatest_distance(clean.positions, rough.positions), 1e-3);
 }
 
 TEST(Multigrid, SameBitsOnAnyNumberOfThreads) {
@@ -130,7 +104,7 @@ TEST(Multigrid, SameBitsOnAnyNumberOfThreads) {
   const auto with = [&](int threads) {
     Context context;
     context.threads = threads;
-    return fair(flattened(cap), held_rim(cap), multigrid(), context).positions;
+    return fair(pressed(cap, 0.5), held_boundary(cap, radial), multigrid(), context).positions;
   };
   EXPECT_EQ(with(1), with(2));
   EXPECT_EQ(with(1), with(3));
@@ -138,9 +112,9 @@ TEST(Multigrid, SameBitsOnAnyNumberOfThreads) {
 
 TEST(Multigrid, FixedNodesStayBitForBit) {
   const PolygonMesh cap = generate::cap({.nodes = 469, .radius = 1, .half_angle = 60});
-  Constraints constraints = held_rim(cap);
+  Constraints constraints = held_boundary(cap, radial);
   constraints.fix_position(17, Vector3(0.1, 0.2, 1.0));
-  const FairResult result = fair(flattened(cap), constraints, multigrid());
+  const FairResult result = fair(pressed(cap, 0.5), constraints, multigrid());
   for (Index i = 0; i < cap.node_count(); ++i) {
     if (!constraints.position_fixed(i)) continue;
     EXPECT_EQ(result.positions[static_cast<std::size_t>(i)], constraints.position(i));
@@ -154,7 +128,7 @@ TEST(Multigrid, CancellationEndsWithTheShapeSoFar) {
   context.on_progress = [&](const Progress&) {
     if (++calls == 2) context.cancel();
   };
-  const FairResult result = fair(flattened(cap), held_rim(cap), multigrid(1e-12), context);
+  const FairResult result = fair(pressed(cap, 0.5), held_boundary(cap, radial), multigrid(1e-12), context);
   EXPECT_EQ(result.report.outcome, Outcome::cancelled);
   for (const Vector3& position : result.positions) EXPECT_TRUE(position.allFinite());
 }
@@ -174,7 +148,7 @@ TEST(Multigrid, CurvesHaveLevelsToo) {
   const FairResult result = fair(curve, constraints, multigrid(1e-6));
   EXPECT_EQ(result.report.outcome, Outcome::converged);
   EXPECT_GT(result.report.levels.size(), 2U);
-  EXPECT_LT(distance_from_sphere(result.positions), 1e-3);
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-3);
 }
 
 TEST(Multigrid, CurvesOfAHundredEdgesHaveLevels) {
@@ -202,9 +176,7 @@ TEST(Multigrid, CurvesOfAHundredEdgesHaveLevels) {
 TEST(Multigrid, CoarseLevelsFoldNothing) {
   // On levels of some forty nodes this annulus has a second equilibrium, with a crease.
   const PolygonMesh annulus = generate::annulus({.nodes = 60'000, .boundary_nodes = 1225});
-  Constraints constraints(annulus.node_count());
-  fix_boundary_positions(constraints, annulus);
-  fix_boundary_normals(constraints, annulus);
+  const Constraints constraints = clamped_boundary(annulus);
   for (const auto& [method, normals] :
        {std::pair(Method::multigrid, PseudoNormals::link), std::pair(Method::equilibrium, PseudoNormals::angle)}) {
     FairOptions options;

@@ -4,55 +4,24 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <functional>
 #include <vector>
 
+#include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring {
 namespace {
 
+using namespace support;
+
 using generate::Faces;
 using generate::Grid;
-
-constexpr Faces every_kind[] = {Faces::triangles, Faces::quads, Faces::mixed, Faces::hexagons};
-
-using Normal = std::function<Vector3(const Vector3&)>;
-
-Vector3 radial(const Vector3& p) { return p.normalized(); }
-
-/// Boundary positions fixed, and normals too where a rule is given.
-Constraints held_boundary(const PolygonMesh& mesh, const Normal& normal = nullptr) {
-  Constraints constraints(mesh.node_count());
-  fix_boundary_positions(constraints, mesh);
-  for (Index i = 0; i < mesh.node_count(); ++i) {
-    if (normal && constraints.position_fixed(i)) constraints.fix_normal(i, normal(mesh.position(i)));
-  }
-  return constraints;
-}
 
 FairOptions to_the_end() {
   FairOptions options;
   options.step_tolerance = 1e-13;
   options.max_iterations = 20000;
   return options;
-}
-
-PolygonMesh with_positions(PolygonMesh mesh, std::vector<Vector3> positions) {
-  mesh.set_positions(std::move(positions));
-  return mesh;
-}
-
-double greatest_distance(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
-  double greatest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
-  return greatest;
-}
-
-double distance_from_unit_sphere(const std::vector<Vector3>& positions) {
-  double greatest = 0;
-  for (const Vector3& position : positions) greatest = std::max(greatest, std::abs(position.norm() - 1));
-  return greatest;
 }
 
 PolygonMesh noisy_annulus() {
@@ -73,9 +42,7 @@ TEST(FairSurface, APerturbedCapReturnsToTheSphere) {
 
 TEST(FairSurface, AFlatDiscBecomesTheCapThatItsRimAsksFor) {
   const PolygonMesh cap = generate::cap({.nodes = 127, .radius = 1, .half_angle = 60});
-  std::vector<Vector3> flat = cap.positions();
-  for (Vector3& position : flat) position.z() = 0.5;
-  const FairResult result = fair(with_positions(cap, flat), held_boundary(cap, radial), to_the_end());
+  const FairResult result = fair(pressed(cap, 0.5), held_boundary(cap, radial), to_the_end());
   EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-9);
   EXPECT_NEAR(result.report.greatest_move, 0.5, 0.1);
 }

@@ -12,11 +12,10 @@
 #include <vector>
 
 #include "support/clothoid.hpp"
+#include "support/positions.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::support {
-
-constexpr double degree = std::numbers::pi / 180;
 
 /// Random numbers by splitmix64: the same everywhere.
 class Draw {
@@ -132,13 +131,6 @@ inline FairOptions to_the_end(Distribution distribution = Distribution::even, do
 inline std::vector<Vector3> faired(const std::vector<Vector3>& nodes, const Constraints& constraints,
                                    const FairOptions& options = to_the_end()) {
   return fair(PolygonCurve(nodes), constraints, options).positions;
-}
-
-inline double greatest_distance(const std::vector<Vector3>& a, const std::vector<Vector3>& b) {
-  if (a.size() != b.size()) return std::numeric_limits<double>::infinity();
-  double greatest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) greatest = std::max(greatest, (a[i] - b[i]).norm());
-  return greatest;
 }
 
 /// The largest distance of a node from the clothoid in the plane z = 0; nodes follow each other along it.

@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "support/surfaces.hpp"
 #include "unit/generate/counted.hpp"
 #include "vspring/generate.hpp"
 
@@ -10,8 +11,7 @@ namespace {
 
 using generate::Faces;
 using generate::Grid;
-
-constexpr Faces every_kind[] = {Faces::triangles, Faces::quads, Faces::mixed, Faces::hexagons};
+using support::every_kind;
 
 Vector3 up(const Vector3&) { return {0, 0, 1}; }
 Vector3 from_origin(const Vector3& p) { return p; }

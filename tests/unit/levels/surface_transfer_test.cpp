@@ -8,6 +8,7 @@
 
 #include "levels/surface_levels.hpp"
 #include "spring/v_spring.hpp"
+#include "support/surfaces.hpp"
 #include "sweep/sweep.hpp"
 #include "unit/levels/zoo.hpp"
 
@@ -16,8 +17,7 @@ namespace {
 
 using generate::Faces;
 using generate::Grid;
-
-constexpr Faces every_kind[] = {Faces::triangles, Faces::quads, Faces::mixed, Faces::hexagons};
+using support::every_kind;
 
 struct Surface {
   std::function<PolygonMesh(const Grid&)> mesh;

@@ -1,0 +1,133 @@
+// That fairing forgets where it began: one answer from a flat start, a noisy one, two bulged to either side and one
+// folded over.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "support/curves.hpp"
+#include "support/specimens.hpp"
+
+namespace vspring {
+namespace {
+
+using namespace support;
+using generate::Faces;
+
+struct Start {
+  std::string name;
+  std::vector<Vector3> positions;
+};
+
+/// What the nodes without a fixed position may start from, about those that have one. up: bulges go there and back;
+/// across: nodes beyond a plane normal to it are mirrored by it. Unit vectors.
+std::vector<Start> five_starts(const std::vector<Vector3>& positions, const Constraints& constraints, const Vector3& up,
+                               const Vector3& across) {
+  std::vector<Vector3> held;
+  Vector3 middle = Vector3::Zero();
+  for (Index i = 0; i < constraints.node_count(); ++i) {
+    if (constraints.position_fixed(i)) held.push_back(constraints.position(i));
+  }
+  for (const Vector3& p : held) middle += p / static_cast<double>(held.size());
+  const double size = diagonal(held);
+  const auto made = [&](const auto& place) {
+    std::vector<Vector3> start = positions;
+    for (Index i = 0; i < constraints.node_count(); ++i) {
+      Vector3& p = start[static_cast<std::size_t>(i)];
+      if (!constraints.position_fixed(i)) p = place(p);
+    }
+    return start;
+  };
+  const auto bulged = [&](double height) {
+    return made([&](const Vector3& p) {
+      double nearest = size;
+      for (const Vector3& q : held) nearest = std::min(nearest, (p - q).norm());
+      return Vector3(p + height * nearest * up);
+    });
+  };
+  return {{"flat", made([&](const Vector3& p) { return Vector3(p - (p - middle).dot(up) * up); })},
+          {"noisy", noisy(positions, constraints, 0.03 * size, 7, up.z() == 0)},
+          {"bulged up", bulged(1)},
+          {"bulged down", bulged(-1)},
+          {"folded", made([&](const Vector3& p) {
+             const double beyond = (p - middle).dot(across) - 0.05 * size;
+             return Vector3(p - 2 * std::max(0.0, beyond) * across);
+           })}};
+}
+
+struct Problem {
+  std::string name;
+  PolygonMesh mesh;
+  Constraints constraints;
+  /// Around rings: one folded over along a line across it has another equilibrium, see docs/solver.md.
+  Vector3 across = Vector3::UnitX();
+};
+
+std::vector<Problem> problems() {
+  std::vector<Problem> all;
+  const Normal up = [](const Vector3&) { return Vector3::UnitZ(); };
+  for (const Faces faces : {Faces::triangles, Faces::quads}) {
+    const std::string of = " of " + name_of(faces);
+    const PolygonMesh cap = generate::sphere_patch({.columns = 24, .rows = 24, .faces = faces, .jitter = 0.3}, 1, 80);
+    all.push_back({"cap" + of, cap, held_boundary(cap, radial)});
+    all.push_back({"cap by positions" + of, cap, held_boundary(cap)});
+    const Specimen funnel =
+        on_chart("", funnel_chart, true, {.columns = 48, .rows = 12, .faces = faces}, {.jitter = 0.3}, up);
+    all.push_back({"funnel" + of, funnel.start, funnel.constraints, Vector3::UnitZ()});
+    all.push_back({"funnel by positions" + of, funnel.start, held_boundary(funnel.start), Vector3::UnitZ()});
+    const Specimen region = region_of_saddle(faces, 30);
+    all.push_back({region.name, region.start, region.constraints});
+  }
+  const PolygonMesh annulus = generate::annulus({.nodes = 700, .jitter = 0.3});
+  all.push_back({"annulus", annulus, clamped_boundary(annulus)});
+  all.push_back({"annulus by positions", annulus, held_boundary(annulus)});
+  return all;
+}
+
+TEST(Starts, SurfacesForgetTheirs) {
+  FairOptions options;
+  options.method = Method::equilibrium;
+  for (const Problem& problem : problems()) {
+    FairOptions exact = options;
+    exact.tolerance = 1e-12;
+    const FairResult truth = fair(problem.mesh, problem.constraints, exact);
+    const double size = diagonal(problem.mesh, problem.constraints);
+    for (const Start& start :
+         five_starts(problem.mesh.positions(), problem.constraints, Vector3::UnitZ(), problem.across)) {
+      SCOPED_TRACE(problem.name + ", " + start.name);
+      const FairResult result = fair(with_positions(problem.mesh, start.positions), problem.constraints, options);
+      EXPECT_EQ(result.report.outcome, Outcome::converged);
+      const double error = greatest_distance(result.positions, truth.positions) / size;
+      EXPECT_LT(error, 3 * *result.report.expected_error);
+    }
+  }
+}
+
+TEST(Starts, CurvesForgetTheirs) {
+  const std::vector<Vector3> line = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 80));
+  std::vector<std::pair<std::string, Constraints>> all;
+  all.emplace_back("arc", held_ends(line, heading(60 * degree), heading(-60 * degree)));
+  all.emplace_back("S", held_ends(line, heading(60 * degree), heading(60 * degree)));
+  all.emplace_back("line by positions", held_ends(line));
+  Constraints spline = held_ends(line, heading(0), heading(0));
+  spline.fix_position(30, {0.4, 0.2, 0});
+  all.emplace_back("spline", spline);
+  for (const auto& [name, constraints] : all) {
+    const std::vector<Vector3> truth = faired(line, constraints);
+    for (const Start& start : five_starts(line, constraints, Vector3::UnitY(), Vector3::UnitX())) {
+      SCOPED_TRACE(name + ", " + start.name);
+      const FairResult result = fair(PolygonCurve(start.positions), constraints);
+      EXPECT_EQ(result.report.outcome, Outcome::converged);
+      const double error = greatest_distance(result.positions, truth);
+      EXPECT_LT(error, 3 * *result.report.expected_error);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vspring

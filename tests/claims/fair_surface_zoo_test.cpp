@@ -1,0 +1,111 @@
+// What holds for every shape of the zoo: spheres come out exactly on meshes of every kind, cylinders to their order,
+// and the expected error is true.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/specimens.hpp"
+
+namespace vspring {
+namespace {
+
+using namespace support;
+using generate::Faces;
+
+FairOptions to_equilibrium(double tolerance, Distribution distribution = Distribution::even) {
+  FairOptions options;
+  options.method = Method::equilibrium;
+  options.tolerance = tolerance;
+  options.distribution = distribution;
+  return options;
+}
+
+TEST(Zoo, SpheresOnIrregularMeshesOfEveryKind) {
+  std::vector<Specimen> all;
+  for (const Faces faces : every_kind) {
+    const generate::Grid grid{.columns = 24, .rows = 24, .faces = faces};
+    all.push_back(on_chart("graded " + name_of(faces), sphere_chart, false, grid, {.ratio = 10}, radial));
+  }
+  // Nodes of bricks lie on a line with two of their three neighbours: no shares keep them off it.
+  for (const Faces faces : {Faces::triangles, Faces::quads}) {
+    const generate::Grid grid{.columns = 24, .rows = 24, .faces = faces};
+    all.push_back(on_chart("kept " + name_of(faces), sphere_chart, false, grid, {.jitter = 0.5}, radial));
+    all.back().distribution = Distribution::keep;
+  }
+  const PolygonMesh polygons = projected(dual(generate::cap({.nodes = 600, .jitter = 0.5})));
+  for (const Distribution distribution : {Distribution::even, Distribution::keep}) {
+    all.push_back({"n-gons", flattened(polygons, 60, 0), held_boundary(polygons, radial), distribution});
+  }
+  for (const int sides : {3, 5, 7, 12}) {
+    const PolygonMesh polygon = polygon_cap(sides, 4);
+    all.push_back({fmt::format("polygon of {} sides", sides), pressed(polygon, 0.5), held_boundary(polygon, radial)});
+  }
+  for (const Specimen& one : all) {
+    SCOPED_TRACE(one.name);
+    ASSERT_GT(distance_from_unit_sphere(one.start.positions()), 0.1);
+    const FairResult result = fair(one.start, one.constraints, to_equilibrium(1e-12, one.distribution));
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-10);
+  }
+}
+
+/// The distance of an equilibrium from the cylinder of radius 1.
+double cylinder_error(Faces faces, int cells, bool estimated_normals) {
+  const Normal from_axis = [](const Vector3& p) { return Vector3(p.x(), p.y(), 0); };
+  Specimen specimen =
+      on_chart("", cylinder_chart, false, {.columns = cells, .rows = cells, .faces = faces}, {}, from_axis);
+  if (estimated_normals) {
+    const PolygonMesh exact =
+        generate::cylinder_patch({.columns = cells, .rows = cells, .faces = faces, .jitter = 0.2}, 1, 120, 2);
+    specimen = {"", generate::add_noise(exact, 0.02, 3), clamped_boundary(exact)};
+  }
+  const FairResult result = fair(specimen.start, specimen.constraints, to_equilibrium(1e-10));
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  double greatest = 0;
+  for (const Vector3& p : result.positions) greatest = std::max(greatest, std::abs(p.head<2>().norm() - 1));
+  return greatest;
+}
+
+TEST(Zoo, CylindersToTheirOrder) {
+  // Every node sees the same: no error of its own but that of estimated normals at the boundary.
+  for (const Faces faces : {Faces::triangles, Faces::quads}) {
+    SCOPED_TRACE(name_of(faces));
+    EXPECT_LT(cylinder_error(faces, 24, false), 1e-9);
+    const double error = cylinder_error(faces, 24, true);
+    EXPECT_GT(std::log2(cylinder_error(faces, 12, true) / error), 2.5);
+    EXPECT_GT(std::log2(error / cylinder_error(faces, 48, true)), 2.5);
+  }
+  for (const Faces faces : {Faces::mixed, Faces::hexagons}) {
+    SCOPED_TRACE(name_of(faces));
+    const double order = std::log2(cylinder_error(faces, 12, false) / cylinder_error(faces, 48, false)) / 2;
+    EXPECT_GT(order, 0.75);
+    EXPECT_LT(order, 1.25);
+  }
+}
+
+TEST(Zoo, TheTrueErrorIsAtMostThreeTimesTheExpectedOne) {
+  for (const Specimen& specimen : specimens(16)) {
+    if (specimen.hard) continue;
+    const FairResult truth = fair(specimen.start, specimen.constraints, to_equilibrium(1e-12, specimen.distribution));
+    const double size = diagonal(specimen.start, specimen.constraints);
+    for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
+      SCOPED_TRACE(fmt::format("{} to {}", specimen.name, tolerance));
+      const FairResult result =
+          fair(specimen.start, specimen.constraints, to_equilibrium(tolerance, specimen.distribution));
+      EXPECT_EQ(result.report.outcome, Outcome::converged);
+      const double expected = *result.report.expected_error;
+      const double error = greatest_distance(result.positions, truth.positions) / size;
+      EXPECT_LT(error, 3 * expected);
+      // Where spacing is graded the estimate is careful.
+      EXPECT_GT(error, expected / 10);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vspring

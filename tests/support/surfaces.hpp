@@ -1,0 +1,129 @@
+#pragma once
+
+// What the tests and benchmarks of surfaces share: what holds boundaries, starts, and distances from spheres.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "support/positions.hpp"
+#include "vspring/vspring.hpp"
+
+namespace vspring::support {
+
+constexpr generate::Faces every_kind[] = {generate::Faces::triangles, generate::Faces::quads, generate::Faces::mixed,
+                                          generate::Faces::hexagons};
+
+using Normal = std::function<Vector3(const Vector3&)>;
+
+/// Of the unit sphere.
+inline Vector3 radial(const Vector3& p) { return p.normalized(); }
+
+/// Boundary positions, and normals too where a rule is given.
+inline Constraints held_boundary(const PolygonMesh& mesh, const Normal& normal = nullptr) {
+  Constraints constraints(mesh.node_count());
+  fix_boundary_positions(constraints, mesh);
+  for (Index i = 0; i < mesh.node_count() && normal; ++i) {
+    if (constraints.position_fixed(i)) constraints.fix_normal(i, normal(mesh.position(i)));
+  }
+  return constraints;
+}
+
+/// Boundary positions and the normals that the mesh has there.
+inline Constraints clamped_boundary(const PolygonMesh& mesh) {
+  Constraints constraints = held_boundary(mesh);
+  fix_boundary_normals(constraints, mesh);
+  return constraints;
+}
+
+inline double diagonal(const PolygonMesh& mesh) { return diagonal(mesh.positions()); }
+
+/// Of the box around the faces with a moving node: the unit of expected errors.
+inline double diagonal(const PolygonMesh& mesh, const Constraints& constraints) {
+  std::vector<Vector3> around;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    if (std::all_of(face.begin(), face.end(), [&](Index node) { return constraints.position_fixed(node); })) continue;
+    for (const Index node : face) around.push_back(mesh.position(node));
+  }
+  return diagonal(around);
+}
+
+inline double distance_from_unit_sphere(const std::vector<Vector3>& positions) {
+  double greatest = 0;
+  for (const Vector3& position : positions) greatest = std::max(greatest, std::abs(position.norm() - 1));
+  return greatest;
+}
+
+inline PolygonMesh with_positions(PolygonMesh mesh, std::vector<Vector3> positions) {
+  mesh.set_positions(std::move(positions));
+  return mesh;
+}
+
+/// Every node on the unit sphere.
+inline PolygonMesh projected(PolygonMesh mesh) {
+  std::vector<Vector3> positions = mesh.positions();
+  for (Vector3& position : positions) position.normalize();
+  return with_positions(std::move(mesh), std::move(positions));
+}
+
+/// All nodes at one height.
+inline PolygonMesh pressed(PolygonMesh mesh, double height) {
+  std::vector<Vector3> positions = mesh.positions();
+  for (Vector3& position : positions) position.z() = height;
+  return with_positions(std::move(mesh), std::move(positions));
+}
+
+/// A cap of the unit sphere pressed flat at the height of its rim, with noise of that length inside. Angles along
+/// meridians become radii, so that nothing folds over.
+inline PolygonMesh flattened(PolygonMesh cap, double half_angle, double noise) {
+  const double rim = half_angle * degree;
+  std::vector<Vector3> flat = cap.positions();
+  for (Vector3& p : flat) {
+    const double radius = std::hypot(p.x(), p.y());
+    const double scale = radius > 0 ? std::atan2(radius, p.z()) / rim * std::sin(rim) / radius : 0;
+    p = Vector3(scale * p.x(), scale * p.y(), std::cos(rim));
+  }
+  return generate::add_noise(with_positions(std::move(cap), std::move(flat)), noise, 5);
+}
+
+/// The polygons around the inner nodes of a mesh of triangles: n-gons of as many sides as nodes have neighbours, with a
+/// node for every triangle that has a node inside.
+inline PolygonMesh dual(const PolygonMesh& triangles) {
+  const std::vector<std::uint8_t> boundary = boundary_nodes(triangles);
+  std::map<std::pair<Index, Index>, Index> face_left_of;
+  MeshBuilder builder;
+  std::vector<Index> number(static_cast<std::size_t>(triangles.face_count()), -1);
+  for (Index f = 0; f < triangles.face_count(); ++f) {
+    const auto face = triangles.face(f);
+    Vector3 centre = Vector3::Zero();
+    bool inner = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      face_left_of[{face[k], face[(k + 1) % 3]}] = f;
+      centre += triangles.position(face[k]) / 3;
+      inner = inner || boundary[static_cast<std::size_t>(face[k])] == 0;
+    }
+    if (inner) number[static_cast<std::size_t>(f)] = builder.add_node(centre);
+  }
+  std::vector<std::uint8_t> done = boundary;
+  for (Index f = 0; f < triangles.face_count(); ++f) {
+    for (const Index node : triangles.face(f)) {
+      if (done[static_cast<std::size_t>(node)]++ != 0) continue;
+      std::vector<Index> around;
+      Index at = f;
+      do {
+        around.push_back(number[static_cast<std::size_t>(at)]);
+        const auto face = triangles.face(at);
+        const auto k = static_cast<std::size_t>(std::find(face.begin(), face.end(), node) - face.begin());
+        at = face_left_of.at({node, face[(k + 2) % 3]});
+      } while (at != f);
+      builder.add_face(around);
+    }
+  }
+  return builder.take();
+}
+
+}  // namespace vspring::support

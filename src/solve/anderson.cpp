@@ -12,7 +12,8 @@ constexpr std::size_t vectors_per_task = 8192;
 
 }  // namespace
 
-void Anderson::accelerate(std::vector<Vector3>& correction) {
+template <typename Scalar>
+void Anderson<Scalar>::accelerate(std::vector<Vector3>& correction) {
   const bool remembers = !last_step_.empty();
   if (remembers) used_ = std::min(used_ + 1, depth_);
   if (corrections_.size() < used_) {
@@ -30,17 +31,17 @@ void Anderson::accelerate(std::vector<Vector3>& correction) {
     Eigen::MatrixXd& part = parts[begin / vectors_per_task];
     if (remembers) {
       for (std::size_t i = begin; i < end; ++i) {
-        corrections_[newest][i] = (correction[i] - last_correction_[i].cast<double>()).cast<float>();
+        corrections_[newest][i] = (correction[i] - last_correction_[i].template cast<double>()).template cast<Scalar>();
         steps_[newest][i] = last_step_[i];
       }
     }
-    for (std::size_t i = begin; i < end; ++i) last_correction_[i] = correction[i].cast<float>();
+    for (std::size_t i = begin; i < end; ++i) last_correction_[i] = correction[i].template cast<Scalar>();
     for (Eigen::Index a = 0; a < columns; ++a) {
       const auto& column_a = corrections_[static_cast<std::size_t>(a)];
       const auto with_a = [&](const auto& other) {
         double sum = 0;
         for (std::size_t i = begin; i < end; ++i)
-          sum += column_a[i].cast<double>().dot(other[i].template cast<double>());
+          sum += column_a[i].template cast<double>().dot(other[i].template cast<double>());
         return sum;
       };
       for (Eigen::Index b = 0; b <= a; ++b) part(a, b) = with_a(corrections_[static_cast<std::size_t>(b)]);
@@ -63,15 +64,18 @@ void Anderson::accelerate(std::vector<Vector3>& correction) {
         for (std::size_t a = 0; a < used_; ++a) {
           const double share = shares[static_cast<Eigen::Index>(a)];
           for (std::size_t i = begin; i < end; ++i)
-            correction[i] -= share * (corrections_[a][i] + steps_[a][i]).cast<double>();
+            correction[i] -= share * (corrections_[a][i] + steps_[a][i]).template cast<double>();
         }
       });
     }
   }
   last_step_.resize(size_);
   parallel_ranges(*team_, size_, vectors_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) last_step_[i] = correction[i].cast<float>();
+    for (std::size_t i = begin; i < end; ++i) last_step_[i] = correction[i].template cast<Scalar>();
   });
 }
+
+template class Anderson<float>;
+template class Anderson<double>;
 
 }  // namespace vspring

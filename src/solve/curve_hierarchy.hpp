@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -24,26 +23,17 @@ class CurveHierarchy final : public Hierarchy {
     if (levels < levels_.size()) levels_.erase(levels_.begin(), levels_.end() - static_cast<std::ptrdiff_t>(levels));
   }
   void restrict_from(std::size_t level) override { restrict_shape(levels_[level], levels_[level - 1]); }
-  void prolong_from(std::size_t level) override {
-    prolong(levels_[level], levels_[level + 1]);
-    made_for_.reset();
-  }
+  void prolong_from(std::size_t level) override { prolong(levels_[level], levels_[level + 1]); }
   // Levels are made with the start, averaged.
   void start() override { untangle(levels_.front()); }
   void forget_shape(std::size_t level) override { straighten(levels_[level]); }
-  Preconditioner& preconditioner(std::size_t level) override {
-    if (made_for_ != level) preconditioner_ = std::make_unique<CurvePreconditioner>(levels_[level].curve);
-    made_for_ = level;
-    return *preconditioner_;
-  }
-  void forget_preconditioner() override { made_for_.reset(); }
+  Preconditioner& preconditioner(std::size_t level) override { return preconditioner_.emplace(levels_[level].curve); }
 
   CurveNet take() && { return std::move(levels_.back().curve); }
 
  private:
   std::vector<CurveLevel> levels_;
-  std::optional<std::size_t> made_for_;
-  std::unique_ptr<CurvePreconditioner> preconditioner_;
+  std::optional<CurvePreconditioner> preconditioner_;
 };
 
 }  // namespace vspring

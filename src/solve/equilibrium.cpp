@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
 
 #include "solve/anderson.hpp"
 #include "solve/best_shape.hpp"
@@ -25,7 +26,7 @@ constexpr double negligible = 0.01;
 class Solver {
  public:
   Solver(Net& net, const Model& model, Preconditioner& preconditioner, ThreadTeam& team)
-      : net_(net), model_(model), preconditioner_(preconditioner), team_(team), anderson_(depth, net.moving, team) {
+      : net_(net), model_(model), preconditioner_(preconditioner), team_(team), anderson_(history(net, team)) {
     model.prepare(net);
   }
 
@@ -71,9 +72,19 @@ class Solver {
   }
 
  private:
+  /// Curves are taken nearer to where rounding has the last word; surfaces may be large.
+  static std::variant<Anderson<float>, Anderson<double>> history(const Net& net, ThreadTeam& team) {
+    if (net.tangents.empty()) return Anderson<float>(depth, net.moving, team);
+    return Anderson<double>(depth, net.moving, team);
+  }
+
+  void forget() {
+    std::visit([](auto& anderson) { anderson.forget(); }, anderson_);
+  }
+
   void find_correction(double enough) {
     update_directions(net_, model_, team_);
-    if (preconditioner_.refresh()) anderson_.forget();
+    if (preconditioner_.refresh()) forget();
     preconditioner_.correct(model_, enough, correction_);
   }
 
@@ -136,13 +147,13 @@ class Solver {
     const double turn = largest_turn();
     double share = 1;
     if (turn > greatest_turn) {
-      anderson_.forget();
+      forget();
       share = greatest_turn / turn;
     } else {
-      anderson_.accelerate(correction_);
+      std::visit([&](auto& anderson) { anderson.accelerate(correction_); }, anderson_);
       const double accelerated = largest_turn();
       if (accelerated > greatest_turn) {
-        anderson_.forget();
+        forget();
         share = greatest_turn / accelerated;
       }
     }
@@ -156,7 +167,7 @@ class Solver {
   const Model& model_;
   Preconditioner& preconditioner_;
   ThreadTeam& team_;
-  Anderson anderson_;
+  std::variant<Anderson<float>, Anderson<double>> anderson_;
   std::vector<Vector3> correction_;
   std::vector<double> greatest_;
 };

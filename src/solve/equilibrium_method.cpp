@@ -62,7 +62,9 @@ class Run {
         report_(report) {}
 
   /// Without a look at coarser levels.
-  void run_on_shape_itself() { (void)relax(hierarchy_.count() - 1, options_.max_iterations.value_or(default_limit)); }
+  void run_on_shape_itself(Preconditioner& preconditioner) {
+    (void)relax(hierarchy_.count() - 1, options_.max_iterations.value_or(default_limit), preconditioner);
+  }
 
   void run() {
     const std::size_t last = hierarchy_.count() - 1;
@@ -83,10 +85,7 @@ class Run {
     for (std::size_t k = first; k <= last; ++k) {
       (void)relax(k, k == first ? std::min(limit, first_try) : limit);
       if (k == first && limit > first_try && unfinished()) {
-        if (lost()) {
-          hierarchy_.forget_shape(k);
-          hierarchy_.forget_preconditioner();
-        }
+        if (lost()) hierarchy_.forget_shape(k);
         (void)relax(k, limit);
       }
       if (!own_start.empty() && ((unfinished() && lost()) || caught_in_a_fold(k))) try_own_start(k, own_start, limit);
@@ -108,7 +107,6 @@ class Run {
     const Outcome outcome = report_.outcome;
     const double energy = energy_of(net).sum;
     for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = start[i].cast<double>();
-    hierarchy_.forget_preconditioner();
     (void)relax(level, limit);
     if (report_.outcome == Outcome::cancelled) return;
     const bool better = was_unfinished || unfinished()
@@ -116,7 +114,6 @@ class Run {
                             : energy_of(net).sum < energy;
     if (better) return;
     net.positions = reached;
-    hierarchy_.forget_preconditioner();
     report_.outcome = outcome;
     report_.residual = residual;
     report_.expected_error = residual;
@@ -158,6 +155,10 @@ class Run {
   }
 
   Outcome relax(std::size_t level, int max_iterations) {
+    return relax(level, max_iterations, hierarchy_.preconditioner(level));
+  }
+
+  Outcome relax(std::size_t level, int max_iterations, Preconditioner& preconditioner) {
     const auto begin = Clock::now();
     const std::size_t last = hierarchy_.count() - 1;
     Net& net = hierarchy_.net(level);
@@ -169,8 +170,7 @@ class Run {
       report_.history.push_back(expected / size_);
       progress_.report("fairing", share / 2, static_cast<int>(report_.history.size()), expected / size_);
     };
-    const EquilibriumResult result =
-        go_to_equilibrium(net, model_, hierarchy_.preconditioner(level), task, team_, context_);
+    const EquilibriumResult result = go_to_equilibrium(net, model_, preconditioner, task, team_, context_);
     report_.iterations += result.iterations;
     report_.levels.push_back({.moving_nodes = static_cast<Index>(net.moving),
                               .iterations = result.iterations,
@@ -198,9 +198,10 @@ void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions
   Run(hierarchy, model, options, team, context, progress, report).run();
 }
 
-void run_equilibrium_from_near(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
-                               Context& context, ProgressReporter& progress, FairReport& report) {
-  Run(hierarchy, model, options, team, context, progress, report).run_on_shape_itself();
+void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,
+                               const FairOptions& options, ThreadTeam& team, Context& context,
+                               ProgressReporter& progress, FairReport& report) {
+  Run(hierarchy, model, options, team, context, progress, report).run_on_shape_itself(preconditioner);
 }
 
 }  // namespace vspring

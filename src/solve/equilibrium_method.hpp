@@ -13,9 +13,10 @@ namespace vspring {
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
                      Context& context, ProgressReporter& progress, FairReport& report);
 
-/// The same from a shape that is near to its equilibrium, without a look at coarser levels. Ends short of it where the
-/// shape is not near enough.
-void run_equilibrium_from_near(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
-                               Context& context, ProgressReporter& progress, FairReport& report);
+/// The same from a shape that is near to its equilibrium, without a look at coarser levels, with a preconditioner of
+/// the shape itself. Ends short of it where the shape is not near enough.
+void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,
+                               const FairOptions& options, ThreadTeam& team, Context& context,
+                               ProgressReporter& progress, FairReport& report);
 
 }  // namespace vspring

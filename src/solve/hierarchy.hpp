@@ -38,10 +38,8 @@ class Hierarchy {
   virtual void start() = 0;
   /// The start of last resort on the level that is worked on first, which forgets the shape.
   virtual void forget_shape(std::size_t level) = 0;
-  /// For that level; the same one for as long as no other is asked for and nothing is handed up.
+  /// For that level, made anew; used up before the next one is asked for.
   virtual Preconditioner& preconditioner(std::size_t level) = 0;
-  /// The next one is made anew: the shape has become another one.
-  virtual void forget_preconditioner() = 0;
 };
 
 }  // namespace vspring

@@ -97,7 +97,8 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, Fai
   count_nodes(net, constraints, report);
   report.faces = mesh_->face_count();
   hierarchy_->follow(constraints);
-  run_equilibrium_from_near(*hierarchy_, *model_, options_, team_, context, progress, report);
+  run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, options_, team_, context, progress,
+                            report);
   return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
 }
 

@@ -44,13 +44,12 @@ void SurfaceHierarchy::limit(std::size_t levels) {
 
 Preconditioner& SurfaceHierarchy::preconditioner(std::size_t level) {
   make_systems(level);
-  if (!preconditioner_) preconditioner_ = std::make_unique<SurfacePreconditioner>(system_levels_, *spreading_, *team_);
-  return *preconditioner_;
+  return preconditioner_.emplace(system_levels_, *spreading_, *team_);
 }
 
-void SurfaceHierarchy::forget_preconditioner() {
-  systems_of_.reset();
-  preconditioner_.reset();
+Preconditioner& SurfaceHierarchy::kept_preconditioner() {
+  const std::size_t last = levels_.size() - 1;
+  return preconditioner_ && systems_of_ == last ? *preconditioner_ : preconditioner(last);
 }
 
 void SurfaceHierarchy::make_systems(std::size_t level) {
@@ -90,7 +89,7 @@ void SurfaceHierarchy::forget_shape(std::size_t level) {
 
 void SurfaceHierarchy::prolong_from(std::size_t level) {
   prolong(levels_[level], levels_[level + 1], *team_);
-  forget_preconditioner();
+  systems_of_.reset();
   spread_along(level + 1);
 }
 
@@ -106,8 +105,7 @@ void SurfaceHierarchy::follow(const Constraints& constraints) {
   }
   const bool any_moved = std::any_of(moves.begin(), moves.end(), [](const Vector3& move) { return !move.isZero(0); });
   if (any_moved) {
-    (void)preconditioner(levels_.size() - 1);
-    (void)preconditioner_->refresh();
+    (void)kept_preconditioner().refresh();
     std::vector<Vector3> correction;
     preconditioner_->follow(moves, correction);
     for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += correction[i];

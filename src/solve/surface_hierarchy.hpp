@@ -30,7 +30,9 @@ class SurfaceHierarchy final : public Hierarchy {
   /// All nodes at the mean of their neighbours.
   void forget_shape(std::size_t level) override;
   Preconditioner& preconditioner(std::size_t level) override;
-  void forget_preconditioner() override;
+
+  /// The last one for the shape itself, or one made anew where there is none.
+  Preconditioner& kept_preconditioner();
 
   /// Held nodes of the shape itself go to their new places, and have their new normals, on all levels; moving nodes of
   /// the shape follow as they would if slopes were small.
@@ -48,7 +50,7 @@ class SurfaceHierarchy final : public Hierarchy {
   std::optional<std::size_t> systems_of_;  ///< the level that these are for
   SystemLevels system_levels_;
   std::unique_ptr<LinearSolver> spreading_;
-  std::unique_ptr<SurfacePreconditioner> preconditioner_;
+  std::optional<SurfacePreconditioner> preconditioner_;
   ThreadTeam* team_;
 };
 

@@ -1,0 +1,160 @@
+// A mesh that is faired again and again while its constraints move.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/surfaces.hpp"
+#include "vspring/vspring.hpp"
+
+namespace vspring {
+namespace {
+
+using namespace support;
+
+/// An annulus with both rims held, and the node in the middle of it that is held too.
+struct Dragged {
+  PolygonMesh mesh;
+  Constraints constraints;
+  Index node = 0;
+};
+
+Dragged dragged(Index nodes) {
+  PolygonMesh mesh = generate::annulus({.nodes = nodes});
+  Constraints constraints = clamped_boundary(mesh);
+  Index node = 0;
+  const Vector3 middle(0.65, 0, 0.3);
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if ((mesh.position(i) - middle).norm() < (mesh.position(node) - middle).norm()) node = i;
+  }
+  const FairResult free = fair(mesh, constraints, {.method = Method::equilibrium});
+  constraints.fix_position(node, free.positions[static_cast<std::size_t>(node)]);
+  return {std::move(mesh), std::move(constraints), node};
+}
+
+FairOptions to(double tolerance) { return {.method = Method::equilibrium, .tolerance = tolerance}; }
+
+TEST(FairingSession, FollowsWhatIsDragged) {
+  for (const Index nodes : {800, 6000}) {
+    Dragged one = dragged(nodes);
+    const FairOptions options = to(1e-6);
+    FairingSession session(one.mesh, options);
+    const FairResult first = session.fair(one.constraints);
+    ASSERT_EQ(first.report.outcome, Outcome::converged);
+    EXPECT_EQ(first.positions, fair(one.mesh, one.constraints, options).positions);
+    const double size = diagonal(one.mesh);
+    for (int step = 0; step < 4; ++step) {
+      one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0.002, 0.001, 0.004));
+      const FairResult followed = session.fair(one.constraints);
+      const FairResult anew = fair(one.mesh, one.constraints, options);
+      EXPECT_EQ(followed.report.outcome, Outcome::converged);
+      EXPECT_EQ(followed.report.levels.size(), 1U) << "no coarser level is needed";
+      EXPECT_LT(followed.report.iterations, 12);
+      const double error = *followed.report.expected_error + *anew.report.expected_error;
+      EXPECT_LT(greatest_distance(followed.positions, anew.positions), 3 * error * size);
+      EXPECT_EQ(followed.positions[static_cast<std::size_t>(one.node)], one.constraints.position(one.node));
+    }
+  }
+}
+
+TEST(FairingSession, FollowsNormalsThatTurn) {
+  Dragged one = dragged(3000);
+  const FairOptions options = to(1e-6);
+  FairingSession session(one.mesh, options);
+  (void)session.fair(one.constraints);
+  for (const double tilt : {0.05, 0.1}) {
+    for (Index i = 0; i < one.mesh.node_count(); ++i) {
+      if (one.constraints.normal_fixed(i) && one.mesh.position(i).head<2>().norm() > 0.9)
+        one.constraints.fix_normal(i, Vector3(tilt * one.mesh.position(i).x(), tilt * one.mesh.position(i).y(), 1));
+    }
+    const FairResult followed = session.fair(one.constraints);
+    const FairResult anew = fair(one.mesh, one.constraints, options);
+    EXPECT_EQ(followed.report.outcome, Outcome::converged);
+    EXPECT_EQ(followed.report.levels.size(), 1U);
+    const double error = *followed.report.expected_error + *anew.report.expected_error;
+    EXPECT_LT(greatest_distance(followed.positions, anew.positions), 3 * error * diagonal(one.mesh));
+  }
+}
+
+TEST(FairingSession, OtherNodesHeldAreFairedAnew) {
+  Dragged one = dragged(800);
+  const FairOptions options = to(1e-6);
+  FairingSession session(one.mesh, options);
+  (void)session.fair(one.constraints);
+  one.constraints.free_position(one.node);
+  EXPECT_EQ(session.fair(one.constraints).positions, fair(one.mesh, one.constraints, options).positions);
+}
+
+TEST(FairingSession, AStepTooFarIsFairedAnew) {
+  Dragged one = dragged(3000);
+  const FairOptions options = to(1e-6);
+  one.constraints.free_position(one.node);
+  FairingSession session(one.mesh, options);
+  (void)session.fair(one.constraints);
+  // The rim goes to three times its size.
+  for (Index i = 0; i < one.mesh.node_count(); ++i) {
+    if (one.constraints.normal_fixed(i) && one.mesh.position(i).head<2>().norm() > 0.9)
+      one.constraints.fix_position(i, 3 * one.mesh.position(i));
+  }
+  const FairResult result = session.fair(one.constraints);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  const FairResult anew = fair(one.mesh, one.constraints, options);
+  const double error = *result.report.expected_error + *anew.report.expected_error;
+  EXPECT_LT(greatest_distance(result.positions, anew.positions), 3 * error * 3 * diagonal(one.mesh));
+}
+
+TEST(FairingSession, APlaceThatIsNoneIsRefusedAndNothingIsLost) {
+  Dragged one = dragged(800);
+  FairingSession session(one.mesh, to(1e-6));
+  const FairResult first = session.fair(one.constraints);
+  Constraints wrong = one.constraints;
+  wrong.fix_position(one.node, Vector3(0, std::nan(""), 0));
+  try {
+    (void)session.fair(wrong);
+    FAIL() << "it was taken";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find(std::to_string(one.node)), std::string::npos) << error.what();
+  }
+  const FairResult again = session.fair(one.constraints);
+  EXPECT_EQ(again.report.outcome, Outcome::converged);
+  EXPECT_LT(greatest_distance(again.positions, first.positions), 1e-5 * diagonal(one.mesh));
+}
+
+TEST(FairingSession, CancelledItGoesOnTheNextTime) {
+  Dragged one = dragged(800);
+  FairingSession session(one.mesh, to(1e-6));
+  (void)session.fair(one.constraints);
+  one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0, 0, 0.01));
+  Context context;
+  context.cancel();
+  EXPECT_EQ(session.fair(one.constraints, context).report.outcome, Outcome::cancelled);
+  context.reset();
+  const FairResult result = session.fair(one.constraints, context);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  const FairResult anew = fair(one.mesh, one.constraints, to(1e-6));
+  EXPECT_LT(greatest_distance(result.positions, anew.positions), 1e-5 * diagonal(one.mesh));
+}
+
+TEST(FairingSession, OtherMethodsFairAnewEveryTime) {
+  Dragged one = dragged(800);
+  const FairOptions options = {.method = Method::multigrid};
+  FairingSession session(one.mesh, options);
+  (void)session.fair(one.constraints);
+  one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0, 0, 0.01));
+  EXPECT_EQ(session.fair(one.constraints).positions, fair(one.mesh, one.constraints, options).positions);
+}
+
+TEST(FairingSession, ThreadsGiveTheSameBits) {
+  std::vector<std::vector<Vector3>> shapes;
+  for (const int threads : {1, 3}) {
+    Dragged one = dragged(6000);
+    FairingSession session(one.mesh, to(1e-6), threads);
+    (void)session.fair(one.constraints);
+    one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0, 0, 0.005));
+    shapes.push_back(session.fair(one.constraints).positions);
+  }
+  EXPECT_EQ(shapes[0], shapes[1]);
+}
+
+}  // namespace
+}  // namespace vspring

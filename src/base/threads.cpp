@@ -6,6 +6,13 @@
 
 namespace vspring {
 
+namespace {
+
+// Waking a thread takes longer than many a loop over some thousand nodes; a yield takes a fraction of a microsecond.
+constexpr int looks_before_sleep = 100;
+
+}  // namespace
+
 int Context::thread_count() const noexcept {
   return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
@@ -38,8 +45,17 @@ void ThreadTeam::run(std::size_t count, const std::function<void(std::size_t)>& 
   }
   started_.notify_all();
   take_tasks();
+  wait(finished_, [this] { return busy_ == 0; });
+}
+
+template <typename Holds>
+void ThreadTeam::wait(std::condition_variable& signal, const Holds& holds) {
+  for (int look = 0; look < looks_before_sleep; ++look) {
+    if (holds()) return;
+    std::this_thread::yield();
+  }
   std::unique_lock lock(mutex_);
-  finished_.wait(lock, [this] { return busy_ == 0; });
+  signal.wait(lock, holds);
 }
 
 void ThreadTeam::take_tasks() {
@@ -53,12 +69,9 @@ void ThreadTeam::take_tasks() {
 void ThreadTeam::work() {
   std::uint64_t seen = 0;
   for (;;) {
-    {
-      std::unique_lock lock(mutex_);
-      started_.wait(lock, [&] { return ending_ || round_ != seen; });
-      if (ending_) return;
-      seen = round_;
-    }
+    wait(started_, [&] { return ending_ || round_ != seen; });
+    if (ending_) return;
+    seen = round_;
     take_tasks();
     const std::lock_guard lock(mutex_);
     if (--busy_ == 0) finished_.notify_one();

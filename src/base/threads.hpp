@@ -29,14 +29,17 @@ class ThreadTeam {
  private:
   void work();
   void take_tasks();
+  /// Until what is asked for holds: awake for as long as the pauses between loops last, then asleep.
+  template <typename Holds>
+  void wait(std::condition_variable& signal, const Holds& holds);
 
   std::vector<std::thread> workers_;
   std::mutex mutex_;
   std::condition_variable started_;
   std::condition_variable finished_;
-  std::uint64_t round_ = 0;
-  bool ending_ = false;
-  std::size_t busy_ = 0;
+  std::atomic<std::uint64_t> round_ = 0;
+  std::atomic<bool> ending_ = false;
+  std::atomic<std::size_t> busy_ = 0;
   const std::function<void(std::size_t)>* task_ = nullptr;
   std::size_t count_ = 0;
   std::atomic<std::size_t> next_ = 0;

@@ -10,30 +10,16 @@
 #include <string>
 #include <vector>
 
-#include "base/random.hpp"
+#include "region.hpp"
 #include "vspring/vspring.hpp"
 
 namespace {
 
 using namespace vspring;
+using namespace bench;
 
-struct Region {
-  Vector3 centre;
-  double radius;
-  std::vector<Index> nodes;
-};
-
-Region region_about(const PolygonMesh& mesh, Index seed, double radius) {
-  Region region{mesh.position(seed), radius, {}};
-  for (Index i = 0; i < mesh.node_count(); ++i) {
-    if ((mesh.position(i) - region.centre).norm() <= radius) region.nodes.push_back(i);
-  }
-  return region;
-}
-
-void add_view(std::ofstream& views, const std::string& name, const PolygonMesh& mesh, const Region& region,
-              Index seed) {
-  const Index nodes[] = {seed};
+void add_view(std::ofstream& views, const std::string& name, const PolygonMesh& mesh, const Region& region) {
+  const Index nodes[] = {region.seed};
   Vector3 normal = estimate_normals(mesh, nodes).front();
   if (normal.isZero(0)) normal = Vector3(0, 0, 1);
   const Vector3 up = std::abs(normal.y()) < 0.9 ? Vector3(0, 1, 0) : Vector3(0, 0, 1);
@@ -51,14 +37,12 @@ void run(const std::string& path, const std::filesystem::path& out, std::ofstrea
   const std::string stem = std::filesystem::path(path).stem();
   for (const double share : {0.06, 0.12}) {
     for (std::uint64_t run = 0; run < 3; ++run) {
-      Random random(run + 1);
-      const auto seed = static_cast<Index>(random.uniform() * mesh.node_count());
-      const Region region = region_about(mesh, seed, share * box.diagonal().norm());
+      const Region region = region_of(mesh, run, share * box.diagonal().norm());
       Constraints constraints(mesh.node_count());
       fix_boundary_positions(constraints, mesh);
       apply_rules(constraints, mesh, R"({"rules": [{"nodes": "non-manifold", "position": "fixed"}]})");
-      const std::string row =
-          fmt::format("| {} | {:.0f} % | {} |", std::filesystem::path(path).filename().string(), 100 * share, seed);
+      const std::string row = fmt::format("| {} | {:.0f} % | {} |", std::filesystem::path(path).filename().string(),
+                                          100 * share, region.seed);
       try {
         restrict_to_region(constraints, mesh, region.nodes);
         const FairResult result = fair(mesh, constraints);
@@ -74,7 +58,7 @@ void run(const std::string& path, const std::filesystem::path& out, std::ofstrea
           PolygonMesh faired = mesh;
           faired.set_positions(result.positions);
           (void)write_surface(out / (name + "-after.ply"), faired);
-          add_view(views, name, mesh, region, seed);
+          add_view(views, name, mesh, region);
         }
       } catch (const Error& error) {
         fmt::print("{} | refused: {} | | | | | | |\n", row, error.what());

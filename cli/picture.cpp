@@ -39,6 +39,14 @@ Eigen::Matrix3d seen_from(const Vector3& direction, const Vector3& up) {
   return rows;
 }
 
+/// What stands between commas.
+std::vector<std::string> parts_of(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  return parts;
+}
+
 Eigen::Matrix3d parse_view(const std::string& text) {
   const auto refuse = [&](const char* why) {
     return CLI::ValidationError("--view", fmt::format("\"{}\": {}", text, why));
@@ -49,10 +57,8 @@ Eigen::Matrix3d parse_view(const std::string& text) {
   if (named != view_names.end()) {
     direction = named->second;
   } else {
-    std::istringstream stream(text);
     std::vector<double> numbers;
-    std::string part;
-    while (std::getline(stream, part, ',')) {
+    for (const std::string& part : parts_of(text)) {
       double number = 0;
       if (!CLI::detail::lexical_cast(part, number) || !std::isfinite(number)) throw refuse("not numbers with commas");
       numbers.push_back(number);
@@ -130,12 +136,12 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments, bool su
       ->group(group);
   if (!surfaces) return;
   command
-      .add_option_function<std::vector<std::string>>(
+      .add_option_function<std::string>(
           "--picture-style",
-          [&arguments](const std::vector<std::string>& words) {
+          [&arguments](const std::string& words) {
             arguments.for_surfaces = true;
             arguments.styles.clear();
-            for (const std::string& word : words) {
+            for (const std::string& word : parts_of(words)) {
               const auto style = style_names.find(word);
               if (style == style_names.end())
                 throw CLI::ValidationError("--picture-style", "\"" + word +
@@ -146,7 +152,6 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments, bool su
           },
           "What it shows, a row for each: shaded, wire, zebra (reflection lines), mean-curvature, gaussian-curvature, "
           "deviation from the shape before (default: shaded,zebra)")
-      ->delimiter(',')
       ->type_name("STYLE,...")
       ->group(group);
   command

@@ -107,7 +107,7 @@ class Surface(Picture):
         # A rectangle of 4 by 2, all covered but for the margin.
         self.assertAlmostEqual(top.height / top.width, 0.5, delta=0.02)
         self.assertAlmostEqual(sum(p != WHITE for p in top) / len(top), 1 / 1.04 ** 2, delta=0.03)
-        _, panels = self.svg("measure", path, "--picture-style", "shaded", "--view", "0,-1,1", "--picture-size", "200")
+        _, panels = self.svg("measure", "--picture-size", "200", "--view", "0,-1,1", "--picture-style", "shaded", path)
         (aslant,) = panels["shaded"]
         self.assertAlmostEqual(aslant.height / aslant.width, 0.5 ** 1.5, delta=0.02)
 

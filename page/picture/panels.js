@@ -6,8 +6,6 @@ import {fieldsOf, marksOf, prepared} from '../surface_fields.js';
 const margin = 1.04;  // by how much a panel is larger than what it shows
 // Pixels of a panel for one of the picture, which smooths edges; lines that are a pixel wide would fade.
 const sharpnessOf = (style) => style === 'wire' ? 1 : 2;
-const paper = '#ffffff';
-const ink = '#1c2430';
 
 const escaped = (text) => text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
 
@@ -78,6 +76,7 @@ export function panelsOf(scene, {styles, width, title}) {
     y += 3.2 * line + gap;
   }
   const height = Math.ceil(y);
+  const [paper, ink] = ['--panel', '--ink'].map((name) => getComputedStyle(document.documentElement).getPropertyValue(name));
   return `<?xml version="1.0" encoding="UTF-8"?>
 <svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${width} ${height}" font-family="DejaVu Sans, Arial, sans-serif" font-size="${line}" fill="${ink}">
 <title>${escaped(title)}</title>

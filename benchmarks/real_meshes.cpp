@@ -1,6 +1,6 @@
 // Fairs regions of meshes that users have: for each mesh, spheres of 6 % and 12 % of the diagonal about three nodes,
 // the rest fixed. Prints the table of docs/real-meshes.md. With a folder as first argument before the meshes (--out
-// FOLDER) leaves the meshes before and after there, with a list of views for pictures.
+// FOLDER) leaves the meshes before and after there, with the --view of each for --picture.
 
 #include <fmt/format.h>
 
@@ -24,9 +24,9 @@ void add_view(std::ofstream& views, const std::string& name, const PolygonMesh& 
   if (normal.isZero(0)) normal = Vector3(0, 0, 1);
   const Vector3 up = std::abs(normal.y()) < 0.9 ? Vector3(0, 1, 0) : Vector3(0, 0, 1);
   const Vector3 side = normal.cross(up).normalized();
-  const Vector3 eye = region.centre + region.radius * (4.5 * normal + 2.5 * side + 1.5 * up);
-  views << fmt::format("{} {},{},{} {},{},{} {},{},{}\n", name, eye.x(), eye.y(), eye.z(), region.centre.x(),
-                       region.centre.y(), region.centre.z(), up.x(), up.y(), up.z());
+  const Vector3 towards = 4.5 * normal + 2.5 * side + 1.5 * up;
+  views << fmt::format("{} --view={},{},{},{},{},{}\n", name, towards.x(), towards.y(), towards.z(), up.x(), up.y(),
+                       up.z());
 }
 
 void run(const std::string& path, const std::filesystem::path& out, std::ofstream& views) {

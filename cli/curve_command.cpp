@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,7 +10,6 @@
 #include "choice.hpp"
 #include "closed_chains.hpp"
 #include "fairing.hpp"
-#include "page_scene.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::cli {
@@ -22,31 +20,15 @@ struct CurveArguments : FairingArguments {
   std::optional<CurveFormat> format;
   bool closed = false;
   Resampling resampling;
-  std::string picture;
 };
-
-void refuse_other_pictures(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  if (!path.empty() && curve_format(extension) != CurveFormat::svg)
-    throw Error(ErrorCode::invalid_argument, path + ": pictures of curves are SVG; name it .svg");
-}
-
-/// start: what was faired, resampled where that was asked for, as the figures of the report are of it too.
-nlohmann::ordered_json scene_of(const PolygonCurve& start, const FairResult& result, const Constraints& constraints) {
-  PolygonCurve after = start;
-  after.set_positions(result.positions);
-  const PageShape<PolygonCurve> shapes[] = {{"before", &start, list_figures(measure_curve(start, &constraints))},
-                                            {"after", &after, list_figures(measure_curve(after, &constraints))}};
-  return scene_of(shapes, {.leading = 1, .reference = 0}, Context());
-}
 
 int run_curve(CurveArguments arguments) {
   if (arguments.paper) {
     arguments.options.curve = CurveRules::paper();
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
-  refuse_other_pictures(arguments.picture);
-  refuse_shared_page(arguments, {{"--picture", arguments.picture}});
+  refuse_shared_views(arguments);
+  refuse_views(arguments, true);
   Fairing fairing(arguments);
   CurveFile file = read_curve(arguments.input, arguments.format);
   std::vector<std::string> warnings = file.warnings;
@@ -71,12 +53,13 @@ int run_curve(CurveArguments arguments) {
     std::vector<std::string> lost_warnings;
     for (const std::string& lost : write_curve(arguments.output, file, result.positions, arguments.format))
       lost_warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
-    if (!arguments.picture.empty())
-      write_curve(arguments.picture, file, result.positions, CurveFormat::svg, {.before = &before});
     return lost_warnings;
   };
-  return fairing.finish(result.report, before.positions(), std::move(warnings),
-                        {.shape = write, .scene = [&] { return scene_of(file.curve, result, constraints); }});
+  PolygonCurve after = file.curve;
+  after.set_positions(result.positions);
+  return fairing.finish<PolygonCurve>(
+      {file.curve, after, constraints, result.report}, before.positions(), std::move(warnings),
+      {.shape = write, .picture = [&] { return draw_curve(file, result.positions, {.before = &before}); }});
 }
 
 const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj},
@@ -150,13 +133,11 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
   add_choice(command, "--format", arguments->format, curve_formats,
              "Format of - (default: found from the content; the input's). svg, with its curvature comb, only for the "
              "output");
-  command
-      .add_option("--picture", arguments->picture, "Draw the curve with its curvature comb, before and after, as .svg")
-      ->type_name("OUT.svg");
   add_constraint_options(command, *arguments, words);
   add_node_options(command, *arguments);
   add_method_options(command, *arguments, words);
   add_run_options(command, *arguments);
+  add_picture_options(command, arguments->picture, false);
   command.footer(
       "Example: an aerofoil of 200 even nodes, its trailing edge held with the tangents that it has\n"
       "  vspring curve SD7003.dat -o fair.dat --constraints held.json --resample 200 --picture fair.svg\n\n"

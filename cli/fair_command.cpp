@@ -10,7 +10,6 @@
 
 #include "choice.hpp"
 #include "fairing.hpp"
-#include "page_scene.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::cli {
@@ -21,24 +20,10 @@ struct FairArguments : FairingArguments {
   std::optional<SurfaceFormat> format;
 };
 
-nlohmann::ordered_json scene_of(const PolygonMesh& before, const FairResult& result, const Constraints& constraints,
-                                const Context& context) {
-  PolygonMesh after = before;
-  after.set_positions(result.positions);
-  std::vector<PageShape<PolygonMesh>> shapes;
-  const auto add = [&](const std::string& title, const PolygonMesh& mesh) {
-    if (context.cancelled()) return;
-    shapes.push_back({title, &mesh, list_figures(measure_surface(mesh, &constraints, context))});
-  };
-  add("before", before);
-  add("after", after);
-  if (context.cancelled()) return {};
-  return scene_of(std::span<const PageShape<PolygonMesh>>(shapes), {.leading = 1, .reference = 0}, context);
-}
-
 int run_fair(FairArguments arguments) {
   if (arguments.paper) arguments.options.pseudo_normals = PseudoNormals::average;
-  refuse_shared_page(arguments);
+  refuse_shared_views(arguments);
+  refuse_views(arguments, false);
   Fairing fairing(arguments);
   const SurfaceFile file = read_surface(arguments.input, arguments.format);
   const Constraints constraints =
@@ -50,9 +35,10 @@ int run_fair(FairArguments arguments) {
       warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
     return warnings;
   };
-  return fairing.finish(
-      result.report, file.mesh.positions(), file.warnings,
-      {.shape = write, .scene = [&] { return scene_of(file.mesh, result, constraints, fairing.context()); }});
+  PolygonMesh after = file.mesh;
+  after.set_positions(result.positions);
+  return fairing.finish<PolygonMesh>({file.mesh, after, constraints, result.report}, file.mesh.positions(),
+                                     file.warnings, {.shape = write, .picture = {}});
 }
 
 const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNormals::link},
@@ -104,6 +90,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
       ->group(holding_group);
   add_method_options(command, *arguments, words);
   add_run_options(command, *arguments);
+  add_picture_options(command, arguments->picture, true);
   command.footer(
       "Example: smooth a dent out of a scan and leave the rest as it is\n"
       "  vspring fair scan.ply -o fair.ply --region sphere:0.1,0.2,0.05,0.03 --report report.json\n\n"

@@ -5,10 +5,14 @@
 #include <Eigen/Geometry>
 #include <fstream>
 #include <iterator>
+#include <type_traits>
 
 #include "exit_status.hpp"
+#include "figures.hpp"
 #include "html_page.hpp"
+#include "page_scene.hpp"
 #include "report.hpp"
+#include "scalars.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
 #include "vspring/topology.hpp"
@@ -72,22 +76,34 @@ Constraints constraints_of(const FairingArguments& arguments, const Shape& shape
 
 }  // namespace
 
-void refuse_shared_page(const FairingArguments& arguments,
-                        const std::vector<std::pair<std::string, std::string>>& others) {
-  const std::string& page = arguments.html;
-  if (page.empty()) return;
-  const auto refuse = [&](const std::string& option, const std::string& path, bool output) {
+void refuse_views(const FairingArguments& arguments, bool curve) {
+  refuse_picture(arguments.picture, curve);
+  refuse_scalars(arguments.scalars, curve);
+}
+
+void refuse_shared_views(const FairingArguments& arguments,
+                         const std::vector<std::pair<std::string, std::string>>& others) {
+  std::vector<std::pair<std::string, std::string>> taken = others;
+  taken.insert(taken.end(), {{"--output", arguments.output},
+                             {"--report", arguments.report},
+                             {"--constraints", arguments.rules},
+                             {"--region", arguments.region}});
+  const std::pair<std::string, std::string> views[] = {
+      {"--scalars", arguments.scalars}, {"--picture", arguments.picture.path}, {"--html", arguments.html}};
+  for (const auto& view : views) {
+    const std::string& path = view.second;
+    if (path.empty()) continue;
+    const auto refuse = [&](const std::string& other) {
+      throw Error(ErrorCode::invalid_argument, fmt::format("{}: {} is {} already; give it a file of its own",
+                                                           view.first, path == "-" ? "standard output" : path, other));
+    };
     // Of standard streams, only two outputs are one.
-    if (path != page || (page == "-" && !output)) return;
-    throw Error(ErrorCode::invalid_argument, fmt::format("--html: {} is {} already; give the page a file of its own",
-                                                         page == "-" ? "standard output" : page, option));
-  };
-  refuse("the input", arguments.input, false);
-  refuse("--output", arguments.output, true);
-  refuse("--report", arguments.report, true);
-  refuse("--constraints", arguments.rules, false);
-  refuse("--region", arguments.region, false);
-  for (const auto& [option, path] : others) refuse(option, path, true);
+    if (path == arguments.input && path != "-") refuse("the input");
+    for (const auto& [option, file] : taken) {
+      if (path == file) refuse(option);
+    }
+    taken.push_back(view);
+  }
 }
 
 Constraints make_constraints(const FairingArguments& arguments, const PolygonMesh& mesh, const RuleInput& input) {
@@ -105,40 +121,94 @@ Fairing::Fairing(const FairingArguments& arguments)
       cancelling_(context_),
       bar_(errors_) {
   context_.threads = arguments.threads;
-  if (!arguments.quiet) context_.on_progress = [this](const Progress& progress) { bar_.show(progress); };
+  if (arguments.quiet) return;
+  context_.on_progress = [this](Progress progress) {
+    progress.fraction = progress_begin_ + progress_share_ * progress.fraction;
+    bar_.show(progress);
+  };
 }
 
-int Fairing::finish(const FairReport& report, const std::vector<Vector3>& before, std::vector<std::string> warnings,
+template <typename Shape>
+Fairing::FigurePair Fairing::measured(const Faired<Shape>& faired) {
+  progress_share_ = 0.5;
+  FigurePair figures;
+  figures[0] = figures_of(faired.before, &faired.constraints, context_);
+  progress_begin_ = 0.5;
+  if (!context_.cancelled()) figures[1] = figures_of(faired.after, &faired.constraints, context_);
+  bar_.clear();
+  return figures;
+}
+
+template <typename Shape>
+int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& input, std::vector<std::string> warnings,
                     const Writers& writers) {
   bar_.clear();
+  const FairReport& report = faired.report;
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
-  nlohmann::ordered_json json;
   {
     const UninterruptedWhileWriting guard;
     for (std::string& warning : writers.shape()) warnings.push_back(std::move(warning));
-    json = to_json(report);
-    json["warnings"] = warnings;
-    json["input"] = arguments_->input;
-    json["output"] = arguments_->output;
-    if (!arguments_->report.empty()) write_file(arguments_->report, json.dump(2) + "\n");
   }
-  const bool complete = arguments_->html.empty() || write_page(json, writers);
-  if (!complete) warnings.push_back(arguments_->html + ": not written, as the run was interrupted");
+  nlohmann::ordered_json json = to_json(report);
+  json["warnings"] = warnings;
+  json["input"] = arguments_->input;
+  json["output"] = arguments_->output;
+  FigurePair figures;
+  if (!context_.cancelled() && !(arguments_->report.empty() && arguments_->html.empty())) {
+    figures = measured(faired);
+    if (!context_.cancelled()) json["fairness"] = {{"before", values_of(figures[0])}, {"after", values_of(figures[1])}};
+  }
+  if (!arguments_->report.empty()) {
+    const UninterruptedWhileWriting guard;
+    write_file(arguments_->report, json.dump(2) + "\n");
+  }
+  const std::string missing = write_views(faired, figures, json, writers);
+  if (!missing.empty()) warnings.push_back(missing + ": not written, as the run was interrupted");
   for (const std::string& warning : warnings) (void)errors_.write(errors_.yellow("warning: ") + warning + "\n");
-  if (!arguments_->quiet && !messages_.write(summary(report, diagonal_of(before), messages_)))
+  if (!arguments_->quiet && !messages_.write(summary(report, diagonal_of(input), messages_)))
     throw Error(ErrorCode::unusable_file, "standard output: takes no more; the shape is written nonetheless");
-  return complete ? exit_status(report.outcome) : exit_interrupted;
+  return context_.cancelled() ? exit_interrupted : exit_status(report.outcome);
 }
 
-bool Fairing::write_page(const nlohmann::ordered_json& report, const Writers& writers) const {
-  if (context_.cancelled()) return false;
-  const nlohmann::ordered_json scene = writers.scene();
-  if (context_.cancelled()) return false;
-  const std::string page = html_page("vspring: " + arguments_->input, report, scene);
-  if (context_.cancelled()) return false;
+template <typename Shape>
+std::string Fairing::write_views(const Faired<Shape>& faired, const FigurePair& figures,
+                                 const nlohmann::ordered_json& report, const Writers& writers) const {
+  constexpr bool surface = std::is_same_v<Shape, PolygonMesh>;
+  const std::string title = "vspring: " + arguments_->input;
+  const PictureArguments& picture = arguments_->picture;
+  nlohmann::ordered_json scene;
+  if (!context_.cancelled() && (!arguments_->html.empty() || (surface && !picture.path.empty()))) {
+    const PageShape<Shape> shapes[] = {{"before", &faired.before, figures[0]}, {"after", &faired.after, figures[1]}};
+    scene = scene_of(shapes, {.leading = 1, .reference = 0, .view = picture.view}, context_);
+  }
+  // What an interrupted call made is of no use.
+  const auto write = [&](const std::string& path, const auto& bytes_of) {
+    if (path.empty()) return true;
+    if (context_.cancelled()) return false;
+    const std::string bytes = bytes_of();
+    if (context_.cancelled()) return false;
+    const UninterruptedWhileWriting guard;
+    write_file(path, bytes);
+    return true;
+  };
+  if (!write(arguments_->html, [&] { return html_page(title, report, scene); })) return arguments_->html;
+  if (!write(picture.path, [&] {
+        return surface ? surface_picture(picture, title, scene, context_)
+                       : curve_picture(picture, writers.picture(), context_);
+      }))
+    return picture.path;
+  if (arguments_->scalars.empty()) return {};
+  if (context_.cancelled()) return arguments_->scalars;
+  const std::vector<NodeScalar> scalars = scalars_of(faired.after, &faired.before, context_);
+  if (context_.cancelled()) return arguments_->scalars;
   const UninterruptedWhileWriting guard;
-  write_file(arguments_->html, page);
-  return true;
+  write_scalars(arguments_->scalars, faired.after, scalars);
+  return {};
 }
+
+template int Fairing::finish(const Faired<PolygonMesh>&, const std::vector<Vector3>&, std::vector<std::string>,
+                             const Writers&);
+template int Fairing::finish(const Faired<PolygonCurve>&, const std::vector<Vector3>&, std::vector<std::string>,
+                             const Writers&);
 
 }  // namespace vspring::cli

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,6 +13,7 @@
 #include "terminal.hpp"
 #include "vspring/context.hpp"
 #include "vspring/fair.hpp"
+#include "vspring/figures.hpp"
 
 namespace vspring::cli {
 
@@ -24,23 +26,40 @@ class Fairing {
   /// For the calls that this run makes.
   [[nodiscard]] Context& context() noexcept { return context_; }
 
-  /// What the command itself writes.
-  struct Writers {
-    /// Writes all but report and page, and returns warnings.
-    std::function<std::vector<std::string>()> shape;
-    /// The scene of the page, see scene_of(); asked for with --html only. What it returns once the context is cancelled
-    /// is not used.
-    std::function<nlohmann::ordered_json()> scene;
+  /// A shape before and after, and what held it.
+  template <typename Shape>
+  struct Faired {
+    const Shape& before;
+    const Shape& after;
+    const Constraints& constraints;
+    const FairReport& report;
   };
 
-  /// Writes the files, says what happened, and returns the exit status. before: the nodes of the input. A run that was
-  /// interrupted gets no page: it takes long to measure what a large one shows.
-  int finish(const FairReport& report, const std::vector<Vector3>& before, std::vector<std::string> warnings,
+  /// What the command itself makes.
+  struct Writers {
+    /// Writes the shape and returns warnings.
+    std::function<std::vector<std::string>()> shape;
+    /// Curves: the picture as SVG; asked for with --picture.
+    std::function<std::string()> picture;
+  };
+
+  /// Writes the files, says what happened, and returns the exit status. input: the nodes that were read. A run that was
+  /// interrupted gets no page, no picture and no scalars, and its report only the figures that fair() measures: of a
+  /// large shape the others take long.
+  template <typename Shape>
+  int finish(const Faired<Shape>& faired, const std::vector<Vector3>& input, std::vector<std::string> warnings,
              const Writers& writers);
 
  private:
-  /// Returns whether the page was written.
-  bool write_page(const nlohmann::ordered_json& report, const Writers& writers) const;
+  using FigurePair = std::array<std::vector<Figure>, 2>;
+
+  /// Figures before and after; of no use once cancelled.
+  template <typename Shape>
+  FigurePair measured(const Faired<Shape>& faired);
+  /// Page, picture and scalars, as far as they are asked for; returns the first that an interruption prevented.
+  template <typename Shape>
+  [[nodiscard]] std::string write_views(const Faired<Shape>& faired, const FigurePair& figures,
+                                        const nlohmann::ordered_json& report, const Writers& writers) const;
 
   const FairingArguments* arguments_;
   // What people read goes to standard output unless the shape itself goes there.
@@ -49,12 +68,17 @@ class Fairing {
   Context context_;
   CancelOnSignal cancelling_;
   ProgressBar bar_;
+  double progress_begin_ = 0;  ///< of the call among those that one bar shows
+  double progress_share_ = 1;
 };
 
-/// Throws Error(invalid_argument) where the page would take the place of an input or of another output. others: more
-/// options with the files they were given.
-void refuse_shared_page(const FairingArguments& arguments,
-                        const std::vector<std::pair<std::string, std::string>>& others = {});
+/// Throws Error(invalid_argument) where page, picture or scalars would take the place of an input or of another output.
+/// others: more options with the files they were given.
+void refuse_shared_views(const FairingArguments& arguments,
+                         const std::vector<std::pair<std::string, std::string>>& others = {});
+
+/// Throws Error where picture or scalars cannot be made, see refuse_picture() and refuse_scalars().
+void refuse_views(const FairingArguments& arguments, bool curve);
 
 /// What --fix, --fix-normals, --constraints and --region say, in this order. input.groups must not be null.
 [[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const PolygonMesh& mesh,

@@ -125,6 +125,12 @@ void add_run_options(CLI::App& command, FairingArguments& arguments) {
                   "Write a page to look at offline, one file: the shape to turn round, charts, figures")
       ->type_name("OUT.html")
       ->group(run_group);
+  command
+      .add_option("--scalars", arguments.scalars,
+                  "Write numbers at nodes for ParaView and the like: curvatures (1/length), deviation from the shape "
+                  "before (units of the input); .ply only for surfaces")
+      ->type_name("OUT.vtp|OUT.ply")
+      ->group(run_group);
   command.add_flag("--quiet", arguments.quiet, "No progress and no summary; warnings and errors stay (default: off)")
       ->group(run_group);
   add_choice(command, "--color", arguments.colour, colours,

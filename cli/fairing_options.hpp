@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "picture.hpp"
 #include "terminal.hpp"
 #include "vspring/fair.hpp"
 
@@ -23,6 +24,8 @@ struct FairingArguments {
   int threads = 0;
   std::string report;
   std::string html;
+  PictureArguments picture;
+  std::string scalars;
   bool quiet = false;
   Colour colour = Colour::automatic;
 };

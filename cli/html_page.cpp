@@ -1,5 +1,6 @@
 #include "html_page.hpp"
 
+#include <initializer_list>
 #include <string_view>
 #include <utility>
 
@@ -36,15 +37,10 @@ std::string in_markup(std::string_view text) {
   return safe;
 }
 
-}  // namespace
-
-std::string html_page(const std::string& title, const nlohmann::ordered_json& report,
-                      const nlohmann::ordered_json& scene) {
-  const std::pair<std::string_view, std::string> parts[] = {
-      {"@TITLE@", in_markup(title)}, {"@FIGURES@", in_script(report)}, {"@SCENE@", in_script(scene)}};
+/// The page with texts in place of names. One pass, so that nothing that was filled in is taken for a place.
+std::string filled(std::string_view rest, std::initializer_list<std::pair<std::string_view, std::string>> parts) {
   std::string page;
-  // One pass, so that nothing that was filled in is taken for a place.
-  for (std::string_view rest = page_template; !rest.empty();) {
+  while (!rest.empty()) {
     const std::size_t at = rest.find('@');
     page += rest.substr(0, at);
     if (at == std::string_view::npos) break;
@@ -60,6 +56,18 @@ std::string html_page(const std::string& title, const nlohmann::ordered_json& re
     rest.remove_prefix(taken.size());
   }
   return page;
+}
+
+}  // namespace
+
+std::string html_page(const std::string& title, const nlohmann::ordered_json& report,
+                      const nlohmann::ordered_json& scene) {
+  return filled(page_template,
+                {{"@TITLE@", in_markup(title)}, {"@FIGURES@", in_script(report)}, {"@SCENE@", in_script(scene)}});
+}
+
+std::string picture_page(const nlohmann::ordered_json& wanted, const nlohmann::ordered_json& scene) {
+  return filled(picture_template, {{"@PICTURE@", in_script(wanted)}, {"@SCENE@", in_script(scene)}});
 }
 
 }  // namespace vspring::cli

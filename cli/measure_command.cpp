@@ -13,9 +13,11 @@
 #include "closed_chains.hpp"
 #include "exit_status.hpp"
 #include "fairing.hpp"
+#include "figures.hpp"
 #include "html_page.hpp"
 #include "measure_table.hpp"
 #include "page_scene.hpp"
+#include "scalars.hpp"
 #include "signals.hpp"
 #include "vspring/vspring.hpp"
 
@@ -39,36 +41,11 @@ const PolygonCurve& shape_of(const CurveFile& file) { return file.curve; }
 RuleInput rule_input(const SurfaceFile& file) { return {.groups = &file.groups, .normals = &file.normals}; }
 RuleInput rule_input(const CurveFile& file) { return {.groups = &file.groups}; }
 
-std::vector<Figure> figures_of(const PolygonMesh& mesh, const Constraints* constraints, const Context& context) {
-  return list_figures(measure_surface(mesh, constraints, context));
-}
-std::vector<Figure> figures_of(const PolygonCurve& curve, const Constraints* constraints, const Context&) {
-  return list_figures(measure_curve(curve, constraints));
-}
-
 Json counts_of(const PolygonMesh& mesh) { return {{"nodes", mesh.node_count()}, {"faces", mesh.face_count()}}; }
 Json counts_of(const PolygonCurve& curve) { return {{"nodes", curve.node_count()}, {"chains", curve.chains().size()}}; }
 
 void close(SurfaceFile& /*file*/) {}
 void close(CurveFile& file) { (void)close_chains(file.curve); }
-
-Json to_json(const std::vector<Figure>& figures) {
-  Json json = Json::object();
-  for (const Figure& figure : figures) {
-    if (figure.whole)
-      json[std::string(figure.key)] = static_cast<Index>(figure.value);
-    else
-      json[std::string(figure.key)] = figure.value;
-  }
-  return json;
-}
-
-Json definitions_of(const std::vector<Figure>& figures) {
-  Json json = Json::object();
-  for (const Figure& figure : figures)
-    json[std::string(figure.key)] = {{"name", figure.name}, {"unit", figure.unit}, {"definition", figure.definition}};
-  return json;
-}
 
 void write_whole(const std::string& path, const std::string& bytes) {
   const UninterruptedWhileWriting guard;
@@ -115,9 +92,62 @@ Constraints constraints_for(const MeasureArguments& arguments, const File& file,
   return make_constraints(arguments, shape_of(input), rule_input(input));
 }
 
+std::string picture_of(const MeasureArguments& arguments, const SurfaceFile& /*file*/, const SurfaceFile* /*other*/,
+                       const Json& scene, const Context& context) {
+  return surface_picture(arguments.picture, "vspring: " + arguments.input, scene, context);
+}
+
+std::string picture_of(const MeasureArguments& arguments, const CurveFile& file, const CurveFile* other,
+                       const Json& /*scene*/, const Context& context) {
+  const PolygonCurve* before = other != nullptr ? &other->curve : nullptr;
+  return curve_picture(arguments.picture, draw_curve(file, file.curve.positions(), {.before = before}), context);
+}
+
+/// Page, picture and scalars, as far as they are asked for. False where Ctrl-C prevented one.
+template <typename File>
+bool write_views(const MeasureArguments& arguments, const File& file, const File* other,
+                 const std::vector<FigureColumn>& columns, const Json& report, Context& context) {
+  using Shape = std::remove_cvref_t<decltype(shape_of(file))>;
+  const CancelOnSignal cancelling(context);
+  Json scene;
+  if (!arguments.html.empty() || (std::is_same_v<File, SurfaceFile> && !arguments.picture.path.empty())) {
+    std::vector<PageShape<Shape>> shapes = {{columns[0].title, &shape_of(file), columns[0].figures}};
+    if (other != nullptr) shapes.push_back({columns[1].title, &shape_of(*other), columns[1].figures});
+    const PageRoles roles = {
+        .leading = 0, .reference = other != nullptr ? std::optional(1) : std::nullopt, .view = arguments.picture.view};
+    scene = scene_of(std::span<const PageShape<Shape>>(shapes), roles, context);
+  }
+  const auto write = [&](const std::string& path, const auto& bytes_of) {
+    if (path.empty() || context.cancelled()) return;
+    const std::string bytes = bytes_of();
+    if (!context.cancelled()) write_whole(path, bytes);
+  };
+  write(arguments.html, [&] { return html_page("vspring: " + arguments.input, report, scene); });
+  write(arguments.picture.path, [&] { return picture_of(arguments, file, other, scene, context); });
+  if (arguments.scalars.empty() || context.cancelled()) return !context.cancelled();
+  const std::vector<NodeScalar> scalars =
+      scalars_of(shape_of(file), other != nullptr ? &shape_of(*other) : nullptr, context);
+  if (context.cancelled()) return false;
+  const UninterruptedWhileWriting guard;
+  write_scalars(arguments.scalars, shape_of(file), scalars);
+  return true;
+}
+
+/// Throws where deviations are to be shown and there is nothing that they could be from, node by node.
+void refuse_deviation(const SurfaceFile& file, const SurfaceFile* other) {
+  if (other == nullptr)
+    throw Error(ErrorCode::invalid_argument, "--picture-style deviation: from what? give --compare");
+  if (!same_faces(file.mesh, other->mesh))
+    throw Error(ErrorCode::unusable_shape,
+                "--picture-style deviation: the two shapes have not the same faces; leave it out, or see --scalars");
+}
+void refuse_deviation(const CurveFile& /*file*/, const CurveFile* /*other*/) {}
+
 template <typename File>
 int measure_file(const MeasureArguments& arguments, File file, std::optional<File> other) {
   const auto begin = std::chrono::steady_clock::now();
+  refuse_views(arguments, std::is_same_v<File, CurveFile>);
+  if (arguments.picture.shows("deviation")) refuse_deviation(file, other ? &*other : nullptr);
   if (arguments.closed) {
     close(file);
     if (other) close(*other);
@@ -149,14 +179,15 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
 
+  Json json;
   if (!arguments.report.empty() || !arguments.html.empty()) {
-    Json json = {{"shape", arguments.input}, {"kind", std::is_same_v<File, SurfaceFile> ? "surface" : "curve"}};
+    json = {{"shape", arguments.input}, {"kind", std::is_same_v<File, SurfaceFile> ? "surface" : "curve"}};
     json.update(counts_of(shape_of(file)));
-    json["figures"] = to_json(columns.front().figures);
+    json["figures"] = values_of(columns.front().figures);
     if (other) {
       json["compared_with"] = counts_of(shape_of(*other));
       json["compared_with"]["shape"] = arguments.compare;
-      json["compared_with"]["figures"] = to_json(columns.back().figures);
+      json["compared_with"]["figures"] = values_of(columns.back().figures);
       json["distance"] = {{"nodes", apart->nodes ? to_json(*apart->nodes) : Json()},
                           {"to_other", to_json(apart->to_other)},
                           {"from_other", to_json(apart->from_other)}};
@@ -167,15 +198,8 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
     json["threads"] = context.thread_count();
     json["version"] = version();
     if (!arguments.report.empty()) write_whole(arguments.report, json.dump(2) + "\n");
-    if (!arguments.html.empty()) {
-      using Shape = std::remove_cvref_t<decltype(shape_of(file))>;
-      std::vector<PageShape<Shape>> shapes = {{columns[0].title, &shape_of(file), columns[0].figures}};
-      if (other) shapes.push_back({columns[1].title, &shape_of(*other), columns[1].figures});
-      const PageRoles roles = {.leading = 0, .reference = other ? std::optional(1) : std::nullopt};
-      write_whole(arguments.html, html_page("vspring: " + arguments.input, json,
-                                            scene_of(std::span<const PageShape<Shape>>(shapes), roles, context)));
-    }
   }
+  if (!write_views(arguments, file, other ? &*other : nullptr, columns, json, context)) return exit_interrupted;
   const Terminal errors(2, arguments.colour);
   for (const std::string& warning : warnings) (void)errors.write(errors.yellow("warning: ") + warning + "\n");
   if (arguments.quiet) return exit_converged;
@@ -188,7 +212,7 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
 }
 
 int run_measure(const MeasureArguments& arguments) {
-  refuse_shared_page(arguments, {{"--compare", arguments.compare}});
+  refuse_shared_views(arguments, {{"--compare", arguments.compare}});
   AnyShape shape = read_shape(arguments.input, arguments.format, arguments.curve);
   std::optional<AnyShape> other;
   if (!arguments.compare.empty())
@@ -241,6 +265,7 @@ void add_measure_command(CLI::App& app, std::function<int()>& run) {
   add_shape_options(command, *arguments);
   add_constraint_options(command, *arguments, words);
   add_run_options(command, *arguments);
+  add_picture_options(command, arguments->picture, true);
   command.footer(
       "With any option of what holds the shape, only what lies at moving nodes is measured, and how well given normals "
       "are met; \"as in the input\" is as in OTHER where that has as many nodes. Definitions: docs/fairness.md.\n\n"

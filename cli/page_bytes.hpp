@@ -1,7 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vspring/types.hpp"
@@ -11,6 +13,9 @@ namespace vspring::cli {
 // Numbers as base64 of little-endian bytes, as small as a page can do with. page/data.js reads them.
 
 [[nodiscard]] std::string base64(std::span<const unsigned char> bytes);
+
+/// The bytes back; empty where a character is none of base64.
+[[nodiscard]] std::optional<std::string> from_base64(std::string_view text);
 
 /// Coordinates, −½ to ½, with 24 bits each: an angle between neighbouring faces of a mesh with 1,000 nodes along its
 /// side is off by 0.01°, which neither reflection lines nor histograms show; 16 bits would be seen.

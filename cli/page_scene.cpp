@@ -176,12 +176,7 @@ Json scene_of(std::span<const PageShape<PolygonMesh>> shapes, const PageRoles& r
   for (const auto& shape : shapes) frame.add(*shape.shape);
   Json json = frame_of(shapes, roles, frame);
   json["kind"] = "surface";
-  // From above and in front, z upwards.
-  const Vector3 towards = Vector3(1, -2, 1.5).normalized();
-  const Vector3 across = Vector3::UnitZ().cross(towards).normalized();
-  Eigen::Matrix3d rows;
-  rows << across.transpose(), towards.cross(across).transpose(), towards.transpose();
-  json["view"] = to_json(rows);
+  json["view"] = to_json(roles.view);
   json["shapes"] = Json::array();
   for (const auto& shape : shapes) {
     if (context.cancelled()) return {};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "picture.hpp"
 #include "vspring/context.hpp"
 #include "vspring/figures.hpp"
 
@@ -23,6 +24,7 @@ struct PageShape {
 struct PageRoles {
   int leading = 0;
   std::optional<int> reference = std::nullopt;
+  Eigen::Matrix3d view = default_view();  ///< from where surfaces are seen
 };
 
 /// The shapes as page/data.js reads them. All are moved and scaled together into a box of side 1 about the origin;

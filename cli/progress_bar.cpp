@@ -40,6 +40,7 @@ void ProgressBar::show(const Progress& progress) {
 void ProgressBar::clear() {
   if (shown_) (void)terminal_->write("\r\x1b[K");
   shown_ = false;
+  begin_ = std::chrono::steady_clock::now();
 }
 
 }  // namespace vspring::cli

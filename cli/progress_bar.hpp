@@ -17,7 +17,7 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(const Progress& progress);
-  /// Takes the line away.
+  /// Takes the line away; what is shown next is another call.
   void clear();
 
  private:

@@ -1,50 +1,25 @@
 // The page of a surface: its view with ways to look at it, and its charts.
 
-import {diverging, gradientOf, sequential} from './colours.js';
-import {deviationsOf, edgesOf, normalsOf, trianglesOf, turnsOf} from './mesh.js';
+import {gradientOf} from './colours.js';
+import {turnsOf} from './mesh.js';
 import {SurfaceView} from './surface_view.js';
 import {addChoice, addSlider} from './controls.js';
 import {addSurfaceCharts} from './charts.js';
-import {quantiles, short} from './numbers.js';
-
-function prepared({title, positions, runs, mean, gaussian}) {
-  const edges = edgesOf(runs, positions.length / 3);
-  return {title, positions, runs, mean, gaussian, edges: edges.ends, triangles: trianglesOf(runs, positions),
-    normals: normalsOf(runs, positions, edges), turns: turnsOf(runs, positions, edges)};
-}
-
-// What colours can show: values for each shape, map, range of its colours.
-function fieldsOf(shapes, {leading, reference, unit}) {
-  const about = (centre, half) => [centre - half, centre + half];
-  const even = (values, least) => about(0, Math.max(least, quantiles(values.map(Math.abs), [0.98])[0]));
-  const [low, high] = quantiles(shapes[leading].mean, [0.02, 0.98]);
-  const fields = {
-    mean: {name: 'Mean curvature × D', map: sequential, values: shapes.map((shape) => shape.mean),
-      range: about((low + high) / 2, Math.max((high - low) / 2, 0.01))},
-    gaussian: {name: 'Gaussian curvature × D²', map: diverging, values: shapes.map((shape) => shape.gaussian),
-      range: even(shapes[leading].gaussian, 0.01)},
-  };
-  const from = shapes[reference];
-  if (from && from.runs === shapes[leading].runs) {
-    const values = deviationsOf(shapes[leading].positions, from.positions, from.normals).map((part) => part * unit);
-    fields.deviation = {name: `Deviation from “${from.title}”, units of the input`, map: diverging,
-      values: shapes.map(() => values), range: even(values, 1e-6 * unit)};
-  }
-  return fields;
-}
+import {fieldsOf, marksOf, prepared} from './surface_fields.js';
 
 function showLegend(legend, field, range) {
   legend.hidden = !field;
   if (!field) return;
   legend.querySelector('figcaption').textContent = field.name;
   legend.querySelector('.ramp').style.background = gradientOf(field.map);
-  legend.querySelector('.marks').replaceChildren(...[range[0], (range[0] + range[1]) / 2, range[1]].map((value, k) =>
-    Object.assign(document.createElement('span'), {textContent: `${['≤ ', '', '≥ '][k]}${short(Number(value.toPrecision(3)))}`})));
+  legend.querySelector('.marks').replaceChildren(...marksOf(range).map((textContent) =>
+    Object.assign(document.createElement('span'), {textContent})));
 }
 
 // Returns what draws the view, given the camera, and what goes on to the next shape.
 export function makeSurfacePage({canvas, form, legend, charts}, scene, report, redraw) {
-  const shapes = scene.shapes.map(prepared);
+  const shapes = scene.shapes.map(prepared).map((shape) =>
+    ({...shape, turns: turnsOf(shape.runs, shape.positions, shape.joints)}));
   addSurfaceCharts(charts, shapes, scene.leading, report);
   const fields = fieldsOf(shapes, scene);
   const view = new SurfaceView(canvas, shapes);

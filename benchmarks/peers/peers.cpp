@@ -1,23 +1,22 @@
 // vspring and other programs on the same meshes: time and memory of the call alone, accuracy where the shape is known.
 // Caps of 60° that start flat, with and without noise, rim and its tangent planes held; and the annulus of the paper's
 // table. Every run is a process of its own. `bench_peers 1000000` goes on to that many nodes;
-// a second argument is the only size of the caps, without the annulus.
+// a second argument is the only size of the caps, without the annulus. `bench_peers figures MESH…` compares how fair
+// the results are.
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "driver.hpp"
-#include "flat_cap.hpp"
+#include "figures.hpp"
+#include "run_driver.hpp"
 #include "support/surfaces.hpp"
 
 namespace {
@@ -48,60 +47,6 @@ std::vector<Program> programs() {
           {"VTK, windowed sinc, 100 iterations, pass band 0.001", "vtk", "100,0.001", {1, 2}}};
 }
 
-struct Case {
-  std::string name;
-  PolygonMesh start;
-  bool sphere;  ///< the shape to come is the unit sphere
-};
-
-Case cap_case(Index nodes, double noise) {
-  PolygonMesh exact = exact_cap(nodes);
-  const std::vector<std::uint8_t> held = two_outer_rings(exact);
-  PolygonMesh start = flat_cap(exact, noise);
-  std::vector<Vector3> positions = start.positions();
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (held[i] != 0) positions[i] = exact.positions()[i];
-  }
-  start.set_positions(std::move(positions));
-  return {noise > 0 ? fmt::format("cap, noise {}", noise) : "cap", std::move(start), true};
-}
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (fs::temp_directory_path() / "vspring-peers-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-    path_ = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  [[nodiscard]] std::string file(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  fs::path path_;
-};
-
-/// Runs a driver; nothing where it failed.
-std::optional<Cost> run(const fs::path& driver, const std::string& mesh, const std::string& result, int threads,
-                        const std::string& variant) {
-  // CHOLMOD's own loops ask OpenMP for four threads whatever it would offer; only its limit keeps them to fewer.
-  for (const char* variable : {"OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OMP_THREAD_LIMIT", "VTK_SMP_MAX_THREADS"})
-    setenv(variable, std::to_string(threads).c_str(), 1);
-  // Threads of OpenMP that wait in a loop for others multiply CHOLMOD's time on a machine with other work.
-  setenv("OMP_WAIT_POLICY", "passive", 1);
-  const std::string command = fmt::format("'{}' '{}' '{}' {} '{}'", driver.string(), mesh, result, threads, variant);
-  FILE* output = popen(command.c_str(), "r");
-  if (output == nullptr) throw std::runtime_error("cannot run " + command);
-  Cost cost;
-  const int read = fscanf(output, "%lf %lf", &cost.seconds, &cost.mebibytes);
-  const bool succeeded = pclose(output) == 0 && read == 2;
-  return succeeded ? std::optional(cost) : std::nullopt;
-}
-
 struct Entry {
   Program program;
   int threads = 1;
@@ -124,7 +69,7 @@ std::vector<Entry> run_all(const Case& input, const fs::path& drivers, const Tem
   for (int k = 0; k < (nodes > few_nodes ? 1 : 3); ++k) {
     for (Entry& entry : entries) {
       const fs::path driver = drivers / ("peer_" + entry.program.driver);
-      const auto cost = run(driver, mesh, entry.result, entry.threads, entry.program.variant);
+      const auto cost = run_driver(driver, mesh, entry.result, entry.threads, entry.program.variant);
       if (cost && (!entry.best || cost->seconds < entry.best->seconds)) entry.best = cost;
     }
   }
@@ -165,6 +110,10 @@ void compare(const Case& input, const fs::path& drivers) {
 int main(int argc, char** argv) {
   try {
     const fs::path drivers = fs::path(argv[0]).parent_path();
+    if (argc > 1 && std::string(argv[1]) == "figures") {
+      compare_figures(drivers, {argv + 2, argv + argc});
+      return 0;
+    }
     const auto last = static_cast<Index>(argc > 1 ? std::atoi(argv[1]) : 65'000);
     std::vector<Index> sizes;
     for (const Index nodes : {16'000, 65'000, 250'000, 1'000'000}) {

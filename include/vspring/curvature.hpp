@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "vspring/context.hpp"
+#include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
 namespace vspring {
@@ -34,5 +35,10 @@ struct NodeCurvature {
 /// Cost: linear, some microseconds per node. When cancelled, nodes not yet looked at have degree 0.
 [[nodiscard]] std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Context& context);
 [[nodiscard]] std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh);
+
+/// The curvature of a curve at its nodes, 1/length: of the circle through the node and its two neighbours, not
+/// negative. Zero at open ends and where there is no circle; where several chains run through a node, that of the last.
+/// On smooth curves of even spacing it errs with the square of the spacing. Cost: linear.
+[[nodiscard]] std::vector<double> curvatures(const PolygonCurve& curve);
 
 }  // namespace vspring

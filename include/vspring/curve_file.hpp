@@ -65,7 +65,8 @@ struct CurvePicture {
 /// chains and positions; a planar curve stays one of two columns while it stays in its plane; CSV, XYZ and DAT have the
 /// nodes along the chains, and the first node of a closed chain once more at its end. SVG: a picture, the curve with
 /// its nodes and its curvature comb (lines along the curvature vector of the circle through three successive nodes),
-/// before and after, see CurvePicture; space curves are drawn as seen along the normal of their best plane.
+/// before and after, see CurvePicture; space curves are drawn as seen along the normal of their best plane. Below it
+/// the curvature against arc length, with a sign for planar curves.
 ///
 /// The file appears whole or not at all, see write_file(). Throws Error(unusable_file) when it cannot be, and
 /// Error(invalid_argument) unless there is one position per node, finite where it is not the one that was read; also
@@ -75,6 +76,11 @@ struct CurvePicture {
 std::vector<std::string> write_curve(const std::string& path, const CurveFile& file,
                                      const std::vector<Vector3>& positions,
                                      std::optional<CurveFormat> format = std::nullopt,
+                                     const CurvePicture& picture = {});
+
+/// The picture that write_curve() writes as SVG. Throws Error(invalid_argument) unless there is one position per node.
+/// Cost: linear.
+[[nodiscard]] std::string draw_curve(const CurveFile& file, const std::vector<Vector3>& positions,
                                      const CurvePicture& picture = {});
 
 /// Writes a curve that no file gave. format: where not given, the extension's. planar: write two coordinates. Throws as

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "vspring/context.hpp"
 #include "vspring/polygon_curve.hpp"
@@ -32,5 +33,11 @@ struct Distance {
 [[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonCurve& to_shape,
                                 const Context& context);
 [[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonCurve& to_shape);
+
+/// The distances that distance() sums up, one for each point; zero for points that are not measured. Throws as it does.
+[[nodiscard]] std::vector<double> point_distances(std::span<const Vector3> of_points, const PolygonMesh& to_shape,
+                                                  const Context& context);
+[[nodiscard]] std::vector<double> point_distances(std::span<const Vector3> of_points, const PolygonCurve& to_shape,
+                                                  const Context& context);
 
 }  // namespace vspring

@@ -79,8 +79,8 @@ struct CurveFigures : Fairness {
 };
 
 /// Measures all. With constraints, only what lies at moving nodes (faces and edges with a moving node), and how well
-/// given normals are met. The same bits for every number of threads. Cost: n log n, some microseconds per node. When
-/// cancelled, the figures are of a part and mean nothing.
+/// given normals are met. Progress is told in the stage "measuring". The same bits for every number of threads. Cost:
+/// n log n, some microseconds per node. When cancelled, the figures are of a part and mean nothing.
 [[nodiscard]] SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints,
                                              const Context& context);
 [[nodiscard]] SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints = nullptr);

@@ -17,6 +17,7 @@
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 #include "vspring/resample.hpp"
+#include "vspring/scalar_file.hpp"
 #include "vspring/self_intersections.hpp"
 #include "vspring/surface_file.hpp"
 #include "vspring/topology.hpp"

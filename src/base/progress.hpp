@@ -10,7 +10,7 @@ namespace vspring {
 /// Tells a context how far a call has come, at most some 20 times a second and never backwards.
 class ProgressReporter {
  public:
-  explicit ProgressReporter(Context& context) : context_(&context) {}
+  explicit ProgressReporter(const Context& context) : context_(&context) {}
 
   void report(std::string_view stage, double fraction, int iteration = 0, double residual = 0) {
     if (!context_->on_progress) return;
@@ -23,7 +23,7 @@ class ProgressReporter {
   }
 
  private:
-  Context* context_;
+  const Context* context_;
   double fraction_ = 0;
   bool reported_ = false;
   std::chrono::steady_clock::time_point last_;

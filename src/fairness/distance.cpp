@@ -101,10 +101,28 @@ std::vector<Vector3> placed(std::span<const Vector3> positions, const Frame& fra
   return local;
 }
 
+/// Squares of distances in a frame; negative where there is none.
+struct Squares {
+  std::vector<double> squares;
+  double scale;
+
+  [[nodiscard]] Distance sum() const {
+    Gathering gathering(squares.size(), scale);
+    for (std::size_t i = 0; i < squares.size(); ++i) {
+      if (squares[i] >= 0) gathering.add(i, squares[i]);
+    }
+    return gathering.sum();
+  }
+  [[nodiscard]] std::vector<double> distances() && {
+    for (double& square : squares) square = std::sqrt(std::max(square, 0.0)) / scale;
+    return std::move(squares);
+  }
+};
+
 /// Elements: lists of nodes of a fixed number, each the hull of its nodes. square(element, point, positions).
 template <typename Elements, typename Square>
-Distance distance_to(std::span<const Vector3> points, const Elements& elements, std::span<const Vector3> positions,
-                     const Context& context, const Square& square) {
+Squares squares_to(std::span<const Vector3> points, const Elements& elements, std::span<const Vector3> positions,
+                   const Context& context, const Square& square) {
   const Frame frame(box_around(points, positions));
   const std::vector<Vector3> from = placed(points, frame);
   const std::vector<Vector3> to = placed(positions, frame);
@@ -114,17 +132,46 @@ Distance distance_to(std::span<const Vector3> points, const Elements& elements, 
   }
   ThreadTeam team(context.thread_count());
   const BoxTree tree(std::move(boxes), team);
-  Gathering gathering(points.size(), frame.scale());
+  Squares result{std::vector<double>(points.size(), -1), frame.scale()};
   parallel_ranges(team, points.size(), points_per_task, [&](std::size_t begin, std::size_t end) {
     if (context.cancelled()) return;
     for (std::size_t i = begin; i < end; ++i) {
       if (!from[i].allFinite()) continue;
       const auto nearest =
           tree.nearest(from[i], [&](Index k) { return square(from[i], elements[static_cast<std::size_t>(k)], to); });
-      gathering.add(i, nearest.square);
+      result.squares[i] = nearest.square;
     }
   });
-  return gathering.sum();
+  return result;
+}
+
+Squares squares_to(std::span<const Vector3> of_points, const PolygonMesh& to_shape, const Context& context) {
+  std::vector<std::array<Index, 3>> triangles;
+  for (const Triangle& triangle : cut_into_triangles(to_shape)) triangles.push_back(triangle.nodes);
+  if (triangles.empty()) throw Error(ErrorCode::unusable_shape, "no face to measure the distance to");
+  return squares_to(of_points, triangles, to_shape.positions(), context,
+                    [](const Vector3& point, const std::array<Index, 3>& nodes, const std::vector<Vector3>& at) {
+                      return square_to_triangle(point, at[static_cast<std::size_t>(nodes[0])],
+                                                at[static_cast<std::size_t>(nodes[1])],
+                                                at[static_cast<std::size_t>(nodes[2])]);
+                    });
+}
+
+Squares squares_to(std::span<const Vector3> of_points, const PolygonCurve& to_shape, const Context& context) {
+  std::vector<std::array<Index, 2>> edges;
+  for (const auto& chain : to_shape.chains()) {
+    const std::size_t count = chain.nodes.size();
+    for (std::size_t k = 0; k + 1 < count + (chain.closed ? 1 : 0); ++k) {
+      const std::array<Index, 2> edge = {chain.nodes[k], chain.nodes[(k + 1) % count]};
+      if (to_shape.position(edge[0]).allFinite() && to_shape.position(edge[1]).allFinite()) edges.push_back(edge);
+    }
+  }
+  if (edges.empty()) throw Error(ErrorCode::unusable_shape, "no edge to measure the distance to");
+  return squares_to(of_points, edges, to_shape.positions(), context,
+                    [](const Vector3& point, const std::array<Index, 2>& nodes, const std::vector<Vector3>& at) {
+                      return square_to_segment(point, at[static_cast<std::size_t>(nodes[0])],
+                                               at[static_cast<std::size_t>(nodes[1])]);
+                    });
 }
 
 }  // namespace
@@ -144,32 +191,21 @@ Distance node_distance(std::span<const Vector3> before, std::span<const Vector3>
 }
 
 Distance distance(std::span<const Vector3> of_points, const PolygonMesh& to_shape, const Context& context) {
-  std::vector<std::array<Index, 3>> triangles;
-  for (const Triangle& triangle : cut_into_triangles(to_shape)) triangles.push_back(triangle.nodes);
-  if (triangles.empty()) throw Error(ErrorCode::unusable_shape, "no face to measure the distance to");
-  return distance_to(of_points, triangles, to_shape.positions(), context,
-                     [](const Vector3& point, const std::array<Index, 3>& nodes, const std::vector<Vector3>& at) {
-                       return square_to_triangle(point, at[static_cast<std::size_t>(nodes[0])],
-                                                 at[static_cast<std::size_t>(nodes[1])],
-                                                 at[static_cast<std::size_t>(nodes[2])]);
-                     });
+  return squares_to(of_points, to_shape, context).sum();
 }
 
 Distance distance(std::span<const Vector3> of_points, const PolygonCurve& to_shape, const Context& context) {
-  std::vector<std::array<Index, 2>> edges;
-  for (const auto& chain : to_shape.chains()) {
-    const std::size_t count = chain.nodes.size();
-    for (std::size_t k = 0; k + 1 < count + (chain.closed ? 1 : 0); ++k) {
-      const std::array<Index, 2> edge = {chain.nodes[k], chain.nodes[(k + 1) % count]};
-      if (to_shape.position(edge[0]).allFinite() && to_shape.position(edge[1]).allFinite()) edges.push_back(edge);
-    }
-  }
-  if (edges.empty()) throw Error(ErrorCode::unusable_shape, "no edge to measure the distance to");
-  return distance_to(of_points, edges, to_shape.positions(), context,
-                     [](const Vector3& point, const std::array<Index, 2>& nodes, const std::vector<Vector3>& at) {
-                       return square_to_segment(point, at[static_cast<std::size_t>(nodes[0])],
-                                                at[static_cast<std::size_t>(nodes[1])]);
-                     });
+  return squares_to(of_points, to_shape, context).sum();
+}
+
+std::vector<double> point_distances(std::span<const Vector3> of_points, const PolygonMesh& to_shape,
+                                    const Context& context) {
+  return squares_to(of_points, to_shape, context).distances();
+}
+
+std::vector<double> point_distances(std::span<const Vector3> of_points, const PolygonCurve& to_shape,
+                                    const Context& context) {
+  return squares_to(of_points, to_shape, context).distances();
 }
 
 Distance distance(std::span<const Vector3> of_points, const PolygonMesh& to_shape) {

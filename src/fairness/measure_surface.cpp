@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/progress.hpp"
 #include "fairness/counted.hpp"
 #include "fairness/curvatures.hpp"
 #include "fairness/extrema.hpp"
@@ -129,8 +130,12 @@ class SurfaceMeasurement {
         box_.isEmpty() ? Vector3(Vector3::Zero()) : Vector3(frame_.to_local(box_.max()) - frame_.to_local(box_.min()));
     diagonal_ = size.norm();
     figures_.diagonal = diagonal_ / frame_.scale();
+    ProgressReporter progress(context_);
+    progress.report("measuring", 0.1);
     bend();
+    progress.report("measuring", 0.6);
     inspect();
+    progress.report("measuring", 0.7);
     if (!context_.cancelled())
       figures_.self_intersections = static_cast<Index>(self_intersections(counted_part(), context_, team_).size());
     if (constraints_ != nullptr) figures_.normal_error = normal_error(mesh_, *constraints_);

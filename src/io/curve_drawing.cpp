@@ -2,6 +2,9 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
+
+#include "shape/circle.hpp"
 
 namespace vspring {
 namespace {
@@ -13,19 +16,6 @@ Vector3 forward(const Vector3& direction) {
   return direction[largest] < 0 ? -direction : direction;
 }
 
-/// Towards the centre of the circle through three points, seen from the second, and as long as its curvature.
-Vector3 curvature_at(const Vector3& before, const Vector3& here, const Vector3& after) {
-  const Vector3 back = before - here;
-  const Vector3 forth = after - here;
-  if (back.squaredNorm() == 0 || forth.squaredNorm() == 0) return Vector3::Zero();
-  // Inversion makes the circle a line, half its curvature away.
-  const Vector3 p = back / back.squaredNorm();
-  const Vector3 along = forth / forth.squaredNorm() - p;
-  if (along.squaredNorm() == 0) return Vector3::Zero();
-  const Vector3 curvature = 2 * (p - along * (p.dot(along) / along.squaredNorm()));
-  return curvature.allFinite() ? curvature : Vector3::Zero();
-}
-
 /// A run of finite nodes. chain: all of a closed chain, or a part of one.
 Drawing::Run run_of(const std::vector<Vector3>& nodes, bool closed, const CurveView& view) {
   Drawing::Run run;
@@ -35,11 +25,17 @@ Drawing::Run run_of(const std::vector<Vector3>& nodes, bool closed, const CurveV
   run.curvatures.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
     const bool inner = closed || (k > 0 && k + 1 < count);
+    const Vector3& before = nodes[(k + count - 1) % count];
+    const Vector3& after = nodes[(k + 1) % count];
+    const Vector3 curvature = inner ? circle_curvature(before, nodes[k], after) : Vector3(Vector3::Zero());
+    const bool right = view.normal().dot((after - before).cross(curvature)) < 0;
+    if (k > 0) run.length += (nodes[k] - before).norm();
     run.nodes.push_back(view.flat(nodes[k]));
-    run.curvatures.push_back(
-        inner ? view.flat(curvature_at(nodes[(k + count - 1) % count], nodes[k], nodes[(k + 1) % count]))
-              : Vector2(Vector2::Zero()));
+    run.curvatures.push_back(view.flat(curvature));
+    run.arc.push_back(run.length);
+    run.bends.push_back(right ? -curvature.norm() : curvature.norm());
   }
+  if (closed) run.length += (nodes.front() - nodes.back()).norm();
   return run;
 }
 
@@ -77,6 +73,7 @@ void CurveView::turn(const Eigen::Matrix3d& spread) {
 }
 
 Drawing drawing_of(const DrawnCurve& curve, const CurveView& view) {
+  constexpr double level = 1e-9;  // more than rounding and less than anyone sees
   Drawing drawing;
   for (const PolygonCurve::Chain& chain : curve.chains) {
     std::vector<Vector3> nodes;
@@ -90,6 +87,7 @@ Drawing drawing_of(const DrawnCurve& curve, const CurveView& view) {
       const Vector3 position = view.normalized(curve.positions[static_cast<std::size_t>(node)]);
       if (position.allFinite()) {
         nodes.push_back(position);
+        if (std::abs(view.normal().dot(position)) > level) drawing.planar = false;
       } else {
         whole = false;
         end_run();

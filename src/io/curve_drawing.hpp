@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,10 @@ class CurveView {
 
   [[nodiscard]] Vector3 normalized(const Vector3& position) const { return (position / size_ - centre_) / extent_; }
   [[nodiscard]] Vector2 flat(const Vector3& vector) const { return {across_.dot(vector), up_.dot(vector)}; }
+  /// Towards the eye.
+  [[nodiscard]] Vector3 normal() const { return across_.cross(up_); }
+  /// The length outside that is 1 in the picture.
+  [[nodiscard]] double unit() const { return size_ * extent_; }
 
  private:
   void turn(const Eigen::Matrix3d& spread);
@@ -38,9 +43,13 @@ struct Drawing {
   struct Run {
     std::vector<Vector2> nodes;
     std::vector<Vector2> curvatures;  ///< zero where there is none, as at ends
-    bool closed;
+    std::vector<double> arc;          ///< the length from the first node on
+    std::vector<double> bends;        ///< curvature, negative where the curve bends to the right
+    double length = 0;                ///< of the whole run
+    bool closed = false;
   };
   std::vector<Run> runs;
+  bool planar = true;  ///< whether all of it lies in the plane of the view
   double sharpest = 0;
 };
 

@@ -35,11 +35,10 @@ std::string title_of(const CurveFile& file) {
   return "curve";
 }
 
-std::string picture_of(const CurveFile& file, const std::vector<Vector3>& positions, const PolygonCurve* before) {
-  const DrawnCurve after{file.curve.chains(), positions};
-  if (before == nullptr) return svg_picture(after, nullptr, title_of(file));
-  const DrawnCurve behind{before->chains(), before->positions()};
-  return svg_picture(after, &behind, title_of(file));
+void require_all(const CurveFile& file, const std::vector<Vector3>& positions) {
+  if (positions.size() != file.curve.positions().size())
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} positions given for {} nodes", positions.size(), file.curve.node_count()));
 }
 
 /// A file in another format than the source's, or of a curve that no file gave.
@@ -81,9 +80,7 @@ CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format)
 std::vector<std::string> write_curve(const std::string& path, const CurveFile& file,
                                      const std::vector<Vector3>& positions, std::optional<CurveFormat> format,
                                      const CurvePicture& picture) {
-  if (positions.size() != file.curve.positions().size())
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} positions given for {} nodes", positions.size(), file.curve.node_count()));
+  require_all(file, positions);
   const std::optional<CurveFormat> own = file.format == CurveFormat::svg ? std::nullopt : std::optional(file.format);
   const CurveFormat target = formats.to_write(path, format, own);
   const CurveSource* source = file.source.get();
@@ -95,7 +92,7 @@ std::vector<std::string> write_curve(const std::string& path, const CurveFile& f
       moved_nodes(source != nullptr ? source->positions : file.curve.positions(), positions);
   std::vector<std::string> losses;
   if (target == CurveFormat::svg) {
-    write_file(path, picture_of(file, positions, picture.before));
+    write_file(path, draw_curve(file, positions, picture));
   } else if (source != nullptr && target == file.format) {
     if (file.planar) require_plane(positions);
     write_file(path, source->rewritten(positions, moved));
@@ -103,6 +100,14 @@ std::vector<std::string> write_curve(const std::string& path, const CurveFile& f
     write_file(path, converted(target, file, positions, losses));
   }
   return losses;
+}
+
+std::string draw_curve(const CurveFile& file, const std::vector<Vector3>& positions, const CurvePicture& picture) {
+  require_all(file, positions);
+  const DrawnCurve after{file.curve.chains(), positions};
+  if (picture.before == nullptr) return svg_picture(after, nullptr, title_of(file));
+  const DrawnCurve behind{picture.before->chains(), picture.before->positions()};
+  return svg_picture(after, &behind, title_of(file));
 }
 
 void write_curve(const std::string& path, const PolygonCurve& curve, std::optional<CurveFormat> format, bool planar) {

@@ -85,33 +85,6 @@ std::string fresh_off(const PolygonMesh& mesh, std::span<const Vector3> position
   return text;
 }
 
-std::string fresh_ply(const PolygonMesh& mesh, std::span<const Vector3> positions, std::span<const Vector3> normals) {
-  std::size_t largest = 0;
-  for (Index f = 0; f < mesh.face_count(); ++f) largest = std::max(largest, mesh.face(f).size());
-  const bool short_lists = largest <= 255;
-  std::string bytes = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", positions.size());
-  bytes += "property double x\nproperty double y\nproperty double z\n";
-  if (!normals.empty()) bytes += "property double nx\nproperty double ny\nproperty double nz\n";
-  bytes += fmt::format("element face {}\nproperty list {} int vertex_indices\nend_header\n", mesh.face_count(),
-                       short_lists ? "uchar" : "int");
-  bytes.reserve(bytes.size() + 24 * (positions.size() + normals.size()) + 4 * mesh.face_begin().size() +
-                4 * mesh.corners().size());
-  for (std::size_t node = 0; node < positions.size(); ++node) {
-    for (const double value : positions[node]) append_bytes(bytes, value);
-    if (normals.empty()) continue;
-    for (const double value : normals[node]) append_bytes(bytes, value);
-  }
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const std::span<const Index> face = mesh.face(f);
-    if (short_lists)
-      append_bytes(bytes, static_cast<std::uint8_t>(face.size()));
-    else
-      append_bytes(bytes, static_cast<std::int32_t>(face.size()));
-    for (const Index node : face) append_bytes(bytes, node);
-  }
-  return bytes;
-}
-
 std::string fresh_stl(const PolygonMesh& mesh, std::span<const Vector3> positions, std::vector<std::string>& losses) {
   std::size_t triangles = 0;
   bool larger = false;
@@ -156,6 +129,37 @@ std::string fresh_stl(const PolygonMesh& mesh, std::span<const Vector3> position
 
 }  // namespace
 
+std::string fresh_ply(const PolygonMesh& mesh, std::span<const Vector3> positions, std::span<const Vector3> normals,
+                      std::span<const NodeScalar> scalars) {
+  std::size_t largest = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) largest = std::max(largest, mesh.face(f).size());
+  const bool short_lists = largest <= 255;
+  std::string bytes = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", positions.size());
+  bytes += "property double x\nproperty double y\nproperty double z\n";
+  if (!normals.empty()) bytes += "property double nx\nproperty double ny\nproperty double nz\n";
+  for (const NodeScalar& scalar : scalars) bytes += fmt::format("property double {}\n", scalar.name);
+  bytes += fmt::format("element face {}\nproperty list {} int vertex_indices\nend_header\n", mesh.face_count(),
+                       short_lists ? "uchar" : "int");
+  bytes.reserve(bytes.size() + (24 + 8 * scalars.size()) * positions.size() + 24 * normals.size() +
+                4 * mesh.face_begin().size() + 4 * mesh.corners().size());
+  for (std::size_t node = 0; node < positions.size(); ++node) {
+    for (const double value : positions[node]) append_bytes(bytes, value);
+    if (!normals.empty()) {
+      for (const double value : normals[node]) append_bytes(bytes, value);
+    }
+    for (const NodeScalar& scalar : scalars) append_bytes(bytes, scalar.values[node]);
+  }
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const std::span<const Index> face = mesh.face(f);
+    if (short_lists)
+      append_bytes(bytes, static_cast<std::uint8_t>(face.size()));
+    else
+      append_bytes(bytes, static_cast<std::int32_t>(face.size()));
+    for (const Index node : face) append_bytes(bytes, node);
+  }
+  return bytes;
+}
+
 std::string fresh_file(SurfaceFormat format, const PolygonMesh& mesh, std::span<const Vector3> positions,
                        std::span<const Vector3> normals, std::vector<std::string>& losses) {
   switch (format) {
@@ -164,7 +168,7 @@ std::string fresh_file(SurfaceFormat format, const PolygonMesh& mesh, std::span<
     case SurfaceFormat::off:
       return fresh_off(mesh, positions, normals);
     case SurfaceFormat::ply:
-      return fresh_ply(mesh, positions, normals);
+      return fresh_ply(mesh, positions, normals, {});
     case SurfaceFormat::stl:
       break;
   }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "vspring/scalar_file.hpp"
 #include "vspring/surface_file.hpp"
 
 namespace vspring {
@@ -13,5 +14,9 @@ namespace vspring {
 /// node.
 std::string fresh_file(SurfaceFormat format, const PolygonMesh& mesh, std::span<const Vector3> positions,
                        std::span<const Vector3> normals, std::vector<std::string>& losses);
+
+/// The PLY of fresh_file() with more numbers at nodes, a value per node each.
+std::string fresh_ply(const PolygonMesh& mesh, std::span<const Vector3> positions, std::span<const Vector3> normals,
+                      std::span<const NodeScalar> scalars);
 
 }  // namespace vspring

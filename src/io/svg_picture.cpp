@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "io/svg_plot.hpp"
 #include "io/xml_text.hpp"
 
 namespace vspring {
@@ -14,6 +15,8 @@ namespace {
 constexpr double drawing_size = 1000;         ///< of the longer side, in pixels
 constexpr double longest_tooth = 0.15;        ///< of the comb, in diagonals of the drawing
 constexpr double longest_tooth_behind = 0.4;  ///< where that of the curve before is cut off
+constexpr double plot_height = 300;           ///< of the plot of curvature below, in pixels
+constexpr double least_width = 600;           ///< in pixels, for the plot to be read
 constexpr std::size_t most_dots = 400;        ///< more nodes than this would hide the curve
 
 /// The tips of a run's teeth, not longer than `longest`.
@@ -155,14 +158,20 @@ std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, const
   const Vector2 margin = Vector2::Constant(0.03 * std::max(box.size().norm(), diagonal));
   const Vector2 size = box.size() + 2 * margin;
   const double pixels = drawing_size / size.maxCoeff();
+  const double width = std::max(pixels * size.x(), least_width);
+  const double height = pixels * size.y();
+  constexpr double above_plot = 30;
+  const std::string plot = curvature_plot(after.drawing, before != nullptr ? &behind.drawing : nullptr, view.unit(),
+                                          {.top = height + above_plot, .width = width, .height = plot_height});
   std::string text = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" "
       "height=\"{1:.0f}\" viewBox=\"0 0 {0:.2f} {1:.2f}\">\n<title>{2}</title>\n"
       "<style>polyline, polygon, path {{ vector-effect: non-scaling-stroke }}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
       "<g fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n",
-      pixels * size.x(), pixels * size.y(), xml_text(title));
-  Pen pen(text, box.upper_left() + Vector2(-margin.x(), margin.y()), pixels);
+      width, height + (plot.empty() ? 0 : above_plot + plot_height), xml_text(title));
+  const double aside = (width / pixels - size.x()) / 2;
+  Pen pen(text, box.upper_left() + Vector2(-margin.x() - aside, margin.y()), pixels);
   if (before != nullptr) draw(text, pen, behind, "before", thin);
   draw(text, pen, after, "curve", strong);
   text += "</g>\n";
@@ -171,7 +180,7 @@ std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, const
     for (const Drawing::Run& run : after.drawing.runs) pen.dots(run.nodes);
     text += "</g>\n";
   }
-  text += "</svg>\n";
+  text += plot + "</svg>\n";
   return text;
 }
 

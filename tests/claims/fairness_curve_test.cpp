@@ -42,6 +42,35 @@ double order(const std::function<PolygonCurve(int)>& make, Member member, double
   return std::log2(coarse / fine) / 2;
 }
 
+/// Curvature at the nodes of an ellipse, whose closed form is ab / (a² sin² + b² cos²)^(3/2): the error falls with the
+/// square of the spacing.
+TEST(CurveFigures, CurvatureAtNodes) {
+  double last = 0;
+  for (const int count : {50, 100, 200}) {
+    std::vector<Vector3> nodes;
+    for (int k = 0; k < count; ++k)
+      nodes.emplace_back(3e8 * std::cos(2 * pi * k / count), 2e8 * std::sin(2 * pi * k / count), 5e8);
+    const std::vector<double> found = curvatures(PolygonCurve(nodes, true));
+    double error = 0;
+    for (int k = 0; k < count; ++k) {
+      const double s = std::sin(2 * pi * k / count);
+      const double c = std::cos(2 * pi * k / count);
+      error = std::max(
+          error, std::abs(found[static_cast<std::size_t>(k)] * 1e8 * std::pow(9 * s * s + 4 * c * c, 1.5) / 6 - 1));
+    }
+    EXPECT_LT(error, 30.0 / (count * count));
+    if (last > 0) {
+      EXPECT_NEAR(last / error, 4, 0.3);
+    }
+    last = error;
+  }
+  // Ends have none.
+  const std::vector<double> open = curvatures(PolygonCurve({{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}));
+  EXPECT_EQ(open.front(), 0);
+  EXPECT_EQ(open.back(), 0);
+  EXPECT_NEAR(open[1], 1, 1e-15);
+}
+
 TEST(CurveFigures, OfAClothoidConvergeWithTheSquareOfTheSpacing) {
   const reference::Clothoid clothoid{.curvature = -1, .curvature_rate = 2, .length = 3};
   const auto make = [&](int steps) {

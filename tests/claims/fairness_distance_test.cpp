@@ -56,6 +56,20 @@ TEST(Distance, IsTheLeastOfAllFaces) {
   }
 }
 
+TEST(Distance, PointByPoint) {
+  const PolygonMesh plane = generate::plane({.columns = 3, .rows = 5}, 2, 1);
+  const PolygonCurve edge({{0, 0, 0}, {1, 0, 0}});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Vector3> points = {{0.5, 0.5, 3}, {0, 0, 0}, {nan, 0, 0}, {0.5, 0, -4}};
+  const std::vector<double> to_plane = point_distances(points, plane, Context());
+  const std::vector<double> to_edge = point_distances(points, edge, Context());
+  const double wanted[] = {3, 0, 0, 4};
+  for (std::size_t k = 0; k < points.size(); ++k) EXPECT_NEAR(to_plane[k], wanted[k], 1e-14);
+  EXPECT_NEAR(to_edge[0], std::sqrt(9.25), 1e-14);
+  EXPECT_NEAR(to_edge[3], 4, 1e-14);
+  EXPECT_EQ(distance(points, plane).count, 3);
+}
+
 TEST(Distance, ToACurve) {
   const PolygonCurve square({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, true);
   const Distance found = distance(std::vector<Vector3>{{0.5, 0.4, 0}, {0.1, 0.5, 0}, {2, 2, 0}}, square);

@@ -1,8 +1,10 @@
 """Small inputs, and a way to run the program."""
+import itertools
 import json
 import math
 import os
 import pathlib
+import random
 import subprocess
 import tempfile
 import unittest
@@ -65,6 +67,26 @@ f 3 2 6
 f 4 3 6
 f 1 4 6
 """
+
+
+def sphere(cells, radius=2.0, noise=0.0):
+    """An octahedron whose faces are cut into cells × cells triangles and blown up, as OBJ."""
+    nodes, faces = {}, []
+    generator = random.Random(1)
+
+    def node(*place):
+        length = math.hypot(*place) / radius
+        return nodes.setdefault(place, (len(nodes) + 1, [p / length + noise * generator.uniform(-1, 1) for p in place]))[0]
+
+    for signs in itertools.product((1, -1), repeat=3):
+        at = lambda i, j: node(*(s * k for s, k in zip(signs, (i, j, cells - i - j))))
+        for i in range(cells):
+            for j in range(cells - i):
+                triangles = [(at(i, j), at(i + 1, j), at(i, j + 1))]
+                if i + j + 1 < cells:
+                    triangles.append((at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)))
+                faces += [t if math.prod(signs) > 0 else t[::-1] for t in triangles]
+    return "".join(f"v {x!r} {y!r} {z!r}\n" for _, (x, y, z) in nodes.values()) + "".join(f"f {a} {b} {c}\n" for a, b, c in faces)
 
 
 def vertex_lines(text):

@@ -138,7 +138,7 @@ class Curve(Case):
         out = self.folder / "out.csv"
         for options, status, word in ((["--fix", "none"], 2, "end"), (["--resample", "1"], 1, "too few"),
                                       (["--resample", "10", "--spacing", "1"], 1, "--resample"), (["--paper", "--normal-plane", "full"], 1, "--"),
-                                      (["--picture", "a.png"], 1, ".svg"), (["--method", "multi"], 1, "equilibrium"),
+                                      (["--picture", "a.gif"], 1, ".svg"), (["--method", "multi"], 1, "equilibrium"),
                                       (["--tolerance", "0"], 1, "--tolerance")):
             with self.subTest(options=options):
                 result = run("curve", path, "-o", out, *options)

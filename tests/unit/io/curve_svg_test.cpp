@@ -129,7 +129,77 @@ TEST_F(CurveSvg, ShowsACurveInSpaceFromTheFront) {
   CurveFile file;
   file.curve = PolygonCurve(nodes, true);
   const std::string text = picture(file);
-  EXPECT_NE(text.find("width=\"1000\" height=\"1000\""), std::string::npos) << text.substr(0, 200);
+  double left = HUGE_VAL;
+  double right = -HUGE_VAL;
+  double top = HUGE_VAL;
+  double bottom = -HUGE_VAL;
+  for (const Tooth& tooth : teeth_of(text, "curve")) {
+    left = std::min(left, tooth.tip_x);
+    right = std::max(right, tooth.tip_x);
+    top = std::min(top, tooth.tip_y);
+    bottom = std::max(bottom, tooth.tip_y);
+  }
+  EXPECT_GT(right - left, 900);
+  EXPECT_NEAR(right - left, bottom - top, 0.1);
+}
+
+/// The points of the k-th line of the plot.
+std::vector<std::pair<double, double>> plotted(const std::string& text, int k) {
+  std::size_t at = text.find("id=\"plot\"");
+  for (int n = 0; n <= k; ++n) at = text.find(" d=\"M0 0M", at) + 9;
+  std::string data = text.substr(at, text.find('"', at) - at);
+  for (char& c : data) {
+    if (c == 'M' || c == 'L') c = ' ';
+  }
+  std::istringstream stream(data);
+  std::vector<std::pair<double, double>> points;
+  for (std::pair<double, double> point; stream >> point.first >> point.second;) points.push_back(point);
+  return points;
+}
+
+// Around a circle of radius 2 the plot is level, at a curvature of a half: the tick of 0.5 is as high as the line.
+TEST_F(CurveSvg, PlotsCurvatureAgainstArcLength) {
+  for (const bool left : {true, false}) {
+    CurveFile file;
+    file.curve = circle(40, left ? 2 : -2, true);
+    if (!left) {
+      std::vector<Vector3> nodes = file.curve.positions();
+      std::reverse(nodes.begin(), nodes.end());
+      file.curve = PolygonCurve(nodes, true);
+    }
+    const std::string text = picture(file);
+    const auto points = plotted(text, 0);
+    ASSERT_EQ(points.size(), 40U);
+    for (const auto& [x, y] : points) EXPECT_NEAR(y, points.front().second, 0.02);
+    const std::size_t label = text.find(left ? ">0.5</text>" : ">-0.5</text>");
+    ASSERT_NE(label, std::string::npos);
+    const std::size_t y = text.rfind(" y=\"", label) + 4;
+    EXPECT_NEAR(std::stod(text.substr(y)) - 5, points.front().second, 0.02);
+    EXPECT_NE(text.find("curvature, left is positive"), std::string::npos);
+    for (std::size_t k = 1; k < points.size(); ++k)
+      EXPECT_NEAR(points[k].first - points[k - 1].first, points[1].first - points[0].first, 0.02);
+  }
+}
+
+// A helix has no side to bend to; its curvature is r / (r² + c²).
+TEST_F(CurveSvg, PlotsBeforeAndAfterOfACurveInSpace) {
+  std::vector<Vector3> nodes;
+  for (int k = 0; k <= 60; ++k) nodes.emplace_back(std::cos(0.1 * k), std::sin(0.1 * k), 0.1 * k);
+  CurveFile file;
+  file.curve = PolygonCurve(nodes);
+  nodes[30] *= 1.01;
+  const PolygonCurve before(nodes);
+  const std::string text = picture(file, &before);
+  EXPECT_TRUE(is_balanced(text));
+  EXPECT_EQ(text.find("left is positive"), std::string::npos);
+  const auto behind = plotted(text, 0);
+  const auto after = plotted(text, 1);
+  ASSERT_EQ(behind.size(), 59U);
+  ASSERT_EQ(after.size(), 59U);
+  for (const auto& [x, y] : after) EXPECT_NEAR(y, after.front().second, 0.05);
+  double jump = 0;
+  for (const auto& [x, y] : behind) jump = std::max(jump, std::abs(y - after.front().second));
+  EXPECT_GT(jump, 20);
 }
 
 TEST_F(CurveSvg, DrawsWhateverTheNodesAre) {

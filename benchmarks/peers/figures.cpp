@@ -1,0 +1,106 @@
+#include "figures.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "regions.hpp"
+#include "run_driver.hpp"
+#include "support/surfaces.hpp"
+
+namespace vspring::bench {
+
+namespace {
+
+/// The faces around some nodes and two rings more, which are its outer rings: what every program but VTK holds.
+PolygonMesh cut_out(const PolygonMesh& mesh, const std::vector<Index>& nodes) {
+  const auto at = [](Index node) { return static_cast<std::size_t>(node); };
+  std::vector<std::uint8_t> marked(at(mesh.node_count()), 0);
+  for (const Index node : nodes) marked[at(node)] = 1;
+  const auto touched = [&](Index f) {
+    const auto face = mesh.face(f);
+    return std::any_of(face.begin(), face.end(), [&](Index node) { return marked[at(node)] != 0; });
+  };
+  std::vector<std::uint8_t> ring = marked;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (!touched(f)) continue;
+    for (const Index node : mesh.face(f)) ring[at(node)] = 1;
+  }
+  marked = ring;
+  MeshBuilder builder;
+  std::vector<Index> numbers(marked.size(), -1);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (!touched(f)) continue;
+    std::vector<Index> face;
+    for (const Index node : mesh.face(f)) {
+      Index& number = numbers[at(node)];
+      if (number < 0) number = builder.add_node(mesh.position(node));
+      face.push_back(number);
+    }
+    builder.add_face(face);
+  }
+  return builder.take();
+}
+
+struct Program {
+  const char* name;
+  const char* driver;
+  const char* variant;
+};
+
+constexpr std::array programs = {Program{"vspring", "vspring", "rings"}, Program{"CGAL fair", "cgal", "cholmod"},
+                                 Program{"OpenMesh, Jacobi C1, 100 iterations", "openmesh", "100"},
+                                 Program{"VTK, windowed sinc, 100 iterations, pass band 0.001", "vtk", "100,0.001"},
+                                 Program{"Taubin, λ 0.5, μ −0.53, 100 iterations", "taubin", "100"}};
+
+void print_row(const Case& input, const char* program, const PolygonMesh& mesh) {
+  // The rings that are held count too: where a program leaves a crease beside them it is to be seen.
+  const SurfaceFigures figures = measure_surface(mesh);
+  const std::string error =
+      input.sphere ? fmt::format("{:.1e}", support::distance_from_unit_sphere(mesh.positions())) : "";
+  fmt::print("| {} | {} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {} | {:.1f} | {:.2f} | {:.1f} | {} |\n", input.name,
+             program, figures.vspring_energy, figures.bending_energy, figures.mean_curvature_variation,
+             figures.curvature_variation, figures.mean_curvature_extrema, figures.greatest_turn, figures.mean_turn,
+             100 * node_distance(input.start.positions(), mesh.positions()).greatest / support::diagonal(input.start),
+             error);
+}
+
+void compare(const Case& input, const std::filesystem::path& drivers) {
+  const TemporaryFolder folder;
+  const std::string start = folder.file("start.ply");
+  const std::string result = folder.file("result.ply");
+  write_surface(start, input.start);
+  print_row(input, "start", input.start);
+  for (const Program& program : programs) {
+    const std::filesystem::path driver = drivers / fmt::format("peer_{}", program.driver);
+    const std::string variant = program.driver == std::string("vspring") && input.sphere ? "sphere" : program.variant;
+    if (run_driver(driver, start, result, 1, variant))
+      print_row(input, program.name, read_surface(result).mesh);
+    else
+      fmt::print("| {} | {} | failed | | | | | | | | |\n", input.name, program.name);
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+void compare_figures(const std::filesystem::path& drivers, const std::vector<std::string>& meshes) {
+  fmt::print(
+      "| start | program | V-Spring energy | bending energy | mean curvature variation | curvature variation | mean "
+      "curvature extrema | greatest turn, ° | rms turn, ° | greatest move, % of the diagonal | distance from the "
+      "sphere "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  for (const double noise : {0.0, 0.02}) compare(cap_case(4000, noise), drivers);
+  compare({"annulus", generate::annulus({.nodes = 3644, .boundary_nodes = 304}), false}, drivers);
+  for (const std::string& path : meshes) {
+    const PolygonMesh mesh = read_surface(path).mesh;
+    for (const std::uint64_t run : {0, 1, 2}) {
+      const Region region = random_region(mesh, 0.12 * support::diagonal(mesh), run + 1);
+      const std::string name =
+          fmt::format("{}, about node {}", std::filesystem::path(path).filename().string(), region.seed);
+      compare({name, cut_out(mesh, region.nodes), false}, drivers);
+    }
+  }
+}
+
+}  // namespace vspring::bench

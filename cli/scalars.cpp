@@ -1,0 +1,74 @@
+#include "scalars.hpp"
+
+#include <filesystem>
+
+#include "vspring/curvature.hpp"
+#include "vspring/distance.hpp"
+#include "vspring/error.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+template <typename Shape>
+NodeScalar deviation(const Shape& shape, const Shape& before, const Context& context) {
+  NodeScalar scalar{.name = "deviation", .values = {}};
+  const auto& positions = shape.positions();
+  if (positions.size() != before.positions().size()) {
+    scalar.values = point_distances(positions, before, context);
+    return scalar;
+  }
+  for (std::size_t node = 0; node < positions.size(); ++node)
+    scalar.values.push_back((positions[node] - before.positions()[node]).stableNorm());
+  return scalar;
+}
+
+}  // namespace
+
+void refuse_scalars(const std::string& path, bool curve) {
+  if (path.empty()) return;
+  const auto format = scalar_format(std::filesystem::path(path).extension().string());
+  if (!format || (curve && format != ScalarFormat::vtp))
+    throw Error(ErrorCode::invalid_argument,
+                path + (curve ? ": the numbers of a curve go to VTP; name it .vtp"
+                              : ": numbers at nodes go to VTP or PLY; name it .vtp or .ply"));
+}
+
+bool same_faces(const PolygonMesh& mesh, const PolygonMesh& other) {
+  return mesh.node_count() == other.node_count() && mesh.face_begin() == other.face_begin() &&
+         mesh.corners() == other.corners();
+}
+
+std::vector<NodeScalar> scalars_of(const PolygonMesh& mesh, const PolygonMesh* before, const Context& context) {
+  std::vector<NodeScalar> scalars = {
+      {"mean_curvature", {}}, {"gaussian_curvature", {}}, {"principal_curvature_1", {}}, {"principal_curvature_2", {}}};
+  for (const NodeCurvature& at : curvatures(mesh, context)) {
+    const double values[] = {at.mean(), at.gaussian(), at.k1, at.k2};
+    for (std::size_t k = 0; k < scalars.size(); ++k) scalars[k].values.push_back(values[k]);
+  }
+  if (before == nullptr) return scalars;
+  scalars.push_back(deviation(mesh, *before, context));
+  if (!same_faces(mesh, *before)) return scalars;
+  NodeScalar& along = scalars.emplace_back(NodeScalar{"deviation_along_normal", {}});
+  const std::vector<NodeCurvature> bent = curvatures(*before, context);
+  for (std::size_t node = 0; node < bent.size(); ++node)
+    along.values.push_back((mesh.positions()[node] - before->positions()[node]).dot(bent[node].normal));
+  return scalars;
+}
+
+std::vector<NodeScalar> scalars_of(const PolygonCurve& curve, const PolygonCurve* before, const Context& context) {
+  std::vector<NodeScalar> scalars = {{"curvature", curvatures(curve)}};
+  NodeScalar& arc = scalars.emplace_back(
+      NodeScalar{"arc_length", std::vector<double>(static_cast<std::size_t>(curve.node_count()), 0)});
+  for (const PolygonCurve::Chain& chain : curve.chains()) {
+    double length = 0;
+    for (std::size_t k = 0; k < chain.nodes.size(); ++k) {
+      if (k > 0) length += (curve.position(chain.nodes[k]) - curve.position(chain.nodes[k - 1])).stableNorm();
+      arc.values[static_cast<std::size_t>(chain.nodes[k])] = length;
+    }
+  }
+  if (before != nullptr) scalars.push_back(deviation(curve, *before, context));
+  return scalars;
+}
+
+}  // namespace vspring::cli

@@ -1,0 +1,39 @@
+// What a view shows of surfaces: shapes, and values by their colours.
+
+import {deviationsOf, edgesOf, normalsOf, trianglesOf} from './mesh.js';
+import {diverging, sequential} from './colours.js';
+import {quantiles, short} from './numbers.js';
+
+// What the view needs to know of a shape of the scene.
+export function prepared({title, positions, runs, mean, gaussian}) {
+  const edges = edgesOf(runs, positions.length / 3);
+  return {title, positions, runs, mean, gaussian, joints: edges, edges: edges.ends,
+    triangles: trianglesOf(runs, positions), normals: normalsOf(runs, positions, edges)};
+}
+
+// What colours can show: values for each shape, map, range of its colours.
+export function fieldsOf(shapes, {leading, reference, unit}) {
+  const about = (centre, half) => [centre - half, centre + half];
+  const even = (values, least) => about(0, Math.max(least, quantiles(values.map(Math.abs), [0.98])[0]));
+  const [low, high] = quantiles(shapes[leading].mean, [0.02, 0.98]);
+  // A sphere is of one colour, although its curvature is not measured to the last digit.
+  const least = Math.max(0.01, 0.02 * Math.abs(low + high) / 2);
+  const fields = {
+    mean: {name: 'Mean curvature × D', map: sequential, values: shapes.map((shape) => shape.mean),
+      range: about((low + high) / 2, Math.max((high - low) / 2, least))},
+    gaussian: {name: 'Gaussian curvature × D²', map: diverging, values: shapes.map((shape) => shape.gaussian),
+      range: even(shapes[leading].gaussian, 0.01)},
+  };
+  const from = shapes[reference];
+  if (from && from.runs === shapes[leading].runs) {
+    const values = deviationsOf(shapes[leading].positions, from.positions, from.normals).map((part) => part * unit);
+    fields.deviation = {name: `Deviation from “${from.title}”, units of the input`, map: diverging,
+      values: shapes.map(() => values), range: even(values, 1e-6 * unit)};
+  }
+  return fields;
+}
+
+// The numbers below a range of colours: its ends and its middle.
+export function marksOf([low, high]) {
+  return [low, (low + high) / 2, high].map((value, k) => `${['≤ ', '', '≥ '][k]}${short(Number(value.toPrecision(3)))}`);
+}

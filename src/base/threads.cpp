@@ -8,8 +8,15 @@ namespace vspring {
 
 namespace {
 
-// Waking a thread takes longer than many a loop over some thousand nodes; a yield takes a fraction of a microsecond.
-constexpr int looks_before_sleep = 100;
+// Some 30 microseconds: waking a thread takes longer than many a loop over some thousand nodes.
+constexpr int looks_before_sleep = 2000;
+
+/// Not a yield: that would hand the core to other programs for milliseconds.
+void pause() {
+#if defined(__x86_64__)
+  __builtin_ia32_pause();
+#endif
+}
 
 }  // namespace
 
@@ -40,11 +47,15 @@ void ThreadTeam::run(std::size_t count, const std::function<void(std::size_t)>& 
     task_ = &task;
     count_ = count;
     next_.store(0, std::memory_order_relaxed);
-    busy_ = workers_.size();
     ++round_;
   }
   started_.notify_all();
-  take_tasks();
+  take_tasks(task, count);
+  {
+    // Whoever has not come by now is not waited for: another program may have its core.
+    const std::lock_guard lock(mutex_);
+    task_ = nullptr;
+  }
   wait(finished_, [this] { return busy_ == 0; });
 }
 
@@ -52,17 +63,17 @@ template <typename Holds>
 void ThreadTeam::wait(std::condition_variable& signal, const Holds& holds) {
   for (int look = 0; look < looks_before_sleep; ++look) {
     if (holds()) return;
-    std::this_thread::yield();
+    pause();
   }
   std::unique_lock lock(mutex_);
   signal.wait(lock, holds);
 }
 
-void ThreadTeam::take_tasks() {
+void ThreadTeam::take_tasks(const std::function<void(std::size_t)>& task, std::size_t count) {
   for (;;) {
     const std::size_t k = next_.fetch_add(1, std::memory_order_relaxed);
-    if (k >= count_) return;
-    (*task_)(k);
+    if (k >= count) return;
+    task(k);
   }
 }
 
@@ -71,8 +82,17 @@ void ThreadTeam::work() {
   for (;;) {
     wait(started_, [&] { return ending_ || round_ != seen; });
     if (ending_) return;
-    seen = round_;
-    take_tasks();
+    const std::function<void(std::size_t)>* task = nullptr;
+    std::size_t count = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      seen = round_;
+      if (task_ == nullptr) continue;
+      ++busy_;
+      task = task_;
+      count = count_;
+    }
+    take_tasks(*task, count);
     const std::lock_guard lock(mutex_);
     if (--busy_ == 0) finished_.notify_one();
   }

@@ -28,7 +28,7 @@ class ThreadTeam {
 
  private:
   void work();
-  void take_tasks();
+  void take_tasks(const std::function<void(std::size_t)>& task, std::size_t count);
   /// Until what is asked for holds: awake for as long as the pauses between loops last, then asleep.
   template <typename Holds>
   void wait(std::condition_variable& signal, const Holds& holds);
@@ -40,7 +40,7 @@ class ThreadTeam {
   std::atomic<std::uint64_t> round_ = 0;
   std::atomic<bool> ending_ = false;
   std::atomic<std::size_t> busy_ = 0;
-  const std::function<void(std::size_t)>* task_ = nullptr;
+  const std::function<void(std::size_t)>* task_ = nullptr;  // while others may join
   std::size_t count_ = 0;
   std::atomic<std::size_t> next_ = 0;
 };

@@ -21,7 +21,10 @@ struct FairArguments : FairingArguments {
 };
 
 int run_fair(FairArguments arguments) {
-  if (arguments.paper) arguments.options.pseudo_normals = PseudoNormals::average;
+  if (arguments.paper) {
+    arguments.options.pseudo_normals = PseudoNormals::average;
+    if (!arguments.options.method) arguments.options.method = Method::sweep;
+  }
   refuse_shared_views(arguments);
   refuse_views(arguments, false);
   Fairing fairing(arguments);
@@ -53,7 +56,7 @@ void add_method_options(CLI::App& command, FairArguments& arguments, const Fairi
   add_choice(
       command, "--method", options.method, methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
-      "plain iteration (default: sweep)")
+      "plain iteration (default: equilibrium; where it finds none, sweep)")
       ->group(fairing_group);
   add_stopping_options(command, arguments);
   CLI::Option* kind = add_choice(command, "--pseudo-normals", options.pseudo_normals, pseudo_normals,
@@ -62,7 +65,9 @@ void add_method_options(CLI::App& command, FairArguments& arguments, const Fairi
                           ->group(fairing_group);
   command
       .add_flag("--paper", arguments.paper,
-                "The paper's own choices throughout: plain average of normals (default: off)")
+                "The paper's own choices throughout: plain average of normals, and the method sweep unless --method "
+                "says another "
+                "(default: off)")
       ->excludes(kind)
       ->group(fairing_group);
   add_shaping_options(command, arguments, words);

@@ -21,7 +21,8 @@ enum class Method {
 };
 
 struct FairOptions {
-  /// Where not given: equilibrium for curves, sweep for surfaces.
+  /// Where not given: equilibrium; of a surface for which that finds none, and max_iterations is not given, the shape
+  /// of sweep, with a warning.
   std::optional<Method> method = std::nullopt;
   /// Of surfaces.
   PseudoNormals pseudo_normals = PseudoNormals::link;

@@ -219,7 +219,10 @@ std::vector<double> pull_of_held(const Net& net, std::span<const Vector3> moves)
     }
     if (bend == 0) return;
     for (const SparseRows::Entry& entry : row) {
-      if (entry.column < net.moving) pull[entry.column] -= entry.value * bend;
+      if (entry.column >= net.moving) continue;
+      // Held nodes may have a normal of the other sense.
+      const double sense = net.normals[entry.column].dot(net.normals[centre]) < 0 ? -1 : 1;
+      pull[entry.column] -= sense * entry.value * bend;
     }
   };
   SparseRows::Row room;

@@ -1,5 +1,7 @@
 #include "solve/surface_fairing.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <utility>
 
@@ -66,7 +68,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
 
 Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report) {
   report.warnings = check_constraints(*mesh_, constraints);
-  report.method = options_.method.value_or(Method::sweep);
+  report.method = options_.method.value_or(Method::equilibrium);
   ProgressReporter progress(context);
   progress.report("preparing", 0);
   report.threads = team_.size();
@@ -82,7 +84,24 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution, team_), team_);
   const auto method = report.method == Method::multigrid ? run_multigrid : run_equilibrium;
   method(*hierarchy_, *model_, options_, team_, context, progress, report);
-  return {};
+  const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
+  if (found || options_.method || options_.max_iterations) return {};
+  // Nobody asked for this method: the paper's iteration ends on shapes that have no equilibrium, too.
+  hierarchy_.reset();
+  const double expected_error = report.expected_error.value_or(0);
+  report.expected_error.reset();
+  report.levels.clear();
+  report.history.clear();
+  report.iterations = 0;
+  report.method = Method::sweep;
+  net = gather_net(*mesh_, constraints);
+  distribute(net, *model_, options_.distribution, team_);
+  run_sweeps(net, *model_, options_, team_, context, progress, report);
+  report.warnings.push_back(fmt::format(
+      "no equilibrium was found (the nearest shape is expected to be {:.2g} % of the size away from one): this is the "
+      "plain iteration's shape; hold more nodes, or normals, or let a smaller region move",
+      100 * expected_error));
+  return net;
 }
 
 bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, FairReport& report) {

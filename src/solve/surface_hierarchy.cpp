@@ -112,7 +112,9 @@ void SurfaceHierarchy::follow(const Constraints& constraints) {
     for (std::size_t k = 0; k < moves.size(); ++k) net.positions[net.moving + k] += moves[k];
   }
   for (std::size_t i = 0; i < net.positions.size(); ++i) {
-    if (net.normal_given(i)) net.normals[i] = constraints.normal(net.node[i]);
+    if (!net.normal_given(i)) continue;
+    const Vector3& normal = constraints.normal(net.node[i]);
+    net.normals[i] = normal.dot(net.normals[i]) < 0 ? Vector3(-normal) : normal;
   }
   for (std::size_t level = levels_.size() - 1; level-- > 0;) {
     const Net& fine = levels_[level + 1].net;

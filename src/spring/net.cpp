@@ -1,8 +1,10 @@
 #include "spring/net.hpp"
 
 #include <algorithm>
+#include <span>
 
 #include "spring/node_order.hpp"
+#include "spring/pseudo_normal.hpp"
 
 namespace vspring {
 
@@ -32,6 +34,78 @@ class Numbering {
   std::vector<Index> local_;
 };
 
+constexpr auto nowhere = static_cast<std::size_t>(-1);
+
+/// The place of the next spoke after, or before, place k of a walk; nowhere at the end of a chain.
+std::size_t next_spoke(std::span<const Link> links, std::size_t k, bool after) {
+  for (std::size_t steps = 0; steps < links.size(); ++steps) {
+    if (!after && links[k].start()) return nowhere;
+    k = after ? (k + 1) % links.size() : (k + links.size() - 1) % links.size();
+    if (after && links[k].start()) return nowhere;
+    if (links[k].spoke()) return k;
+  }
+  return nowhere;
+}
+
+bool of_one_chain(std::span<const Link> links) {
+  return std::count_if(links.begin(), links.end(), [](Link link) { return link.start(); }) <= 1;
+}
+
+/// Whether the walks around two neighbours, j at place k of that around i, go round the face between them in two
+/// senses.
+bool disagree(const Rings& rings, std::size_t i, std::size_t k) {
+  const auto here = rings.links(i);
+  const auto there = rings.links(here[k].node());
+  const auto back =
+      std::find_if(there.begin(), there.end(), [&](Link link) { return link.spoke() && link.node() == i; });
+  if (back == there.end()) return false;
+  const auto place = static_cast<std::size_t>(back - there.begin());
+  // The node that comes after j around i comes before i around j.
+  for (const bool after : {true, false}) {
+    const std::size_t next = (k + (after ? 1 : here.size() - 1)) % here.size();
+    if (after ? here[next].start() : here[k].start()) continue;
+    const std::size_t third = here[next].node();
+    const std::size_t same = next_spoke(there, place, !after);
+    const std::size_t other = next_spoke(there, place, after);
+    const bool agrees = same != nowhere && there[same].node() == third;
+    const bool opposes = other != nowhere && there[other].node() == third;
+    if (agrees != opposes) return opposes;
+  }
+  return false;
+}
+
+/// Turns walks over until neighbours go round their faces in one sense, so far as the surface has two sides.
+void agree_on_sides(Net& net) {
+  std::vector<std::uint8_t> reached(net.computed, 0);
+  std::vector<std::size_t> queue;
+  for (std::size_t first = 0; first < net.computed; ++first) {
+    if (reached[first] != 0) continue;
+    reached[first] = 1;
+    queue.assign(1, first);
+    for (std::size_t head = 0; head < queue.size(); ++head) {
+      const std::size_t i = queue[head];
+      const auto links = net.rings.links(i);
+      for (std::size_t k = 0; k < links.size(); ++k) {
+        const std::size_t j = links[k].node();
+        if (!links[k].spoke() || j >= net.computed || reached[j] != 0) continue;
+        reached[j] = 1;
+        if (of_one_chain(net.rings.links(j)) && disagree(net.rings, i, k)) net.rings.turn_over(j);
+        queue.push_back(j);
+      }
+    }
+  }
+}
+
+/// Given normals of moving nodes point to the side that the walks say: else their linear equations would have a sign of
+/// their own.
+void agree_on_given_normals(Net& net) {
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    if (!net.normal_given(i)) continue;
+    const Vector3 normal = AreaNormal()(net.positions[i], net.rings.links(i), net.positions);
+    if (net.normals[i].dot(normal) < 0) net.normals[i] = -net.normals[i];
+  }
+}
+
 }  // namespace
 
 Net gather_net(const PolygonMesh& mesh, const Constraints& constraints) {
@@ -54,16 +128,21 @@ Net gather_net(const PolygonMesh& mesh, const Constraints& constraints) {
 
   net.rings.reserve(net.computed, 7 * net.computed);
   std::vector<Link> links;
+  bool flipped = false;
   for (std::size_t i = 0; i < net.computed; ++i) {
     links.clear();
-    for (const Link link : walker.walk(number.node(i)).links) {
+    const Fan& fan = walker.walk(number.node(i));
+    flipped = flipped || fan.flipped_neighbour >= 0;
+    for (const Link link : fan.links) {
       const auto local = static_cast<std::uint32_t>(number(static_cast<Index>(link.node())));
       links.push_back({local | (link.code & ~Link::node_mask)});
     }
     net.rings.add(links);
   }
   net.node = std::move(number).take();
+  if (flipped) agree_on_sides(net);
   place_net(net, mesh.positions(), constraints);
+  agree_on_given_normals(net);
   return net;
 }
 

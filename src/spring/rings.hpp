@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,19 @@ class Rings {
   void add(std::span<const Link> links) {
     links_.insert(links_.end(), links.begin(), links.end());
     begin_.push_back(static_cast<std::uint32_t>(links_.size()));
+  }
+
+  /// The same walk in the other sense. It must be of one chain.
+  void turn_over(std::size_t node) {
+    const auto links = std::span(links_).subspan(begin_[node], begin_[node + 1] - begin_[node]);
+    if (links.empty()) return;
+    if (links.front().start()) {
+      std::reverse(links.begin(), links.end());
+      links.back().code &= ~Link::start_bit;
+      links.front().code |= Link::start_bit;
+    } else {
+      std::reverse(links.begin() + 1, links.end());
+    }
   }
 
  private:

@@ -120,7 +120,10 @@ TEST(Constraints, AClosedSurfaceHeldAtOneNodeEndsInOneOfTheFamily) {
   constraints.fix_position(0, block.position(0));
   const FairResult result = fair(block, constraints);
   EXPECT_EQ(result.report.outcome, Outcome::converged);
-  EXPECT_EQ(result.report.warnings.size(), 1U);
+  // One of a family: no equilibrium to go to, and the plain iteration stops where it is.
+  EXPECT_EQ(result.report.method, Method::sweep);
+  EXPECT_FALSE(result.report.expected_error);
+  EXPECT_EQ(result.report.warnings.size(), 2U);
   EXPECT_LT(result.report.after.greatest_turn, result.report.before.greatest_turn / 4);
   EXPECT_LT(result.report.after.vspring_energy, result.report.before.vspring_energy / 100);
 }
@@ -130,7 +133,8 @@ TEST(Constraints, WhatFallsApartIsStoppedAndItsBestShapeKept) {
   const PolygonMesh block = generate::genus({.holes = 0, .cells = 3});
   Constraints constraints(block.node_count());
   constraints.fix_position(0, block.position(0));
-  const FairResult result = fair(block, constraints, {.step_tolerance = 1e-6, .max_iterations = 100000});
+  const FairResult result =
+      fair(block, constraints, {.method = Method::sweep, .step_tolerance = 1e-6, .max_iterations = 100000});
   EXPECT_EQ(result.report.outcome, Outcome::stalled);
   EXPECT_LT(result.report.iterations, 10000);
   EXPECT_EQ(result.report.warnings.size(), 2U);
@@ -197,7 +201,7 @@ TEST(Constraints, InconsistentOrientationZeroLengthsAndIsolatedNodesAreFaired) {
     }
     return constraints;
   };
-  const FairOptions options{.step_tolerance = 1e-13, .max_iterations = 20000};
+  const FairOptions options{.tolerance = 1e-11};
   std::vector<Index> corners = cap.corners();
   for (std::size_t f = 0; f < corners.size() / 3; f += 2) std::swap(corners[3 * f], corners[3 * f + 1]);
   std::vector<Vector3> positions = generate::add_noise(cap, 0.02, 3).positions();

@@ -53,6 +53,22 @@ TEST(SurfaceEquilibrium, SoDoesEveryKindOfFace) {
   }
 }
 
+TEST(SurfaceEquilibrium, TheSenseOfGivenNormalsDoesNotMatter) {
+  const PolygonMesh cap = generate::sphere_patch({.columns = 16, .rows = 16}, 1, 60);
+  const PolygonMesh start = generate::add_noise(cap, 0.02, 3);
+  const auto faired = [&](double sense) {
+    Constraints constraints = held_boundary(cap, [&](const Vector3& p) -> Vector3 { return sense * p; });
+    // Of moving nodes, too.
+    for (Index i = 0; i < cap.node_count(); i += 3) {
+      if (!constraints.position_fixed(i)) constraints.fix_normal(i, sense * cap.position(i));
+    }
+    const FairResult result = fair(start, constraints, to_equilibrium());
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    return result.positions;
+  };
+  EXPECT_LT(greatest_distance(faired(1), faired(-1)), 1e-5);
+}
+
 TEST(SurfaceEquilibrium, IterationsHardlyGrowWithTheNodes) {
   for (const Index nodes : {1000, 8000, 32000}) {
     SCOPED_TRACE(nodes);

@@ -19,6 +19,7 @@ using generate::Grid;
 
 FairOptions to_the_end() {
   FairOptions options;
+  options.method = Method::sweep;
   options.step_tolerance = 1e-13;
   options.max_iterations = 20000;
   return options;
@@ -84,6 +85,7 @@ TEST(FairSurface, FairingAFairShapeAgainChangesNothing) {
 TEST(FairSurface, MotionAndScalingCommuteWithFairing) {
   const PolygonMesh mesh = noisy_annulus();
   FairOptions options;
+  options.method = Method::sweep;
   options.max_iterations = 30;
   const Normal up = [](const Vector3&) { return Vector3(0, 0, 1); };
   const FairResult plain = fair(mesh, held_boundary(mesh, up), options);

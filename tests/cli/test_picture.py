@@ -48,9 +48,9 @@ class Picture(Case):
 @support.unittest.skipUnless(browser.PROGRAM, "chromium is not installed")
 class Surface(Picture):
     def test_all_styles_before_and_after(self):
-        arguments = ("fair", self.write("in.obj", grid(10)), "-o", self.folder / "out.obj", "--max-iterations", "100",
+        arguments = ("fair", self.write("in.obj", grid(10)), "-o", self.folder / "out.obj",
                      "--picture-size", "300", "--picture-style", ",".join(STYLES.values()))
-        root, panels = self.svg(*arguments, status=(3,))
+        root, panels = self.svg(*arguments)
         self.assertEqual(list(panels), list(STYLES))
         for style, pair in panels.items():
             self.assertEqual(len(pair), 2)
@@ -74,7 +74,7 @@ class Surface(Picture):
         self.assertEqual(len(list(root.iter(SVG + "linearGradient"))), 3)
         self.assertEqual(sum(text.startswith("≤") for text in texts), 3)
         # PNG is that picture, the legends too.
-        picture = browser.pixels_of(self.make(*arguments, status=(3,)))
+        picture = browser.pixels_of(self.make(*arguments))
         self.assertEqual((picture.width, picture.height), (int(root.get("width")), int(root.get("height"))))
         for ramp in root.iter(SVG + "rect"):
             if not ramp.get("fill").startswith("url"):

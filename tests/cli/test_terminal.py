@@ -43,8 +43,8 @@ class Terminal(Case):
         self.assertIn(b"\x1b[32m", run(*arguments, "--color", "always").stdout)
 
     def test_progress_bar_on_long_runs(self):
-        arguments = ["fair", self.write("in.obj", grid(100)), "-o", self.folder / "out.obj", "--step-tolerance", "1e-30",
-                     "--max-iterations", "3000"]
+        arguments = ["fair", self.write("in.obj", grid(100)), "-o", self.folder / "out.obj", "--method", "sweep",
+                     "--step-tolerance", "1e-30", "--max-iterations", "3000"]
         text = run_on_terminal(arguments)
         self.assertIn("fairing [", text)
         self.assertRegex(text, r"iteration \d+")

@@ -40,7 +40,7 @@ void run(const std::string& path, const std::filesystem::path& out, std::ofstrea
       const std::string row = fmt::format("| {} | {:.0f} % | {} |", std::filesystem::path(path).filename().string(),
                                           100 * share, region.seed);
       try {
-        const FairResult result = fair(mesh, hold_all_but(region, mesh));
+        const FairResult result = fair(mesh, hold_all_but(region, mesh), {.method = Method::sweep});
         const FairReport& report = result.report;
         fmt::print("{} {} | {} | {} | {:.3f} | {:.3g} → {:.3g} | {:.0f} → {:.0f} | {:.1f} → {:.1f} | {:.2f} % |\n", row,
                    report.moving_nodes, name(report.outcome), report.iterations, report.seconds,

@@ -17,6 +17,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int default_limit = 200;
+// From a shape that is near: beyond, coarser levels are sooner there.
+constexpr int near_limit = 30;
 // The coarsest level needs 10 to 40 iterations from any shape that is not tangled up.
 constexpr int first_try = 80;
 // An expected error, as a share of the diagonal, from which a shape on the coarsest level is no use.
@@ -63,7 +65,8 @@ class Run {
 
   /// Without a look at coarser levels.
   void run_on_shape_itself(Preconditioner& preconditioner) {
-    (void)relax(hierarchy_.count() - 1, options_.max_iterations.value_or(default_limit), preconditioner);
+    (void)relax(hierarchy_.count() - 1, std::min(options_.max_iterations.value_or(near_limit), near_limit),
+                preconditioner);
   }
 
   void run() {

@@ -6,9 +6,19 @@
 
 namespace vspring {
 
+namespace {
+
+/// Somebody waits: no other method is tried where this one finds nothing.
+FairOptions of_session(FairOptions options) {
+  if (!options.method) options.method = Method::equilibrium;
+  return options;
+}
+
+}  // namespace
+
 struct FairingSession::State {
   State(PolygonMesh the_mesh, const FairOptions& the_options, int threads)
-      : mesh(std::move(the_mesh)), options(the_options), fairing(mesh, options, threads) {}
+      : mesh(std::move(the_mesh)), options(of_session(the_options)), fairing(mesh, options, threads) {}
 
   PolygonMesh mesh;
   FairOptions options;

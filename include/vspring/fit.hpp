@@ -65,8 +65,8 @@ struct FitResult {
 /// that the iteration ends in is the paper's.
 ///
 /// Constraints hold as in fair(), where a shape comes out as it would without points if no point has weight. A closed
-/// shape may be held by points alone; boundaries and ends must be held all the same. Nodes without points are fair
-/// between those that have some.
+/// shape may be held by points alone, though its nodes can then slide, see docs/fit.md; boundaries and ends must be
+/// held all the same. Nodes without points are fair between those that have some.
 ///
 /// Like fair() by Method::sweep it ends when no node moves further in one iteration than options.fair.step_tolerance
 /// times the mean length of its edges. Small weights then still have far to go: their last steps are about k times

@@ -9,6 +9,10 @@ namespace vspring {
 
 namespace {
 
+// Around a hub of many faces everybody is everybody's neighbour of second order: a search through it would take the
+// square of their number. Points get past it by being tied to it.
+constexpr std::size_t most_passed_on = 100;
+
 /// Places for the members of groups, from their numbers: each group's begin, and at last the end.
 void add_up(std::vector<std::uint32_t>& counts) {
   std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), std::uint32_t{0});
@@ -80,6 +84,7 @@ void PointTies::gather_around(std::size_t node, std::vector<std::uint32_t>& arou
   for (const std::uint32_t j : neighbours(node)) {
     around.push_back(j);
     const auto next = neighbours(j);
+    if (next.size() > most_passed_on) continue;
     around.insert(around.end(), next.begin(), next.end());
   }
   std::sort(around.begin(), around.end());

@@ -25,7 +25,7 @@ class PointTies {
   [[nodiscard]] std::span<const std::uint32_t> neighbours(std::size_t node) const {
     return {neighbours_.data() + first_neighbour_[node], first_neighbour_[node + 1] - first_neighbour_[node]};
   }
-  /// The node and its neighbours of first and second order, ascending.
+  /// The node and its neighbours of first order, and of second order but through hubs; ascending.
   void gather_around(std::size_t node, std::vector<std::uint32_t>& around) const;
   /// Puts the points into the order of their nodes.
   void group();

@@ -8,7 +8,6 @@
 #include "spring/curve_net.hpp"
 #include "support/curves.hpp"
 #include "support/surfaces.hpp"
-#include "vspring/error.hpp"
 
 namespace vspring {
 namespace {
@@ -117,6 +116,26 @@ TEST(PointTies, PassWhereChainsMeet) {
   ThreadTeam team(1);
   ties.renew(team);
   EXPECT_EQ(net.node[ties_of(net)[0]], 9);
+}
+
+TEST(PointTies, PassAHubOfManyFaces) {
+  MeshBuilder builder;
+  constexpr int sides = 300;
+  std::vector<Index> rim;
+  const Index hub = builder.add_node({0, 0, 0});
+  for (int i = 0; i < sides; ++i) rim.push_back(builder.add_node(heading(360 * degree * i / sides)));
+  for (std::size_t i = 0; i < sides; ++i) {
+    const std::vector<Index> face = {hub, rim[i], rim[(i + 1) % sides]};
+    builder.add_face(face);
+  }
+  const PolygonMesh fan = builder.take();
+  Net net = gather_net(fan, held_boundary(fan));
+  const std::vector<Vector3> points = {heading(2), {0.1, 0, 0}};
+  PointTies ties(net, points, std::vector<double>(2, 1), std::vector<Index>{hub, rim[150]});
+  ThreadTeam team(1);
+  ties.renew(team);
+  const auto tied = ties_of(net);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(tied[k], nearest_of(net.positions, net.points.positions[k]));
 }
 
 TEST(PointTies, PassAHeldNode) {

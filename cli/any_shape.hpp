@@ -1,9 +1,12 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
+#include "vspring/constraints.hpp"
 #include "vspring/curve_file.hpp"
 #include "vspring/surface_file.hpp"
 
@@ -15,5 +18,27 @@ using AnyFormat = std::variant<SurfaceFormat, CurveFormat>;
 /// Reads a surface or a curve: as `curve` says, else as the format or the extension says; an OBJ file is a curve where
 /// it has no faces. Of standard input and of unknown extensions, a surface.
 [[nodiscard]] AnyShape read_shape(const std::string& path, std::optional<AnyFormat> format, bool curve);
+
+/// A format where it is of this kind.
+template <typename Format>
+std::optional<Format> format_as(const std::optional<AnyFormat>& format) {
+  if (!format || !std::holds_alternative<Format>(*format)) return std::nullopt;
+  return std::get<Format>(*format);
+}
+
+/// Values of --format.
+inline const std::map<std::string, AnyFormat> any_formats = {
+    {"obj", SurfaceFormat::obj}, {"off", SurfaceFormat::off}, {"ply", SurfaceFormat::ply}, {"stl", SurfaceFormat::stl},
+    {"csv", CurveFormat::csv},   {"dat", CurveFormat::dat},   {"xyz", CurveFormat::xyz}};
+
+inline const PolygonMesh& shape_of(const SurfaceFile& file) { return file.mesh; }
+inline const PolygonCurve& shape_of(const CurveFile& file) { return file.curve; }
+
+/// What rules may refer to; the file must outlive it.
+inline RuleInput rule_input(const SurfaceFile& file) { return {.groups = &file.groups, .normals = &file.normals}; }
+inline RuleInput rule_input(const CurveFile& file) { return {.groups = &file.groups}; }
+
+/// The positions of the nodes of a file of any format, connectivity ignored. Throws as the readers do.
+[[nodiscard]] std::vector<Vector3> read_points(const std::string& path);
 
 }  // namespace vspring::cli

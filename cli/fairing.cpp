@@ -153,6 +153,7 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
   json["warnings"] = warnings;
   json["input"] = arguments_->input;
   json["output"] = arguments_->output;
+  json.update(writers.figures);
   FigurePair figures;
   if (!context_.cancelled() && !(arguments_->report.empty() && arguments_->html.empty())) {
     figures = measured(faired);
@@ -165,7 +166,7 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
   const std::string missing = write_views(faired, figures, json, writers);
   if (!missing.empty()) warnings.push_back(missing + ": not written, as the run was interrupted");
   for (const std::string& warning : warnings) (void)errors_.write(errors_.yellow("warning: ") + warning + "\n");
-  if (!arguments_->quiet && !messages_.write(summary(report, diagonal_of(input), messages_)))
+  if (!arguments_->quiet && !messages_.write(summary(report, diagonal_of(input), messages_) + writers.lines))
     throw Error(ErrorCode::unusable_file, "standard output: takes no more; the shape is written nonetheless");
   return context_.cancelled() ? exit_interrupted : exit_status(report.outcome);
 }

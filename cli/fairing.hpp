@@ -41,6 +41,10 @@ class Fairing {
     std::function<std::vector<std::string>()> shape;
     /// Curves: the picture as SVG; asked for with --picture.
     std::function<std::string()> picture;
+    /// What the command adds to the report.
+    nlohmann::ordered_json figures = nlohmann::ordered_json::object();
+    /// What it adds to what people read, in lines.
+    std::string lines = {};
   };
 
   /// Writes the files, says what happened, and returns the exit status. input: the nodes that were read. A run that was

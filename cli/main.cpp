@@ -9,6 +9,7 @@
 #include "curve_command.hpp"
 #include "exit_status.hpp"
 #include "fair_command.hpp"
+#include "fit_command.hpp"
 #include "generate_command.hpp"
 #include "measure_command.hpp"
 #include "terminal.hpp"
@@ -60,6 +61,7 @@ int run_program(int argc, char** argv) {
   std::function<int()> run;
   add_fair_command(app, run);
   add_curve_command(app, run);
+  add_fit_command(app, run);
   add_generate_command(app, run);
   add_measure_command(app, run);
   try {

@@ -35,12 +35,6 @@ struct MeasureArguments : FairingArguments {
 
 using Json = nlohmann::ordered_json;
 
-const PolygonMesh& shape_of(const SurfaceFile& file) { return file.mesh; }
-const PolygonCurve& shape_of(const CurveFile& file) { return file.curve; }
-
-RuleInput rule_input(const SurfaceFile& file) { return {.groups = &file.groups, .normals = &file.normals}; }
-RuleInput rule_input(const CurveFile& file) { return {.groups = &file.groups}; }
-
 Json counts_of(const PolygonMesh& mesh) { return {{"nodes", mesh.node_count()}, {"faces", mesh.face_count()}}; }
 Json counts_of(const PolygonCurve& curve) { return {{"nodes", curve.node_count()}, {"chains", curve.chains().size()}}; }
 
@@ -229,10 +223,6 @@ int run_measure(const MeasureArguments& arguments) {
       shape);
 }
 
-const std::map<std::string, AnyFormat> formats = {
-    {"obj", SurfaceFormat::obj}, {"off", SurfaceFormat::off}, {"ply", SurfaceFormat::ply}, {"stl", SurfaceFormat::stl},
-    {"csv", CurveFormat::csv},   {"dat", CurveFormat::dat},   {"xyz", CurveFormat::xyz}};
-
 void add_shape_options(CLI::App& command, MeasureArguments& arguments) {
   command
       .add_option("shape", arguments.input,
@@ -245,7 +235,7 @@ void add_shape_options(CLI::App& command, MeasureArguments& arguments) {
                   "Measure this shape beside it, and how far they lie apart: node by node where they have as many "
                   "nodes, and from the nodes of each to the other; connectivity may differ")
       ->type_name("OTHER");
-  add_choice(command, "--format", arguments.format, formats, "Format of - (default: found from the content)");
+  add_choice(command, "--format", arguments.format, any_formats, "Format of - (default: found from the content)");
   command.add_flag("--curve", arguments.curve, "SHAPE is a curve (default: found from the file; - is a surface)");
   command.add_flag("--closed", arguments.closed,
                    "Curves: the last node of every chain joins the first (default: from the file)");

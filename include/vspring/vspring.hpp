@@ -11,6 +11,7 @@
 #include "vspring/fairing_session.hpp"
 #include "vspring/fairness.hpp"
 #include "vspring/figures.hpp"
+#include "vspring/fit.hpp"
 #include "vspring/generate.hpp"
 #include "vspring/model.hpp"
 #include "vspring/output_file.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "vspring/constraints.hpp"
+#include "constraints/holding.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
@@ -16,7 +16,8 @@ constexpr int data_for_a_circle = 3;
 
 class CurveHolding {
  public:
-  CurveHolding(const PolygonCurve& curve, const Constraints& constraints) : curve_(curve), constraints_(constraints) {}
+  CurveHolding(const PolygonCurve& curve, const Constraints& constraints, std::span<const std::uint8_t> pulled)
+      : curve_(curve), constraints_(constraints), pulled_(pulled) {}
 
   std::vector<std::string> check() {
     refuse_meetings();
@@ -35,6 +36,9 @@ class CurveHolding {
 
  private:
   [[nodiscard]] bool moves(Index node) const { return !constraints_.position_fixed(node); }
+  [[nodiscard]] bool held(Index node) const {
+    return !moves(node) || (!pulled_.empty() && pulled_[static_cast<std::size_t>(node)] != 0);
+  }
 
   void refuse_meetings() const {
     std::vector<std::uint8_t> seen(static_cast<std::size_t>(curve_.node_count()), 0);
@@ -84,13 +88,13 @@ class CurveHolding {
   }
 
   void check_loop(const PolygonCurve::Chain& chain, Index moving) {
-    int held = 0;
+    int holding = 0;
     int data = 0;
     for (const Index node : chain.nodes) {
-      held += moves(node) ? 0 : 1;
-      data += (moves(node) ? 0 : 1) + (constraints_.tangent_fixed(node) || constraints_.normal_fixed(node) ? 1 : 0);
+      holding += held(node) ? 1 : 0;
+      data += (held(node) ? 1 : 0) + (constraints_.tangent_fixed(node) || constraints_.normal_fixed(node) ? 1 : 0);
     }
-    if (held == 0)
+    if (holding == 0)
       throw Error(
           ErrorCode::unusable_constraint,
           fmt::format("nothing holds the closed curve through node {} ({} nodes). Hold some of its nodes by rules "
@@ -105,16 +109,22 @@ class CurveHolding {
 
   const PolygonCurve& curve_;
   const Constraints& constraints_;
+  std::span<const std::uint8_t> pulled_;
   std::vector<std::string> warnings_;
 };
 
 }  // namespace
 
 std::vector<std::string> check_constraints(const PolygonCurve& curve, const Constraints& constraints) {
+  return check_constraints(curve, constraints, {});
+}
+
+std::vector<std::string> check_constraints(const PolygonCurve& curve, const Constraints& constraints,
+                                           std::span<const std::uint8_t> pulled) {
   if (constraints.node_count() != curve.node_count())
     throw Error(ErrorCode::invalid_argument, fmt::format("constraints are for {} nodes, the curve has {}",
                                                          constraints.node_count(), curve.node_count()));
-  return CurveHolding(curve, constraints).check();
+  return CurveHolding(curve, constraints, pulled).check();
 }
 
 }  // namespace vspring

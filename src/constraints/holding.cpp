@@ -1,5 +1,7 @@
 // Whether a shape can be faired under its constraints, and whether they tell one result from all others.
 
+#include "constraints/holding.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
@@ -10,7 +12,6 @@
 #include "shape/fan.hpp"
 #include "shape/frame.hpp"
 #include "shape/node_graph.hpp"
-#include "vspring/constraints.hpp"
 #include "vspring/error.hpp"
 #include "vspring/topology.hpp"
 
@@ -25,9 +26,10 @@ constexpr double no_information = 1e-12;
 
 class Holding {
  public:
-  Holding(const PolygonMesh& mesh, const Constraints& constraints)
+  Holding(const PolygonMesh& mesh, const Constraints& constraints, std::span<const std::uint8_t> pulled)
       : mesh_(mesh),
         constraints_(constraints),
+        pulled_(pulled),
         incidence_(mesh),
         graph_(mesh, incidence_),
         part_(static_cast<std::size_t>(mesh.node_count()), -1) {
@@ -70,6 +72,7 @@ class Holding {
     for (Index i = 0; i < mesh_.node_count(); ++i) {
       if (!moves(i)) continue;
       ++size[static_cast<std::size_t>(find(i))];
+      if (pulled(i)) held[static_cast<std::size_t>(find(i))] = 1;
       graph_.for_each_neighbour(i, [&](Index j) {
         if (constraints_.position_fixed(j)) held[static_cast<std::size_t>(find(i))] = 1;
       });
@@ -119,6 +122,7 @@ class Holding {
     Eigen::AlignedBox<double, 3> box;
     for (Index i = 0; i < mesh_.node_count(); ++i) {
       if (constraints_.position_fixed(i) && constraints_.position(i).allFinite()) box.extend(constraints_.position(i));
+      if (moves(i) && pulled(i)) box.extend(mesh_.position(i));
     }
     const Frame frame(box);
     std::vector<Index> system_of(part_.size(), -1);
@@ -135,12 +139,20 @@ class Holding {
       }
       return static_cast<std::size_t>(number);
     };
+    const auto add = [&](std::size_t k, double square, const Vector3& linear, double constant) {
+      Eigen::Matrix<double, 5, 1> row;
+      row << square, linear, constant;
+      systems[k] += row * row.transpose();
+    };
+    const auto add_place = [&](std::size_t k, const Vector3& p) { add(k, p.dot(p), p, 1); };
     std::vector<std::size_t> met;
     for (Index j = 0; j < mesh_.node_count(); ++j) {
       met.clear();
       if (moves(j)) {
         if (boundary[static_cast<std::size_t>(j)] != 0) bounded[system(j)] = 1;
-        (void)system(j);
+        const std::size_t k = system(j);
+        // Points hold a node somewhere near its place.
+        if (pulled(j)) add_place(k, frame.to_local(mesh_.position(j)));
         continue;
       }
       graph_.for_each_neighbour(j, [&](Index i) {
@@ -149,16 +161,11 @@ class Holding {
       for (const std::size_t k : met) {
         if (boundary[static_cast<std::size_t>(j)] != 0) bounded[k] = 1;
         const Vector3 p = frame.to_local(constraints_.position(j));
-        const auto add = [&](double square, const Vector3& linear, double constant) {
-          Eigen::Matrix<double, 5, 1> row;
-          row << square, linear, constant;
-          systems[k] += row * row.transpose();
-        };
-        add(p.dot(p), p, 1);
+        add_place(k, p);
         if (!constraints_.normal_fixed(j)) continue;
         // The gradient 2a p + b is along the normal: nothing of it lies across.
         const Vector3 across = constraints_.normal(j).unitOrthogonal();
-        for (const Vector3& t : {across, Vector3(constraints_.normal(j).cross(across))}) add(2 * p.dot(t), t, 0);
+        for (const Vector3& t : {across, Vector3(constraints_.normal(j).cross(across))}) add(k, 2 * p.dot(t), t, 0);
       }
     }
     for (std::size_t k = 0; k < systems.size(); ++k) {
@@ -175,6 +182,7 @@ class Holding {
 
  private:
   [[nodiscard]] bool moves(Index i) const { return !constraints_.position_fixed(i) && !incidence_.corners(i).empty(); }
+  [[nodiscard]] bool pulled(Index i) const { return !pulled_.empty() && pulled_[static_cast<std::size_t>(i)] != 0; }
 
   void add_fault(const Defect& defect, Index node) {
     ++fault_count_;
@@ -234,6 +242,7 @@ class Holding {
 
   const PolygonMesh& mesh_;
   const Constraints& constraints_;
+  std::span<const std::uint8_t> pulled_;
   Incidence incidence_;
   NodeGraph graph_;
   std::vector<Index> part_;  // union-find over moving nodes
@@ -245,10 +254,15 @@ class Holding {
 }  // namespace
 
 std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints) {
+  return check_constraints(mesh, constraints, {});
+}
+
+std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints,
+                                           std::span<const std::uint8_t> pulled) {
   if (constraints.node_count() != mesh.node_count())
     throw Error(ErrorCode::invalid_argument, fmt::format("constraints for {} nodes given with a mesh of {}",
                                                          constraints.node_count(), mesh.node_count()));
-  Holding holding(mesh, constraints);
+  Holding holding(mesh, constraints, pulled);
   std::vector<std::string> warnings;
   holding.refuse_defects();
   holding.refuse_unheld();

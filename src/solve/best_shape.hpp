@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -10,11 +11,12 @@ namespace vspring {
 /// Keeps the shape of the smallest residual, in case it gets worse.
 class BestShape {
  public:
-  /// lost_factor: a shape is lost while its residual is more than this much larger than the best.
-  BestShape(Net& net, double lost_factor) : net_(&net), lost_factor_(lost_factor) {}
+  /// lost_factor: a shape is lost while its residual is more than this much larger than the best, or than `small` where
+  /// the best is below that.
+  BestShape(Net& net, double lost_factor, double small = 0) : net_(&net), lost_factor_(lost_factor), small_(small) {}
 
   void look(double residual) {
-    lost_for_ = residual > lost_factor_ * residual_ ? lost_for_ + 1 : 0;
+    lost_for_ = residual > lost_factor_ * std::max(residual_, small_) ? lost_for_ + 1 : 0;
     // Shapes hardly better than the one kept are not worth a copy.
     if (!(residual < 0.7 * residual_)) return;
     residual_ = residual;
@@ -35,6 +37,7 @@ class BestShape {
  private:
   Net* net_;
   double lost_factor_;
+  double small_;
   double residual_ = std::numeric_limits<double>::infinity();
   std::vector<Vector3> positions_;
   int lost_for_ = 0;

@@ -2,12 +2,10 @@
 
 #include <chrono>
 #include <utility>
-#include <vector>
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
 #include "levels/curve_levels.hpp"
-#include "shape/planarity.hpp"
 #include "solve/account.hpp"
 #include "solve/curve_hierarchy.hpp"
 #include "solve/equilibrium_method.hpp"
@@ -22,17 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-/// Whether everything lies in one plane, so that normals in the plane are all there is. Given directions count as far
-/// as nodes do: a straight start lies in the plane of its end tangents.
-bool is_planar(const Net& net) {
-  std::vector<Vector3> points = net.positions;
-  for (std::size_t i = 0; i < net.node.size(); ++i) {
-    if (net.tangent_given(i)) points.emplace_back(net.positions[i] + net.tangents[i]);
-    if (net.normal_given(i)) points.emplace_back(net.positions[i] + net.normals[i]);
-  }
-  return plane_normal(points).has_value();
-}
 
 }  // namespace
 
@@ -53,9 +40,7 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
   count_nodes(gathered.net, constraints, report);
   report.before = measure(curve, &constraints);
 
-  CurveRules rules = options.curve;
-  if (is_planar(gathered.net)) rules.normal_plane = NormalPlane::full;
-  const auto model = curve_model(rules);
+  const auto model = curve_model_for(gathered.net, options.curve);
   if (report.method == Method::sweep) {
     distribute(gathered.net, *model, options.distribution, team);
     run_sweeps(gathered.net, *model, options, team, context, progress, report);

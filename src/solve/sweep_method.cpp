@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solve/best_shape.hpp"
 #include "sweep/sweep.hpp"
@@ -14,6 +15,9 @@ namespace {
 // apart: under too few constraints nodes can go on drifting to one side of a closed surface until it collapses.
 constexpr double lost_factor = 10;
 constexpr int patience = 500;
+constexpr int iterations_per_tie = 5;
+// Where a point changes over to another node, steps as small as this may jump, and nothing is lost.
+constexpr double small_step = 1e-3;
 
 /// Steps fall about geometrically, so the logarithm of the step tells how much of the way is done.
 double share_done(double first, double now, double last) {
@@ -25,18 +29,22 @@ double share_done(double first, double now, double last) {
 
 SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& task, ThreadTeam& team, Context& context) {
   Sweep sweep(net, model, team);
-  BestShape best(net, lost_factor);
+  BestShape best(net, lost_factor, task.renew_ties ? small_step : 0);
   SweepResult result;
+  bool still = false;
   while (result.outcome == Outcome::iteration_limit && result.iterations < task.max_iterations) {
     if (context.cancelled()) {
       result.outcome = Outcome::cancelled;
       break;
     }
+    const bool fresh = !task.renew_ties || still || result.iterations % iterations_per_tie == 0;
+    if (task.renew_ties && fresh) task.renew_ties();
     result.residual = sweep.iterate();
     ++result.iterations;
     best.look(result.residual);
     if (task.on_iteration) task.on_iteration(result.residual);
-    if (result.residual < task.step_tolerance) {
+    still = result.residual < task.step_tolerance;
+    if (still && fresh) {
       result.outcome = Outcome::converged;
     } else if (best.lost_for() >= patience) {
       result.outcome = Outcome::stalled;
@@ -48,9 +56,10 @@ SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& tas
 }
 
 void run_sweeps(Net& net, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
-                ProgressReporter& progress, FairReport& report) {
+                ProgressReporter& progress, FairReport& report, std::function<void()> renew_ties) {
   SweepTask task{.step_tolerance = options.step_tolerance,
-                 .max_iterations = options.max_iterations.value_or(SweepTask().max_iterations)};
+                 .max_iterations = options.max_iterations.value_or(SweepTask().max_iterations),
+                 .renew_ties = std::move(renew_ties)};
   task.on_iteration = [&](double residual) {
     report.history.push_back(residual);
     const auto iterations = static_cast<int>(report.history.size());

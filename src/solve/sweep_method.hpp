@@ -15,6 +15,9 @@ struct SweepTask {
   int max_iterations = 10000;
   /// Called after every iteration with its largest displacement relative to the mean edge length.
   std::function<void(double)> on_iteration = nullptr;
+  /// Ties scattered points to the nodes that are nearest by now (§4.5), before every few iterations and before the
+  /// last.
+  std::function<void()> renew_ties = nullptr;
 };
 
 struct SweepResult {
@@ -33,8 +36,9 @@ inline constexpr const char* lost_warning =
     "the steps grew again, so the shape has no equilibrium that the iteration can reach: the one with the smallest "
     "steps is kept; hold more nodes, or normals, or let a smaller region move";
 
-/// The plain iteration on the shape itself. Fills outcome, iterations, residual and history.
+/// The plain iteration on the shape itself. Fills outcome, iterations, residual and history. renew_ties: as in
+/// SweepTask.
 void run_sweeps(Net& net, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
-                ProgressReporter& progress, FairReport& report);
+                ProgressReporter& progress, FairReport& report, std::function<void()> renew_ties = nullptr);
 
 }  // namespace vspring

@@ -1,5 +1,6 @@
 #include <type_traits>
 
+#include "shape/planarity.hpp"
 #include "spring/curve_force.hpp"
 #include "spring/model_of.hpp"
 #include "spring/tangent.hpp"
@@ -36,6 +37,12 @@ struct CurveRulesOf {
     return curve_force<Weight>(net, i, [&](std::size_t j) { return curve_spring(net, i, j); });
   }
 
+  /// Nothing for a node without a tangent.
+  [[nodiscard]] Vector3 sprung(const Net& net, std::size_t i, const Vector3& d) const {
+    const Vector3& tangent = net.tangents[i];
+    return tangent.squaredNorm() * d - d.dot(tangent) * tangent;
+  }
+
   /// By the lengths of the edges, which noise does not turn round as it does the edges themselves.
   void present_shares(const Net& net, std::size_t i, std::span<double> shares) const {
     const auto links = net.rings.links(i);
@@ -68,6 +75,13 @@ struct PrincipalRulesOf : CurveRulesOf<Tangent, Weight> {
       return difference * normal;
     });
   }
+
+  /// A node of a straight run, without a principal normal, may be pulled to all sides.
+  [[nodiscard]] Vector3 sprung(const Net& net, std::size_t i, const Vector3& d) const {
+    const Vector3& normal = net.normals[i];
+    if (normal.isZero(0)) return CurveRulesOf<Tangent, Weight>::sprung(net, i, d);
+    return d.dot(normal) * normal;
+  }
 };
 
 template <typename Tangent, typename Weight>
@@ -82,11 +96,27 @@ std::unique_ptr<const Model> model_with(const CurveRules& rules) {
   return model_along<Tangent, InverseCubeWeight>(rules.normal_plane);
 }
 
+/// Whether everything lies in one plane, so that normals in the plane are all there is. Given directions count as far
+/// as nodes do: a straight start lies in the plane of its end tangents.
+bool is_planar(const Net& net) {
+  std::vector<Vector3> points = net.positions;
+  for (std::size_t i = 0; i < net.node.size(); ++i) {
+    if (net.tangent_given(i)) points.emplace_back(net.positions[i] + net.tangents[i]);
+    if (net.normal_given(i)) points.emplace_back(net.positions[i] + net.normals[i]);
+  }
+  return plane_normal(points).has_value();
+}
+
 }  // namespace
 
 std::unique_ptr<const Model> curve_model(const CurveRules& rules) {
   if (rules.tangents == CurveTangents::chord) return model_with<ChordTangent>(rules);
   return model_with<CircleTangent>(rules);
+}
+
+std::unique_ptr<const Model> curve_model_for(const Net& net, CurveRules rules) {
+  if (is_planar(net)) rules.normal_plane = NormalPlane::full;
+  return curve_model(rules);
 }
 
 }  // namespace vspring

@@ -46,6 +46,8 @@ class Model {
 
 [[nodiscard]] std::unique_ptr<const Model> surface_model(PseudoNormals pseudo_normals);
 [[nodiscard]] std::unique_ptr<const Model> curve_model(const CurveRules& rules);
+/// For one curve: in a plane, normals in the plane are all there is, and both kinds of normal plane are the same.
+[[nodiscard]] std::unique_ptr<const Model> curve_model_for(const Net& net, CurveRules rules);
 
 /// Directions of all nodes of the net that have rings.
 void update_directions(Net& net, const Model& model, ThreadTeam& team);

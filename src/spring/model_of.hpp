@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "spring/model.hpp"
+#include "spring/point_force.hpp"
 
 namespace vspring {
 
@@ -11,6 +12,7 @@ namespace vspring {
 ///   static void prepare(Net&);
 ///   void update_direction(Net&, std::size_t node) const;
 ///   NodeForce force(const Net&, std::size_t node) const;
+///   Vector3 sprung(const Net&, std::size_t node, const Vector3& d) const;  the part of d along which springs act
 ///   void present_shares(const Net&, std::size_t node, std::span<double> shares) const;
 template <typename Rules>
 class ModelOf final : public Model {
@@ -35,7 +37,7 @@ class ModelOf final : public Model {
     double greatest = 0;
     for (std::size_t i = block.begin; i < block.end; ++i) {
       const NodeForce force = rules_.force(net, i);
-      const Vector3 displacement = force.spring + force.regularisation;
+      const Vector3 displacement = sprung_step(net, i, force) + force.regularisation;
       net.positions[i] += displacement;
       if (force.mean_edge > 0) greatest = std::max(greatest, displacement.norm() / force.mean_edge);
     }
@@ -47,6 +49,15 @@ class ModelOf final : public Model {
   }
 
  private:
+  /// dP_i + dPc_i, over 1 + stiffness: points pull at where the node comes to be. So any weight is stable, small ones
+  /// act as the paper's, and what the iteration ends in is the same.
+  Vector3 sprung_step(const Net& net, std::size_t i, const NodeForce& force) const {
+    if (net.points.empty()) return force.spring;
+    const PointForce points =
+        point_force(net, i, force.mean_edge, [&](const Vector3& d) { return rules_.sprung(net, i, d); });
+    return (force.spring + points.displacement) / (1 + points.stiffness);
+  }
+
   Rules rules_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "shape/frame.hpp"
 #include "spring/rings.hpp"
+#include "spring/tied_points.hpp"
 #include "vspring/constraints.hpp"
 #include "vspring/polygon_mesh.hpp"
 #include "vspring/types.hpp"
@@ -31,6 +32,7 @@ struct Net {
   std::vector<std::uint8_t> given;  ///< which directions constraints give, for every node
   Rings rings;
   std::vector<double> shares;  ///< what links count in the regularisation; empty: all the same
+  TiedPoints points;           ///< scattered points that pull at nodes; empty where there are none
   std::vector<Index> node;     ///< number in the shape of every local node
   Frame frame;
   double tiny = 0;  ///< see node_force()

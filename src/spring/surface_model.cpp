@@ -20,6 +20,10 @@ struct SurfaceRules {
     return node_force(i, net.rings.links(i), net.positions, net.normals, net.shares_of(i), net.tiny);
   }
 
+  [[nodiscard]] Vector3 sprung(const Net& net, std::size_t i, const Vector3& d) const {
+    return d.dot(net.normals[i]) * net.normals[i];
+  }
+
   /// Of all shares of sum 1 that leave the node in its place across the normal, those nearest to even ones: share_j =
   /// 1/m − (d_j − mean)·a.
   void present_shares(const Net& net, std::size_t i, std::span<double> shares) const {

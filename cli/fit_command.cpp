@@ -1,0 +1,193 @@
+#include "fit_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "any_shape.hpp"
+#include "choice.hpp"
+#include "closed_chains.hpp"
+#include "fairing.hpp"
+#include "vspring/vspring.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct FitArguments : FairingArguments {
+  std::optional<AnyFormat> format;
+  std::string points;
+  double weight = 0;
+  std::optional<double> step_tolerance;
+  bool curve = false;
+  bool closed = false;
+};
+
+Json to_json(const PointDistances& distances) {
+  return {{"greatest", distances.all.greatest},
+          {"point", distances.all.node},
+          {"rms", distances.all.rms},
+          {"median", distances.median},
+          {"percentile90", distances.percentile90},
+          {"percentile99", distances.percentile99}};
+}
+
+Json to_json(const FitReport& report, const FitArguments& arguments) {
+  return {{"points",
+           {{"file", arguments.points},
+            {"weight", arguments.weight},
+            {"count", report.points},
+            {"pulling", report.pulling_points},
+            {"nodes_with_points", report.pulled_nodes},
+            {"most_on_a_node", report.most_points},
+            {"distance", {{"before", to_json(report.before)}, {"after", to_json(report.after)}}}}}};
+}
+
+std::string lines_of(const FitReport& report) {
+  std::string text = fmt::format("{} points, of which {} pull at {} nodes\n", report.points, report.pulling_points,
+                                 report.pulled_nodes);
+  const auto line = [&](const char* name, double before, double after) {
+    text += fmt::format("{}{:.4g} → {:.4g} units\n", name, before, after);
+  };
+  line("rms distance     ", report.before.all.rms, report.after.all.rms);
+  line("99 % within      ", report.before.percentile99, report.after.percentile99);
+  line("greatest         ", report.before.all.greatest, report.after.all.greatest);
+  return text;
+}
+
+std::vector<Repeat> close(SurfaceFile& /*file*/) { return {}; }
+std::vector<Repeat> close(CurveFile& file) { return close_chains(file.curve); }
+
+std::vector<std::string> write(const FitArguments& arguments, const SurfaceFile& file,
+                               const std::vector<Vector3>& positions) {
+  return write_surface(arguments.output, file, positions, format_as<SurfaceFormat>(arguments.format));
+}
+std::vector<std::string> write(const FitArguments& arguments, const CurveFile& file,
+                               const std::vector<Vector3>& positions) {
+  return write_curve(arguments.output, file, positions, format_as<CurveFormat>(arguments.format));
+}
+
+std::string picture_of(const SurfaceFile& /*file*/, const std::vector<Vector3>& /*positions*/) { return {}; }
+std::string picture_of(const CurveFile& file, const std::vector<Vector3>& positions) {
+  return draw_curve(file, positions, {.before = &file.curve});
+}
+
+template <typename File>
+int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
+  using Shape = std::remove_cvref_t<decltype(shape_of(file))>;
+  refuse_views(arguments, std::is_same_v<File, CurveFile>);
+  const std::vector<Repeat> repeats = arguments.closed ? close(file) : std::vector<Repeat>{};
+  const Shape& shape = shape_of(file);
+  const Constraints constraints = make_constraints(arguments, shape, rule_input(file));
+  FitOptions options{.fair = arguments.options, .weight = arguments.weight};
+  if (arguments.paper) {
+    options.fair.pseudo_normals = PseudoNormals::average;
+    options.fair.curve = CurveRules::paper();
+  }
+  // The last steps of a fit are about k times their distance.
+  options.fair.step_tolerance = arguments.step_tolerance.value_or(
+      arguments.weight > 0 ? std::min(options.fair.step_tolerance, arguments.weight / 10)
+                           : options.fair.step_tolerance);
+  FitResult result = fit(shape, constraints, {.positions = read_points(arguments.points)}, options, fairing.context());
+  for (const Repeat& repeat : repeats)
+    result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
+  const auto write_shape = [&] {
+    std::vector<std::string> warnings;
+    for (const std::string& lost : write(arguments, file, result.positions))
+      warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
+    return warnings;
+  };
+  Shape after = shape;
+  after.set_positions(result.positions);
+  return fairing.finish<Shape>({shape, after, constraints, result.report.fair}, shape.positions(), file.warnings,
+                               {.shape = write_shape,
+                                .picture = [&] { return picture_of(file, result.positions); },
+                                .figures = to_json(result.report, arguments),
+                                .lines = lines_of(result.report)});
+}
+
+int run_fit(const FitArguments& arguments) {
+  refuse_shared_views(arguments, {{"--points", arguments.points}});
+  if (arguments.points == "-" && arguments.input == "-")
+    throw Error(ErrorCode::invalid_argument, "--points: standard input is the shape already");
+  Fairing fairing(arguments);
+  return std::visit([&](auto&& file) { return fit_file(arguments, std::forward<decltype(file)>(file), fairing); },
+                    read_shape(arguments.input, arguments.format, arguments.curve));
+}
+
+void add_fit_options(CLI::App& command, FitArguments& arguments) {
+  command
+      .add_option("--points", arguments.points,
+                  "The points: the nodes of a file of any of the formats, connectivity ignored")
+      ->required()
+      ->type_name("POINTS");
+  command
+      .add_option("--weight", arguments.weight,
+                  "The paper's k: how much a point counts against the springs of its node; 0.01 takes away waves of "
+                  "some 12 edges, 0.00001 of some 66, large ones interpolate")
+      ->required()
+      ->type_name("K")
+      ->check(CLI::NonNegativeNumber)
+      ->group(fairing_group);
+  command
+      .add_option("--step-tolerance", arguments.step_tolerance,
+                  "Stop when no node moves further in an iteration than this share of its mean edge length (default: "
+                  "0.001, or K/10 where that is less)")
+      ->type_name("E")
+      ->check(CLI::PositiveNumber)
+      ->group(fairing_group);
+  command
+      .add_option("--max-iterations", arguments.options.max_iterations,
+                  "Stop after this many iterations (default: 10000)")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber)
+      ->group(fairing_group);
+  command
+      .add_flag("--paper", arguments.paper,
+                "The paper's own choices throughout: plain average of normals; chord tangents, weights 1/length, along "
+                "the principal normal (default: off)")
+      ->group(fairing_group);
+  add_choice(command, "--format", arguments.format, any_formats,
+             "Format of - (default: found from the content; the input's)");
+  command.add_flag("--curve", arguments.curve, "SHAPE is a curve (default: found from the file; - is a surface)");
+  command.add_flag("--closed", arguments.closed,
+                   "Curves: the last node of every chain joins the first (default: from the file)");
+}
+
+}  // namespace
+
+void add_fit_command(CLI::App& app, std::function<int()>& run) {
+  const FairingWords words = {.shape = "shape",
+                              .input =
+                                  "a surface (.obj, .off, .ply, .stl) or a curve (.obj with l elements and no "
+                                  "faces, .csv, .dat, .xyz)",
+                              .ends = "Boundary or end nodes",
+                              .directions = "normals (curves: tangents)",
+                              .rim = "tangent planes (curves: tangents)",
+                              .rules = "positions and normals"};
+  const auto arguments = std::make_shared<FitArguments>();
+  CLI::App& command = *app.add_subcommand("fit", "Fair a surface or curve and draw it towards scattered points");
+  add_files(command, *arguments, words);
+  add_constraint_options(command, *arguments, words);
+  add_fit_options(command, *arguments);
+  add_shaping_options(command, *arguments, words);
+  add_run_options(command, *arguments);
+  add_picture_options(command, arguments->picture, true);
+  command.footer(
+      "Example: a mesh drawn onto a scan, its boundary held\n"
+      "  vspring fit mesh.obj --points scan.ply -o fitted.obj --weight 0.01 --report report.json\n\n"
+      "Exit status: 0 converged; 1 wrong use; 2 unusable input or output; 3 written, but not converged; 130 "
+      "interrupted.");
+  command.callback([arguments, &run] { run = [arguments] { return run_fit(*arguments); }; });
+}
+
+}  // namespace vspring::cli

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace vspring::cli {
+
+/// Adds `vspring fit`; see add_fair_command().
+void add_fit_command(CLI::App& app, std::function<int()>& run);
+
+}  // namespace vspring::cli

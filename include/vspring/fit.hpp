@@ -1,0 +1,90 @@
+#pragma once
+
+#include <vector>
+
+#include "vspring/distance.hpp"
+#include "vspring/fair.hpp"
+
+namespace vspring {
+
+/// Points that a shape is to come near to, in no order and without connectivity.
+struct ScatteredPoints {
+  std::vector<Vector3> positions;
+  /// What each counts: its k_j is this times FitOptions::weight. Empty: 1 for all. A point of weight 0 is only
+  /// measured.
+  std::vector<double> weights = {};
+};
+
+struct FitOptions {
+  /// Its method, where given, must be Method::sweep, and fair_boundary must be false.
+  FairOptions fair = {};
+  /// The paper's k (Eq. 9), for points of weight 1: 0 to 1e50. Small ones smooth, large ones interpolate. On an evenly
+  /// spaced curve with one point per node waves of angular frequency ω keep 1/(1 + (λω)⁴) of their height, where k =
+  /// (ℓ/λ)⁴/8 and ℓ is the length of the edges.
+  double weight = 0.01;
+
+  /// Throws Error(invalid_argument) naming the option and its range.
+  void validate() const;
+};
+
+/// How far points lie from a shape: from its polygons or edges, see distance().
+struct PointDistances {
+  Distance all;  ///< `node` is the number of the furthest point
+  /// Distances that 50, 90 and 99 of 100 points do not exceed.
+  double median = 0;
+  double percentile90 = 0;
+  double percentile99 = 0;
+};
+
+struct FitReport {
+  FairReport fair;
+  Index points = 0;
+  /// Points tied to a node that moves, at the end; the others are nearest to what stays, or have no weight.
+  Index pulling_points = 0;
+  /// Moving nodes that points are tied to, at the end, and the most points of one of them.
+  Index pulled_nodes = 0;
+  Index most_points = 0;
+  PointDistances before;
+  PointDistances after;
+};
+
+struct FitResult {
+  std::vector<Vector3> positions;  ///< one per node; fixed nodes bit for bit
+  std::vector<double> distances;   ///< of every point from the new shape, in the units of the input
+  FitReport report;
+};
+
+/// Fairs a polygonal surface or curve and draws it towards scattered points (paper §4.5, indirect constraints; Eq. 9,
+/// Fig. 5).
+///
+/// Every point pulls at the node nearest to it, along the node's normal (on curves across its tangent), with k_j times
+/// its distance; the points of one node are averaged, near feet of their perpendiculars counting more. Before every
+/// fifth iteration each point changes over to a nearer node among the first- and second-order neighbours of its own
+/// (nodes of the same faces, and of theirs). A point whose nearest node at the start is none of the shape's that move
+/// or are looked at in moving pulls at nothing. What pulls is divided by 1 + k, so that any weight is stable; the shape
+/// that the iteration ends in is the paper's.
+///
+/// Constraints hold as in fair(), where a shape comes out as it would without points if no point has weight. A closed
+/// shape may be held by points alone, though its nodes can then slide, see docs/fit.md; boundaries and ends must be
+/// held all the same. Nodes without points are fair between those that have some.
+///
+/// Like fair() by Method::sweep it ends when no node moves further in one iteration than options.fair.step_tolerance
+/// times the mean length of its edges. Small weights then still have far to go: their last steps are about k times
+/// their distance.
+///
+/// Throws as fair() does; Error(invalid_argument) for options out of range, no points, a point that is not finite or
+/// further away than 1e50 times the size of the shape, weights that are not as many as points or not from 0 to 1e50,
+/// each naming the point; Error(unusable_shape) for a shape without a face (edge). Arguments are unchanged.
+/// Cancellation ends with the shape so far and outcome `cancelled`. The result is the same, bit for bit, for every
+/// number of threads. Cost: that of fair(), n log n for the nodes, linear in the points for every iteration. Memory:
+/// under 100 bytes a point, its position and weight among them.
+[[nodiscard]] FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                            const FitOptions& options, Context& context);
+[[nodiscard]] FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                            const FitOptions& options = {});
+[[nodiscard]] FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+                            const FitOptions& options, Context& context);
+[[nodiscard]] FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+                            const FitOptions& options = {});
+
+}  // namespace vspring

@@ -1,0 +1,49 @@
+#include "fit/nearest_nodes.hpp"
+
+#include <fmt/format.h>
+
+#include "shape/box_tree.hpp"
+#include "shape/frame.hpp"
+#include "vspring/error.hpp"
+
+namespace vspring {
+
+std::vector<Index> nearest_nodes(std::span<const Vector3> points, std::span<const Vector3> nodes,
+                                 std::span<const std::uint8_t> usable, ThreadTeam& team) {
+  constexpr std::size_t points_per_task = 512;
+  Box around;
+  std::vector<Index> number;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (usable[i] == 0) continue;
+    number.push_back(static_cast<Index>(i));
+    around.extend(nodes[i]);
+  }
+  const Frame frame(around);
+  std::vector<Vector3> places;
+  std::vector<Box> boxes;
+  places.reserve(number.size());
+  boxes.reserve(number.size());
+  for (const Index i : number)
+    boxes.emplace_back(places.emplace_back(frame.to_local(nodes[static_cast<std::size_t>(i)])));
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    if (!(frame.to_local(points[j]).cwiseAbs().maxCoeff() <= furthest_point))
+      throw Error(ErrorCode::invalid_argument,
+                  fmt::format("point {} lies more than {:g} times the size of the shape away from it; leave it out, or "
+                              "look at its units",
+                              j, furthest_point));
+  }
+  const BoxTree tree(std::move(boxes), team);
+  std::vector<Index> nearest(points.size(), -1);
+  if (number.empty()) return nearest;
+  parallel_ranges(team, points.size(), points_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t j = begin; j < end; ++j) {
+      const Vector3 point = frame.to_local(points[j]);
+      const auto found =
+          tree.nearest(point, [&](Index k) { return (places[static_cast<std::size_t>(k)] - point).squaredNorm(); });
+      nearest[j] = number[static_cast<std::size_t>(found.item)];
+    }
+  });
+  return nearest;
+}
+
+}  // namespace vspring

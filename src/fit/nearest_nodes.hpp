@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/threads.hpp"
+#include "vspring/types.hpp"
+
+namespace vspring {
+
+/// How far from the nodes points may lie, in sizes of the box around the nodes: squares must not overflow.
+inline constexpr double furthest_point = 1e50;
+
+/// The node nearest to each of the points; of several the one with the smallest number; −1 where there is none.
+/// usable: one entry per node, 0 for nodes that do not count. Usable nodes must be finite. Throws
+/// Error(invalid_argument) naming a point beyond furthest_point. Cost: n log n.
+std::vector<Index> nearest_nodes(std::span<const Vector3> points, std::span<const Vector3> nodes,
+                                 std::span<const std::uint8_t> usable, ThreadTeam& team);
+
+}  // namespace vspring

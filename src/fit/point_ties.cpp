@@ -1,0 +1,131 @@
+#include "fit/point_ties.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <numeric>
+#include <utility>
+
+namespace vspring {
+
+namespace {
+
+// Around a hub of many faces everybody is everybody's neighbour of second order: a search through it would take the
+// square of their number. Points get past it by being tied to it.
+constexpr std::size_t most_passed_on = 100;
+
+/// Places for the members of groups, from their numbers: each group's begin, and at last the end.
+void add_up(std::vector<std::uint32_t>& counts) {
+  std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), std::uint32_t{0});
+}
+
+}  // namespace
+
+PointTies::PointTies(Net& net, std::span<const Vector3> points, std::span<const double> weights,
+                     std::span<const Index> nearest)
+    : net_(&net), same_(net.node.size()) {
+  constexpr std::uint32_t none = UINT32_MAX;
+  std::vector<std::uint32_t> local(
+      net.node.empty() ? 0 : static_cast<std::size_t>(*std::max_element(net.node.begin(), net.node.end())) + 1, none);
+  for (std::size_t i = 0; i < net.node.size(); ++i) {
+    std::uint32_t& first = local[static_cast<std::size_t>(net.node[i])];
+    if (first == none) first = static_cast<std::uint32_t>(i);
+    same_[i] = first;
+  }
+  join_neighbours();
+
+  const auto tied_to = [&](std::size_t j) {
+    const auto node = static_cast<std::size_t>(nearest[j]);
+    return nearest[j] < 0 || node >= local.size() || !(weights[j] > 0) ? none : local[node];
+  };
+  // Points of one node, and of nodes that are close in memory, lie together.
+  std::vector<std::uint32_t> place(net.node.size() + 1, 0);
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    if (tied_to(j) != none) ++place[tied_to(j)];
+  }
+  add_up(place);
+  TiedPoints& tied = net.points;
+  tied.positions.resize(place.back());
+  tied.weights.resize(place.back());
+  node_.resize(place.back());
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    const std::uint32_t node = tied_to(j);
+    if (node == none) continue;
+    const std::uint32_t k = place[node]++;
+    tied.positions[k] = net.frame.to_local(points[j]);
+    tied.weights[k] = weights[j];
+    node_[k] = node;
+  }
+  group();
+}
+
+void PointTies::join_neighbours() {
+  const std::size_t nodes = net_->node.size();
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  edges.reserve(2 * net_->rings.link_count());
+  for (std::size_t i = 0; i < net_->computed; ++i) {
+    for (const Link link : net_->rings.links(i)) {
+      edges.emplace_back(same_[i], same_[link.node()]);
+      edges.emplace_back(same_[link.node()], same_[i]);
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  first_neighbour_.assign(nodes + 1, 0);
+  neighbours_.reserve(edges.size());
+  for (const auto& [from, to] : edges) {
+    ++first_neighbour_[from];
+    neighbours_.push_back(to);
+  }
+  add_up(first_neighbour_);
+}
+
+void PointTies::gather_around(std::size_t node, std::vector<std::uint32_t>& around) const {
+  around.assign(1, static_cast<std::uint32_t>(node));
+  for (const std::uint32_t j : neighbours(node)) {
+    around.push_back(j);
+    const auto next = neighbours(j);
+    if (next.size() > most_passed_on) continue;
+    around.insert(around.end(), next.begin(), next.end());
+  }
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+}
+
+void PointTies::renew(ThreadTeam& team) {
+  constexpr std::size_t nodes_per_task = 256;
+  std::atomic<bool> changed = false;
+  const TiedPoints& tied = net_->points;
+  parallel_ranges(team, net_->node.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> around;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto points = tied.of(i);
+      if (points.empty()) continue;
+      gather_around(i, around);
+      for (const std::uint32_t k : points) {
+        double least = (net_->positions[i] - tied.positions[k]).squaredNorm();
+        for (const std::uint32_t j : around) {
+          const double square = (net_->positions[j] - tied.positions[k]).squaredNorm();
+          if (!(square < least)) continue;
+          least = square;
+          node_[k] = j;
+        }
+        if (node_[k] != i) changed.store(true, std::memory_order_relaxed);
+      }
+    }
+  });
+  if (changed) group();
+}
+
+void PointTies::group() {
+  TiedPoints& tied = net_->points;
+  tied.order.resize(node_.size());
+  tied.begin.assign(net_->node.size() + 1, 0);
+  for (const std::uint32_t node : node_) ++tied.begin[node];
+  add_up(tied.begin);
+  for (std::size_t k = 0; k < node_.size(); ++k) tied.order[tied.begin[node_[k]]++] = static_cast<std::uint32_t>(k);
+  // Each begin has gone on to the next one's.
+  std::rotate(tied.begin.begin(), tied.begin.end() - 1, tied.begin.end());
+  tied.begin.front() = 0;
+}
+
+}  // namespace vspring

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/threads.hpp"
+#include "spring/net.hpp"
+
+namespace vspring {
+
+/// The ties between scattered points and the nodes of a net (§4.5, Fig. 5), which go with the nodes as these move.
+class PointTies {
+ public:
+  /// Ties points to the nodes of the shape that are nearest to them, where these belong to the net, and puts them into
+  /// the net, which must outlive this. Others, and those of weight 0, are left out. weights: k_j of every point.
+  PointTies(Net& net, std::span<const Vector3> points, std::span<const double> weights, std::span<const Index> nearest);
+
+  /// Ties each point to the nearest of its node and the neighbours of first and second order. Cost: linear.
+  void renew(ThreadTeam& team);
+
+ private:
+  /// Neighbours share a face, as across an n-gon the nearest node may be many edges away; on curves an edge. Looked at
+  /// from both ends, since rings of held nodes know less.
+  void join_neighbours();
+  [[nodiscard]] std::span<const std::uint32_t> neighbours(std::size_t node) const {
+    return {neighbours_.data() + first_neighbour_[node], first_neighbour_[node + 1] - first_neighbour_[node]};
+  }
+  /// The node and its neighbours of first order, and of second order but through hubs; ascending.
+  void gather_around(std::size_t node, std::vector<std::uint32_t>& around) const;
+  /// Puts the points into the order of their nodes.
+  void group();
+
+  Net* net_;
+  std::vector<std::uint32_t> node_;  // of every point
+  // A held node at which chains of a curve meet is several of the net: the first stands for all.
+  std::vector<std::uint32_t> same_;
+  std::vector<std::uint32_t> first_neighbour_;
+  std::vector<std::uint32_t> neighbours_;
+};
+
+}  // namespace vspring

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "vspring/types.hpp"
+
+namespace vspring {
+
+/// Scattered points, each tied to one node of a net (§4.5), in the coordinates of the net.
+struct TiedPoints {
+  std::vector<Vector3> positions;
+  std::vector<double> weights;       ///< k_j of Eq. 9
+  std::vector<std::uint32_t> order;  ///< the points, node by node of the net
+  std::vector<std::uint32_t> begin;  ///< where each node's begin in that order, and at last their number
+
+  [[nodiscard]] bool empty() const noexcept { return order.empty(); }
+  [[nodiscard]] std::span<const std::uint32_t> of(std::size_t node) const noexcept {
+    return {order.data() + begin[node], begin[node + 1] - begin[node]};
+  }
+};
+
+}  // namespace vspring

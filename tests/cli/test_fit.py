@@ -1,0 +1,123 @@
+"""What `vspring fit` does."""
+import math
+import random
+
+from support import OCTAHEDRON, Case, grid, run, sphere, vertex_lines
+
+
+def xyz(points):
+    return "".join(" ".join(repr(v) for v in point) + "\n" for point in points)
+
+
+def heights(path):
+    return [float(line.split()[3]) for line in vertex_lines(path.read_text())]
+
+
+class Fit(Case):
+    def fit(self, shape, points, *options, output="out.obj", status=0):
+        result = run("fit", shape, "--points", points, "-o", self.folder / output, *options)
+        self.assertEqual(result.returncode, status, result.stderr.decode())
+        return result
+
+    def cloud(self, count=3000, height=lambda x, y: 0.2 * math.sin(math.pi * x) * math.sin(math.pi * y)):
+        generator = random.Random(4)
+        places = [(generator.random(), generator.random()) for _ in range(count)]
+        return [(x, y, height(x, y)) for x, y in places]
+
+    def test_a_flat_surface_goes_to_its_points(self):
+        shape = self.write("flat.obj", grid(12, lambda x, y: 0))
+        points = self.write("points.xyz", xyz(self.cloud()))
+        result = self.fit(shape, points, "--weight", "0.1", "--report", self.folder / "r.json")
+        after = heights(self.folder / "out.obj")
+        self.assertAlmostEqual(max(after), 0.2, delta=0.01)
+        report = self.read_json("r.json")
+        self.assertEqual((report["outcome"], report["method"], report["points"]["count"]), ("converged", "sweep", 3000))
+        distance = report["points"]["distance"]
+        self.assertAlmostEqual(distance["before"]["greatest"], 0.2, delta=0.01)
+        self.assertLess(distance["after"]["rms"], 0.01)
+        self.assertLessEqual(distance["after"]["median"], distance["after"]["percentile90"])
+        self.assertLessEqual(distance["after"]["percentile99"], distance["after"]["greatest"])
+        self.assertIn("rms distance", result.stdout.decode())
+        self.assertIn("rms_turn", report["fairness"]["after"])
+
+    def test_points_of_every_format(self):
+        shape = self.write("flat.obj", grid(6, lambda x, y: 0))
+        cloud = self.cloud(300)
+        files = {"points.xyz": xyz(cloud), "points.csv": "x,y,z\n" + "".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in cloud),
+                 "points.obj": "".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in cloud),
+                 "points.off": f"OFF\n{len(cloud)} 0 0\n" + xyz(cloud),
+                 "points.ply": f"ply\nformat ascii 1.0\nelement vertex {len(cloud)}\nproperty double x\nproperty double y\nproperty double z\n"
+                               "end_header\n" + xyz(cloud)}
+        outputs = set()
+        for name, text in files.items():
+            with self.subTest(name=name):
+                self.fit(shape, self.write(name, text), "--weight", "0.1", "--quiet")
+                outputs.add((self.folder / "out.obj").read_bytes())
+        self.assertEqual(len(outputs), 1)
+
+    def test_a_curve_smoothed_by_its_own_nodes(self):
+        generator = random.Random(2)
+        noisy = [(k / 60, 0.1 * math.sin(math.pi * k / 60) + 0.004 * generator.uniform(-1, 1) * (0 < k < 60)) for k in range(61)]
+        shape = self.write("noisy.csv", "".join(f"{x!r},{y!r}\n" for x, y in noisy))
+        self.fit(shape, shape, "--weight", "0.001", "--picture", self.folder / "a.svg", "--report", self.folder / "r.json", output="out.csv")
+        after = [tuple(map(float, line.split(","))) for line in (self.folder / "out.csv").read_text().splitlines()]
+        self.assertEqual((after[0], after[-1]), (noisy[0], noisy[-1]))
+        off = lambda points: math.sqrt(sum((y - 0.1 * math.sin(math.pi * x)) ** 2 for x, y in points) / len(points))
+        self.assertLess(off(after), 0.7 * off(noisy))
+        fairness = self.read_json("r.json")["fairness"]
+        self.assertLess(fairness["after"]["rms_turn"], fairness["before"]["rms_turn"] / 2)
+        self.assertTrue((self.folder / "a.svg").read_text().rstrip().endswith("</svg>"))
+
+    def test_a_closed_surface_that_only_points_hold(self):
+        shape = self.write("ball.obj", sphere(4, radius=0.9))
+        # Points along normals alone do not keep nodes from sliding, so steps never get small.
+        self.fit(shape, self.write("points.obj", sphere(12, radius=1.0)), "--weight", "0.1", "--step-tolerance", "0.005")
+        for line in vertex_lines((self.folder / "out.obj").read_text()):
+            self.assertAlmostEqual(math.hypot(*map(float, line.split()[1:])), 1, delta=0.02)
+
+    def test_a_closed_curve(self):
+        ring = lambda count, radius: "".join(f"{radius * math.cos(2 * math.pi * k / count)!r},{radius * math.sin(2 * math.pi * k / count)!r}\n"
+                                             for k in range(count))
+        self.fit(self.write("ring.csv", ring(30, 0.9)), self.write("points.csv", ring(100, 1)), "--weight", "0.1", "--closed", "--fix", "none",
+                 output="out.csv")
+        for line in (self.folder / "out.csv").read_text().splitlines():
+            self.assertAlmostEqual(math.hypot(*map(float, line.split(","))), 1, delta=0.01)
+
+    def test_the_same_bits_on_any_number_of_threads(self):
+        shape = self.write("flat.obj", grid(30))
+        points = self.write("points.xyz", xyz(self.cloud()))
+        outputs = set()
+        for threads in (1, 2, 5):
+            self.fit(shape, points, "--weight", "0.01", "--threads", threads)
+            outputs.add((self.folder / "out.obj").read_bytes())
+        self.assertEqual(len(outputs), 1)
+
+    def test_standard_input_and_output(self):
+        shape = self.write("flat.obj", grid(6))
+        points = self.write("points.xyz", xyz(self.cloud(100)))
+        self.fit(shape, points, "--weight", "0.1", "--quiet")
+        result = run("fit", "-", "--points", points, "-o", "-", "--weight", "0.1", "--quiet", stdin=shape.read_bytes())
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        self.assertEqual(result.stdout, (self.folder / "out.obj").read_bytes())
+
+    def test_an_end_at_the_limit_of_iterations(self):
+        self.fit(self.write("flat.obj", grid(6)), self.write("points.xyz", xyz(self.cloud(100))), "--weight", "0.1", "--max-iterations", "2", status=3)
+
+    def test_refusals(self):
+        shape = self.write("flat.obj", grid(6))
+        points = self.write("points.xyz", xyz(self.cloud(100)))
+        out = self.folder / "out.obj"
+        far = self.write("far.xyz", xyz([(0, 0, 0), (0, 0, 1e90)]))
+        ball = self.write("ball.obj", OCTAHEDRON)
+        for arguments, status, word in (([shape, "--points", points], 1, "--weight"), ([shape, "--weight", "1"], 1, "--points"),
+                                        ([shape, "--points", points, "--weight", "-1"], 1, "--weight"),
+                                        ([shape, "--points", self.folder / "none.xyz", "--weight", "1"], 2, "none.xyz"),
+                                        ([shape, "--points", far, "--weight", "1"], 1, "point 1 "),
+                                        (["-", "--points", "-", "--weight", "1"], 1, "standard input"),
+                                        ([ball, "--points", points, "--weight", "0"], 2, "nothing holds"),
+                                        ([shape, "--points", points, "--weight", "1", "--fix", "none"], 2, "boundary")):
+            with self.subTest(arguments=arguments):
+                result = run("fit", *arguments, "-o", out)
+                self.assertEqual(result.returncode, status, result.stderr)
+                self.assertIn(word, self.assert_one_line(result))
+                self.assertFalse(out.exists())

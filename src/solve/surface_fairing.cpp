@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include "solve/account.hpp"
@@ -76,31 +77,30 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   count_nodes(net, constraints, report);
   report.faces = mesh_->face_count();
   before_ = measure(*mesh_, &constraints, team_);
-  if (report.method == Method::sweep) {
-    distribute(net, *model_, options_.distribution, team_);
-    run_sweeps(net, *model_, options_, team_, context, progress, report);
-    return net;
+  std::optional<double> missed_by;
+  if (report.method != Method::sweep) {
+    hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution, team_), team_);
+    const auto method = report.method == Method::multigrid ? run_multigrid : run_equilibrium;
+    method(*hierarchy_, *model_, options_, team_, context, progress, report);
+    const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
+    if (found || options_.method || options_.max_iterations) return {};
+    // Nobody asked for this method: the paper's iteration ends on shapes that have no equilibrium, too.
+    missed_by = std::exchange(report.expected_error, std::nullopt);
+    report.levels.clear();
+    report.history.clear();
+    report.iterations = 0;
+    report.method = Method::sweep;
+    hierarchy_.reset();
+    net = gather_net(*mesh_, constraints);
   }
-  hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution, team_), team_);
-  const auto method = report.method == Method::multigrid ? run_multigrid : run_equilibrium;
-  method(*hierarchy_, *model_, options_, team_, context, progress, report);
-  const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
-  if (found || options_.method || options_.max_iterations) return {};
-  // Nobody asked for this method: the paper's iteration ends on shapes that have no equilibrium, too.
-  hierarchy_.reset();
-  const double expected_error = report.expected_error.value_or(0);
-  report.expected_error.reset();
-  report.levels.clear();
-  report.history.clear();
-  report.iterations = 0;
-  report.method = Method::sweep;
-  net = gather_net(*mesh_, constraints);
   distribute(net, *model_, options_.distribution, team_);
   run_sweeps(net, *model_, options_, team_, context, progress, report);
-  report.warnings.push_back(fmt::format(
-      "no equilibrium was found (the nearest shape is expected to be {:.2g} % of the size away from one): this is the "
-      "plain iteration's shape; hold more nodes, or normals, or let a smaller region move",
-      100 * expected_error));
+  if (missed_by)
+    report.warnings.push_back(
+        fmt::format("no equilibrium was found (the nearest shape is expected to be {:.2g} % of the size away from "
+                    "one): this is the plain iteration's shape; hold more nodes, or normals, or let a smaller region "
+                    "move",
+                    100 * *missed_by));
   return net;
 }
 

@@ -116,14 +116,6 @@ void SurfaceHierarchy::follow(const Constraints& constraints) {
     const Vector3& normal = constraints.normal(net.node[i]);
     net.normals[i] = normal.dot(net.normals[i]) < 0 ? Vector3(-normal) : normal;
   }
-  for (std::size_t level = levels_.size() - 1; level-- > 0;) {
-    const Net& fine = levels_[level + 1].net;
-    SurfaceLevel& coarse = levels_[level];
-    for (std::size_t k = 0; k < coarse.finer.size(); ++k) {
-      if (k >= coarse.net.moving) coarse.net.positions[k] = fine.positions[coarse.finer[k]];
-      if (coarse.net.normal_given(k)) coarse.net.normals[k] = fine.normals[coarse.finer[k]];
-    }
-  }
 }
 
 void SurfaceHierarchy::spread_along(std::size_t level) {

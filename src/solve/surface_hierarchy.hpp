@@ -34,8 +34,8 @@ class SurfaceHierarchy final : public Hierarchy {
   /// The last one for the shape itself, or one made anew where there is none.
   Preconditioner& kept_preconditioner();
 
-  /// Held nodes of the shape itself go to their new places, and have their new normals, on all levels; moving nodes of
-  /// the shape follow as they would if slopes were small.
+  /// Held nodes of the shape itself go to their new places, and have their new normals; its moving nodes follow as they
+  /// would if slopes were small. Coarser levels stay as they are.
   void follow(const Constraints& constraints);
 
   Net take() && { return std::move(levels_.back().net); }

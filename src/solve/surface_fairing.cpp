@@ -11,6 +11,7 @@
 #include "solve/fair_boundary.hpp"
 #include "solve/multigrid_method.hpp"
 #include "solve/sweep_method.hpp"
+#include "vspring/error.hpp"
 
 namespace vspring {
 
@@ -19,6 +20,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+std::vector<Vector3> vectors_of(const std::vector<Vector3>& vectors, const std::vector<Index>& nodes) {
+  std::vector<Vector3> part;
+  part.reserve(nodes.size());
+  for (const Index node : nodes) part.push_back(vectors[static_cast<std::size_t>(node)]);
+  return part;
+}
 
 bool hold_the_same(const Constraints& a, const Constraints& b) {
   if (a.node_count() != b.node_count()) return false;
@@ -33,7 +41,7 @@ bool hold_the_same(const Constraints& a, const Constraints& b) {
 }  // namespace
 
 SurfaceFairing::SurfaceFairing(const PolygonMesh& mesh, const FairOptions& options, int threads)
-    : mesh_(&mesh), options_(options), team_(threads), model_(surface_model(options.pseudo_normals)) {}
+    : whole_(&mesh), options_(options), team_(threads), model_(surface_model(options.pseudo_normals)) {}
 
 FairResult SurfaceFairing::fair_once(const Constraints& constraints, Context& context) {
   const auto begin = Clock::now();
@@ -67,16 +75,27 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
   return result;
 }
 
+std::vector<std::string> SurfaceFairing::check(const Constraints& constraints) const {
+  if (part_) {
+    try {
+      std::vector<std::string> warnings = check_constraints(part_->mesh, part_->constraints);
+      if (warnings.empty()) return warnings;
+    } catch (const Error&) {
+      return check_constraints(*whole_, constraints);
+    }
+  }
+  return check_constraints(*whole_, constraints);
+}
+
 Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report) {
-  report.warnings = check_constraints(*mesh_, constraints);
+  part_ = moving_part(*whole_, constraints);
+  report.warnings = check(constraints);
   report.method = options_.method.value_or(Method::equilibrium);
   ProgressReporter progress(context);
   progress.report("preparing", 0);
   report.threads = team_.size();
-  Net net = gather_net(*mesh_, constraints);
-  count_nodes(net, constraints, report);
-  report.faces = mesh_->face_count();
-  before_ = measure(*mesh_, &constraints, team_);
+  Net net = gather(constraints);
+  before_ = measure(mesh(), &held(constraints), team_);
   std::optional<double> missed_by;
   if (report.method != Method::sweep) {
     hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution, team_), team_);
@@ -91,7 +110,7 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
     report.iterations = 0;
     report.method = Method::sweep;
     hierarchy_.reset();
-    net = gather_net(*mesh_, constraints);
+    net = gather(constraints);
   }
   distribute(net, *model_, options_.distribution, team_);
   run_sweeps(net, *model_, options_, team_, context, progress, report);
@@ -104,17 +123,23 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   return net;
 }
 
+Net SurfaceFairing::gather(const Constraints& constraints) const {
+  if (!part_) return gather_net(*whole_, constraints);
+  Net net = gather_net(part_->mesh, part_->constraints);
+  for (Index& node : net.node) node = part_->node[static_cast<std::size_t>(node)];
+  return net;
+}
+
 bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, FairReport& report) {
   const Net& net = hierarchy_->net(hierarchy_->count() - 1);
   for (const Index node : net.node) {
     // What is wrong there is said where all is looked at.
     if (constraints.position_fixed(node) && !constraints.position(node).allFinite()) return false;
   }
+  if (part_) part_->constraints = constraints_of(constraints, part_->node);
   report.method = Method::equilibrium;
   ProgressReporter progress(context);
   report.threads = team_.size();
-  count_nodes(net, constraints, report);
-  report.faces = mesh_->face_count();
   hierarchy_->follow(constraints);
   run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, options_, team_, context, progress,
                             report);
@@ -123,12 +148,14 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, Fai
 
 void SurfaceFairing::finish(const Net& net, const Constraints& constraints, FairResult& result) {
   FairReport& report = result.report;
-  result.positions = scatter_positions(net, mesh_->positions(), constraints, options_.strength);
-  measure_moves(net, mesh_->positions(), result.positions, report);
-  PolygonMesh faired = *mesh_;
-  faired.set_positions(result.positions);
+  count_nodes(net, constraints, report);
+  report.faces = whole_->face_count();
+  result.positions = scatter_positions(net, whole_->positions(), constraints, options_.strength);
+  measure_moves(net, whole_->positions(), result.positions, report);
+  PolygonMesh faired = mesh();
+  faired.set_positions(part_ ? vectors_of(result.positions, part_->node) : result.positions);
   report.before = before_;
-  report.after = measure(faired, &constraints, team_);
+  report.after = measure(faired, &held(constraints), team_);
 }
 
 }  // namespace vspring

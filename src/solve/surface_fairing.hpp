@@ -2,9 +2,12 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
+#include "constraints/moving_part.hpp"
 #include "fairness/measure.hpp"
 #include "solve/surface_hierarchy.hpp"
 #include "spring/model.hpp"
@@ -12,7 +15,7 @@
 
 namespace vspring {
 
-/// Fairs one mesh, once or again and again.
+/// Fairs one mesh, once or again and again. Where only a small part of it moves it works on that part.
 class SurfaceFairing {
  public:
   /// The mesh must outlive it.
@@ -31,8 +34,18 @@ class SurfaceFairing {
   /// From the last shape. False where that leads nowhere.
   bool go_on(const Constraints& constraints, Context& context, FairReport& report);
   void finish(const Net& net, const Constraints& constraints, FairResult& result);
+  /// What is worked on: the part that moves, or the whole.
+  [[nodiscard]] const PolygonMesh& mesh() const { return part_ ? part_->mesh : *whole_; }
+  [[nodiscard]] const Constraints& held(const Constraints& constraints) const {
+    return part_ ? part_->constraints : constraints;
+  }
+  /// With the numbers of the whole mesh.
+  [[nodiscard]] Net gather(const Constraints& constraints) const;
+  /// Refuses what cannot be faired, and returns warnings, with the numbers of the whole mesh.
+  [[nodiscard]] std::vector<std::string> check(const Constraints& constraints) const;
 
-  const PolygonMesh* mesh_;
+  const PolygonMesh* whole_;
+  std::optional<MovingPart> part_;
   FairOptions options_;
   ThreadTeam team_;
   std::unique_ptr<const Model> model_;

@@ -20,9 +20,9 @@ constexpr int further_power_steps = 2;
 // The power iteration stays below the greatest eigenvalue.
 constexpr double power_margin = 1.15;
 
-/// What a node has of one column, or of three with one to spare.
+/// What a node has of one column, or of three.
 using One = float;
-using Three = Eigen::Array4f;
+using Three = Eigen::Array3f;
 
 template <typename Value>
 Value zero() {
@@ -41,7 +41,7 @@ void for_rows(ThreadTeam& team, std::size_t rows, const Body& body) {
 
 /// What is summed up in double precision.
 template <typename Value>
-using Sum = std::conditional_t<std::is_same_v<Value, One>, double, Eigen::Array4d>;
+using Sum = std::conditional_t<std::is_same_v<Value, One>, double, Eigen::Array3d>;
 
 template <typename Value>
 Sum<Value> wide(const Value& value) {
@@ -157,8 +157,6 @@ std::size_t size_of(const LevelMatrix& matrix) {
 
 MultigridSolver::MultigridSolver(std::span<const Interpolation> interpolations, ThreadTeam& team)
     : interpolations_(interpolations), team_(&team), coarsest_(team) {}
-
-MultigridSolver::~MultigridSolver() = default;
 
 void MultigridSolver::build(LevelMatrix finest) {
   levels_.clear();
@@ -327,13 +325,13 @@ void widen(const Three& value, Vector3& result) { result = value.head<3>().matri
 }  // namespace
 
 void MultigridSolver::solve(std::span<double> values, const Accuracy& accuracy) {
-  if (!cycle_of_one_) cycle_of_one_ = std::make_unique<Cycle<One>>(*this);
-  solve_any(*cycle_of_one_, values, accuracy);
+  Cycle<One> cycle(*this);
+  solve_any(cycle, values, accuracy);
 }
 
 void MultigridSolver::solve(std::span<Vector3> values, const Accuracy& accuracy) {
-  if (!cycle_of_three_) cycle_of_three_ = std::make_unique<Cycle<Three>>(*this);
-  solve_any(*cycle_of_three_, values, accuracy);
+  Cycle<Three> cycle(*this);
+  solve_any(cycle, values, accuracy);
 }
 
 template <typename Value, typename Values>

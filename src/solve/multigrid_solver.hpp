@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,9 +18,6 @@ class MultigridSolver final : public LinearSolver {
  public:
   /// interpolations: the finest first; they must outlive the solver.
   MultigridSolver(std::span<const Interpolation> interpolations, ThreadTeam& team);
-  ~MultigridSolver() override;
-  MultigridSolver(const MultigridSolver&) = delete;
-  MultigridSolver& operator=(const MultigridSolver&) = delete;
 
   /// From the matrix of the finest level; coarser ones get Galerkin's. On nets as irregular as coarse ones are, forms
   /// of their own would differ too much from that of the finest.
@@ -40,6 +35,7 @@ class MultigridSolver final : public LinearSolver {
     double greatest = 0;            ///< eigenvalue of the matrix scaled by its diagonal
     std::vector<float> rough = {};  ///< nearly the vector that belongs to it
   };
+  /// What a solve works with, for as long as it lasts: two solvers never work at the same time.
   template <typename Value>
   class Cycle;
   void add_level(LevelMatrix matrix);
@@ -51,9 +47,6 @@ class MultigridSolver final : public LinearSolver {
   ThreadTeam* team_;
   std::vector<Level> levels_;
   CholeskySolver coarsest_;
-  // Made when they are first used: a solver mostly solves for one kind of values.
-  std::unique_ptr<Cycle<float>> cycle_of_one_;
-  std::unique_ptr<Cycle<Eigen::Array4f>> cycle_of_three_;
 };
 
 }  // namespace vspring

@@ -35,11 +35,11 @@ Eigen::AlignedBox<double, 3> box_around(const PolygonMesh& mesh, const std::vect
   return box;
 }
 
-std::vector<Vector3> placed(const PolygonMesh& mesh, const Frame& frame) {
-  std::vector<Vector3> positions;
-  positions.reserve(mesh.positions().size());
-  for (const Vector3& position : mesh.positions()) positions.push_back(frame.to_local(position));
-  return positions;
+std::vector<Vector3> placed(std::span<const Vector3> positions, const Frame& frame) {
+  std::vector<Vector3> result;
+  result.reserve(positions.size());
+  for (const Vector3& position : positions) result.push_back(frame.to_local(position));
+  return result;
 }
 
 }  // namespace vspring

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "shape/frame.hpp"
@@ -19,6 +20,6 @@ std::vector<std::uint8_t> counted_nodes(const PolygonMesh& mesh, const std::vect
 Eigen::AlignedBox<double, 3> box_around(const PolygonMesh& mesh, const std::vector<std::uint8_t>& faces);
 
 /// All positions in a frame.
-std::vector<Vector3> placed(const PolygonMesh& mesh, const Frame& frame);
+std::vector<Vector3> placed(std::span<const Vector3> positions, const Frame& frame);
 
 }  // namespace vspring

@@ -175,7 +175,8 @@ std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Incidence& 
 std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Context& context) {
   const Frame frame(box_around(mesh, counted_faces(mesh, nullptr)));
   ThreadTeam team(context.thread_count());
-  std::vector<NodeCurvature> result = curvatures(mesh, Incidence(mesh), placed(mesh, frame), {}, context, team);
+  std::vector<NodeCurvature> result =
+      curvatures(mesh, Incidence(mesh), placed(mesh.positions(), frame), {}, context, team);
   for (NodeCurvature& at : result) {
     for (double* k : {&at.k1, &at.k2}) *k *= frame.scale();
     for (double* rate : {&at.k1_along_1, &at.k1_along_2, &at.k2_along_1, &at.k2_along_2})

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/threads.hpp"
+#include "fairness/counted.hpp"
 #include "shape/box_tree.hpp"
 #include "shape/frame.hpp"
 #include "shape/triangles.hpp"
@@ -92,13 +93,6 @@ Box box_around(std::span<const Vector3> first, std::span<const Vector3> second) 
     }
   }
   return box;
-}
-
-std::vector<Vector3> placed(std::span<const Vector3> positions, const Frame& frame) {
-  std::vector<Vector3> local;
-  local.reserve(positions.size());
-  for (const Vector3& position : positions) local.push_back(frame.to_local(position));
-  return local;
 }
 
 /// Squares of distances in a frame; negative where there is none.

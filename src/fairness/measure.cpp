@@ -18,151 +18,149 @@ namespace {
 // Sums are taken task by task and then over the tasks in order, so that they do not depend on the number of threads.
 constexpr std::size_t nodes_per_task = 2048;
 constexpr std::size_t faces_per_task = 4096;
+constexpr std::size_t edges_per_task = 8192;
 
-struct Sums {
-  double energy = 0;
-  double squared_turns = 0;
-  double greatest_turn = 0;
-  double turns = 0;
+struct Turns {
+  double squares = 0;
+  double greatest = 0;
+  double count = 0;
 
-  void add(const Sums& other) {
-    energy += other.energy;
-    squared_turns += other.squared_turns;
-    greatest_turn = std::max(greatest_turn, other.greatest_turn);
-    turns += other.turns;
+  void add(const Turns& other) {
+    squares += other.squares;
+    greatest = std::max(greatest, other.greatest);
+    count += other.count;
   }
 };
 
-class Measurement {
- public:
-  Measurement(const PolygonMesh& mesh, const Constraints* constraints, ThreadTeam& team)
-      : mesh_(mesh),
-        constraints_(constraints),
-        team_(team),
-        incidence_(mesh),
-        counted_(counted_faces(mesh, constraints)),
-        positions_(placed(mesh, Frame(box_around(mesh, counted_)))) {
-    compute_normals();
-  }
+std::size_t tasks(std::size_t size, std::size_t per_task) { return (size + per_task - 1) / per_task; }
 
-  Fairness sum() {
-    const auto nodes = static_cast<std::size_t>(mesh_.node_count());
-    std::vector<Sums> sums((nodes + nodes_per_task - 1) / nodes_per_task);
-    parallel_ranges(team_, nodes, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-      FanWalker walker(mesh_, incidence_);
-      Sums& part = sums[begin / nodes_per_task];
-      for (std::size_t i = begin; i < end; ++i) {
-        add_edges(static_cast<Index>(i), walker, part);
-        add_turns(static_cast<Index>(i), part);
-      }
-    });
-    Sums all;
-    for (const Sums& part : sums) all.add(part);
-    constexpr double degrees = 180 / std::numbers::pi;
-    Fairness fairness;
-    fairness.vspring_energy = all.energy;
-    fairness.greatest_turn = degrees * all.greatest_turn;
-    fairness.mean_turn = all.turns > 0 ? degrees * std::sqrt(all.squared_turns / all.turns) : 0;
-    return fairness;
-  }
+/// The other end of the edge that leaves a corner forward or backward.
+Index end_of(const PolygonMesh& mesh, Corner corner, bool forward) {
+  const auto face = mesh.face(corner.face);
+  const auto place = static_cast<std::size_t>(corner.place);
+  return forward ? face[(place + 1) % face.size()] : face[(place + face.size() - 1) % face.size()];
+}
 
- private:
-  [[nodiscard]] const Vector3& position(Index node) const { return positions_[static_cast<std::size_t>(node)]; }
-
-  void compute_normals() {
-    node_normals_.assign(static_cast<std::size_t>(mesh_.node_count()), Vector3::Zero());
-    parallel_ranges(team_, node_normals_.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
-      FanWalker walker(mesh_, incidence_);
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto node = static_cast<Index>(i);
-        if (!touches_counted(node)) continue;
-        node_normals_[i] = constraints_ != nullptr && constraints_->normal_fixed(node)
-                               ? constraints_->normal(node)
-                               : LinkNormal()(position(node), walker.walk(node).links, positions_);
-      }
-    });
-    face_normals_.assign(static_cast<std::size_t>(mesh_.face_count()), Vector3::Zero());
-    parallel_ranges(team_, face_normals_.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t f = begin; f < end; ++f) {
-        if (counted_[f] != 0) face_normals_[f] = unit_normal(mesh_.face(static_cast<Index>(f)), positions_);
-      }
-    });
-  }
-
-  [[nodiscard]] bool touches_counted(Index node) const {
-    const auto corners = incidence_.corners(node);
-    return std::any_of(corners.begin(), corners.end(),
-                       [&](Corner corner) { return counted_[static_cast<std::size_t>(corner.face)] != 0; });
-  }
-
-  void add_edges(Index i, FanWalker& walker, Sums& sums) const {
-    if (!touches_counted(i)) return;
-    for (const Link link : walker.walk(i).links) {
-      const auto j = static_cast<Index>(link.node());
-      if (!link.spoke() || j < i) continue;
-      if (constraints_ != nullptr && constraints_->position_fixed(i) && constraints_->position_fixed(j)) continue;
-      const Vector3 d = position(j) - position(i);
-      const double length = d.norm();
-      if (!(length > 0) || !std::isfinite(length)) continue;
-      const double difference = spring_difference(d / length, node_normals_[static_cast<std::size_t>(i)],
-                                                  node_normals_[static_cast<std::size_t>(j)]);
-      sums.energy += difference * difference;
-    }
-  }
-
-  // Turns across the edges from node i to nodes of a larger number.
-  void add_turns(Index i, Sums& sums) const {
-    const auto corners = incidence_.corners(i);
-    for (std::size_t a = 0; a < corners.size(); ++a) {
-      for (const bool forward_a : {true, false}) {
-        const Index j = end_of(corners[a], forward_a);
-        if (j < i) continue;
-        std::size_t others = 0;
-        std::size_t other = 0;
-        bool same_sense = false;
-        for (std::size_t b = 0; b < corners.size(); ++b) {
-          for (const bool forward_b : {true, false}) {
-            if ((b == a && forward_a == forward_b) || end_of(corners[b], forward_b) != j) continue;
-            ++others;
-            other = b;
-            same_sense = forward_a == forward_b;
-          }
+/// Calls use(face a, face b, same sense) for every edge of two faces from node i to a node of a larger number.
+template <typename Use>
+void for_neighbouring_faces(const PolygonMesh& mesh, Index i, std::span<const Corner> corners, const Use& use) {
+  for (std::size_t a = 0; a < corners.size(); ++a) {
+    for (const bool forward_a : {true, false}) {
+      const Index j = end_of(mesh, corners[a], forward_a);
+      if (j < i) continue;
+      std::size_t others = 0;
+      std::size_t other = 0;
+      bool same_sense = false;
+      for (std::size_t b = 0; b < corners.size(); ++b) {
+        for (const bool forward_b : {true, false}) {
+          if ((b == a && forward_a == forward_b) || end_of(mesh, corners[b], forward_b) != j) continue;
+          ++others;
+          other = b;
+          same_sense = forward_a == forward_b;
         }
-        if (others == 1 && other > a) add_turn(corners[a].face, corners[other].face, same_sense, sums);
       }
+      if (others == 1 && other > a) use(corners[a].face, corners[other].face, same_sense);
     }
   }
-
-  [[nodiscard]] Index end_of(Corner corner, bool forward) const {
-    const auto face = mesh_.face(corner.face);
-    const auto place = static_cast<std::size_t>(corner.place);
-    return forward ? face[(place + 1) % face.size()] : face[(place + face.size() - 1) % face.size()];
-  }
-
-  void add_turn(Index a, Index b, bool same_sense, Sums& sums) const {
-    const Vector3& normal_a = face_normals_[static_cast<std::size_t>(a)];
-    const Vector3 normal_b = (same_sense ? -1.0 : 1.0) * face_normals_[static_cast<std::size_t>(b)];
-    if (normal_a.isZero(0) || normal_b.isZero(0)) return;
-    const double turn = std::atan2(normal_a.cross(normal_b).norm(), normal_a.dot(normal_b));
-    sums.greatest_turn = std::max(sums.greatest_turn, turn);
-    sums.squared_turns += turn * turn;
-    sums.turns += 1;
-  }
-
-  const PolygonMesh& mesh_;
-  const Constraints* constraints_;
-  ThreadTeam& team_;
-  Incidence incidence_;
-  std::vector<std::uint8_t> counted_;
-  std::vector<Vector3> positions_;
-  std::vector<Vector3> node_normals_;
-  std::vector<Vector3> face_normals_;
-};
+}
 
 }  // namespace
 
+FairnessMeter::FairnessMeter(const PolygonMesh& mesh, const Constraints* constraints, ThreadTeam& team)
+    : mesh_(&mesh), team_(&team), counted_(counted_faces(mesh, constraints)) {
+  const std::vector<std::uint8_t> nodes = counted_nodes(mesh, counted_);
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (nodes[static_cast<std::size_t>(i)] != 0) node_.push_back(i);
+  }
+  const Incidence incidence(mesh);
+  struct Run {
+    Rings rings;
+    std::vector<Neighbours> neighbours;
+  };
+  std::vector<Run> runs(tasks(node_.size(), nodes_per_task));
+  parallel_ranges(team, node_.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    FanWalker walker(mesh, incidence);
+    Run& run = runs[begin / nodes_per_task];
+    for (std::size_t k = begin; k < end; ++k) {
+      run.rings.add(walker.walk(node_[k]).links);
+      for_neighbouring_faces(mesh, node_[k], incidence.corners(node_[k]), [&](Index a, Index b, bool same_sense) {
+        if (counted_[static_cast<std::size_t>(a)] != 0 && counted_[static_cast<std::size_t>(b)] != 0)
+          run.neighbours.push_back({a, b, same_sense});
+      });
+    }
+  });
+  rings_.reserve(node_.size(), 7 * node_.size());
+  for (Run& run : runs) {
+    for (std::size_t k = 0; k < run.rings.size(); ++k) rings_.add(run.rings.links(k));
+    neighbours_.insert(neighbours_.end(), run.neighbours.begin(), run.neighbours.end());
+    run = {};
+  }
+}
+
+Fairness FairnessMeter::measure(const std::vector<Vector3>& positions, const Constraints* constraints) const {
+  Eigen::AlignedBox<double, 3> box;
+  for (const Index i : node_) box.extend(positions[static_cast<std::size_t>(i)]);
+  const std::vector<Vector3> places = placed(positions, Frame(box));
+  const auto place = [&](Index i) -> const Vector3& { return places[static_cast<std::size_t>(i)]; };
+
+  std::vector<Vector3> node_normals(places.size(), Vector3::Zero());
+  parallel_ranges(*team_, node_.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const Index i = node_[k];
+      node_normals[static_cast<std::size_t>(i)] = constraints != nullptr && constraints->normal_fixed(i)
+                                                      ? constraints->normal(i)
+                                                      : LinkNormal()(place(i), rings_.links(k), places);
+    }
+  });
+  std::vector<Vector3> face_normals(counted_.size(), Vector3::Zero());
+  parallel_ranges(*team_, counted_.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f) {
+      if (counted_[f] != 0) face_normals[f] = unit_normal(mesh_->face(static_cast<Index>(f)), places);
+    }
+  });
+
+  std::vector<double> energies(tasks(node_.size(), nodes_per_task), 0);
+  parallel_ranges(*team_, node_.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    double& energy = energies[begin / nodes_per_task];
+    for (std::size_t k = begin; k < end; ++k) {
+      const Index i = node_[k];
+      const bool held = constraints != nullptr && constraints->position_fixed(i);
+      for (const Link link : rings_.links(k)) {
+        const auto j = static_cast<Index>(link.node());
+        if (!link.spoke() || j < i || (held && constraints->position_fixed(j))) continue;
+        const Vector3 d = place(j) - place(i);
+        const double length = d.norm();
+        if (!(length > 0) || !std::isfinite(length)) continue;
+        const double difference = spring_difference(d / length, node_normals[static_cast<std::size_t>(i)],
+                                                    node_normals[static_cast<std::size_t>(j)]);
+        energy += difference * difference;
+      }
+    }
+  });
+  std::vector<Turns> parts(tasks(neighbours_.size(), edges_per_task));
+  parallel_ranges(*team_, neighbours_.size(), edges_per_task, [&](std::size_t begin, std::size_t end) {
+    Turns& part = parts[begin / edges_per_task];
+    for (std::size_t k = begin; k < end; ++k) {
+      const Vector3& a = face_normals[static_cast<std::size_t>(neighbours_[k].a)];
+      const Vector3& b = face_normals[static_cast<std::size_t>(neighbours_[k].b)];
+      if (a.isZero(0) || b.isZero(0)) continue;
+      const double turn = std::atan2(a.cross(b).norm(), neighbours_[k].same_sense ? -a.dot(b) : a.dot(b));
+      part.add({.squares = turn * turn, .greatest = turn, .count = 1});
+    }
+  });
+
+  Fairness fairness;
+  for (const double energy : energies) fairness.vspring_energy += energy;
+  Turns turns;
+  for (const Turns& part : parts) turns.add(part);
+  constexpr double degrees = 180 / std::numbers::pi;
+  fairness.greatest_turn = degrees * turns.greatest;
+  fairness.mean_turn = turns.count > 0 ? degrees * std::sqrt(turns.squares / turns.count) : 0;
+  return fairness;
+}
+
 Fairness measure(const PolygonMesh& mesh, const Constraints* constraints, ThreadTeam& team) {
-  return Measurement(mesh, constraints, team).sum();
+  return FairnessMeter(mesh, constraints, team).measure(mesh.positions(), constraints);
 }
 
 Fairness measure(const PolygonMesh& mesh, const Constraints* constraints) {

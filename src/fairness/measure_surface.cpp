@@ -122,7 +122,7 @@ class SurfaceMeasurement {
         nodes_(counted_nodes(mesh, faces_)),
         box_(box_around(mesh, faces_)),
         frame_(box_),
-        positions_(placed(mesh, frame_)) {}
+        positions_(placed(mesh.positions(), frame_)) {}
 
   SurfaceFigures measure() {
     static_cast<Fairness&>(figures_) = vspring::measure(mesh_, constraints_, team_);

@@ -89,6 +89,7 @@ std::vector<std::string> SurfaceFairing::check(const Constraints& constraints) c
 
 Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report) {
   part_ = moving_part(*whole_, constraints);
+  meter_.reset();
   report.warnings = check(constraints);
   report.method = options_.method.value_or(Method::equilibrium);
   ProgressReporter progress(context);
@@ -152,10 +153,10 @@ void SurfaceFairing::finish(const Net& net, const Constraints& constraints, Fair
   report.faces = whole_->face_count();
   result.positions = scatter_positions(net, whole_->positions(), constraints, options_.strength);
   measure_moves(net, whole_->positions(), result.positions, report);
-  PolygonMesh faired = mesh();
-  faired.set_positions(part_ ? vectors_of(result.positions, part_->node) : result.positions);
   report.before = before_;
-  report.after = measure(faired, &held(constraints), team_);
+  if (!meter_) meter_.emplace(mesh(), &held(constraints), team_);
+  report.after = part_ ? meter_->measure(vectors_of(result.positions, part_->node), &part_->constraints)
+                       : meter_->measure(result.positions, &constraints);
 }
 
 }  // namespace vspring

@@ -50,6 +50,8 @@ class SurfaceFairing {
   ThreadTeam team_;
   std::unique_ptr<const Model> model_;
   Fairness before_;
+  // Of what is worked on, from the first result on: while levels are made it would be in the way.
+  std::optional<FairnessMeter> meter_;
   std::optional<SurfaceHierarchy> hierarchy_;
   // Of the last shape, where that is an equilibrium to go on from.
   std::optional<Constraints> last_;

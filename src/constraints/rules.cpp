@@ -91,7 +91,9 @@ class RuleReader {
       require_keys(rule, {"nodes", "position", "normal"});
     }
     if (!rule.contains("nodes")) throw fault("it names no \"nodes\"");
-    if (rule.size() < 2) throw fault("it has neither \"position\" nor \"normal\"");
+    if (rule.size() < 2)
+      throw fault(curve() ? "it has none of \"position\", \"normal\" and \"tangent\""
+                          : "it has neither \"position\" nor \"normal\"");
     const std::vector<Index> nodes = select(rule["nodes"]);
     if (rule.contains("position")) apply_positions(nodes, rule["position"]);
     if (rule.contains("normal")) apply_normals(nodes, rule["normal"]);
@@ -164,9 +166,11 @@ class RuleReader {
     const bool size_fits = value.size() == 3 || (curve() && value.size() == 2);
     if (!value.is_array() || !size_fits ||
         !std::all_of(value.begin(), value.end(), [](const json& x) { return x.is_number(); }))
-      throw fault(fmt::format("{} is no {}; write {}three numbers", value.dump(), what, curve() ? "two or " : ""));
+      throw fault(fmt::format("{} is no {}; write {}", value.dump(), what, numbers()));
     return {value[0].get<double>(), value[1].get<double>(), value.size() == 3 ? value[2].get<double>() : 0};
   }
+
+  [[nodiscard]] const char* numbers() const { return curve() ? "two or three numbers" : "three numbers"; }
 
   /// One vector for all nodes, or a list of them, one per node.
   [[nodiscard]] std::vector<Vector3> vectors(const json& value, std::size_t count, const char* what) const {
@@ -184,7 +188,7 @@ class RuleReader {
     } else if (value == "fixed") {
       for (const Index i : nodes) constraints_.fix_position(i, positions_[static_cast<std::size_t>(i)]);
     } else if (value.is_string()) {
-      throw fault(fmt::format("{} is no position; write \"fixed\", \"free\" or three numbers", value.dump()));
+      throw fault(fmt::format("{} is no position; write \"fixed\", \"free\" or {}", value.dump(), numbers()));
     } else {
       const auto positions = vectors(value, nodes.size(), "position");
       for (std::size_t k = 0; k < nodes.size(); ++k) constraints_.fix_position(nodes[k], positions[k]);
@@ -203,7 +207,7 @@ class RuleReader {
       for (const Index i : nodes) normals.push_back((*input_.normals)[static_cast<std::size_t>(i)]);
       fix_normals(nodes, normals, "the file gives it no normal");
     } else if (value.is_string()) {
-      throw fault(fmt::format("{} is no normal; write \"fixed\", \"file\", \"free\" or three numbers", value.dump()));
+      throw fault(fmt::format("{} is no normal; write \"fixed\", \"file\", \"free\" or {}", value.dump(), numbers()));
     } else {
       fix_normals(nodes, vectors(value, nodes.size(), "normal"), "a normal of zero has no direction");
     }
@@ -215,7 +219,7 @@ class RuleReader {
       return;
     }
     if (value.is_string() && value != "fixed")
-      throw fault(fmt::format("{} is no tangent; write \"fixed\", \"free\" or two or three numbers", value.dump()));
+      throw fault(fmt::format("{} is no tangent; write \"fixed\", \"free\" or {}", value.dump(), numbers()));
     const Directions tangents = value.is_string() ? shape_.tangents(nodes) : vectors(value, nodes.size(), "tangent");
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (tangents[k].isZero(0))

@@ -201,6 +201,9 @@ TEST(CurveRules, WrongOnesAreRefusedByNumberAndChangeNothing) {
   };
   for (const Wrong& wrong : {
            Wrong{R"({"nodes": [1], "tangent": "file"})", "is no tangent"},
+           {R"({"nodes": [1]})", "none of \"position\", \"normal\" and \"tangent\""},
+           {R"({"nodes": [1], "position": "here"})", "write \"fixed\", \"free\" or two or three numbers"},
+           {R"({"nodes": [1], "normal": "up"})", "write \"fixed\", \"file\", \"free\" or two or three numbers"},
            {R"({"nodes": [1], "tangent": 3})", "is no tangent"},
            {R"({"nodes": [1], "tangent": [1]})", "is no tangent"},
            {R"({"nodes": [1], "tangent": [1, 2, 3, 4]})", "is no tangent"},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -7,17 +8,19 @@
 
 namespace vspring {
 
+// Eigen's bit_cast: not every C++20 library has std::bit_cast, that of Emscripten among them.
+
 /// A number at an address that need not be aligned. swapped: its bytes are in the other order than this machine's.
 template <typename Number>
 Number load(const char* from, bool swapped) {
   std::array<char, sizeof(Number)> bytes;
   for (std::size_t k = 0; k < sizeof(Number); ++k) bytes[k] = from[swapped ? sizeof(Number) - 1 - k : k];
-  return std::bit_cast<Number>(bytes);
+  return Eigen::numext::bit_cast<Number>(bytes);
 }
 
 template <typename Number>
 void store(char* to, Number number, bool swapped) {
-  const auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+  const auto bytes = Eigen::numext::bit_cast<std::array<char, sizeof(Number)>>(number);
   for (std::size_t k = 0; k < sizeof(Number); ++k) to[k] = bytes[swapped ? sizeof(Number) - 1 - k : k];
 }
 

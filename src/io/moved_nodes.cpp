@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Core>
 #include <array>
-#include <bit>
 
 #include "vspring/error.hpp"
 
@@ -12,7 +12,8 @@ namespace {
 
 bool same_bits(const Vector3& a, const Vector3& b) {
   using Bits = std::array<std::uint64_t, 3>;
-  return std::bit_cast<Bits>(std::array{a.x(), a.y(), a.z()}) == std::bit_cast<Bits>(std::array{b.x(), b.y(), b.z()});
+  return Eigen::numext::bit_cast<Bits>(std::array{a.x(), a.y(), a.z()}) ==
+         Eigen::numext::bit_cast<Bits>(std::array{b.x(), b.y(), b.z()});
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "io/stl_weld.hpp"
 
+#include <Eigen/Core>
 #include <array>
 #include <bit>
 
@@ -10,8 +11,9 @@ using Bits = std::array<std::uint64_t, 3>;
 
 Bits bits_of(const Vector3& position) {
   // Adding zero turns −0 into 0.
-  return {std::bit_cast<std::uint64_t>(position.x() + 0.0), std::bit_cast<std::uint64_t>(position.y() + 0.0),
-          std::bit_cast<std::uint64_t>(position.z() + 0.0)};
+  return {Eigen::numext::bit_cast<std::uint64_t>(position.x() + 0.0),
+          Eigen::numext::bit_cast<std::uint64_t>(position.y() + 0.0),
+          Eigen::numext::bit_cast<std::uint64_t>(position.z() + 0.0)};
 }
 
 std::size_t hash_of(const Bits& bits) {

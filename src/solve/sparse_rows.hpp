@@ -43,7 +43,7 @@ class BasicSparseRows {
       }
     });
     std::partial_sum(matrix.begin_.begin(), matrix.begin_.end(), matrix.begin_.begin());
-    matrix.entries_ = std::make_unique_for_overwrite<Entry[]>(matrix.begin_.back());
+    matrix.entries_ = std::unique_ptr<Entry[]>(new Entry[matrix.begin_.back()]);
     // Runs go one after the other as they are copied, so that there are never two of all.
     team.run(runs.size(), [&](std::size_t k) {
       std::copy(runs[k].begin(), runs[k].end(), matrix.entries_.get() + matrix.begin_[k * rows_per_task]);
@@ -72,7 +72,7 @@ class BasicSparseRows {
     result.begin_.assign(columns_ + 1, 0);
     for (const Entry& entry : entries()) ++result.begin_[entry.column + 1];
     std::partial_sum(result.begin_.begin(), result.begin_.end(), result.begin_.begin());
-    result.entries_ = std::make_unique_for_overwrite<Entry[]>(begin_.back());
+    result.entries_ = std::unique_ptr<Entry[]>(new Entry[begin_.back()]);
     // Where the next entry of each row goes; then the end of the row, which is the beginning of the next one.
     for (std::size_t i = 0; i < rows(); ++i) {
       for (const Entry& entry : row(i))

@@ -1,0 +1,137 @@
+// The library in WebAssembly against the native program: the same files, constraints and results.
+
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+
+const root = new URL('../../', import.meta.url).pathname;
+const program = process.env.VSPRING ?? join(root, 'build/dev/vspring');
+const rules = JSON.stringify({ rules: [{ nodes: 'boundary', position: 'fixed', normal: 'fixed' }] });
+let core;
+let folder;
+
+before(async () => {
+  const load = createRequire(import.meta.url)(join(root, 'build/wasm/vspring_core.js'));
+  core = await load({ wasmBinary: readFileSync(join(root, 'build/wasm/vspring_core.wasm')) });
+  folder = mkdtempSync(join(tmpdir(), 'vspring-'));
+  writeFileSync(join(folder, 'rules.json'), rules);
+});
+
+after(() => rmSync(folder, { recursive: true }));
+
+function native(...options) {
+  return execFileSync(program, options, { encoding: 'utf8' });
+}
+
+function generated(name, ...options) {
+  const path = join(folder, name);
+  native('generate', ...options, '-o', path);
+  return path;
+}
+
+function opened(path, name) {
+  const surface = new core.Surface(new Uint8Array(readFileSync(path)), name);
+  surface.setRules(rules);
+  return surface;
+}
+
+function greatestDistance(a, b) {
+  assert.equal(a.length, b.length);
+  let greatest = 0;
+  for (let i = 0; i < a.length; i += 3) greatest = Math.max(greatest, Math.hypot(a[i] - b[i], a[i + 1] - b[i + 1], a[i + 2] - b[i + 2]));
+  return greatest;
+}
+
+function diagonal(positions) {
+  let square = 0;
+  for (let axis = 0; axis < 3; ++axis) {
+    let [least, most] = [Infinity, -Infinity];
+    for (let i = axis; i < positions.length; i += 3) {
+      least = Math.min(least, positions[i]);
+      most = Math.max(most, positions[i]);
+    }
+    square += (most - least) ** 2;
+  }
+  return Math.sqrt(square);
+}
+
+function nodeOfBoundary(surface) {
+  return surface.boundary().indexOf(1);
+}
+
+test('is the version of the native program', () => {
+  assert.match(native('--version'), new RegExp(core.version().replaceAll('.', '\\.')));
+});
+
+for (const [what, ...options] of [
+  ['annulus.obj', 'annulus', '--nodes', '900', '--noise', '0.02'],
+  ['saddle.ply', 'saddle', '--columns', '20', '--rows', '20', '--faces', 'mixed', '--jitter', '0.3'],
+]) {
+  test(`fairs ${what} as the native program does`, () => {
+    const path = generated(what, ...options);
+    const fair = join(folder, `fair-${what}`);
+    native('fair', path, '-o', fair, '--constraints', join(folder, 'rules.json'), '--report', join(folder, 'report.json'), '--quiet');
+    const expected = JSON.parse(readFileSync(join(folder, 'report.json'), 'utf8'));
+    const surface = opened(path, what);
+    const report = surface.fair(null);
+    assert.equal(report.outcome, 'converged');
+    assert.equal(expected.outcome, 'converged');
+    assert.equal(report.movingNodes, expected.moving_nodes);
+    const result = opened(fair, what);
+    const size = diagonal(result.positions());
+    const error = 3 * (report.expectedError + expected.expected_error);
+    assert.ok(greatestDistance(surface.positions(), result.positions()) < error * size);
+    assert.ok(greatestDistance(surface.positions(), opened(path, what).positions()) > 10 * error * size, 'something moved');
+
+    const written = join(folder, `written-${what}`);
+    writeFileSync(written, surface.write(what));
+    assert.ok(greatestDistance(opened(written, what).positions(), surface.positions()) < 1e-6 * size);
+    surface.delete();
+    result.delete();
+  });
+}
+
+test('follows a node that is dragged, and memory does not grow', () => {
+  const surface = opened(generated('drag.obj', 'annulus', '--nodes', '2000'), 'drag.obj');
+  surface.fair(null);
+  const node = nodeOfBoundary(surface);
+  const start = surface.positions().slice(3 * node, 3 * node + 3);
+  let memory = 0;
+  for (let step = 0; step < 60; ++step) {
+    const height = start[2] + 0.002 * (step % 2);
+    surface.holdPosition(node, start[0], start[1], height);
+    const report = surface.follow(null);
+    assert.equal(report.outcome, 'converged');
+    assert.ok(report.iterations < 12, `${report.iterations} iterations`);
+    assert.equal(surface.positions()[3 * node + 2], height);
+    if (step === 9) memory = core.HEAPU8.length;
+  }
+  assert.equal(core.HEAPU8.length, memory);
+  surface.delete();
+});
+
+test('ends soon when asked to, with a shape', () => {
+  const surface = opened(generated('cancel.obj', 'annulus', '--nodes', '6000', '--noise', '0.05'), 'cancel.obj');
+  const report = surface.fair((fraction) => fraction > 0);
+  assert.equal(report.outcome, 'cancelled');
+  assert.ok(surface.positions().every(Number.isFinite));
+  assert.equal(surface.fair(null).outcome, 'converged');
+  surface.delete();
+});
+
+test('refuses what the native program refuses, in its words', () => {
+  const bytes = new TextEncoder().encode('v 0 0 0\nv 1 0 zero\n');
+  assert.throws(() => new core.Surface(bytes, 'bad.obj'), /bad\.obj:2: .*zero/);
+  const surface = opened(generated('open.obj', 'annulus', '--nodes', '300'), 'open.obj');
+  assert.throws(() => surface.setRules('{"rules": [{"nodes": [5000], "position": "fixed"}]}'), /rule 1.*5000/);
+  assert.throws(() => surface.holdPosition(-1, 0, 0, 0), /node -1 does not exist/);
+  assert.throws(() => surface.setPositions(new Float64Array(6)), /2 positions given for 300 nodes/);
+  assert.equal(surface.fair(null).outcome, 'converged', 'nothing is lost');
+  surface.setRules('{"rules": []}');
+  assert.throws(() => surface.fair(null), /nothing holds the component/);
+  surface.delete();
+});

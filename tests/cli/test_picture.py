@@ -188,6 +188,8 @@ class Refusals(Picture):
     def test_a_place_that_cannot_be_written(self):
         path = self.browser(f"echo '<html>picture:{base64.b64encode(b'picture').decode()};</html>'")
         self.refused(2, "no", "measure", self.surface, "--picture", self.folder / "no" / "a.png", path=path)
+        # Before anything is faired or written.
+        self.refused(2, "no", "fair", self.surface, "-o", self.folder / "out.obj", "--picture", self.folder / "no" / "a.png", path=path)
         result = run("measure", self.surface, "--picture", self.folder / "a.png", environment={"PATH": path})
         self.assertEqual((result.returncode, (self.folder / "a.png").read_bytes()), (0, b"picture"))
 

@@ -89,9 +89,13 @@ std::vector<std::string> write(const FitArguments& arguments, const CurveFile& f
   return write_curve(arguments.output, file, positions, format_as<CurveFormat>(arguments.format));
 }
 
-std::string picture_of(const SurfaceFile& /*file*/, const std::vector<Vector3>& /*positions*/) { return {}; }
-std::string picture_of(const CurveFile& file, const std::vector<Vector3>& positions) {
-  return draw_curve(file, positions, {.before = &file.curve});
+using Positions = std::vector<Vector3>;
+
+std::string picture_of(const SurfaceFile& /*file*/, const Positions& /*positions*/, const Positions& /*points*/) {
+  return {};
+}
+std::string picture_of(const CurveFile& file, const Positions& positions, const Positions& points) {
+  return draw_curve(file, positions, {.before = &file.curve, .points = points});
 }
 
 template <typename File>
@@ -132,7 +136,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   };
   return fairing.finish<Shape>({shape, after, constraints, result.report.fair}, shape.positions(), file.warnings,
                                {.shape = write_shape,
-                                .picture = [&] { return picture_of(file, result.positions); },
+                                .picture = [&] { return picture_of(file, result.positions, cloud.positions()); },
                                 .scalars = point_deviation,
                                 .figures = to_json(result.report, weights, arguments),
                                 .lines = lines_of(result.report, weights)});

@@ -111,7 +111,9 @@ class Fit(Case):
         self.assertLess(off(after), 0.7 * off(noisy))
         fairness = self.read_json("r.json")["fairness"]
         self.assertLess(fairness["after"]["rms_turn"], fairness["before"]["rms_turn"] / 2)
-        self.assertTrue((self.folder / "a.svg").read_text().rstrip().endswith("</svg>"))
+        picture = (self.folder / "a.svg").read_text()
+        self.assertTrue(picture.rstrip().endswith("</svg>"))
+        self.assertIn('id="points"', picture)
 
     def test_a_closed_surface_that_only_points_hold(self):
         shape = self.write("ball.obj", sphere(4, radius=0.9))

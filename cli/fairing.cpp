@@ -186,7 +186,7 @@ std::string Fairing::write_views(const Faired<Shape>& faired, const FigurePair& 
   nlohmann::ordered_json scene;
   if (!context_.cancelled() && (!arguments_->html.empty() || (surface && !picture.path.empty()))) {
     const PageShape<Shape> shapes[] = {{"before", &faired.before, figures[0]}, {"after", &faired.after, figures[1]}};
-    scene = scene_of(shapes, {.leading = 1, .reference = 0, .view = picture.view}, context_);
+    scene = scene_of(shapes, {.leading = 1, .reference = 0, .view = picture.view, .points = writers.points}, context_);
   }
   // What an interrupted call made is of no use.
   const auto write = [&](const std::string& path, const auto& bytes_of) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +43,8 @@ class Fairing {
     std::function<std::vector<std::string>()> shape;
     /// Curves: the picture as SVG; asked for with --picture.
     std::function<std::string()> picture;
+    /// Shown with surfaces in page and picture.
+    std::span<const Vector3> points = {};
     /// What the command adds to --scalars.
     std::function<std::vector<NodeScalar>()> scalars = {};
     /// What the command adds to the report.

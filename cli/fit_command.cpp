@@ -137,6 +137,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   return fairing.finish<Shape>({shape, after, constraints, result.report.fair}, shape.positions(), file.warnings,
                                {.shape = write_shape,
                                 .picture = [&] { return picture_of(file, result.positions, cloud.positions()); },
+                                .points = cloud.positions(),
                                 .scalars = point_deviation,
                                 .figures = to_json(result.report, weights, arguments),
                                 .lines = lines_of(result.report, weights)});

@@ -32,8 +32,4 @@ AnyShape read_shape(const std::string& path, std::optional<AnyFormat> format, bo
   return read_curve(path, CurveFormat::obj);
 }
 
-std::vector<Vector3> read_points(const std::string& path) {
-  return only_for_curves(path) ? read_curve(path).curve.positions() : read_surface(path).mesh.positions();
-}
-
 }  // namespace vspring::cli

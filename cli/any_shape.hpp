@@ -38,7 +38,4 @@ inline const PolygonCurve& shape_of(const CurveFile& file) { return file.curve; 
 inline RuleInput rule_input(const SurfaceFile& file) { return {.groups = &file.groups, .normals = &file.normals}; }
 inline RuleInput rule_input(const CurveFile& file) { return {.groups = &file.groups}; }
 
-/// The positions of the nodes of a file of any format, connectivity ignored. Throws as the readers do.
-[[nodiscard]] std::vector<Vector3> read_points(const std::string& path);
-
 }  // namespace vspring::cli

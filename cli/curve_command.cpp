@@ -27,7 +27,7 @@ int run_curve(CurveArguments arguments) {
     arguments.options.curve = CurveRules::paper();
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
-  refuse_shared_views(arguments);
+  check_outputs(arguments);
   refuse_views(arguments, true);
   Fairing fairing(arguments);
   CurveFile file = read_curve(arguments.input, arguments.format);

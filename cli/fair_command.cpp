@@ -25,7 +25,7 @@ int run_fair(FairArguments arguments) {
     arguments.options.pseudo_normals = PseudoNormals::average;
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
-  refuse_shared_views(arguments);
+  check_outputs(arguments);
   refuse_views(arguments, false);
   Fairing fairing(arguments);
   const SurfaceFile file = read_surface(arguments.input, arguments.format);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <type_traits>
@@ -81,15 +82,16 @@ void refuse_views(const FairingArguments& arguments, bool curve) {
   refuse_scalars(arguments.scalars, curve);
 }
 
-void refuse_shared_views(const FairingArguments& arguments,
-                         const std::vector<std::pair<std::string, std::string>>& others) {
+void check_outputs(const FairingArguments& arguments, const std::vector<std::pair<std::string, std::string>>& others) {
   std::vector<std::pair<std::string, std::string>> taken = others;
   taken.insert(taken.end(), {{"--output", arguments.output},
                              {"--report", arguments.report},
                              {"--constraints", arguments.rules},
                              {"--region", arguments.region}});
-  const std::pair<std::string, std::string> views[] = {
-      {"--scalars", arguments.scalars}, {"--picture", arguments.picture.path}, {"--html", arguments.html}};
+  const std::pair<std::string, std::string> views[] = {{"--scalars", arguments.scalars},
+                                                       {"--picture", arguments.picture.path},
+                                                       {"--html", arguments.html},
+                                                       {"--deviation", arguments.deviation}};
   for (const auto& view : views) {
     const std::string& path = view.second;
     if (path.empty()) continue;
@@ -103,6 +105,10 @@ void refuse_shared_views(const FairingArguments& arguments,
       if (path == file) refuse(option);
     }
     taken.push_back(view);
+    check_writable(path);
+  }
+  for (const std::string& path : {arguments.output, arguments.report}) {
+    if (!path.empty()) check_writable(path);
   }
 }
 
@@ -180,7 +186,7 @@ std::string Fairing::write_views(const Faired<Shape>& faired, const FigurePair& 
   nlohmann::ordered_json scene;
   if (!context_.cancelled() && (!arguments_->html.empty() || (surface && !picture.path.empty()))) {
     const PageShape<Shape> shapes[] = {{"before", &faired.before, figures[0]}, {"after", &faired.after, figures[1]}};
-    scene = scene_of(shapes, {.leading = 1, .reference = 0, .view = picture.view}, context_);
+    scene = scene_of(shapes, {.leading = 1, .reference = 0, .view = picture.view, .points = writers.points}, context_);
   }
   // What an interrupted call made is of no use.
   const auto write = [&](const std::string& path, const auto& bytes_of) {
@@ -200,7 +206,8 @@ std::string Fairing::write_views(const Faired<Shape>& faired, const FigurePair& 
     return picture.path;
   if (arguments_->scalars.empty()) return {};
   if (context_.cancelled()) return arguments_->scalars;
-  const std::vector<NodeScalar> scalars = scalars_of(faired.after, &faired.before, context_);
+  std::vector<NodeScalar> scalars = scalars_of(faired.after, &faired.before, context_);
+  if (writers.scalars) std::ranges::move(writers.scalars(), std::back_inserter(scalars));
   if (context_.cancelled()) return arguments_->scalars;
   const UninterruptedWhileWriting guard;
   write_scalars(arguments_->scalars, faired.after, scalars);

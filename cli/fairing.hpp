@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "vspring/context.hpp"
 #include "vspring/fair.hpp"
 #include "vspring/figures.hpp"
+#include "vspring/scalar_file.hpp"
 
 namespace vspring::cli {
 
@@ -41,6 +43,10 @@ class Fairing {
     std::function<std::vector<std::string>()> shape;
     /// Curves: the picture as SVG; asked for with --picture.
     std::function<std::string()> picture;
+    /// Shown with surfaces in page and picture.
+    std::span<const Vector3> points = {};
+    /// What the command adds to --scalars.
+    std::function<std::vector<NodeScalar>()> scalars = {};
     /// What the command adds to the report.
     nlohmann::ordered_json figures = nlohmann::ordered_json::object();
     /// What it adds to what people read, in lines.
@@ -76,10 +82,11 @@ class Fairing {
   double progress_share_ = 1;
 };
 
-/// Throws Error(invalid_argument) where page, picture or scalars would take the place of an input or of another output.
-/// others: more options with the files they were given.
-void refuse_shared_views(const FairingArguments& arguments,
-                         const std::vector<std::pair<std::string, std::string>>& others = {});
+/// Throws Error(invalid_argument) where page, picture, scalars or deviations would take the place of an input or of
+/// another output, and Error(unusable_file) where an output cannot be written. others: more options with the files they
+/// were given.
+void check_outputs(const FairingArguments& arguments,
+                   const std::vector<std::pair<std::string, std::string>>& others = {});
 
 /// Throws Error where picture or scalars cannot be made, see refuse_picture() and refuse_scalars().
 void refuse_views(const FairingArguments& arguments, bool curve);

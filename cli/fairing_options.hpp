@@ -26,6 +26,7 @@ struct FairingArguments {
   std::string html;
   PictureArguments picture;
   std::string scalars;
+  std::string deviation;
   bool quiet = false;
   Colour colour = Colour::automatic;
 };

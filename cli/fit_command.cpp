@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -41,10 +42,20 @@ Json to_json(const PointDistances& distances) {
           {"percentile99", distances.percentile99}};
 }
 
-Json to_json(const FitReport& report, const FitArguments& arguments) {
+/// The least and the greatest weight of the points; nothing where the file gives none.
+using WeightRange = std::optional<std::pair<double, double>>;
+
+WeightRange range_of(const std::vector<double>& weights) {
+  if (weights.empty()) return std::nullopt;
+  const auto [least, greatest] = std::minmax_element(weights.begin(), weights.end());
+  return std::pair(*least, *greatest);
+}
+
+Json to_json(const FitReport& report, const WeightRange& weights, const FitArguments& arguments) {
   return {{"points",
            {{"file", arguments.points},
             {"weight", arguments.weight},
+            {"weights", weights ? Json{{"least", weights->first}, {"greatest", weights->second}} : Json()},
             {"count", report.points},
             {"pulling", report.pulling_points},
             {"nodes_with_points", report.pulled_nodes},
@@ -52,9 +63,11 @@ Json to_json(const FitReport& report, const FitArguments& arguments) {
             {"distance", {{"before", to_json(report.before)}, {"after", to_json(report.after)}}}}}};
 }
 
-std::string lines_of(const FitReport& report) {
-  std::string text = fmt::format("{} points, of which {} pull at {} nodes\n", report.points, report.pulling_points,
-                                 report.pulled_nodes);
+std::string lines_of(const FitReport& report, const WeightRange& weights) {
+  std::string text =
+      fmt::format("{} points{}, of which {} pull at {} nodes\n", report.points,
+                  weights ? fmt::format(" of weights {:.4g} to {:.4g}", weights->first, weights->second) : "",
+                  report.pulling_points, report.pulled_nodes);
   const auto line = [&](const char* name, double before, double after) {
     text += fmt::format("{}{:.4g} → {:.4g} units\n", name, before, after);
   };
@@ -76,9 +89,13 @@ std::vector<std::string> write(const FitArguments& arguments, const CurveFile& f
   return write_curve(arguments.output, file, positions, format_as<CurveFormat>(arguments.format));
 }
 
-std::string picture_of(const SurfaceFile& /*file*/, const std::vector<Vector3>& /*positions*/) { return {}; }
-std::string picture_of(const CurveFile& file, const std::vector<Vector3>& positions) {
-  return draw_curve(file, positions, {.before = &file.curve});
+using Positions = std::vector<Vector3>;
+
+std::string picture_of(const SurfaceFile& /*file*/, const Positions& /*positions*/, const Positions& /*points*/) {
+  return {};
+}
+std::string picture_of(const CurveFile& file, const Positions& positions, const Positions& points) {
+  return draw_curve(file, positions, {.before = &file.curve, .points = points});
 }
 
 template <typename File>
@@ -97,26 +114,40 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   options.fair.step_tolerance = arguments.step_tolerance.value_or(
       arguments.weight > 0 ? std::min(options.fair.step_tolerance, arguments.weight / 10)
                            : options.fair.step_tolerance);
-  FitResult result = fit(shape, constraints, {.positions = read_points(arguments.points)}, options, fairing.context());
+  ScatteredPoints points = read_points(arguments.points);
+  FitResult result = fit(shape, constraints, points, options, fairing.context());
+  const WeightRange weights = range_of(points.weights);
+  const PolygonMesh cloud(std::move(points.positions), {0}, {});
   for (const Repeat& repeat : repeats)
     result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
   const auto write_shape = [&] {
     std::vector<std::string> warnings;
     for (const std::string& lost : write(arguments, file, result.positions))
       warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
+    if (!arguments.deviation.empty())
+      write_scalars(arguments.deviation, cloud, std::vector<NodeScalar>{{"deviation", result.distances}});
     return warnings;
   };
   Shape after = shape;
   after.set_positions(result.positions);
+  const auto point_deviation = [&]() -> std::vector<NodeScalar> {
+    return {
+        {"point_deviation", node_deviations(result.positions, cloud.positions(), result.distances, fairing.context())}};
+  };
   return fairing.finish<Shape>({shape, after, constraints, result.report.fair}, shape.positions(), file.warnings,
                                {.shape = write_shape,
-                                .picture = [&] { return picture_of(file, result.positions); },
-                                .figures = to_json(result.report, arguments),
-                                .lines = lines_of(result.report)});
+                                .picture = [&] { return picture_of(file, result.positions, cloud.positions()); },
+                                .points = cloud.positions(),
+                                .scalars = point_deviation,
+                                .figures = to_json(result.report, weights, arguments),
+                                .lines = lines_of(result.report, weights)});
 }
 
 int run_fit(const FitArguments& arguments) {
-  refuse_shared_views(arguments, {{"--points", arguments.points}});
+  check_outputs(arguments, {{"--points", arguments.points}});
+  if (!arguments.deviation.empty() &&
+      scalar_format(std::filesystem::path(arguments.deviation).extension().string()) != ScalarFormat::ply)
+    throw Error(ErrorCode::invalid_argument, arguments.deviation + ": deviations of points go to PLY; name it .ply");
   if (arguments.points == "-" && arguments.input == "-")
     throw Error(ErrorCode::invalid_argument, "--points: standard input is the shape already");
   Fairing fairing(arguments);
@@ -127,7 +158,8 @@ int run_fit(const FitArguments& arguments) {
 void add_fit_options(CLI::App& command, FitArguments& arguments) {
   command
       .add_option("--points", arguments.points,
-                  "The points: the nodes of a file of any of the formats, connectivity ignored")
+                  "The points: the nodes of a file of any of the formats, connectivity ignored. They may have weights: "
+                  "PLY's property or CSV's column weight or confidence, the fourth or seventh number in XYZ")
       ->required()
       ->type_name("POINTS");
   command
@@ -156,6 +188,12 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
                 "The paper's own choices throughout: plain average of normals; chord tangents, weights 1/length, along "
                 "the principal normal (default: off)")
       ->group(fairing_group);
+  command
+      .add_option("--deviation", arguments.deviation,
+                  "Write the points with their distance from the shape, property deviation, units of the input; at "
+                  "nodes it is in --scalars, point_deviation")
+      ->type_name("OUT.ply")
+      ->group(run_group);
   add_choice(command, "--format", arguments.format, any_formats,
              "Format of - (default: found from the content; the input's)");
   command.add_flag("--curve", arguments.curve, "SHAPE is a curve (default: found from the file; - is a surface)");

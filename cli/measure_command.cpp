@@ -206,7 +206,7 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
 }
 
 int run_measure(const MeasureArguments& arguments) {
-  refuse_shared_views(arguments, {{"--compare", arguments.compare}});
+  check_outputs(arguments, {{"--compare", arguments.compare}});
   AnyShape shape = read_shape(arguments.input, arguments.format, arguments.curve);
   std::optional<AnyShape> other;
   if (!arguments.compare.empty())

@@ -90,6 +90,17 @@ Json frame_of(std::span<const PageShape<Shape>> shapes, const PageRoles& roles, 
   return json;
 }
 
+/// Those in the box of the shapes and a little around it.
+std::vector<Vector3> shown_points(std::span<const Vector3> points, const Frame& frame) {
+  constexpr std::size_t most = 20'000;
+  constexpr double around = 0.6;
+  std::vector<Vector3> some;
+  for (std::size_t j = 0; j < points.size(); j += 1 + points.size() / most) some.push_back(points[j]);
+  some = frame.inside(some);
+  std::erase_if(some, [](const Vector3& p) { return !(p.cwiseAbs().maxCoeff() <= around); });
+  return some;
+}
+
 Json to_json(const Eigen::Matrix3d& rows) {
   Json json = Json::array();
   for (Eigen::Index r = 0; r < 3; ++r) json.push_back({rows(r, 0), rows(r, 1), rows(r, 2)});
@@ -177,6 +188,7 @@ Json scene_of(std::span<const PageShape<PolygonMesh>> shapes, const PageRoles& r
   Json json = frame_of(shapes, roles, frame);
   json["kind"] = "surface";
   json["view"] = to_json(roles.view);
+  json["points"] = encode_doubles(shown_points(roles.points, frame));
   json["shapes"] = Json::array();
   for (const auto& shape : shapes) {
     if (context.cancelled()) return {};

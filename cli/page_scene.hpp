@@ -25,6 +25,7 @@ struct PageRoles {
   int leading = 0;
   std::optional<int> reference = std::nullopt;
   Eigen::Matrix3d view = default_view();  ///< from where surfaces are seen
+  std::span<const Vector3> points = {};   ///< shown with surfaces; of very many every so-manieth
 };
 
 /// The shapes as page/data.js reads them. All are moved and scaled together into a box of side 1 about the origin;

@@ -43,7 +43,7 @@ void write_again(const CurveFile& file, CurveFile (*reader)(InputFile)) {
   for (const CurveFormat format : {CurveFormat::obj, CurveFormat::csv, CurveFormat::xyz})
     require(!fresh_curve(format, {file.curve.chains(), places, file.planar, file.name}, losses).empty());
   const DrawnCurve before{file.curve.chains(), read};
-  require(!svg_picture({file.curve.chains(), places}, &before, file.name).empty());
+  require(!svg_picture({file.curve.chains(), places}, &before, read, file.name).empty());
 }
 
 /// False where the action refuses what it is given; it has to say why in one line.

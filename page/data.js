@@ -71,5 +71,5 @@ export function sceneOf(json) {
     mean: surface ? halvesOf(bytesOf(shape.mean)) : null,
     gaussian: surface ? halvesOf(bytesOf(shape.gaussian)) : null,
   }));
-  return {...json, surface, shapes};
+  return {...json, surface, shapes, points: json.points ? Float32Array.from(doublesOf(bytesOf(json.points))) : new Float32Array()};
 }

@@ -4,7 +4,8 @@ export const vertexShader = `#version 300 es
 uniform mat3 turn;
 uniform vec3 middle;
 uniform vec2 scale;
-uniform float lift;  // of lines towards the eye, so that the faces at them do not hide them
+uniform float dot_size;  // of points, in pixels
+uniform float lift;  // of lines and points towards the eye, so that the faces at them do not hide them
 in vec3 position;
 in vec3 normal;
 in float value;
@@ -14,6 +15,7 @@ out float height;
 void main() {
   vec3 seen = turn * (position - middle);
   gl_Position = vec4(seen.xy * scale, -0.2 * (seen.z + lift), 1.0);
+  gl_PointSize = dot_size;
   place = seen;
   facing = turn * normal;
   height = value;

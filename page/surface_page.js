@@ -22,7 +22,7 @@ export function makeSurfacePage({canvas, form, legend, charts}, scene, report, r
     ({...shape, turns: turnsOf(shape.runs, shape.positions, shape.joints)}));
   addSurfaceCharts(charts, shapes, scene.leading, report);
   const fields = fieldsOf(shapes, scene);
-  const view = new SurfaceView(canvas, shapes);
+  const view = new SurfaceView(canvas, shapes, scene.points);
   const state = {shape: scene.leading, mode: 'shaded', spread: 1};
   const names = [['shaded', 'Shaded'], ['wire', 'Wire'], ['zebra', 'Zebra'], ['mean', 'Mean curvature'],
     ['gaussian', 'Gaussian curvature'], ['deviation', 'Deviation']];

@@ -3,6 +3,7 @@
 import {fragmentShader, vertexShader} from './shaders.js';
 import {styleColour} from './colours.js';
 
+const dotColour = [0.78, 0.27, 0.12];
 const kinds = {shaded: 1, wire: 0, zebra: 2, mean: 3, gaussian: 3, deviation: 3};
 
 function programOf(gl) {
@@ -20,40 +21,52 @@ function programOf(gl) {
 }
 
 export class SurfaceView {
-  // shapes: positions, normals, triangles, edges. Throws where the browser has no WebGL 2.
-  constructor(canvas, shapes) {
+  // shapes: positions, normals, triangles, edges. points: coordinates of dots that are shown with shaded faces. Throws where the
+  // browser has no WebGL 2.
+  constructor(canvas, shapes, points) {
     this.canvas = canvas;
     const gl = this.gl = canvas.getContext('webgl2', {antialias: true});
     if (!gl) throw new Error('This browser has no WebGL 2, which the view needs. Charts and figures are below.');
     this.program = programOf(gl);
-    this.places = Object.fromEntries(['turn', 'middle', 'scale', 'lift', 'kind', 'colour', 'stops', 'range']
+    this.places = Object.fromEntries(['turn', 'middle', 'scale', 'lift', 'dot_size', 'kind', 'colour', 'stops', 'range']
       .map((name) => [name, gl.getUniformLocation(this.program, name)]));
     this.shapes = shapes.map((shape) => this.upload(shape));
+    this.dots = this.uploadDots(points);
     this.values = {};
+  }
+
+  // What a vertex has of its own, for the vertex array that is bound.
+  attribute(name, size, data) {
+    const gl = this.gl;
+    const buffer = gl.createBuffer();
+    const place = gl.getAttribLocation(this.program, name);
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, size, gl.FLOAT, false, 0, 0);
+    return buffer;
+  }
+
+  uploadDots(points) {
+    const array = this.gl.createVertexArray();
+    this.gl.bindVertexArray(array);
+    this.attribute('position', 3, points);
+    return {array, count: points.length / 3};
   }
 
   upload({positions, normals, triangles, edges}) {
     const gl = this.gl;
     const array = gl.createVertexArray();
     gl.bindVertexArray(array);
-    const attribute = (name, size, data) => {
-      const buffer = gl.createBuffer();
-      const place = gl.getAttribLocation(this.program, name);
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
-      gl.enableVertexAttribArray(place);
-      gl.vertexAttribPointer(place, size, gl.FLOAT, false, 0, 0);
-      return buffer;
-    };
     const indices = (data) => {
       const buffer = gl.createBuffer();
       gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffer);
       gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, data, gl.STATIC_DRAW);
       return {buffer, count: data.length};
     };
-    attribute('position', 3, positions);
-    attribute('normal', 3, normals);
-    const values = attribute('value', 1, new Float32Array(positions.length / 3));
+    this.attribute('position', 3, positions);
+    this.attribute('normal', 3, normals);
+    const values = this.attribute('value', 1, new Float32Array(positions.length / 3));
     return {array, values, triangles: indices(triangles), edges: indices(edges)};
   }
 
@@ -96,9 +109,16 @@ export class SurfaceView {
     };
     gl.bindVertexArray(array);
     elements(gl.TRIANGLES, triangles);
-    if (mode !== 'wire') return;
-    gl.uniform3fv(this.places.colour, styleColour('--ink'));
+    gl.uniform1i(this.places.kind, kinds.wire);
     gl.uniform1f(this.places.lift, 0.003 / Math.max(1, camera.zoom));
-    elements(gl.LINES, edges);
+    if (mode === 'wire') {
+      gl.uniform3fv(this.places.colour, styleColour('--ink'));
+      elements(gl.LINES, edges);
+    } else if (mode === 'shaded') {
+      gl.uniform3fv(this.places.colour, dotColour);
+      gl.uniform1f(this.places.dot_size, Math.max(2, width / 250));
+      gl.bindVertexArray(this.dots.array);
+      gl.drawArrays(gl.POINTS, 0, this.dots.count);
+    }
   }
 }

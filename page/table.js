@@ -32,6 +32,11 @@ export function summaryOf(report) {
   }
   if (report.distance)
     counts.push(`to the other: up to ${short(report.distance.to_other.greatest)}, root mean square ${short(report.distance.to_other.rms)}`);
+  if (report.points) {
+    const {count, distance: {before, after}} = report.points;
+    const change = (key) => `${short(before[key])} → ${short(after[key])}`;
+    counts.push(`${count} points: root mean square distance ${change('rms')}, greatest ${change('greatest')}`);
+  }
   return counts.join(' · ');
 }
 

@@ -7,7 +7,6 @@
 #include <vtkPolyData.h>
 #include <vtkWindowedSincPolyDataFilter.h>
 
-#include <array>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -25,8 +24,8 @@ vtkNew<vtkPolyData> surface_of(const PolygonMesh& mesh) {
   vtkNew<vtkCellArray> faces;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);
-    const std::array<vtkIdType, 3> nodes = {face[0], face[1], face[2]};
-    faces->InsertNextCell(3, nodes.data());
+    const std::vector<vtkIdType> nodes(face.begin(), face.end());
+    faces->InsertNextCell(static_cast<vtkIdType>(nodes.size()), nodes.data());
   }
   vtkNew<vtkPolyData> surface;
   surface->SetPoints(points);

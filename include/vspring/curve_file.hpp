@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,8 @@ struct CurveFile {
 struct CurvePicture {
   /// The curve before, drawn thin behind; null draws none. One chain structure of its own.
   const PolygonCurve* before = nullptr;
+  /// Points that the curve is to come near to, drawn as dots; of very many every so-manieth, 20,000 at most.
+  std::span<const Vector3> points = {};
 };
 
 /// Writes the curve with `positions` in place of its own. path: a file, or "-" for standard output. format: where not

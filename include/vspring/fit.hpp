@@ -1,19 +1,13 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "vspring/distance.hpp"
 #include "vspring/fair.hpp"
+#include "vspring/point_file.hpp"
 
 namespace vspring {
-
-/// Points that a shape is to come near to, in no order and without connectivity.
-struct ScatteredPoints {
-  std::vector<Vector3> positions;
-  /// What each counts: its k_j is this times FitOptions::weight. Empty: 1 for all. A point of weight 0 is only
-  /// measured.
-  std::vector<double> weights = {};
-};
 
 struct FitOptions {
   /// Its method, where given, must be Method::sweep, and fair_boundary must be false.
@@ -86,5 +80,12 @@ struct FitResult {
                             const FitOptions& options, Context& context);
 [[nodiscard]] FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
                             const FitOptions& options = {});
+
+/// How far points lie from a shape, node by node: at each of its nodes the greatest distance of the points that are
+/// nearest to it, 0 where there are none. distances: of every point, as FitResult has them. Throws
+/// Error(invalid_argument) unless points and distances are finite and as many, and for points too far away, as fit()
+/// does. The same bits for every number of threads. Cost: n log n.
+[[nodiscard]] std::vector<double> node_deviations(std::span<const Vector3> nodes, std::span<const Vector3> points,
+                                                  std::span<const double> distances, const Context& context);
 
 }  // namespace vspring

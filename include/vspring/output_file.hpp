@@ -13,4 +13,7 @@ namespace vspring {
 /// temporary file is left behind. Cost: linear.
 void write_file(const std::string& path, std::string_view bytes);
 
+/// Throws as write_file() does where a file cannot be written to `path`, before anything long begins. Leaves nothing.
+void check_writable(const std::string& path);
+
 }  // namespace vspring

@@ -15,6 +15,7 @@
 #include "vspring/generate.hpp"
 #include "vspring/model.hpp"
 #include "vspring/output_file.hpp"
+#include "vspring/point_file.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 #include "vspring/resample.hpp"

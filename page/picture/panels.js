@@ -56,7 +56,7 @@ export function panelsOf(scene, {styles, width, title}) {
   const left = (k) => gap + k * (across + gap);
   const canvas = document.createElement('canvas');
   document.body.append(canvas);
-  const view = new SurfaceView(canvas, shapes);
+  const view = new SurfaceView(canvas, shapes, scene.points);
   let y = gap;
   const parts = shapes.length < 2 ? [] : shapes.map((shape, k) =>
     `<text x="${left(k) + across / 2}" y="${y + line}" text-anchor="middle" font-weight="600">${escaped(shape.title)}</text>`);

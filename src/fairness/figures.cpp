@@ -31,6 +31,7 @@ std::vector<Figure> list(const Figures& figures, const Description<Figures> (&de
       if (!measured) continue;
       figure.value = *measured;
     }
+    figure.value += 0.0;  // −0 reads as a figure of a sign
     listed.push_back(figure);
   }
   return listed;

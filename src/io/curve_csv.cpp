@@ -1,122 +1,17 @@
-// Rows of cells with a header or without, as spreadsheets and measuring devices write them.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cctype>
-
+// One node per row of a table with a header or without.
+#include "io/csv_layout.hpp"
 #include "io/table_source.hpp"
 
 namespace vspring {
-namespace {
-
-/// The rows that a delimiter is found from.
-constexpr std::size_t looked_at = 20;
-
-using Cells = std::vector<std::string_view>;
-
-std::vector<TableLine> first_rows(std::span<const TableLine> lines) {
-  std::vector<TableLine> rows;
-  for (const TableLine& line : lines) {
-    if (rows.size() == looked_at) break;
-    if (line.kind == TableLine::Kind::row) rows.push_back(line);
-  }
-  return rows;
-}
-
-std::size_t count_numbers(const Cells& cells) {
-  return static_cast<std::size_t>(
-      std::count_if(cells.begin(), cells.end(), [](std::string_view cell) { return number_of(cell).has_value(); }));
-}
-
-/// "1,5;2,5" cut at its commas leaves "5;2" in the middle.
-bool is_two_numbers(std::string_view cell) {
-  return std::any_of(cell.begin(), cell.end(), [&](const char& c) {
-    const auto at = static_cast<std::size_t>(&c - cell.data());
-    return (c == ';' || c == '\t' || c == ' ') && number_of(cell.substr(0, at)) && number_of(cell.substr(at + 1));
-  });
-}
-
-constexpr std::array delimiters = {';', '\t', ',', ' '};
-
-/// The delimiter that leaves two numbers in most rows; the first of them where several do.
-CellCutter find_cutter(const InputFile& file, const std::vector<TableLine>& rows) {
-  char best = ' ';
-  std::size_t most = 0;
-  for (const char delimiter : delimiters) {
-    CellCutter cutter(delimiter, true);
-    const auto fitting = static_cast<std::size_t>(std::count_if(
-        rows.begin(), rows.end(), [&](const TableLine& row) { return count_numbers(cutter.cut(row.text)) > 1; }));
-    if (fitting <= most) continue;
-    most = fitting;
-    best = delimiter;
-  }
-  // With decimal commas no delimiter leaves numbers, or the commas themselves do.
-  for (const char delimiter : delimiters) {
-    if (most > 0 && (delimiter != ',' || best != ',')) continue;
-    CellCutter cutter(delimiter, true);
-    for (const TableLine& row : rows) {
-      const Cells& cells = cutter.cut(row.text);
-      if (std::any_of(cells.begin(), cells.end(), most > 0 ? is_two_numbers : has_decimal_comma))
-        file.refuse_line(row.offset, "its numbers have decimal commas; write decimal points");
-    }
-  }
-  return {best, true};
-}
-
-/// The column of the name, or the number of cells.
-std::size_t column_named(const Cells& header, char name) {
-  const auto found = std::find_if(header.begin(), header.end(), [&](std::string_view cell) {
-    return cell.size() == 1 && std::tolower(static_cast<unsigned char>(cell.front())) == name;
-  });
-  return static_cast<std::size_t>(found - header.begin());
-}
-
-/// The columns that a header names, or none.
-std::vector<std::size_t> named_columns(const Cells& header) {
-  std::vector<std::size_t> columns;
-  for (const char name : {'x', 'y', 'z'}) {
-    const std::size_t column = column_named(header, name);
-    if (column < header.size()) columns.push_back(column);
-    if (column == header.size() && name != 'z') return {};
-  }
-  return columns;
-}
-
-std::vector<std::size_t> number_columns(const Cells& cells) {
-  std::vector<std::size_t> columns;
-  for (std::size_t column = 0; column < cells.size() && columns.size() < 3; ++column) {
-    if (number_of(cells[column])) columns.push_back(column);
-  }
-  return columns;
-}
-
-}  // namespace
 
 CurveFile read_csv_curve(InputFile file) {
+  const CsvLayout layout = find_csv_layout(file);
   const std::vector<TableLine> lines = table_lines(file.bytes);
-  const std::vector<TableLine> rows = first_rows(lines);
-  if (rows.empty()) file.refuse("no row of two or three numbers is in it; choose the file of a curve");
-  CellCutter cutter = find_cutter(file, rows);
-  const Cells first = cutter.cut(rows.front().text);
-  std::vector<std::size_t> columns = named_columns(first);
-  const bool headed = !columns.empty() || count_numbers(first) == 0;
-  if (headed && rows.size() == 1) file.refuse("no row of two or three numbers is in it; choose the file of a curve");
-  const bool named = !columns.empty();
-  if (!named) columns = number_columns(cutter.cut(rows[headed ? 1 : 0].text));
-  if (columns.size() < 2)
-    file.refuse_line(rows[headed ? 1 : 0].offset,
-                     "a node needs two or three numbers, this row has fewer; repair it, or choose the file of a curve");
-  std::string warning;
-  if (headed && !named)
-    warning = fmt::format("{}:{}: no columns are named x and y; taken are columns {} and {}{}", file.name,
-                          file.line_of(rows.front().offset), columns[0] + 1, columns[1] + 1,
-                          columns.size() == 3 ? fmt::format(" and {}", columns[2] + 1) : "");
-  TableReader reader(file, cutter, std::move(columns));
+  TableReader reader(file, layout.cutter, layout.columns);
   std::span<const TableLine> body = lines;
-  if (headed) {
+  if (layout.header) {
     reader.carry("names of columns");
-    while (body.front().offset != rows.front().offset) {
+    while (body.front().offset != *layout.header) {
       if (body.front().kind == TableLine::Kind::comment) reader.carry("comments");
       body = body.subspan(1);
     }
@@ -124,7 +19,7 @@ CurveFile read_csv_curve(InputFile file) {
   }
   reader.read(body);
   CurveFile curve = reader.take(std::move(file), CurveFormat::csv);
-  if (!warning.empty()) curve.warnings.push_back(std::move(warning));
+  if (!layout.warning.empty()) curve.warnings.push_back(layout.warning);
   return curve;
 }
 

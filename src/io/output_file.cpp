@@ -97,21 +97,45 @@ void write_beside(const std::string& path, const fs::path& target, const struct 
   if (!descriptor.close() || !temporary.move_to(target)) refuse_file(path, written, errno);
 }
 
+/// Where a file goes, and what is there already.
+struct Place {
+  std::optional<fs::path> target;  ///< nothing: what is at the path is written directly
+  struct stat status {};
+  bool exists = false;
+};
+
+/// Throws where the path cannot be written, as far as that shows without a new file.
+Place place_of(const std::string& path) {
+  Place place;
+  place.exists = ::stat(path.c_str(), &place.status) == 0;
+  if (place.exists && S_ISDIR(place.status.st_mode)) refuse_file(path, written, EISDIR);
+  place.target = followed(path);
+  if (place.exists && !S_ISREG(place.status.st_mode)) place.target.reset();
+  // Renaming would replace even a file that nobody may write to.
+  if (place.exists && ::access(path.c_str(), W_OK) != 0) refuse_file(path, written, errno);
+  return place;
+}
+
+bool is_standard_output(const std::string& path) { return path == "-" || path == "/dev/stdout"; }
+
 }  // namespace
 
+void check_writable(const std::string& path) {
+  if (is_standard_output(path)) return;
+  const Place place = place_of(path);
+  if (!place.target) return;
+  const TemporaryFile temporary(*place.target, path);
+  const FileDescriptor closing(temporary.number());
+}
+
 void write_file(const std::string& path, std::string_view bytes) {
-  if (path == "-" || path == "/dev/stdout") {
+  if (is_standard_output(path)) {
     if (!write_all(STDOUT_FILENO, bytes)) refuse_file("standard output", written, errno);
     return;
   }
-  struct stat status {};
-  const bool exists = ::stat(path.c_str(), &status) == 0;
-  if (exists && S_ISDIR(status.st_mode)) refuse_file(path, written, EISDIR);
-  const std::optional<fs::path> target = followed(path);
-  if (!target || (exists && !S_ISREG(status.st_mode))) return write_directly(path, bytes);
-  // Renaming would replace even a file that nobody may write to.
-  if (exists && ::access(path.c_str(), W_OK) != 0) refuse_file(path, written, errno);
-  write_beside(path, *target, exists ? &status : nullptr, bytes);
+  const Place place = place_of(path);
+  if (!place.target) return write_directly(path, bytes);
+  write_beside(path, *place.target, place.exists ? &place.status : nullptr, bytes);
 }
 
 }  // namespace vspring

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "io/face_list.hpp"
 #include "io/text_cursor.hpp"
 
 namespace vspring {
@@ -179,6 +180,23 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
     if (candidate.name == element) return &candidate;
   }
   return nullptr;
+}
+
+int find_number(const PlyElement& element, std::string_view property) {
+  const int found = element.find(property);
+  return found >= 0 && element.properties[static_cast<std::size_t>(found)].count_type ? -1 : found;
+}
+
+const PlyElement& ply_nodes(const InputFile& file, const PlyHeader& header) {
+  const PlyElement* element = header.find("vertex");
+  if (element == nullptr) file.refuse("its header has no element 'vertex'; choose another file");
+  if (element->count == 0) file.refuse("it has no nodes; choose another file");
+  if (element->count > static_cast<std::uint64_t>(most_nodes)) file.refuse("more than 2^30 nodes; split the file");
+  for (const char* name : {"x", "y", "z"}) {
+    if (find_number(*element, name) < 0)
+      file.refuse(fmt::format("its nodes have no property {}; export it again", name));
+  }
+  return *element;
 }
 
 PlyHeader read_ply_header(const InputFile& file) { return HeaderReader(file).read(); }

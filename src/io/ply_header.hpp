@@ -52,4 +52,10 @@ struct PlyHeader {
 /// Throws Error(unusable_file) naming the line.
 PlyHeader read_ply_header(const InputFile& file);
 
+/// The number of a property that is no list, or −1.
+int find_number(const PlyElement& element, std::string_view property);
+
+/// The element of the nodes. Throws Error(unusable_file) where there are none, more than can be, or no numbers x, y, z.
+const PlyElement& ply_nodes(const InputFile& file, const PlyHeader& header);
+
 }  // namespace vspring

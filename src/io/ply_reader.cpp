@@ -6,19 +6,17 @@
 
 #include "io/face_list.hpp"
 #include "io/file_normals.hpp"
-#include "io/ply_data.hpp"
+#include "io/ply_elements.hpp"
 #include "io/ply_source.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
 namespace {
 
-/// Data: PlyText or PlyBinary.
 template <typename Data>
-class PlyReader {
+class PlyReader : public PlyElements<Data> {
  public:
-  PlyReader(const InputFile& file, PlySource& source)
-      : file_(file), source_(source), header_(source.header), data_(file, source.header) {}
+  PlyReader(const InputFile& file, PlySource& source) : PlyElements<Data>(file, source.header), source_(source) {}
 
   void read();
 
@@ -27,52 +25,22 @@ class PlyReader {
   FaceList faces;
 
  private:
-  void check_count(const PlyElement& element) const;
-  std::uint64_t list_length(const PlyProperty& property, const PlyPlace& place);
-  void skip_property(const PlyProperty& property, const PlyPlace& place);
-  void skip_elements(const PlyElement& element);
+  using PlyElements<Data>::file_;
+  using PlyElements<Data>::header_;
+  using PlyElements<Data>::data_;
+  using PlyElements<Data>::check_count;
+  using PlyElements<Data>::list_length;
+  using PlyElements<Data>::skip_property;
+  using PlyElements<Data>::skip_elements;
+
   void read_nodes(const PlyElement& element);
   void read_faces(const PlyElement& element);
   void read_strips(const PlyElement& element);
   void add_face(std::span<const std::int64_t> nodes, const PlyPlace& place);
   int corner_list(const PlyElement& element) const;
 
-  const InputFile& file_;
   PlySource& source_;
-  const PlyHeader& header_;
-  Data data_;
 };
-
-template <typename Data>
-void PlyReader<Data>::check_count(const PlyElement& element) const {
-  const std::size_t size = element.least_size(header_.encoding);
-  if (size > 0 && element.count > data_.bytes_left() / size)
-    file_.refuse(
-        fmt::format("{} elements {} are promised, but the file is too short for them; correct the count or "
-                    "restore what is missing",
-                    element.count, in_quotes(element.name)));
-}
-
-template <typename Data>
-std::uint64_t PlyReader<Data>::list_length(const PlyProperty& property, const PlyPlace& place) {
-  const std::int64_t length = data_.whole(*property.count_type, place);
-  if (length < 0) data_.refuse(fmt::format("{}: a list of {} numbers; correct it", place.text(), length));
-  data_.check_room(property.type, static_cast<std::uint64_t>(length), place);
-  return static_cast<std::uint64_t>(length);
-}
-
-template <typename Data>
-void PlyReader<Data>::skip_property(const PlyProperty& property, const PlyPlace& place) {
-  data_.skip(property.type, property.count_type ? list_length(property, place) : 1, place);
-}
-
-template <typename Data>
-void PlyReader<Data>::skip_elements(const PlyElement& element) {
-  if (element.properties.empty()) return;
-  for (PlyPlace place{&element, 0}; place.number < element.count; ++place.number) {
-    for (const PlyProperty& property : element.properties) skip_property(property, place);
-  }
-}
 
 template <typename Data>
 void PlyReader<Data>::read_nodes(const PlyElement& element) {
@@ -190,17 +158,9 @@ void PlyReader<Data>::read() {
 
 /// Finds the coordinates and normals among the properties of the nodes.
 void find_fields(const InputFile& file, PlySource& source) {
-  const PlyElement* element = source.header.find("vertex");
-  if (element == nullptr) file.refuse("its header has no element 'vertex'; choose the file of a surface");
-  if (element->count == 0) file.refuse("it has no nodes; choose the file of a surface");
-  if (element->count > static_cast<std::uint64_t>(most_nodes)) file.refuse("more than 2^30 nodes; split the file");
+  const PlyElement& element = ply_nodes(file, source.header);
   constexpr std::array names = {"x", "y", "z", "nx", "ny", "nz"};
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const int property = element->find(names[k]);
-    if (property >= 0 && !element->properties[property].count_type) source.fields[k] = property;
-    if (k < 3 && source.fields[k] < 0)
-      file.refuse(fmt::format("its nodes have no property {}; export it again", names[k]));
-  }
+  for (std::size_t k = 0; k < names.size(); ++k) source.fields[k] = find_number(element, names[k]);
   if (source.fields[3] < 0 || source.fields[4] < 0 || source.fields[5] < 0)
     source.fields[3] = source.fields[4] = source.fields[5] = -1;
 }

@@ -18,6 +18,18 @@ constexpr double longest_tooth_behind = 0.4;  ///< where that of the curve befor
 constexpr double plot_height = 300;           ///< of the plot of curvature below, in pixels
 constexpr double least_width = 600;           ///< in pixels, for the plot to be read
 constexpr std::size_t most_dots = 400;        ///< more nodes than this would hide the curve
+constexpr std::size_t most_points = 20'000;
+
+/// Whether most teeth of the curve are longer than `longest`.
+bool mostly_longer(const Drawing& drawing, double scale, double longest) {
+  std::ptrdiff_t longer = 0;
+  std::ptrdiff_t all = 0;
+  for (const Drawing::Run& run : drawing.runs) {
+    longer += std::ranges::count_if(run.curvatures, [&](const Vector2& c) { return scale * c.norm() > longest; });
+    all += std::ssize(run.curvatures);
+  }
+  return 2 * longer > all;
+}
 
 /// The tips of a run's teeth, not longer than `longest`.
 std::vector<Vector2> tips_of(const Drawing::Run& run, double scale, double longest) {
@@ -42,6 +54,9 @@ class Box {
   }
   [[nodiscard]] bool empty() const { return !(low_.x() <= high_.x()); }
   [[nodiscard]] Vector2 size() const { return empty() ? Vector2(Vector2::Zero()) : Vector2(high_ - low_); }
+  [[nodiscard]] bool contains(const Vector2& p) const {
+    return (p.array() >= low_.array()).all() && (p.array() <= high_.array()).all();
+  }
   [[nodiscard]] Vector2 upper_left() const { return empty() ? Vector2(Vector2::Zero()) : Vector2(low_.x(), high_.y()); }
 
  private:
@@ -75,6 +90,12 @@ class Pen {
       text_.resize(begin);
     else
       text_ += "\"/>\n";
+  }
+  /// Each a line without length, to be drawn with round ends.
+  void points(const std::vector<Vector2>& points) {
+    text_ += "<path d=\"";
+    for (const Vector2& p : points) append("M{:.1f} {:.1f}h0", p);
+    text_ += "\"/>\n";
   }
   void dots(const std::vector<Vector2>& points) {
     for (const Vector2& p : points) append("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"1.8\"/>\n", p);
@@ -129,7 +150,8 @@ void draw(std::string& text, Pen& pen, const Layer& layer, const char* name, con
 
 }  // namespace
 
-std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, const std::string& title) {
+std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, std::span<const Vector3> points,
+                        const std::string& title) {
   const CurveView view(curve);
   Layer after{drawing_of(curve, view), {}};
   Layer behind{before != nullptr ? drawing_of(*before, view) : Drawing(), {}};
@@ -151,8 +173,14 @@ std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, const
   else if (behind.drawing.sharpest * diagonal > straight)
     scale = longest / behind.drawing.sharpest;
   for (Layer* layer : {&after, &behind}) {
-    layer->set_tips(scale, longest);
+    layer->set_tips(layer == &behind && mostly_longer(behind.drawing, scale, longest) ? 0 : scale, longest);
     for (const std::vector<Vector2>& tips : layer->tips) box.add(tips);
+  }
+
+  std::vector<Vector2> dots;
+  for (std::size_t j = 0; j < points.size(); j += 1 + points.size() / most_points) {
+    const Vector2 dot = view.flat(view.normalized(points[j]));
+    if (box.contains(dot)) dots.push_back(dot);
   }
 
   const Vector2 margin = Vector2::Constant(0.03 * std::max(box.size().norm(), diagonal));
@@ -173,6 +201,11 @@ std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, const
   const double aside = (width / pixels - size.x()) / 2;
   Pen pen(text, box.upper_left() + Vector2(-margin.x() - aside, margin.y()), pixels);
   if (before != nullptr) draw(text, pen, behind, "before", thin);
+  if (!dots.empty()) {
+    text += "<g id=\"points\" stroke=\"#6b6b6b\" stroke-width=\"3\">\n";
+    pen.points(dots);
+    text += "</g>\n";
+  }
   draw(text, pen, after, "curve", strong);
   text += "</g>\n";
   if (node_count < most_dots) {

@@ -6,11 +6,13 @@
 
 namespace vspring {
 
-/// A picture of a curve with its nodes and its curvature comb; before, where it is not null, thin behind it. The comb
+/// A picture of a curve with its nodes and its curvature comb; before, where it is not null, thin behind it, and points
+/// as dots. The comb
 /// stands on the outer side of the bends: from every node a line away from the centre of the circle through the node
 /// and its two neighbours, as long as the circle's curvature. Curves in space are drawn as seen along the normal of
-/// their best plane. Below it stands the plot of curvature against arc length. Positions that are not finite are left
-/// out. Cost: linear.
-std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, const std::string& title);
+/// their best plane. Noise has no comb to see: that of the curve before is left out where most of it would be cut off.
+/// Below it stands the plot of curvature against arc length. Positions that are not finite are left out. Cost: linear.
+std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, std::span<const Vector3> points,
+                        const std::string& title);
 
 }  // namespace vspring

@@ -166,8 +166,8 @@ std::string curvature_plot(const Drawing& curve, const Drawing* before, double l
       "<g id=\"plot\" font-family=\"DejaVu Sans, Arial, sans-serif\" font-size=\"15\" fill=\"#333333\">\n";
   plot.axes(text, planar ? "curvature, left is positive" : "curvature");
   if (before != nullptr) {
-    draw(text, plot, behind, "#8a8a8a");
-    plot.key(text, 1, "before", "#8a8a8a");
+    draw(text, plot, behind, "#b0b0b0");
+    plot.key(text, 1, "before", "#b0b0b0");
     plot.key(text, 0, "after", "#1b3a6b");
   }
   draw(text, plot, after, "#1b3a6b");

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <string>
 
-#include "io/text_cursor.hpp"
-
 namespace vspring {
 namespace {
 
@@ -32,13 +30,12 @@ TableLine line_at(std::string_view bytes, std::size_t offset, char line_end) {
 }
 
 std::vector<TableLine> table_lines(std::string_view bytes) {
-  const char line_end = line_end_of(bytes);
   std::vector<TableLine> lines;
-  lines.reserve(static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), line_end)) + 1);
-  for (std::size_t at = byte_order_mark_length(bytes); at < bytes.size();) {
-    lines.push_back(line_at(bytes, at, line_end));
-    at = std::min(bytes.find(line_end, at), bytes.size() - 1) + 1;
-  }
+  lines.reserve(static_cast<std::size_t>(std::count(bytes.begin(), bytes.end(), line_end_of(bytes))) + 1);
+  walk_lines(bytes, [&](const TableLine& line) {
+    lines.push_back(line);
+    return true;
+  });
   return lines;
 }
 

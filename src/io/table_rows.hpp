@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string_view>
 #include <vector>
+
+#include "io/text_cursor.hpp"
 
 namespace vspring {
 
@@ -21,6 +24,16 @@ TableLine line_at(std::string_view bytes, std::size_t offset, char line_end);
 
 /// LF, or CR in files that have no LF.
 char line_end_of(std::string_view bytes);
+
+/// Calls use(line) for the lines of a file, without a byte order mark, until it returns false.
+template <typename Use>
+void walk_lines(std::string_view bytes, const Use& use) {
+  const char line_end = line_end_of(bytes);
+  for (std::size_t at = byte_order_mark_length(bytes); at < bytes.size();) {
+    if (!use(line_at(bytes, at, line_end))) return;
+    at = std::min(bytes.find(line_end, at), bytes.size() - 1) + 1;
+  }
+}
 
 /// All lines of a file, without a byte order mark.
 std::vector<TableLine> table_lines(std::string_view bytes);

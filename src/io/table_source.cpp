@@ -35,6 +35,20 @@ std::string TableSource::rewritten(const std::vector<Vector3>& places, const std
   return out.finish();
 }
 
+double number_in(const InputFile& file, const TableLine& line, std::span<const std::string_view> cells,
+                 std::size_t column, std::string_view name) {
+  if (column >= cells.size()) {
+    const bool at_end = line.offset + line.text.size() == file.bytes.size();
+    file.refuse_line(line.offset, at_end ? fmt::format("the file ends where {} belongs; it is cut off", name)
+                                         : fmt::format("the line ends where {} belongs; repair the line", name));
+  }
+  const std::string_view cell = cells[column];
+  if (const std::optional<double> value = number_of(cell)) return *value;
+  file.refuse_line(line.offset,
+                   fmt::format("{} stands where {} belongs; {}", cell.empty() ? "nothing" : in_quotes(cell), name,
+                               has_decimal_comma(cell) ? "write decimal points, not commas" : "repair the line"));
+}
+
 TableReader::TableReader(const InputFile& file, CellCutter cutter, std::vector<std::size_t> columns) : file_(file) {
   source_->cutter = std::move(cutter);
   source_->columns = std::move(columns);
@@ -55,23 +69,10 @@ void TableReader::read(std::span<const TableLine> lines) {
 
 Vector3 TableReader::position_in(const TableLine& line) {
   const std::vector<std::string_view>& cells = source_->cutter.cut(line.text);
-  constexpr std::array names = {'x', 'y', 'z'};
+  constexpr std::array names = {"x", "y", "z"};
   Vector3 position = Vector3::Zero();
-  for (std::size_t k = 0; k < source_->columns.size(); ++k) {
-    if (source_->columns[k] >= cells.size()) {
-      const bool at_end = line.offset + line.text.size() == file_.bytes.size();
-      file_.refuse_line(line.offset, at_end ? fmt::format("the file ends where {} belongs; it is cut off", names[k])
-                                            : fmt::format("the line ends where {} belongs; repair the line", names[k]));
-    }
-    const std::string_view cell = cells[source_->columns[k]];
-    const std::optional<double> value = number_of(cell);
-    if (!value)
-      file_.refuse_line(
-          line.offset,
-          fmt::format("{} stands where {} belongs; {}", cell.empty() ? "nothing" : in_quotes(cell), names[k],
-                      has_decimal_comma(cell) ? "write decimal points, not commas" : "repair the line"));
-    position[static_cast<Eigen::Index>(k)] = *value;
-  }
+  for (std::size_t k = 0; k < source_->columns.size(); ++k)
+    position[static_cast<Eigen::Index>(k)] = number_in(file_, line, cells, source_->columns[k], names[k]);
   if (cells.size() > source_->columns.size()) carry("other columns");
   return position;
 }

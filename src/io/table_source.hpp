@@ -24,6 +24,11 @@ class TableSource : public CurveSource {
   std::vector<std::size_t> columns = {0, 1};  ///< of x, y and, in space, z
 };
 
+/// The number in a column of a row. Throws Error(unusable_file) naming the line and what is missing or is no number;
+/// name: of the column.
+double number_in(const InputFile& file, const TableLine& line, std::span<const std::string_view> cells,
+                 std::size_t column, std::string_view name);
+
 /// Gathers the nodes of a table. Blank lines end chains.
 class TableReader {
  public:
@@ -31,7 +36,7 @@ class TableReader {
 
   /// Reads every row of the lines.
   void read(std::span<const TableLine> lines);
-  /// The position that a row gives. Throws Error(unusable_file) naming what is missing or is no number.
+  /// The position that a row gives. Throws as number_in().
   [[nodiscard]] Vector3 position_in(const TableLine& line);
   /// Adds a node, or another row of the one before all others.
   void add_node(const TableLine& line, const Vector3& position);

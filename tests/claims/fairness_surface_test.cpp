@@ -228,6 +228,11 @@ TEST(SurfaceFigures, ScaleTurnAndRenumber) {
   }
 }
 
+TEST(Figures, HaveNoSignWhereTheyAreZero) {
+  for (const Figure& figure : list_figures(measure_surface(generate::plane({.columns = 4, .rows = 4}))))
+    EXPECT_FALSE(figure.value == 0 && std::signbit(figure.value)) << figure.key;
+}
+
 TEST(Figures, HaveKeysOfTheirOwn) {
   const auto figures = list_figures(SurfaceFigures{});
   for (std::size_t a = 0; a < figures.size(); ++a) {

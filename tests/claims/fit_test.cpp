@@ -330,6 +330,16 @@ TEST(Fit, SaysHowFarPointsLie) {
   EXPECT_NEAR(result.distances[16], 0.017, 1e-15);
 }
 
+TEST(Fit, DeviationsAtNodesAreThoseOfTheFurthestOfTheirPoints) {
+  const std::vector<Vector3> nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  const std::vector<Vector3> points = {{0.1, 0, 1}, {0.2, 0, 3}, {-5, 0, 2}, {2.2, 0, 0.5}};
+  const std::vector<double> distances = {1, 3, 2, 0.5};
+  EXPECT_EQ(node_deviations(nodes, points, distances, {}), (std::vector<double>{3, 0, 0.5}));
+  const std::vector<double> odd = {1, 3, 2, std::numeric_limits<double>::quiet_NaN()};
+  for (const auto& wrong : {std::vector<double>{1, 2, 3}, odd})
+    EXPECT_THROW((void)node_deviations(nodes, points, wrong, {}), Error);
+}
+
 TEST(Fit, RefusalsNameThePoint) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   ScatteredPoints points;

@@ -55,6 +55,9 @@ class BadFiles(Case):
         (self.folder / "folder.obj").mkdir()
         self.refuse(path, output="folder.obj")
         self.refuse(path, output="nowhere/out.obj")
+        # Before anything is faired or written, as the folder shows.
+        for option, name in (("--report", "r.json"), ("--scalars", "s.vtp"), ("--html", "page.html")):
+            self.assertIn("nowhere", self.refuse(path, option, self.folder / "nowhere" / name))
 
     def test_full_disk(self):
         path = self.write("in.obj", hat())

@@ -1,6 +1,7 @@
 """What `vspring fit` does."""
 import math
 import random
+import struct
 
 from support import OCTAHEDRON, Case, grid, run, sphere, vertex_lines
 
@@ -55,6 +56,50 @@ class Fit(Case):
                 outputs.add((self.folder / "out.obj").read_bytes())
         self.assertEqual(len(outputs), 1)
 
+    def test_weights_of_points(self):
+        shape = self.write("flat.obj", grid(6, lambda x, y: 0))
+        # Those of weight 0 would draw the surface down.
+        cloud = self.cloud(300) + [(x, y, -1.0) for x, y, _ in self.cloud(300)]
+        weights = [2.0] * 300 + [0.0] * 300
+        head = (f"ply\nformat ascii 1.0\nelement vertex {len(cloud)}\n"
+                + "".join(f"property double {name}\n" for name in ("x", "y", "z", "confidence")) + "end_header\n")
+        rows = [(*point, weight) for point, weight in zip(cloud, weights)]
+        files = {"points.xyz": xyz(rows), "points.ply": head + xyz(rows),
+                 "points.csv": "weight,x,y,z\n" + "".join(f"{w!r},{x!r},{y!r},{z!r}\n" for x, y, z, w in rows)}
+        outputs = set()
+        for name, text in files.items():
+            with self.subTest(name=name):
+                result = self.fit(shape, self.write(name, text), "--weight", "0.05", "--report", self.folder / "r.json")
+                outputs.add((self.folder / "out.obj").read_bytes())
+                points = self.read_json("r.json")["points"]
+                self.assertEqual((points["count"], points["weights"]), (600, {"least": 0, "greatest": 2}))
+                self.assertLessEqual(points["pulling"], 300)
+                self.assertIn("weights 0 to 2", result.stdout.decode())
+        self.fit(shape, self.write("upper.xyz", xyz(cloud[:300])), "--weight", "0.1", "--report", self.folder / "r.json")
+        outputs.add((self.folder / "out.obj").read_bytes())
+        self.assertEqual(len(outputs), 1)
+        self.assertIsNone(self.read_json("r.json")["points"]["weights"])
+
+    def test_deviation_of_points_and_nodes(self):
+        shape = self.write("flat.obj", grid(6, lambda x, y: 0))
+        cloud = self.cloud(300)
+        self.fit(shape, self.write("points.xyz", xyz(cloud)), "--weight", "0.1", "--deviation", self.folder / "d.ply", "--scalars",
+                 self.folder / "s.ply", "--report", self.folder / "r.json")
+        read = lambda name: (self.folder / name).read_bytes().split(b"end_header\n", 1)
+        header, data = read("d.ply")
+        self.assertIn(b"element vertex 300\nproperty double x\nproperty double y\nproperty double z\nproperty double deviation\n", header)
+        rows = list(struct.iter_unpack("<4d", data))
+        self.assertEqual([row[:3] for row in rows], cloud)
+        after = self.read_json("r.json")["points"]["distance"]["after"]
+        self.assertEqual((max(row[3] for row in rows), rows[after["point"]][3]), (after["greatest"], after["greatest"]))
+        self.assertTrue(math.isclose(math.sqrt(sum(row[3] ** 2 for row in rows) / 300), after["rms"], rel_tol=1e-12))
+        header, data = read("s.ply")
+        names = [line.split()[-1] for line in header.decode().splitlines() if line.startswith("property double")]
+        at = names.index("point_deviation")
+        values = [row[at] for row in struct.iter_unpack(f"<{len(names)}d", data[:49 * 8 * len(names)])]
+        self.assertEqual(max(values), after["greatest"])
+        self.assertTrue(set(values) <= {0, *(row[3] for row in rows)})
+
     def test_a_curve_smoothed_by_its_own_nodes(self):
         generator = random.Random(2)
         noisy = [(k / 60, 0.1 * math.sin(math.pi * k / 60) + 0.004 * generator.uniform(-1, 1) * (0 < k < 60)) for k in range(61)]
@@ -66,7 +111,9 @@ class Fit(Case):
         self.assertLess(off(after), 0.7 * off(noisy))
         fairness = self.read_json("r.json")["fairness"]
         self.assertLess(fairness["after"]["rms_turn"], fairness["before"]["rms_turn"] / 2)
-        self.assertTrue((self.folder / "a.svg").read_text().rstrip().endswith("</svg>"))
+        picture = (self.folder / "a.svg").read_text()
+        self.assertTrue(picture.rstrip().endswith("</svg>"))
+        self.assertIn('id="points"', picture)
 
     def test_a_closed_surface_that_only_points_hold(self):
         shape = self.write("ball.obj", sphere(4, radius=0.9))
@@ -109,10 +156,16 @@ class Fit(Case):
         out = self.folder / "out.obj"
         far = self.write("far.xyz", xyz([(0, 0, 0), (0, 0, 1e90)]))
         ball = self.write("ball.obj", OCTAHEDRON)
+        light = self.write("light.xyz", "0 0 0 1\n0 0 1 -2\n")
+        good = [shape, "--points", points, "--weight", "1"]
         for arguments, status, word in (([shape, "--points", points], 1, "--weight"), ([shape, "--weight", "1"], 1, "--points"),
                                         ([shape, "--points", points, "--weight", "-1"], 1, "--weight"),
                                         ([shape, "--points", self.folder / "none.xyz", "--weight", "1"], 2, "none.xyz"),
                                         ([shape, "--points", far, "--weight", "1"], 1, "point 1 "),
+                                        ([shape, "--points", light, "--weight", "1"], 2, "light.xyz:2: the weight is -2"),
+                                        ([*good, "--deviation", self.folder / "d.vtp"], 1, ".ply"),
+                                        ([*good, "--deviation", self.folder / "no" / "d.ply"], 2, "no"),
+                                        ([*good, "--deviation", points], 1, "--points"),
                                         (["-", "--points", "-", "--weight", "1"], 1, "standard input"),
                                         ([ball, "--points", points, "--weight", "0"], 2, "nothing holds"),
                                         ([shape, "--points", points, "--weight", "1", "--fix", "none"], 2, "boundary")):

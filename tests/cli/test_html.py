@@ -351,6 +351,15 @@ class Page(Html):
                 if key in fairness[column]:
                     self.assertTrue(math.isclose(value, fairness[column][key], rel_tol=1e-3, abs_tol=1e-300), (key, column))
 
+    def test_distances_of_points(self):
+        shape, points = self.write("in.obj", grid(6, lambda x, y: 0)), self.write("points.xyz", "0.5 0.5 0.25\n0.4 0.6 0.25\n")
+        page = self.show("fit", shape, "--points", points, "-o", self.folder / "out.obj", "--weight", "0")
+        self.assertIn("2 points: root mean square distance 0.25 → 0.25, greatest 0.25 → 0.25",
+                      page.evaluate("document.getElementById('summary').textContent"))
+        dots = sum(p[0] > p[2] + 90 for p in self.show_mode("shaded"))
+        self.assertGreater(dots, 4)
+        self.assertEqual(sum(p[0] > p[2] + 90 for p in self.show_mode("wire")), 0)
+
     def test_charts_of_a_surface(self):
         self.show("fair", self.write("in.obj", grid(12)), "-o", self.folder / "out.obj")
         self.assertEqual(self.browser.evaluate("[...document.querySelectorAll('#charts figure')].map((f) => f.id)"),

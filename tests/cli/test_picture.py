@@ -111,6 +111,17 @@ class Surface(Picture):
         (aslant,) = panels["shaded"]
         self.assertAlmostEqual(aslant.height / aslant.width, 0.5 ** 1.5, delta=0.02)
 
+    def test_points_that_a_surface_is_fitted_to(self):
+        shape = self.write("flat.obj", grid(6, lambda x, y: 0))
+        points = self.write("points.xyz", "".join(f"{x / 9} {y / 9} 0.1\n" for x in range(10) for y in range(10)) + "0.5 0.5 99\n")
+        _, panels = self.svg("fit", shape, "--points", points, "-o", self.folder / "out.obj", "--weight", "0", "--picture-size", "400",
+                             "--picture-style", "shaded,wire,zebra", "--view", "top")
+        dots = {style: [sum(p[0] > p[2] + 90 for p in picture) for picture in pair] for style, pair in panels.items()}
+        self.assertEqual((dots["wire"], dots["zebra"]), ([0, 0], [0, 0]))
+        self.assertGreater(min(dots["shaded"]), 60, dots)
+        _, panels = self.svg("measure", shape, "--picture-style", "shaded", "--picture-size", "400")
+        self.assertEqual(sum(p[0] > p[2] + 90 for p in panels["shaded"][0]), 0)
+
     def test_default(self):
         _, panels = self.svg("measure", self.write("in.obj", hat()), "--compare", self.write("other.obj", grid(4)), "--picture-size", "200")
         self.assertEqual({style: len(pair) for style, pair in panels.items()}, {"shaded": 2, "zebra": 2})
@@ -188,6 +199,8 @@ class Refusals(Picture):
     def test_a_place_that_cannot_be_written(self):
         path = self.browser(f"echo '<html>picture:{base64.b64encode(b'picture').decode()};</html>'")
         self.refused(2, "no", "measure", self.surface, "--picture", self.folder / "no" / "a.png", path=path)
+        # Before anything is faired or written.
+        self.refused(2, "no", "fair", self.surface, "-o", self.folder / "out.obj", "--picture", self.folder / "no" / "a.png", path=path)
         result = run("measure", self.surface, "--picture", self.folder / "a.png", environment={"PATH": path})
         self.assertEqual((result.returncode, (self.folder / "a.png").read_bytes()), (0, b"picture"))
 

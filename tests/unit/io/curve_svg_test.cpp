@@ -120,6 +120,33 @@ TEST_F(CurveSvg, DrawsTheCurveBeforeBehindItWithItsTeethCutOff) {
   EXPECT_NEAR(longest / after_longest, 0.4 / 0.15, 0.01);
 }
 
+TEST_F(CurveSvg, LeavesTheCombOfNoiseOut) {
+  CurveFile file;
+  file.curve = circle(60, 2, true);
+  PolygonCurve before = file.curve;
+  std::vector<Vector3> positions = before.positions();
+  for (std::size_t k = 0; k < 60; k += 2) positions[k] += 0.05 * (positions[k] - Vector3(5, 0, 0));
+  before.set_positions(positions);
+  const std::string text = picture(file, &before);
+  EXPECT_TRUE(is_balanced(text));
+  EXPECT_EQ(count(text.substr(0, text.find("id=\"curve\"")), "<path"), 0U);
+}
+
+TEST_F(CurveSvg, DrawsPointsWhereTheCurveIs) {
+  CurveFile file;
+  file.curve = circle(20, 2, true);
+  std::vector<Vector3> points = file.curve.positions();
+  points.emplace_back(900, 0, 0);
+  points.emplace_back(0, std::nan(""), 0);
+  const std::string text = draw_curve(file, file.curve.positions(), {.points = points});
+  EXPECT_TRUE(is_balanced(text));
+  EXPECT_LT(text.find("id=\"points\""), text.find("id=\"curve\""));
+  EXPECT_EQ(count(text, "h0"), 20U);
+  const std::vector<Vector3> many(100'000, points.front());
+  EXPECT_LE(count(draw_curve(file, file.curve.positions(), {.points = many}), "h0"), 20'000U);
+  EXPECT_EQ(draw_curve(file, file.curve.positions()).find("id=\"points\""), std::string::npos);
+}
+
 TEST_F(CurveSvg, ShowsACurveInSpaceFromTheFront) {
   // A circle that stands upright and is turned; seen along its normal, it is as wide as high.
   std::vector<Vector3> nodes;

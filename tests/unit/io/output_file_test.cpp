@@ -65,6 +65,19 @@ TEST_F(OutputFile, LeavesNothingWhereItCannotBe) {
   EXPECT_EQ(get("file"), "text");
 }
 
+TEST_F(OutputFile, IsRefusedBeforehandWhereItCannotBe) {
+  put("file", "text");
+  fs::create_symlink("none/file", path("loose"));
+  for (const std::string name : {"none/file", "file/more", ".", "loose"}) {
+    const std::string refused = message_of([&] { write_file(path(name), "x"); });
+    EXPECT_EQ(message_of([&] { check_writable(path(name)); }), refused);
+  }
+  for (const std::string name : {"file", "new"}) check_writable(path(name));
+  check_writable("-");
+  EXPECT_EQ(files(), (std::set<std::string>{"file", "loose"}));
+  EXPECT_EQ(get("file"), "text");
+}
+
 TEST_F(OutputFile, LeavesTheOldFileWhenTheNewOneDoesNotFit) {
   put("file", "text");
   rlimit before{};
@@ -101,6 +114,7 @@ TEST_F(OutputFile, MayBeAPipe) {
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   std::string received;
   std::thread reader([&] { received = get("pipe"); });
+  check_writable(path("pipe"));
   write_file(path("pipe"), "through");
   reader.join();
   EXPECT_EQ(received, "through");
@@ -112,6 +126,7 @@ TEST_F(OutputFile, RespectsFilesThatMayNotBeWritten) {
   put("fixed", "text");
   ::chmod(path("fixed").c_str(), 0444);
   EXPECT_NE(message_of([&] { write_file(path("fixed"), "x"); }).find("Permission denied"), std::string::npos);
+  EXPECT_NE(message_of([&] { check_writable(path("fixed")); }).find("Permission denied"), std::string::npos);
   EXPECT_EQ(get("fixed"), "text");
 }
 

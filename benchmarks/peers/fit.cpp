@@ -1,0 +1,123 @@
+// Noise taken off: smooth shapes, and every mesh of the folder that is named, get noise of 0.3 edges. They are fitted
+// to their own noisy nodes at several weights, boundaries and non-manifold spots held, and smoothed by VTK's windowed
+// sinc filter at many settings, of which the best counts. Prints the table of docs/fit.md: root mean square distances
+// between the result and the mesh without noise, of the nodes of either from the other, the greater of both, in per
+// cent of the mean edge.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "regions.hpp"
+#include "run_driver.hpp"
+
+namespace {
+
+using namespace vspring;
+using namespace bench;
+
+namespace fs = std::filesystem;
+
+constexpr double noise = 0.3;  ///< radius of the ball that nodes move in, in mean edges
+constexpr double weights[] = {0.003, 0.01, 0.03, 0.1, 0.3, 1};
+constexpr int most_iterations = 2000;
+constexpr int iterations[] = {10, 20, 50, 100, 200};
+constexpr double pass_bands[] = {0.001, 0.003, 0.01, 0.03, 0.1, 0.2, 0.3, 0.5, 0.8, 1.2};
+
+double mean_edge(const PolygonMesh& mesh) {
+  double sum = 0;
+  double count = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t k = 0; k < face.size(); ++k, ++count)
+      sum += (mesh.position(face[k]) - mesh.position(face[(k + 1) % face.size()])).norm();
+  }
+  return sum / count;
+}
+
+/// A distance, in bold where nothing is less.
+std::string cell(double value, double least) {
+  return value == least ? fmt::format("**{:.2f}**", value) : fmt::format("{:.2f}", value);
+}
+
+struct Smoothed {
+  double distance = std::numeric_limits<double>::infinity();
+  std::string settings;
+};
+
+template <typename DistanceOf>
+Smoothed best_of_vtk(const PolygonMesh& noisy, const fs::path& driver, const DistanceOf& distance_of) {
+  const TemporaryFolder folder;
+  const std::string start = folder.file("start.ply");
+  const std::string result = folder.file("result.ply");
+  write_surface(start, noisy);
+  Smoothed best;
+  for (const int count : iterations) {
+    for (const double pass_band : pass_bands) {
+      if (!run_driver(driver, start, result, 1, fmt::format("{},{}", count, pass_band))) continue;
+      const double reached = distance_of(read_surface(result).mesh.positions());
+      if (reached < best.distance) best = {reached, fmt::format("{}, {}", count, pass_band)};
+    }
+  }
+  return best;
+}
+
+void run(const std::string& name, const PolygonMesh& mesh, const fs::path& driver) {
+  if (mesh.face_count() == 0) return;  // a curve
+  const double edge = mean_edge(mesh);
+  const PolygonMesh noisy = generate::add_noise(mesh, noise * edge, 1);
+  const auto distance_of = [&](const std::vector<Vector3>& positions) {
+    PolygonMesh smooth = mesh;
+    smooth.set_positions(positions);
+    return 100 * std::max(distance(positions, mesh).rms, distance(mesh.positions(), smooth).rms) / edge;
+  };
+  Constraints held(mesh.node_count());
+  fix_boundary_positions(held, noisy);
+  apply_rules(held, noisy, R"({"rules": [{"nodes": "non-manifold", "position": "fixed"}]})");
+
+  const Smoothed vtk = best_of_vtk(noisy, driver, distance_of);
+  std::vector<double> fitted;
+  for (const double weight : weights) {
+    FitOptions options{.weight = weight};
+    options.fair.max_iterations = most_iterations;
+    fitted.push_back(distance_of(fit(noisy, held, {noisy.positions()}, options).positions));
+  }
+  const double least = std::min(vtk.distance, *std::min_element(fitted.begin(), fitted.end()));
+  fmt::print("| {} | {} | {:.2f} | {} | {} |", name, mesh.node_count(), distance_of(noisy.positions()),
+             cell(vtk.distance, least), vtk.settings);
+  for (const double reached : fitted) fmt::print(" {} |", cell(reached, least));
+  fmt::print("\n");
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  fmt::print("| mesh | nodes | noisy | windowed sinc | its iterations, pass band |");
+  for (const double weight : weights) fmt::print(" k = {} |", weight);
+  fmt::print("\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  const fs::path driver = fs::path(argv[0]).parent_path() / "peer_vtk";
+  const generate::Grid grid = {.columns = 64, .rows = 48, .jitter = 0.2};
+  run("sphere patch", generate::sphere_patch(grid, 1, 90), driver);
+  run("saddle", generate::saddle(grid, 2), driver);
+  run("torus", generate::torus(grid, 1, 0.5), driver);
+  if (argc < 2) return 0;
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(argv[1])) {
+    if (surface_format(entry.path().extension().string())) paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  for (const fs::path& path : paths) {
+    try {
+      run(path.filename().string(), read_surface(path.string()).mesh, driver);
+    } catch (const std::exception& error) {
+      fmt::print("| {} | refused: {} | | | |\n", path.filename().string(), error.what());
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/input_file.hpp"
+#include "io/table_rows.hpp"
+
+namespace vspring {
+
+/// How the rows of a CSV file are to be read.
+struct CsvLayout {
+  CellCutter cutter;
+  std::vector<std::size_t> columns;   ///< of x, y and, in space, z
+  std::optional<std::size_t> header;  ///< offset of the row that names columns
+  std::optional<std::size_t> weight;  ///< column that the header names weight or, without one, confidence
+  std::string warning;                ///< of columns that had to be guessed; empty without
+};
+
+/// Finds the delimiter and the columns of coordinates: those that a header names, else the first ones of numbers.
+/// Throws Error(unusable_file).
+CsvLayout find_csv_layout(const InputFile& file);
+
+}  // namespace vspring

@@ -1,0 +1,78 @@
+#include "vspring/point_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/curve_sniff.hpp"
+#include "io/curve_source.hpp"
+#include "io/format_choice.hpp"
+#include "io/obj_statements.hpp"
+#include "io/point_source.hpp"
+#include "io/sniff.hpp"
+#include "io/surface_source.hpp"
+
+namespace vspring {
+namespace {
+
+class ObjPoints : public ObjStatements {
+ public:
+  explicit ObjPoints(const InputFile& file) : ObjStatements(file) {
+    const auto lines = static_cast<std::size_t>(std::count(file.bytes.begin(), file.bytes.end(), '\n')) + 1;
+    // Room that is not used is never touched.
+    positions_.reserve(lines);
+    node_rows_.reserve(lines);
+  }
+
+  std::vector<Vector3> take() {
+    read();
+    if (positions_.empty()) file_.refuse("no node (a line that begins with v) is in it; choose another file");
+    return std::move(positions_);
+  }
+
+ protected:
+  bool read_element(std::string_view /*keyword*/) override { return false; }
+};
+
+ScatteredPoints read_surface_points(InputFile file, SurfaceFormat format) {
+  switch (format) {
+    case SurfaceFormat::obj:
+      return read_obj_points(file);
+    case SurfaceFormat::off:
+      return {read_off(std::move(file)).mesh.positions()};
+    case SurfaceFormat::ply:
+      return read_ply_points(file);
+    case SurfaceFormat::stl:
+      break;
+  }
+  return {read_stl(std::move(file)).mesh.positions()};
+}
+
+}  // namespace
+
+bool is_point_weight(double weight) { return std::isfinite(weight) && weight >= 0; }
+
+ScatteredPoints read_obj_points(const InputFile& file) { return {ObjPoints(file).take()}; }
+
+ScatteredPoints read_points(const std::string& path) {
+  InputFile file = read_input(path);
+  const std::string extension = extension_of(path);
+  std::optional<CurveFormat> curve = curve_format(extension);
+  if (!curve || *curve == CurveFormat::obj) {
+    if (const auto surface = format_of_content(file.bytes)) return read_surface_points(std::move(file), *surface);
+    if (const auto surface = surface_format(extension)) return read_surface_points(std::move(file), *surface);
+    curve = curve_format_of_content(file);
+  }
+  switch (*curve) {
+    case CurveFormat::csv:
+      return read_csv_points(file);
+    case CurveFormat::dat:
+      return {read_dat_curve(std::move(file)).curve.positions()};
+    case CurveFormat::xyz:
+      return read_xyz_points(file);
+    default:
+      break;
+  }
+  file.refuse("SVG is a picture; choose a file of points");
+}
+
+}  // namespace vspring

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "io/input_file.hpp"
+#include "vspring/point_file.hpp"
+
+namespace vspring {
+
+/// Each reads the points of a file that is said to be of its format. They throw Error(unusable_file).
+ScatteredPoints read_obj_points(const InputFile& file);
+ScatteredPoints read_ply_points(const InputFile& file);
+ScatteredPoints read_csv_points(const InputFile& file);
+ScatteredPoints read_xyz_points(const InputFile& file);
+
+/// Whether a point may have this weight.
+bool is_point_weight(double weight);
+
+}  // namespace vspring

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -92,6 +93,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   if (arguments.paper) {
     options.fair.pseudo_normals = PseudoNormals::average;
     options.fair.curve = CurveRules::paper();
+    if (!options.fair.method) options.fair.method = Method::sweep;
   }
   // The last steps of a fit are about k times their distance.
   options.fair.step_tolerance = arguments.step_tolerance.value_or(
@@ -124,6 +126,8 @@ int run_fit(const FitArguments& arguments) {
                     read_shape(arguments.input, arguments.format, arguments.curve));
 }
 
+const std::map<std::string, Method> methods = {{"equilibrium", Method::equilibrium}, {"sweep", Method::sweep}};
+
 void add_fit_options(CLI::App& command, FitArguments& arguments) {
   command
       .add_option("--points", arguments.points,
@@ -138,23 +142,35 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
       ->type_name("K")
       ->check(CLI::NonNegativeNumber)
       ->group(fairing_group);
+  add_choice(command, "--method", arguments.options.method, methods,
+             "The accelerated solver that goes to the true equilibrium, or the paper's plain iteration (default: "
+             "equilibrium; where it finds none, sweep)")
+      ->group(fairing_group);
+  command
+      .add_option("--tolerance", arguments.options.tolerance,
+                  fmt::format("equilibrium: stop when no node is expected to be further from its final place than "
+                              "this share of the diagonal of the box around the moving nodes (default: {})",
+                              arguments.options.tolerance))
+      ->type_name("X")
+      ->check(CLI::PositiveNumber)
+      ->group(fairing_group);
   command
       .add_option("--step-tolerance", arguments.step_tolerance,
-                  "Stop when no node moves further in an iteration than this share of its mean edge length (default: "
-                  "0.001, or K/10 where that is less)")
+                  "sweep: stop when no node moves further in an iteration than this share of its mean edge length "
+                  "(default: 0.001, or K/10 where that is less)")
       ->type_name("E")
       ->check(CLI::PositiveNumber)
       ->group(fairing_group);
   command
       .add_option("--max-iterations", arguments.options.max_iterations,
-                  "Stop after this many iterations (default: 10000)")
+                  "Stop after this many iterations (default: on each level 200 for equilibrium, 10000 for sweep)")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->group(fairing_group);
   command
       .add_flag("--paper", arguments.paper,
                 "The paper's own choices throughout: plain average of normals; chord tangents, weights 1/length, along "
-                "the principal normal (default: off)")
+                "the principal normal; the method sweep unless --method says another (default: off)")
       ->group(fairing_group);
   add_choice(command, "--format", arguments.format, any_formats,
              "Format of - (default: found from the content; the input's)");

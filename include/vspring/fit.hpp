@@ -16,7 +16,8 @@ struct ScatteredPoints {
 };
 
 struct FitOptions {
-  /// Its method, where given, must be Method::sweep, and fair_boundary must be false.
+  /// Its method, where given, must be equilibrium or sweep, and fair_boundary must be false. Where it is not given:
+  /// equilibrium; where that finds none and max_iterations is not given, the shape of sweep, with a warning.
   FairOptions fair = {};
   /// The paper's k (Eq. 9), for points of weight 1: 0 to 1e50. Small ones smooth, large ones interpolate. On an evenly
   /// spaced curve with one point per node waves of angular frequency ω keep 1/(1 + (λω)⁴) of their height, where k =
@@ -58,19 +59,20 @@ struct FitResult {
 /// Fig. 5).
 ///
 /// Every point pulls at the node nearest to it, along the node's normal (on curves across its tangent), with k_j times
-/// its distance; the points of one node are averaged, near feet of their perpendiculars counting more. Before every
-/// fifth iteration each point changes over to a nearer node among the first- and second-order neighbours of its own
-/// (nodes of the same faces, and of theirs). A point whose nearest node at the start is none of the shape's that move
-/// or are looked at in moving pulls at nothing. What pulls is divided by 1 + k, so that any weight is stable; the shape
-/// that the iteration ends in is the paper's.
+/// its distance; the points of one node are averaged, near feet of their perpendiculars counting more. Every few
+/// iterations each point changes over to a nearer node among the first- and second-order neighbours of its own (nodes
+/// of the same faces, and of theirs). A point whose nearest node at the start is none of the shape's that move or are
+/// looked at in moving pulls at nothing.
 ///
-/// Constraints hold as in fair(), where a shape comes out as it would without points if no point has weight. A closed
-/// shape may be held by points alone, though its nodes can then slide, see docs/fit.md; boundaries and ends must be
-/// held all the same. Nodes without points are fair between those that have some.
+/// Constraints hold as in fair(), whose result comes out, bit for bit, if no point has weight. A closed shape may be
+/// held by points alone, though its nodes can then slide, see docs/fit.md; boundaries and ends must be held all the
+/// same. Nodes without points are fair between those that have some.
 ///
-/// Like fair() by Method::sweep it ends when no node moves further in one iteration than options.fair.step_tolerance
-/// times the mean length of its edges. Small weights then still have far to go: their last steps are about k times
-/// their distance.
+/// By Method::equilibrium it goes to where springs and points balance at every node, with ties that do not change any
+/// more; where they would go to and fro, points stay with a node although another is nearer by a margin. By
+/// Method::sweep what pulls is divided by 1 + k, so that any weight is stable; it ends when no node moves further in
+/// one iteration than options.fair.step_tolerance times the mean length of its edges. Small weights then still have far
+/// to go: their last steps are about k times their distance.
 ///
 /// Throws as fair() does; Error(invalid_argument) for options out of range, no points, a point that is not finite or
 /// further away than 1e50 times the size of the shape, weights that are not as many as points or not from 0 to 1e50,

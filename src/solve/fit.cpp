@@ -17,7 +17,12 @@
 #include "fairness/measure.hpp"
 #include "fit/nearest_nodes.hpp"
 #include "fit/point_ties.hpp"
+#include "levels/curve_levels.hpp"
+#include "levels/surface_levels.hpp"
 #include "solve/account.hpp"
+#include "solve/curve_hierarchy.hpp"
+#include "solve/equilibrium_method.hpp"
+#include "solve/surface_hierarchy.hpp"
 #include "solve/sweep_method.hpp"
 #include "spring/curve_net.hpp"
 #include "vspring/error.hpp"
@@ -29,6 +34,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double largest_weight = 1e50;
+// The last steps of a plain iteration are about k times their distance.
+constexpr double step_share = 0.1;
 
 bool is_weight(double weight) { return weight >= 0 && weight <= largest_weight; }
 
@@ -66,14 +73,17 @@ void mark_nodes(const PolygonCurve& curve, std::vector<std::uint8_t>& marks) {
   }
 }
 
-Net net_of(const PolygonMesh& mesh, const Constraints& constraints) { return gather_net(mesh, constraints); }
-Net net_of(const PolygonCurve& curve, const Constraints& constraints) { return gather_net(curve, constraints).net; }
+Net& net_of(Net& net) { return net; }
+Net& net_of(CurveNet& curve) { return curve.net; }
 
-auto model_of(const PolygonMesh& /*mesh*/, const Net& /*net*/, const FairOptions& options) {
-  return surface_model(options.pseudo_normals);
+auto model_of(const Net& /*net*/, const FairOptions& options) { return surface_model(options.pseudo_normals); }
+auto model_of(const CurveNet& curve, const FairOptions& options) { return curve_model_for(curve.net, options.curve); }
+
+SurfaceHierarchy hierarchy_of(Net net, const Model& model, Distribution distribution, ThreadTeam& team) {
+  return {surface_levels(std::move(net), model, distribution, team), team};
 }
-auto model_of(const PolygonCurve& /*curve*/, const Net& net, const FairOptions& options) {
-  return curve_model_for(net, options.curve);
+CurveHierarchy hierarchy_of(CurveNet curve, const Model& /*model*/, Distribution distribution, ThreadTeam& /*team*/) {
+  return CurveHierarchy(curve_levels(std::move(curve), distribution));
 }
 
 Index faces_of(const PolygonMesh& mesh) { return mesh.face_count(); }
@@ -133,7 +143,7 @@ class Fitting {
     progress.report("preparing", 0);
     FitReport& report = result_.report;
     FairReport& fair = report.fair;
-    fair.method = Method::sweep;
+    fair.method = options_.fair.method.value_or(Method::equilibrium);
     fair.threads = team_.size();
     fair.faces = faces_of(shape_);
     report.points = static_cast<Index>(points_.positions.size());
@@ -154,25 +164,80 @@ class Fitting {
   void fit(ProgressReporter& progress) {
     FairReport& report = result_.report.fair;
     std::vector<double> weights = point_weights();
+    if (std::none_of(weights.begin(), weights.end(), [](double weight) { return weight > 0; })) {
+      FairResult plain = vspring::fair(shape_, constraints_, options_.fair, context_);
+      report = std::move(plain.report);
+      result_.positions = std::move(plain.positions);
+      return;
+    }
     std::vector<Index> nearest = find_nearest();
     std::vector<std::uint8_t> pulled(static_cast<std::size_t>(shape_.node_count()), 0);
     for (std::size_t j = 0; j < nearest.size(); ++j) {
       if (nearest[j] >= 0 && weights[j] > 0) pulled[static_cast<std::size_t>(nearest[j])] = 1;
     }
     report.warnings = check_constraints(shape_, constraints_, pulled);
-    Net net = net_of(shape_, constraints_);
-    count_nodes(net, constraints_, report);
-    const auto model = model_of(shape_, net, options_.fair);
-    distribute(net, *model, options_.fair.distribution, team_);
+    if (report.method == Method::sweep) {
+      sweep(std::move(weights), std::move(nearest), options_.fair, progress);
+      return;
+    }
+    go_to_equilibrium(std::move(weights), std::move(nearest), progress);
+    const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
+    if (!found && report.fixed_positions == 0)
+      report.warnings.emplace_back(
+          "nothing but points holds this shape, and its nodes went on sliding along it: this is the shape of the "
+          "smallest steps; hold a node or two, or keep the distribution of the nodes");
+    if (found || options_.fair.method || options_.fair.max_iterations || report.fixed_positions == 0) return;
+    // Nobody asked for this method: the paper's iteration ends where points crumple a shape, too.
+    FitReport anew;
+    anew.points = result_.report.points;
+    anew.fair.method = Method::sweep;
+    anew.fair.threads = report.threads;
+    anew.fair.faces = report.faces;
+    anew.fair.warnings = std::move(report.warnings);
+    anew.fair.warnings.emplace_back(
+        "no equilibrium was found: this is the plain iteration's shape; the points may be too noisy for their weight "
+        "and for edges as short as these");
+    result_.report = std::move(anew);
+    FairOptions options = options_.fair;
+    options.step_tolerance = std::min(options.step_tolerance, step_share * options_.weight);
+    sweep(point_weights(), find_nearest(), options, progress);
+  }
+
+  void go_to_equilibrium(std::vector<double> weights, std::vector<Index> nearest, ProgressReporter& progress) {
+    auto gathered = gather_net(shape_, constraints_);
+    count_nodes(net_of(gathered), constraints_, result_.report.fair);
+    const auto model = model_of(gathered, options_.fair);
+    auto hierarchy = hierarchy_of(std::move(gathered), *model, options_.fair.distribution, team_);
+    Net& net = hierarchy.net(hierarchy.count() - 1);
+    PointTies ties(net, points_.positions, weights, nearest);
+    weights = {};
+    nearest = {};
+    PointLevels levels(hierarchy, ties, team_);
+    run_equilibrium(hierarchy, *model, options_.fair, team_, context_, progress, result_.report.fair,
+                    net.points.empty() ? nullptr : &levels);
+    finish(net);
+  }
+
+  void sweep(std::vector<double> weights, std::vector<Index> nearest, const FairOptions& options,
+             ProgressReporter& progress) {
+    auto gathered = gather_net(shape_, constraints_);
+    Net& net = net_of(gathered);
+    count_nodes(net, constraints_, result_.report.fair);
+    const auto model = model_of(gathered, options);
+    distribute(net, *model, options.distribution, team_);
     PointTies ties(net, points_.positions, weights, nearest);
     weights = {};
     nearest = {};
     std::function<void()> renew_ties;
-    if (!net.points.empty()) renew_ties = [&] { ties.renew(team_); };
-    run_sweeps(net, *model, options_.fair, team_, context_, progress, report, renew_ties);
+    if (!net.points.empty()) renew_ties = [&] { (void)ties.renew(team_); };
+    run_sweeps(net, *model, options, team_, context_, progress, result_.report.fair, renew_ties);
+    finish(net);
+  }
+
+  void finish(const Net& net) {
     count_points(net);
     result_.positions = scatter_positions(net, shape_.positions(), constraints_, options_.fair.strength);
-    measure_moves(net, shape_.positions(), result_.positions, report);
+    measure_moves(net, shape_.positions(), result_.positions, result_.report.fair);
   }
 
   [[nodiscard]] std::vector<double> point_weights() const {
@@ -228,8 +293,8 @@ void FitOptions::validate() const {
   fair.validate();
   const auto refuse = [](const std::string& message) { throw Error(ErrorCode::invalid_argument, message); };
   if (!is_weight(weight)) refuse(fmt::format("weight must be from 0 to {:g}, not {}", largest_weight, weight));
-  if (fair.method.value_or(Method::sweep) != Method::sweep)
-    refuse(fmt::format("points can be fitted by method sweep only, not {}", name(*fair.method)));
+  if (fair.method == Method::multigrid)
+    refuse("points can be fitted by the methods equilibrium and sweep, not by multigrid");
   if (fair.fair_boundary) refuse("points cannot be fitted while the boundary is faired: fair the boundary first");
 }
 

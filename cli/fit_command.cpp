@@ -27,7 +27,8 @@ using Json = nlohmann::ordered_json;
 struct FitArguments : FairingArguments {
   std::optional<AnyFormat> format;
   std::string points;
-  double weight = 0;
+  std::optional<double> weight;
+  FitOptions fit;  ///< what is not of weights or of fairing in them
   std::optional<double> step_tolerance;
   bool curve = false;
   bool closed = false;
@@ -42,11 +43,18 @@ Json to_json(const PointDistances& distances) {
           {"percentile99", distances.percentile99}};
 }
 
+Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
 Json to_json(const FitReport& report, const FitArguments& arguments) {
   return {{"points",
            {{"file", arguments.points},
-            {"weight", arguments.weight},
+            {"weight", optional(arguments.weight)},
+            {"smoothing_length", optional(report.smoothing_length)},
+            {"within", optional(arguments.fit.within)},
+            {"rms", optional(arguments.fit.rms)},
             {"count", report.points},
+            {"outliers", report.outliers},
+            {"active", report.active_points},
             {"pulling", report.pulling_points},
             {"nodes_with_points", report.pulled_nodes},
             {"most_on_a_node", report.most_points},
@@ -62,6 +70,8 @@ std::string lines_of(const FitReport& report) {
   line("rms distance     ", report.before.all.rms, report.after.all.rms);
   line("99 % within      ", report.before.percentile99, report.after.percentile99);
   line("greatest         ", report.before.all.greatest, report.after.all.greatest);
+  if (report.smoothing_length) text += fmt::format("smoothing length {:.4g} units\n", *report.smoothing_length);
+  if (report.outliers > 0) text += fmt::format("outliers         {} left out after\n", report.outliers);
   return text;
 }
 
@@ -89,7 +99,9 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   const std::vector<Repeat> repeats = arguments.closed ? close(file) : std::vector<Repeat>{};
   const Shape& shape = shape_of(file);
   const Constraints constraints = make_constraints(arguments, shape, rule_input(file));
-  FitOptions options{.fair = arguments.options, .weight = arguments.weight};
+  FitOptions options = arguments.fit;
+  options.fair = arguments.options;
+  options.weight = arguments.weight.value_or(options.weight);
   if (arguments.paper) {
     options.fair.pseudo_normals = PseudoNormals::average;
     options.fair.curve = CurveRules::paper();
@@ -97,8 +109,8 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   }
   // The last steps of a fit are about k times their distance.
   options.fair.step_tolerance = arguments.step_tolerance.value_or(
-      arguments.weight > 0 ? std::min(options.fair.step_tolerance, arguments.weight / 10)
-                           : options.fair.step_tolerance);
+      arguments.weight.value_or(0) > 0 ? std::min(options.fair.step_tolerance, options.weight / 10)
+                                       : options.fair.step_tolerance);
   FitResult result = fit(shape, constraints, {.positions = read_points(arguments.points)}, options, fairing.context());
   for (const Repeat& repeat : repeats)
     result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
@@ -119,6 +131,9 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
 
 int run_fit(const FitArguments& arguments) {
   refuse_shared_views(arguments, {{"--points", arguments.points}});
+  const FitOptions& fit = arguments.fit;
+  if ((arguments.weight ? 1 : 0) + (fit.smoothing_length ? 1 : 0) + (fit.within ? 1 : 0) + (fit.rms ? 1 : 0) != 1)
+    throw Error(ErrorCode::invalid_argument, "one of --weight, --smoothing-length, --within and --rms has to be given");
   if (arguments.points == "-" && arguments.input == "-")
     throw Error(ErrorCode::invalid_argument, "--points: standard input is the shape already");
   Fairing fairing(arguments);
@@ -134,13 +149,37 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
                   "The points: the nodes of a file of any of the formats, connectivity ignored")
       ->required()
       ->type_name("POINTS");
+  const std::string pulling_group = "How points pull: one of";
   command
       .add_option("--weight", arguments.weight,
                   "The paper's k: how much a point counts against the springs of its node; 0.01 takes away waves of "
                   "some 12 edges, 0.00001 of some 66, large ones interpolate")
-      ->required()
       ->type_name("K")
       ->check(CLI::NonNegativeNumber)
+      ->group(pulling_group);
+  command
+      .add_option("--smoothing-length", arguments.fit.smoothing_length,
+                  "Take away what is shorter than about 6 times this, whatever the mesh (units of the input)")
+      ->type_name("L")
+      ->check(CLI::PositiveNumber)
+      ->group(pulling_group);
+  command
+      .add_option("--within", arguments.fit.within,
+                  "The fairest shape from which no point is further away than this (units of the input)")
+      ->type_name("D")
+      ->check(CLI::PositiveNumber)
+      ->group(pulling_group);
+  command
+      .add_option("--rms", arguments.fit.rms,
+                  "The fairest shape from which points are this far away, root mean square (units of the input)")
+      ->type_name("D")
+      ->check(CLI::PositiveNumber)
+      ->group(pulling_group);
+  command
+      .add_option("--outliers", arguments.fit.outliers,
+                  "Leave this share of the points out, those furthest away: 0 to less than 1 (default: 0)")
+      ->type_name("P")
+      ->check(CLI::Range(0.0, 0.999999))
       ->group(fairing_group);
   add_choice(command, "--method", arguments.options.method, methods,
              "The accelerated solver that goes to the true equilibrium, or the paper's plain iteration (default: "

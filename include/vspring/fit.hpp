@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "vspring/distance.hpp"
@@ -23,6 +24,22 @@ struct FitOptions {
   /// spaced curve with one point per node waves of angular frequency ω keep 1/(1 + (λω)⁴) of their height, where k =
   /// (ℓ/λ)⁴/8 and ℓ is the length of the edges.
   double weight = 0.01;
+  // Of these three at most one may be given; it takes the place of `weight`.
+  /// A weight that means the same at every resolution: a length λ, in the units of the input, more than 0. The shape is
+  /// about the one for which ∫ (curvature)² + λ⁻⁴ (share of each point) Σ (distance)² is least, every point standing
+  /// for an equal share of the length (area) that moves, times its own weight: of dense points, waves of angular
+  /// frequency ω keep 1/(1 + (λω)⁴) of their height. See docs/fit.md for the k that it comes to.
+  std::optional<double> smoothing_length = std::nullopt;
+  /// The fairest shape from which no point lies further than this, in the units of the input, more than 0. Looked for
+  /// on the way from the one that all points smooth alike to the one that only the furthest pull at, by their V-Spring
+  /// energy (Fairness). Not by Method::sweep.
+  std::optional<double> within = std::nullopt;
+  /// The largest smoothing length for which the root mean square of the distances is not above this, in the units of
+  /// the input, more than 0. Not by Method::sweep.
+  std::optional<double> rms = std::nullopt;
+  /// The share of the points, from 0 to less than 1, that is left out: those furthest from the shape, found in turns
+  /// with it.
+  double outliers = 0;
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
@@ -45,13 +62,17 @@ struct FitReport {
   /// Moving nodes that points are tied to, at the end, and the most points of one of them.
   Index pulled_nodes = 0;
   Index most_points = 0;
+  Index outliers = 0;  ///< points left out; `after` does not count them
+  /// The one given or, for a tolerance, found; none for the paper's k and where plain fairing is within the tolerance.
+  std::optional<double> smoothing_length = std::nullopt;
+  Index active_points = 0;  ///< with `within`: those at that distance, to 1 %
   PointDistances before;
   PointDistances after;
 };
 
 struct FitResult {
   std::vector<Vector3> positions;  ///< one per node; fixed nodes bit for bit
-  std::vector<double> distances;   ///< of every point from the new shape, in the units of the input
+  std::vector<double> distances;   ///< of every point from the new shape, in the units of the input; outliers too
   FitReport report;
 };
 
@@ -73,6 +94,9 @@ struct FitResult {
 /// Method::sweep what pulls is divided by 1 + k, so that any weight is stable; it ends when no node moves further in
 /// one iteration than options.fair.step_tolerance times the mean length of its edges. Small weights then still have far
 /// to go: their last steps are about k times their distance.
+///
+/// Where no shape of this mesh is within options.within or options.rms, the nearest one found is the result, with a
+/// warning and an outcome that is not `converged`. Either takes the equilibrium some ten to a hundred times.
 ///
 /// Throws as fair() does; Error(invalid_argument) for options out of range, no points, a point that is not finite or
 /// further away than 1e50 times the size of the shape, weights that are not as many as points or not from 0 to 1e50,

@@ -15,7 +15,7 @@ namespace {
 // square of their number. Points get past it by being tied to it.
 constexpr std::size_t most_passed_on = 100;
 // Of a factor.
-constexpr double notable_change = 0.01;
+constexpr double notable_change = 1e-3;
 constexpr std::uint32_t none = UINT32_MAX;
 
 /// Places for the members of groups, from their numbers: each group's begin, and at last the end.
@@ -54,6 +54,7 @@ PointTies::PointTies(Net& net, std::span<const Vector3> points, std::span<const 
   TiedPoints& tied = net.points;
   tied.positions.resize(place.back());
   tied.weights.resize(place.back());
+  tied.numbers.resize(place.back());
   node_.resize(place.back());
   for (std::size_t j = 0; j < points.size(); ++j) {
     const std::uint32_t node = tied_to(j);
@@ -61,6 +62,7 @@ PointTies::PointTies(Net& net, std::span<const Vector3> points, std::span<const 
     const std::uint32_t k = place[node]++;
     tied.positions[k] = net.frame.to_local(points[j]);
     tied.weights[k] = weights[j];
+    tied.numbers[k] = static_cast<std::uint32_t>(j);
     node_[k] = node;
   }
   group();

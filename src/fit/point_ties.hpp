@@ -25,7 +25,7 @@ class PointTies {
 
   /// Ties each point to the nearest of its node and the neighbours of first and second order. margin: by how much of
   /// the distance between both nodes the point must lie beyond the middle between them to change over. True where
-  /// anything changed, but for factors by under 1 %. Cost: linear.
+  /// anything changed, but for factors by under 0.1 %. Cost: linear.
   bool renew(ThreadTeam& team, double margin = 0);
 
   /// Ties each point to the nearest of all nodes of the net. Cost: n log n.

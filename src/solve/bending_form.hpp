@@ -35,7 +35,4 @@ void weigh_edges(const Net& net, ThreadTeam& team, std::vector<float>& sums);
 /// shift: what is added to the diagonal, as a share of it; keeps a net that nothing holds from having no factor.
 SparseRows spreading_form(const Net& net, ThreadTeam& team, double shift = 1e-13);
 
-/// What V-Spring is of −D⁻¹ B h on meshes like this one: 3/4 on triangles, 1 on quads.
-double bending_factor(const Net& net);
-
 }  // namespace vspring

@@ -232,8 +232,8 @@ void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions
 
 void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,
                                const FairOptions& options, ThreadTeam& team, Context& context,
-                               ProgressReporter& progress, FairReport& report) {
-  Run(hierarchy, model, options, team, context, progress, report).run_on_shape_itself(preconditioner);
+                               ProgressReporter& progress, FairReport& report, PointLevels* points) {
+  Run(hierarchy, model, options, team, context, progress, report, points).run_on_shape_itself(preconditioner);
 }
 
 }  // namespace vspring

@@ -19,6 +19,6 @@ void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions
 /// the shape itself. Ends short of it where the shape is not near enough.
 void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,
                                const FairOptions& options, ThreadTeam& team, Context& context,
-                               ProgressReporter& progress, FairReport& report);
+                               ProgressReporter& progress, FairReport& report, PointLevels* points = nullptr);
 
 }  // namespace vspring

@@ -15,8 +15,9 @@ namespace vspring {
 /// whole shape, not to a node.
 class PointLevels {
  public:
-  /// ties: of the shape itself; it must outlive this, and so must the hierarchy.
-  PointLevels(Hierarchy& hierarchy, PointTies& ties, ThreadTeam& team);
+  /// ties: of the shape itself; it must outlive this, and so must the hierarchy. smoothing: the smoothing length, where
+  /// that is what points pull by; else it is Eq. 9.
+  PointLevels(Hierarchy& hierarchy, PointTies& ties, std::shared_ptr<const double> smoothing, ThreadTeam& team);
 
   /// Ties the points of a level to the nodes that are nearest where these are now. Cost: n log n.
   void tie(std::size_t level);
@@ -30,6 +31,7 @@ class PointLevels {
   PointTies* tied_;
   std::unique_ptr<PointTies> coarse_;
   std::vector<TiedPoints> points_;  // of the levels below the finest
+  PointFactors factors_;            // and how they pull
 };
 
 }  // namespace vspring

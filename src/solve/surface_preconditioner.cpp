@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "solve/bending_form.hpp"
+#include "spring/bending_factor.hpp"
 
 namespace vspring {
 

@@ -200,16 +200,13 @@ class Fitting {
     }
     go_to_equilibrium(std::move(points), progress);
     const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
-    if (!found && report.fixed_positions == 0)
-      report.warnings.emplace_back(
-          "nothing but points holds this shape, and its nodes went on sliding along it: this is the shape of the "
-          "smallest steps; hold a node or two, or keep the distribution of the nodes");
-    if (found || options_.fair.method || options_.fair.max_iterations || report.fixed_positions == 0) return;
+    if (found || options_.fair.method || options_.fair.max_iterations) return;
     // Nobody asked for this method: the paper's iteration ends where points crumple a shape, too.
     std::vector<std::string> warnings = std::move(report.warnings);
     warnings.emplace_back(
         "no equilibrium was found: this is the plain iteration's shape; the points may be too noisy for their weight "
-        "and for edges as short as these");
+        "and for edges as short as these, or too little may be held: hold more nodes, let a smaller region move, or "
+        "keep the distribution of the nodes");
     start_report(Method::sweep);
     report.warnings = std::move(warnings);
     FairOptions options = options_.fair;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -27,7 +28,8 @@ using Json = nlohmann::ordered_json;
 struct FitArguments : FairingArguments {
   std::optional<AnyFormat> format;
   std::string points;
-  double weight = 0;
+  std::optional<double> weight;
+  FitOptions fit;  ///< what is not of weights or of fairing in them
   std::optional<double> step_tolerance;
   bool curve = false;
   bool closed = false;
@@ -42,6 +44,8 @@ Json to_json(const PointDistances& distances) {
           {"percentile99", distances.percentile99}};
 }
 
+Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
 /// The least and the greatest weight of the points; nothing where the file gives none.
 using WeightRange = std::optional<std::pair<double, double>>;
 
@@ -54,9 +58,14 @@ WeightRange range_of(const std::vector<double>& weights) {
 Json to_json(const FitReport& report, const WeightRange& weights, const FitArguments& arguments) {
   return {{"points",
            {{"file", arguments.points},
-            {"weight", arguments.weight},
+            {"weight", optional(arguments.weight)},
+            {"smoothing_length", optional(report.smoothing_length)},
+            {"within", optional(arguments.fit.within)},
+            {"rms", optional(arguments.fit.rms)},
             {"weights", weights ? Json{{"least", weights->first}, {"greatest", weights->second}} : Json()},
             {"count", report.points},
+            {"outliers", report.outliers},
+            {"active", report.active_points},
             {"pulling", report.pulling_points},
             {"nodes_with_points", report.pulled_nodes},
             {"most_on_a_node", report.most_points},
@@ -74,6 +83,8 @@ std::string lines_of(const FitReport& report, const WeightRange& weights) {
   line("rms distance     ", report.before.all.rms, report.after.all.rms);
   line("99 % within      ", report.before.percentile99, report.after.percentile99);
   line("greatest         ", report.before.all.greatest, report.after.all.greatest);
+  if (report.smoothing_length) text += fmt::format("smoothing length {:.4g} units\n", *report.smoothing_length);
+  if (report.outliers > 0) text += fmt::format("outliers         {} left out after\n", report.outliers);
   return text;
 }
 
@@ -105,15 +116,18 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   const std::vector<Repeat> repeats = arguments.closed ? close(file) : std::vector<Repeat>{};
   const Shape& shape = shape_of(file);
   const Constraints constraints = make_constraints(arguments, shape, rule_input(file));
-  FitOptions options{.fair = arguments.options, .weight = arguments.weight};
+  FitOptions options = arguments.fit;
+  options.fair = arguments.options;
+  options.weight = arguments.weight.value_or(options.weight);
   if (arguments.paper) {
     options.fair.pseudo_normals = PseudoNormals::average;
     options.fair.curve = CurveRules::paper();
+    if (!options.fair.method) options.fair.method = Method::sweep;
   }
   // The last steps of a fit are about k times their distance.
   options.fair.step_tolerance = arguments.step_tolerance.value_or(
-      arguments.weight > 0 ? std::min(options.fair.step_tolerance, arguments.weight / 10)
-                           : options.fair.step_tolerance);
+      arguments.weight.value_or(0) > 0 ? std::min(options.fair.step_tolerance, options.weight / 10)
+                                       : options.fair.step_tolerance);
   ScatteredPoints points = read_points(arguments.points);
   FitResult result = fit(shape, constraints, points, options, fairing.context());
   const WeightRange weights = range_of(points.weights);
@@ -148,12 +162,17 @@ int run_fit(const FitArguments& arguments) {
   if (!arguments.deviation.empty() &&
       scalar_format(std::filesystem::path(arguments.deviation).extension().string()) != ScalarFormat::ply)
     throw Error(ErrorCode::invalid_argument, arguments.deviation + ": deviations of points go to PLY; name it .ply");
+  const FitOptions& fit = arguments.fit;
+  if ((arguments.weight ? 1 : 0) + (fit.smoothing_length ? 1 : 0) + (fit.within ? 1 : 0) + (fit.rms ? 1 : 0) != 1)
+    throw Error(ErrorCode::invalid_argument, "one of --weight, --smoothing-length, --within and --rms has to be given");
   if (arguments.points == "-" && arguments.input == "-")
     throw Error(ErrorCode::invalid_argument, "--points: standard input is the shape already");
   Fairing fairing(arguments);
   return std::visit([&](auto&& file) { return fit_file(arguments, std::forward<decltype(file)>(file), fairing); },
                     read_shape(arguments.input, arguments.format, arguments.curve));
 }
+
+const std::map<std::string, Method> methods = {{"equilibrium", Method::equilibrium}, {"sweep", Method::sweep}};
 
 void add_fit_options(CLI::App& command, FitArguments& arguments) {
   command
@@ -162,31 +181,67 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
                   "PLY's property or CSV's column weight or confidence, the fourth or seventh number in XYZ")
       ->required()
       ->type_name("POINTS");
+  const std::string pulling_group = "How points pull: one of";
   command
       .add_option("--weight", arguments.weight,
                   "The paper's k: how much a point counts against the springs of its node; 0.01 takes away waves of "
                   "some 12 edges, 0.00001 of some 66, large ones interpolate")
-      ->required()
       ->type_name("K")
       ->check(CLI::NonNegativeNumber)
+      ->group(pulling_group);
+  command
+      .add_option("--smoothing-length", arguments.fit.smoothing_length,
+                  "Take away what is shorter than about 6 times this, whatever the mesh (units of the input)")
+      ->type_name("L")
+      ->check(CLI::PositiveNumber)
+      ->group(pulling_group);
+  command
+      .add_option("--within", arguments.fit.within,
+                  "The fairest shape from which no point is further away than this (units of the input)")
+      ->type_name("D")
+      ->check(CLI::PositiveNumber)
+      ->group(pulling_group);
+  command
+      .add_option("--rms", arguments.fit.rms,
+                  "The fairest shape from which points are this far away, root mean square (units of the input)")
+      ->type_name("D")
+      ->check(CLI::PositiveNumber)
+      ->group(pulling_group);
+  command
+      .add_option("--outliers", arguments.fit.outliers,
+                  "Leave this share of the points out, those furthest away: 0 to less than 1 (default: 0)")
+      ->type_name("P")
+      ->check(CLI::Range(0.0, 0.999999))
+      ->group(fairing_group);
+  add_choice(command, "--method", arguments.options.method, methods,
+             "The accelerated solver that goes to the true equilibrium, or the paper's plain iteration (default: "
+             "equilibrium; where it finds none, sweep)")
+      ->group(fairing_group);
+  command
+      .add_option("--tolerance", arguments.options.tolerance,
+                  fmt::format("equilibrium: stop when no node is expected to be further from its final place than "
+                              "this share of the diagonal of the box around the moving nodes (default: {})",
+                              arguments.options.tolerance))
+      ->type_name("X")
+      ->check(CLI::PositiveNumber)
       ->group(fairing_group);
   command
       .add_option("--step-tolerance", arguments.step_tolerance,
-                  "Stop when no node moves further in an iteration than this share of its mean edge length (default: "
-                  "0.001, or K/10 where that is less)")
+                  "sweep: stop when no node moves further in an iteration than this share of its mean edge length "
+                  "(default: 0.001, or K/10 where that is less)")
       ->type_name("E")
       ->check(CLI::PositiveNumber)
       ->group(fairing_group);
   command
       .add_option("--max-iterations", arguments.options.max_iterations,
-                  "Stop after this many iterations (default: 10000)")
+                  "Stop after this many iterations (default: on each level 200 for equilibrium, 10000 for sweep)")
       ->type_name("N")
       ->check(CLI::NonNegativeNumber)
       ->group(fairing_group);
   command
       .add_flag("--paper", arguments.paper,
                 "The paper's own choices throughout: plain average of normals; chord tangents, weights 1/length, along "
-                "the principal normal (default: off)")
+                "the principal normal; the method sweep unless --method says another (default: off)")
       ->group(fairing_group);
   command
       .add_option("--deviation", arguments.deviation,

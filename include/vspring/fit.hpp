@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -10,12 +11,29 @@
 namespace vspring {
 
 struct FitOptions {
-  /// Its method, where given, must be Method::sweep, and fair_boundary must be false.
+  /// Its method, where given, must be equilibrium or sweep, and fair_boundary must be false. Where it is not given:
+  /// equilibrium; where that finds none and max_iterations is not given, the shape of sweep, with a warning.
   FairOptions fair = {};
   /// The paper's k (Eq. 9), for points of weight 1: 0 to 1e50. Small ones smooth, large ones interpolate. On an evenly
   /// spaced curve with one point per node waves of angular frequency ω keep 1/(1 + (λω)⁴) of their height, where k =
   /// (ℓ/λ)⁴/8 and ℓ is the length of the edges.
   double weight = 0.01;
+  // Of these three at most one may be given; it takes the place of `weight`.
+  /// A weight that means the same at every resolution: a length λ, in the units of the input, more than 0. The shape is
+  /// about the one for which ∫ (curvature)² + λ⁻⁴ (share of each point) Σ (distance)² is least, every point standing
+  /// for an equal share of the length (area) that moves, times its own weight: of dense points, waves of angular
+  /// frequency ω keep 1/(1 + (λω)⁴) of their height. See docs/fit.md for the k that it comes to.
+  std::optional<double> smoothing_length = std::nullopt;
+  /// The fairest shape from which no point lies further than this, in the units of the input, more than 0. Looked for
+  /// on the way from the one that all points smooth alike to the one that only the furthest pull at, by their V-Spring
+  /// energy (Fairness). Not by Method::sweep.
+  std::optional<double> within = std::nullopt;
+  /// The largest smoothing length for which the root mean square of the distances is not above this, in the units of
+  /// the input, more than 0. Not by Method::sweep.
+  std::optional<double> rms = std::nullopt;
+  /// The share of the points, from 0 to less than 1, that is left out: those furthest from the shape, found in turns
+  /// with it.
+  double outliers = 0;
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
@@ -38,13 +56,17 @@ struct FitReport {
   /// Moving nodes that points are tied to, at the end, and the most points of one of them.
   Index pulled_nodes = 0;
   Index most_points = 0;
+  Index outliers = 0;  ///< points left out; `after` does not count them
+  /// The one given or, for a tolerance, found; none for the paper's k and where plain fairing is within the tolerance.
+  std::optional<double> smoothing_length = std::nullopt;
+  Index active_points = 0;  ///< with `within`: those at that distance, to 1 %
   PointDistances before;
   PointDistances after;
 };
 
 struct FitResult {
   std::vector<Vector3> positions;  ///< one per node; fixed nodes bit for bit
-  std::vector<double> distances;   ///< of every point from the new shape, in the units of the input
+  std::vector<double> distances;   ///< of every point from the new shape, in the units of the input; outliers too
   FitReport report;
 };
 
@@ -52,19 +74,23 @@ struct FitResult {
 /// Fig. 5).
 ///
 /// Every point pulls at the node nearest to it, along the node's normal (on curves across its tangent), with k_j times
-/// its distance; the points of one node are averaged, near feet of their perpendiculars counting more. Before every
-/// fifth iteration each point changes over to a nearer node among the first- and second-order neighbours of its own
-/// (nodes of the same faces, and of theirs). A point whose nearest node at the start is none of the shape's that move
-/// or are looked at in moving pulls at nothing. What pulls is divided by 1 + k, so that any weight is stable; the shape
-/// that the iteration ends in is the paper's.
+/// its distance; the points of one node are averaged, near feet of their perpendiculars counting more. Every few
+/// iterations each point changes over to a nearer node among the first- and second-order neighbours of its own (nodes
+/// of the same faces, and of theirs). A point whose nearest node at the start is none of the shape's that move or are
+/// looked at in moving pulls at nothing.
 ///
-/// Constraints hold as in fair(), where a shape comes out as it would without points if no point has weight. A closed
-/// shape may be held by points alone, though its nodes can then slide, see docs/fit.md; boundaries and ends must be
-/// held all the same. Nodes without points are fair between those that have some.
+/// Constraints hold as in fair(), whose result comes out, bit for bit, if no point has weight. A closed shape may be
+/// held by points alone, though its nodes can then slide, see docs/fit.md; boundaries and ends must be held all the
+/// same. Nodes without points are fair between those that have some.
 ///
-/// Like fair() by Method::sweep it ends when no node moves further in one iteration than options.fair.step_tolerance
-/// times the mean length of its edges. Small weights then still have far to go: their last steps are about k times
-/// their distance.
+/// By Method::equilibrium it goes to where springs and points balance at every node, with ties that do not change any
+/// more; where they would go to and fro, points stay with a node although another is nearer by a margin. By
+/// Method::sweep what pulls is divided by 1 + k, so that any weight is stable; it ends when no node moves further in
+/// one iteration than options.fair.step_tolerance times the mean length of its edges. Small weights then still have far
+/// to go: their last steps are about k times their distance.
+///
+/// Where no shape of this mesh is within options.within or options.rms, the nearest one found is the result, with a
+/// warning and an outcome that is not `converged`. Either takes the equilibrium some ten to a hundred times.
 ///
 /// Throws as fair() does; Error(invalid_argument) for options out of range, no points, a point that is not finite or
 /// further away than 1e50 times the size of the shape, weights that are not as many as points or not from 0 to 1e50,

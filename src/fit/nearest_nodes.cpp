@@ -8,29 +8,19 @@
 
 namespace vspring {
 
-std::vector<Index> nearest_nodes(std::span<const Vector3> points, std::span<const Vector3> nodes,
-                                 std::span<const std::uint8_t> usable, ThreadTeam& team) {
+namespace {
+
+/// frame: in which squares are safe.
+std::vector<Index> nearest_in(const Frame& frame, std::span<const Vector3> points, std::span<const Vector3> nodes,
+                              std::span<const std::uint8_t> usable, ThreadTeam& team) {
   constexpr std::size_t points_per_task = 512;
-  Box around;
   std::vector<Index> number;
+  std::vector<Vector3> places;
+  std::vector<Box> boxes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (usable[i] == 0) continue;
     number.push_back(static_cast<Index>(i));
-    around.extend(nodes[i]);
-  }
-  const Frame frame(around);
-  std::vector<Vector3> places;
-  std::vector<Box> boxes;
-  places.reserve(number.size());
-  boxes.reserve(number.size());
-  for (const Index i : number)
-    boxes.emplace_back(places.emplace_back(frame.to_local(nodes[static_cast<std::size_t>(i)])));
-  for (std::size_t j = 0; j < points.size(); ++j) {
-    if (!(frame.to_local(points[j]).cwiseAbs().maxCoeff() <= furthest_point))
-      throw Error(ErrorCode::invalid_argument,
-                  fmt::format("point {} lies more than {:g} times the size of the shape away from it; leave it out, or "
-                              "look at its units",
-                              j, furthest_point));
+    boxes.emplace_back(places.emplace_back(frame.to_local(nodes[i])));
   }
   const BoxTree tree(std::move(boxes), team);
   std::vector<Index> nearest(points.size(), -1);
@@ -44,6 +34,30 @@ std::vector<Index> nearest_nodes(std::span<const Vector3> points, std::span<cons
     }
   });
   return nearest;
+}
+
+}  // namespace
+
+std::vector<Index> nearest_nodes(std::span<const Vector3> points, std::span<const Vector3> nodes,
+                                 std::span<const std::uint8_t> usable, ThreadTeam& team) {
+  Box around;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (usable[i] != 0) around.extend(nodes[i]);
+  }
+  const Frame frame(around);
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    if (!(frame.to_local(points[j]).cwiseAbs().maxCoeff() <= furthest_point))
+      throw Error(ErrorCode::invalid_argument,
+                  fmt::format("point {} lies more than {:g} times the size of the shape away from it; leave it out, or "
+                              "look at its units",
+                              j, furthest_point));
+  }
+  return nearest_in(frame, points, nodes, usable, team);
+}
+
+std::vector<Index> nearest_places(std::span<const Vector3> points, std::span<const Vector3> nodes,
+                                  std::span<const std::uint8_t> usable, ThreadTeam& team) {
+  return nearest_in(Frame(), points, nodes, usable, team);
 }
 
 }  // namespace vspring

@@ -18,4 +18,8 @@ inline constexpr double furthest_point = 1e50;
 std::vector<Index> nearest_nodes(std::span<const Vector3> points, std::span<const Vector3> nodes,
                                  std::span<const std::uint8_t> usable, ThreadTeam& team);
 
+/// The same without a limit to how far points lie; squares of distances must not overflow.
+std::vector<Index> nearest_places(std::span<const Vector3> points, std::span<const Vector3> nodes,
+                                  std::span<const std::uint8_t> usable, ThreadTeam& team);
+
 }  // namespace vspring

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "fit/nearest_nodes.hpp"
+
 namespace vspring {
 
 namespace {
@@ -12,26 +14,32 @@ namespace {
 // Around a hub of many faces everybody is everybody's neighbour of second order: a search through it would take the
 // square of their number. Points get past it by being tied to it.
 constexpr std::size_t most_passed_on = 100;
+// Of a factor.
+constexpr double notable_change = 1e-3;
+constexpr std::uint32_t none = UINT32_MAX;
 
 /// Places for the members of groups, from their numbers: each group's begin, and at last the end.
 void add_up(std::vector<std::uint32_t>& counts) {
   std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), std::uint32_t{0});
 }
 
+/// The first local node of every node of the shape.
+std::vector<std::uint32_t> local_numbers(const Net& net) {
+  std::vector<std::uint32_t> local(
+      net.node.empty() ? 0 : static_cast<std::size_t>(*std::max_element(net.node.begin(), net.node.end())) + 1, none);
+  for (std::size_t i = net.node.size(); i-- > 0;)
+    local[static_cast<std::size_t>(net.node[i])] = static_cast<std::uint32_t>(i);
+  return local;
+}
+
 }  // namespace
 
 PointTies::PointTies(Net& net, std::span<const Vector3> points, std::span<const double> weights,
-                     std::span<const Index> nearest)
-    : net_(&net), same_(net.node.size()) {
-  constexpr std::uint32_t none = UINT32_MAX;
-  std::vector<std::uint32_t> local(
-      net.node.empty() ? 0 : static_cast<std::size_t>(*std::max_element(net.node.begin(), net.node.end())) + 1, none);
-  for (std::size_t i = 0; i < net.node.size(); ++i) {
-    std::uint32_t& first = local[static_cast<std::size_t>(net.node[i])];
-    if (first == none) first = static_cast<std::uint32_t>(i);
-    same_[i] = first;
-  }
+                     std::span<const Index> nearest, PointFactors factors)
+    : net_(&net), factors_(std::move(factors)) {
+  find_same_nodes();
   join_neighbours();
+  const std::vector<std::uint32_t> local = local_numbers(net);
 
   const auto tied_to = [&](std::size_t j) {
     const auto node = static_cast<std::size_t>(nearest[j]);
@@ -46,6 +54,7 @@ PointTies::PointTies(Net& net, std::span<const Vector3> points, std::span<const 
   TiedPoints& tied = net.points;
   tied.positions.resize(place.back());
   tied.weights.resize(place.back());
+  tied.numbers.resize(place.back());
   node_.resize(place.back());
   for (std::size_t j = 0; j < points.size(); ++j) {
     const std::uint32_t node = tied_to(j);
@@ -53,9 +62,35 @@ PointTies::PointTies(Net& net, std::span<const Vector3> points, std::span<const 
     const std::uint32_t k = place[node]++;
     tied.positions[k] = net.frame.to_local(points[j]);
     tied.weights[k] = weights[j];
+    tied.numbers[k] = static_cast<std::uint32_t>(j);
     node_[k] = node;
   }
   group();
+  (void)renew_factors();
+}
+
+PointTies::PointTies(Net& net, TiedPoints points, PointFactors factors, ThreadTeam& team)
+    : net_(&net), factors_(std::move(factors)) {
+  find_same_nodes();
+  join_neighbours();
+  net.points = std::move(points);
+  tie_anew(team);
+}
+
+void PointTies::find_same_nodes() {
+  const std::vector<std::uint32_t> local = local_numbers(*net_);
+  same_.resize(net_->node.size());
+  for (std::size_t i = 0; i < same_.size(); ++i) same_[i] = local[static_cast<std::size_t>(net_->node[i])];
+}
+
+void PointTies::tie_anew(ThreadTeam& team) {
+  std::vector<std::uint8_t> first(same_.size());
+  for (std::size_t i = 0; i < same_.size(); ++i) first[i] = same_[i] == i ? 1 : 0;
+  const std::vector<Index> nearest = nearest_places(net_->points.positions, net_->positions, first, team);
+  node_.assign(nearest.begin(), nearest.end());
+  group();
+  net_->points.factors.clear();
+  (void)renew_factors();
 }
 
 void PointTies::join_neighbours() {
@@ -91,7 +126,7 @@ void PointTies::gather_around(std::size_t node, std::vector<std::uint32_t>& arou
   around.erase(std::unique(around.begin(), around.end()), around.end());
 }
 
-void PointTies::renew(ThreadTeam& team) {
+bool PointTies::renew(ThreadTeam& team, double margin) {
   constexpr std::size_t nodes_per_task = 256;
   std::atomic<bool> changed = false;
   const TiedPoints& tied = net_->points;
@@ -102,10 +137,12 @@ void PointTies::renew(ThreadTeam& team) {
       if (points.empty()) continue;
       gather_around(i, around);
       for (const std::uint32_t k : points) {
-        double least = (net_->positions[i] - tied.positions[k]).squaredNorm();
+        const double own = (net_->positions[i] - tied.positions[k]).squaredNorm();
+        double least = own;
         for (const std::uint32_t j : around) {
           const double square = (net_->positions[j] - tied.positions[k]).squaredNorm();
           if (!(square < least)) continue;
+          if (!(own - square > 2 * margin * (net_->positions[j] - net_->positions[i]).squaredNorm())) continue;
           least = square;
           node_[k] = j;
         }
@@ -114,6 +151,18 @@ void PointTies::renew(ThreadTeam& team) {
     }
   });
   if (changed) group();
+  return renew_factors() || changed;
+}
+
+bool PointTies::renew_factors() {
+  if (!factors_) return false;
+  std::vector<double> before = std::move(net_->points.factors);
+  factors_(*net_);
+  const std::vector<double>& now = net_->points.factors;
+  const auto alike = [](double a, double b) { return std::abs(a - b) <= notable_change * std::min(a, b); };
+  if (!std::equal(before.begin(), before.end(), now.begin(), now.end(), alike)) return true;
+  net_->points.factors = std::move(before);
+  return false;
 }
 
 void PointTies::group() {

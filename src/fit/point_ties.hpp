@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -8,17 +9,30 @@
 
 namespace vspring {
 
+/// Sets the factors of a net's nodes (TiedPoints::factors) for the points that they have. Empty where there are none.
+using PointFactors = std::function<void(Net&)>;
+
 /// The ties between scattered points and the nodes of a net (§4.5, Fig. 5), which go with the nodes as these move.
 class PointTies {
  public:
   /// Ties points to the nodes of the shape that are nearest to them, where these belong to the net, and puts them into
   /// the net, which must outlive this. Others, and those of weight 0, are left out. weights: k_j of every point.
-  PointTies(Net& net, std::span<const Vector3> points, std::span<const double> weights, std::span<const Index> nearest);
+  PointTies(Net& net, std::span<const Vector3> points, std::span<const double> weights, std::span<const Index> nearest,
+            PointFactors factors = nullptr);
 
-  /// Ties each point to the nearest of its node and the neighbours of first and second order. Cost: linear.
-  void renew(ThreadTeam& team);
+  /// Ties each of the points that the net has got, in its coordinates, to the nearest of all its nodes.
+  PointTies(Net& net, TiedPoints points, PointFactors factors, ThreadTeam& team);
+
+  /// Ties each point to the nearest of its node and the neighbours of first and second order. margin: by how much of
+  /// the distance between both nodes the point must lie beyond the middle between them to change over. True where
+  /// anything changed, but for factors by under 0.1 %. Cost: linear.
+  bool renew(ThreadTeam& team, double margin = 0);
+
+  /// Ties each point to the nearest of all nodes of the net. Cost: n log n.
+  void tie_anew(ThreadTeam& team);
 
  private:
+  void find_same_nodes();
   /// Neighbours share a face, as across an n-gon the nearest node may be many edges away; on curves an edge. Looked at
   /// from both ends, since rings of held nodes know less.
   void join_neighbours();
@@ -29,8 +43,11 @@ class PointTies {
   void gather_around(std::size_t node, std::vector<std::uint32_t>& around) const;
   /// Puts the points into the order of their nodes.
   void group();
+  /// False where that changes no factor notably, and leaves them as they are.
+  bool renew_factors();
 
   Net* net_;
+  PointFactors factors_;
   std::vector<std::uint32_t> node_;  // of every point
   // A held node at which chains of a curve meet is several of the net: the first stands for all.
   std::vector<std::uint32_t> same_;

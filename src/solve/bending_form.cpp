@@ -12,8 +12,6 @@ namespace vspring {
 namespace {
 
 constexpr std::size_t nodes_per_task = 2048;
-// Of the diagonal: keeps a net that nothing holds from having no factor.
-constexpr double shift = 1e-13;
 // Shares of nodes that lie unevenly may be negative; the matrix is to stay definite.
 constexpr double least_weight = 0.1;
 // Of the sum of a node's weights, what has to be left of it where they are made to take linear functions to zero.
@@ -111,6 +109,11 @@ class Extra {
     rows_.push_back({centre, {{static_cast<std::uint32_t>(i), -root}, {static_cast<std::uint32_t>(j), root}}});
   }
 
+  /// √pull h_i.
+  void add_pull(std::size_t i, double pull) {
+    rows_.push_back({i, {{static_cast<std::uint32_t>(i), std::sqrt(pull)}}});
+  }
+
   [[nodiscard]] std::vector<BendingRow> take() && { return std::move(rows_); }
 
  private:
@@ -118,7 +121,7 @@ class Extra {
   std::vector<BendingRow> rows_;
 };
 
-std::vector<BendingRow> extra_rows(const Net& net) {
+std::vector<BendingRow> extra_rows(const Net& net, std::span<const double> pull) {
   Extra extra(net);
   for (std::size_t i = 0; i < net.computed; ++i) {
     const auto links = net.rings.links(i);
@@ -138,6 +141,9 @@ std::vector<BendingRow> extra_rows(const Net& net) {
       const std::size_t j = link.node();
       if (link.spoke() && j >= net.moving && net.normal_given(j)) extra.add_edge(j, i, j);
     }
+  }
+  for (std::size_t i = 0; i < pull.size(); ++i) {
+    if (pull[i] > 0) extra.add_pull(i, pull[i]);
   }
   return std::move(extra).take();
 }
@@ -164,8 +170,8 @@ void for_bending_row(const Net& net, std::size_t i, SparseRows::Row& room, const
 
 }  // namespace
 
-SparseRows bending_form(const Net& net, ThreadTeam& team) {
-  const std::vector<BendingRow> extra = extra_rows(net);
+SparseRows bending_form(const Net& net, ThreadTeam& team, std::span<const double> pull) {
+  const std::vector<BendingRow> extra = extra_rows(net, pull);
   const auto rows = SparseRows::build(team, net.moving + extra.size(), net.moving, [&] {
     return [&, room = SparseRows::Row()](std::size_t i, SparseRows::Row& row) mutable {
       const auto add = [&](std::size_t column, double value) {
@@ -184,8 +190,8 @@ SparseRows bending_form(const Net& net, ThreadTeam& team) {
   return product(rows.transposed(), rows, team);
 }
 
-FactoredMatrix factored_bending_form(const Net& net, ThreadTeam& team) {
-  const std::vector<BendingRow> extra = extra_rows(net);
+FactoredMatrix factored_bending_form(const Net& net, ThreadTeam& team, std::span<const double> pull) {
+  const std::vector<BendingRow> extra = extra_rows(net, pull);
   LinkedRows rows;
   rows.diagonal.assign(net.moving, 0);
   rows.beside.assign(net.moving == 0 ? 0 : net.rings.begin(net.moving), 0);
@@ -244,11 +250,11 @@ std::vector<double> pull_of_held(const Net& net, std::span<const Vector3> moves)
         });
     add(i, row);
   }
-  for (const BendingRow& extra : extra_rows(net)) add(extra.centre, extra.entries);
+  for (const BendingRow& extra : extra_rows(net, {})) add(extra.centre, extra.entries);
   return pull;
 }
 
-SparseRows spreading_form(const Net& net, ThreadTeam& team) {
+SparseRows spreading_form(const Net& net, ThreadTeam& team, double shift) {
   // Symmetric: of two different shares of an edge, half each.
   const auto one_way = [&](std::size_t from, std::size_t to) {
     const auto links = net.rings.links(from);
@@ -276,16 +282,6 @@ SparseRows spreading_form(const Net& net, ThreadTeam& team) {
       row.push_back({static_cast<std::uint32_t>(i), sum * (1 + shift)});
     };
   });
-}
-
-double bending_factor(const Net& net) {
-  std::size_t edges = 0;
-  for (std::size_t i = 0; i < net.moving; ++i) {
-    const auto links = net.rings.links(i);
-    edges +=
-        static_cast<std::size_t>(std::count_if(links.begin(), links.end(), [](Link link) { return link.spoke(); }));
-  }
-  return static_cast<double>(edges) > 5 * static_cast<double>(net.moving) ? 0.75 : 1;
 }
 
 }  // namespace vspring

@@ -18,11 +18,11 @@ namespace vspring {
 /// node, unless it lies on the boundary; a moving node there bends along the boundary only.
 /// B = Gᵀ G with G = [√D L; the roots of C's terms]: first a row for every moving node, which is empty where C has the
 /// rest, then those of C.
-/// Returns B. Cost: linear in the moving nodes.
-SparseRows bending_form(const Net& net, ThreadTeam& team);
+/// Returns B, with `pull` added to its diagonal (empty: nothing). Cost: linear in the moving nodes.
+SparseRows bending_form(const Net& net, ThreadTeam& team, std::span<const double> pull = {});
 
 /// B as the product that it is. The net must outlive it.
-FactoredMatrix factored_bending_form(const Net& net, ThreadTeam& team);
+FactoredMatrix factored_bending_form(const Net& net, ThreadTeam& team, std::span<const double> pull = {});
 
 /// What the form asks of the moving nodes, along their normals, where held ones move: moves has a vector for every node
 /// from net.moving on. B h = that has the h that the held nodes pull along. Cost: linear.
@@ -32,9 +32,7 @@ std::vector<double> pull_of_held(const Net& net, std::span<const Vector3> moves)
 void weigh_edges(const Net& net, ThreadTeam& team, std::vector<float>& sums);
 
 /// The Laplacian of the moving nodes' graph with weights of one: what the regularisation (§4.4) spreads nodes by.
-SparseRows spreading_form(const Net& net, ThreadTeam& team);
-
-/// What V-Spring is of −D⁻¹ B h on meshes like this one: 3/4 on triangles, 1 on quads.
-double bending_factor(const Net& net);
+/// shift: what is added to the diagonal, as a share of it; keeps a net that nothing holds from having no factor.
+SparseRows spreading_form(const Net& net, ThreadTeam& team, double shift = 1e-13);
 
 }  // namespace vspring

@@ -1,6 +1,8 @@
 #include "solve/bending_matrix.hpp"
 
+#include <Eigen/LU>
 #include <cmath>
+#include <utility>
 
 namespace vspring {
 
@@ -26,14 +28,22 @@ void BendingMatrix::add_row(std::size_t first, std::array<double, width> entries
   }
 }
 
-void BendingMatrix::add_closing_row(double first, double last) {
-  closing_first_ = first;
-  closing_last_ = last;
-  closing_solution_.assign(rows_.size(), 0);
-  closing_solution_.front() += first;
-  closing_solution_.back() += last;
-  solve_banded<double>(closing_solution_);
-  closing_denominator_ = 1 + first * closing_solution_.front() + last * closing_solution_.back();
+void BendingMatrix::add_far_row(std::vector<Entry> entries, double sign) {
+  std::vector<double> solution(rows_.size(), 0);
+  for (const Entry& entry : entries) solution[entry.column] += entry.value;
+  solve_banded<double>(solution);
+  far_.push_back({std::move(entries), sign, std::move(solution)});
+  const auto count = static_cast<Eigen::Index>(far_.size());
+  Eigen::MatrixXd system(count, count);
+  for (Eigen::Index a = 0; a < count; ++a) {
+    const FarRow& row = far_[static_cast<std::size_t>(a)];
+    for (Eigen::Index b = 0; b < count; ++b) {
+      system(a, b) = a == b ? row.sign : 0;
+      for (const Entry& entry : row.entries)
+        system(a, b) += entry.value * far_[static_cast<std::size_t>(b)].solution[entry.column];
+    }
+  }
+  far_system_ = system.inverse();
 }
 
 template <typename Value>
@@ -54,10 +64,18 @@ void BendingMatrix::solve_banded(std::span<Value> right) const {
 
 void BendingMatrix::solve(std::span<Eigen::Vector2d> right) const {
   solve_banded(right);
-  if (closing_solution_.empty()) return;
-  // Sherman and Morrison.
-  const Eigen::Vector2d share = (closing_first_ * right.front() + closing_last_ * right.back()) / closing_denominator_;
-  for (std::size_t i = 0; i < rows_.size(); ++i) right[i] -= closing_solution_[i] * share;
+  if (far_.empty()) return;
+  // Sherman, Morrison and Woodbury.
+  Eigen::MatrixX2d images = Eigen::MatrixX2d::Zero(far_system_.rows(), 2);
+  for (std::size_t a = 0; a < far_.size(); ++a) {
+    for (const Entry& entry : far_[a].entries)
+      images.row(static_cast<Eigen::Index>(a)) += entry.value * right[entry.column];
+  }
+  const Eigen::MatrixX2d shares = far_system_ * images;
+  for (std::size_t a = 0; a < far_.size(); ++a) {
+    const Eigen::Vector2d share = shares.row(static_cast<Eigen::Index>(a));
+    for (std::size_t i = 0; i < rows_.size(); ++i) right[i] -= far_[a].solution[i] * share;
+  }
 }
 
 }  // namespace vspring

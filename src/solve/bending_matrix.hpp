@@ -8,10 +8,10 @@
 
 namespace vspring {
 
-/// The matrix Gᵀ G of a banded G with at most three entries per row, and perhaps one row that joins two far columns;
-/// kept as the triangle of its orthogonal factorisation. Forming Gᵀ G squares the condition of G, which is n² where
-/// rows are curvatures along n nodes; the triangle never does, so it still solves where Gᵀ G in double precision is no
-/// longer definite.
+/// The matrix Gᵀ G of a banded G with at most three entries per row, and perhaps a few rows that join far columns; kept
+/// as the triangle of its orthogonal factorisation. Forming Gᵀ G squares the condition of G, which is n² where rows are
+/// curvatures along n nodes; the triangle never does, so it still solves where Gᵀ G in double precision is no longer
+/// definite.
 class BendingMatrix {
  public:
   static constexpr std::size_t width = 3;
@@ -25,8 +25,13 @@ class BendingMatrix {
   /// `first` never descending. Cost: at most three rotations (Givens).
   void add_row(std::size_t first, std::array<double, width> entries);
 
-  /// Adds the row that joins the first column with the last. Once at most, after all others. Cost: linear.
-  void add_closing_row(double first, double last);
+  struct Entry {
+    std::size_t column;
+    double value;
+  };
+  /// Adds a row that joins far columns, or takes it out again where sign is −1. After all others; the banded ones must
+  /// have full rank. Cost: linear.
+  void add_far_row(std::vector<Entry> entries, double sign = 1);
 
   /// Solves in place, for two right-hand sides at once. Cost: linear.
   void solve(std::span<Eigen::Vector2d> right) const;
@@ -36,10 +41,13 @@ class BendingMatrix {
   void solve_banded(std::span<Value> right) const;
 
   std::vector<std::array<double, width>> rows_;  // of the triangle: the diagonal and the two entries right of it
-  double closing_first_ = 0;
-  double closing_last_ = 0;
-  double closing_denominator_ = 1;
-  std::vector<double> closing_solution_;  // of the banded part, with the closing row as right-hand side
+  struct FarRow {
+    std::vector<Entry> entries;
+    double sign;
+    std::vector<double> solution;  // of the banded part, with the row as right-hand side
+  };
+  std::vector<FarRow> far_;
+  Eigen::MatrixXd far_system_;  // the inverse of what they leave of each other
 };
 
 }  // namespace vspring

@@ -14,14 +14,19 @@ constexpr double greatest_change = 1.3;
 
 }  // namespace
 
-bool CurvePreconditioner::refresh() {
+bool CurvePreconditioner::free(const Strand& strand) const {
+  return strand.closed && strand.nodes.front() < curve_->net.moving;
+}
+
+bool CurvePreconditioner::refresh(const Model& model) {
   weigh();
   bool fits = !built_weight_.empty();
   for (std::size_t i = 0; i < weight_.size() && fits; ++i) {
     const double change = weight_[i] / built_weight_[i];
     fits = change < greatest_change && change * greatest_change > 1;
   }
-  if (fits) return false;
+  const bool pulled_otherwise = stiffness_.renew(curve_->net, model, alone_);
+  if (fits && !pulled_otherwise) return false;
   built_weight_ = weight_;
   runs_.clear();
   for (const Strand& strand : curve_->strands) build_bending(strand);
@@ -61,20 +66,40 @@ void CurvePreconditioner::build_bending(const Strand& strand) {
     const Vector3 d = net.positions[nodes[b]] - net.positions[nodes[a]];
     return std::sqrt(d.dot(d) + net.tiny);
   };
-  /// A row of entries at successive places of the strand; held nodes drop out, and moving ones follow each other.
-  const auto add = [&](std::span<const std::pair<std::size_t, double>> entries) {
-    std::array<double, BendingMatrix::width> row{};
-    std::size_t used = 0;
-    std::size_t first = 0;
-    for (const auto& [place, entry] : entries) {
-      if (!moves(place)) continue;
-      if (used == 0) first = nodes[place] - begin;
-      row[used++] = entry;
+  std::vector<double> pull(size, 0);
+  if (!stiffness_.values().empty()) {
+    for (std::size_t i = 0; i < size; ++i) pull[i] = weight_[begin + i] * stiffness_.values()[begin + i];
+  }
+  // Without rows across the seam next to nothing may hold a free strand: these are taken out again.
+  std::vector<BendingMatrix::Entry> crutches;
+  if (free(strand)) {
+    for (const std::size_t column : {std::size_t{0}, size / 2})
+      crutches.push_back({column, std::sqrt(weight_[begin + column])});
+  }
+  for (const auto& [column, entry] : crutches) pull[column] += entry * entry;
+  std::size_t pulled = 0;
+  const auto add_pulls = [&](std::size_t end) {
+    for (; pulled < end; ++pulled) {
+      if (pull[pulled] > 0) bending.add_row(pulled, {std::sqrt(pull[pulled]), 0, 0});
     }
-    if (used > 0) bending.add_row(first, row);
   };
-  double closing_first = 0;
-  double closing_last = 0;
+  std::vector<std::vector<BendingMatrix::Entry>> far;
+  /// A row of entries at successive places of the strand; held nodes drop out, and moving ones follow each other.
+  const auto add = [&](bool across_seam, std::span<const std::pair<std::size_t, double>> entries) {
+    std::vector<BendingMatrix::Entry> row;
+    for (const auto& [place, entry] : entries) {
+      if (moves(place)) row.push_back({nodes[place] - begin, entry});
+    }
+    if (row.empty()) return;
+    if (across_seam) {
+      far.push_back(std::move(row));
+      return;
+    }
+    std::array<double, BendingMatrix::width> banded{};
+    for (std::size_t n = 0; n < row.size(); ++n) banded[n] = row[n].value;
+    add_pulls(row.front().column);
+    bending.add_row(row.front().column, banded);
+  };
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = nodes[k];
     const bool has_before = k > 0 || strand.closed;
@@ -83,36 +108,28 @@ void CurvePreconditioner::build_bending(const Strand& strand) {
     const std::size_t after = (k + 1) % count;
     const double length_before = has_before ? edge(before, k) : 0;
     const double length_after = has_after ? edge(k, after) : 0;
+    // The first place of a closed strand comes after its last.
+    const bool before_seam = has_after && after == 0 && moves(0);
     if (net.given[i] != 0) {
       if (has_before) {
         const double entry = 1 / (length_before * std::sqrt(length_before));
-        // The first place of a closed strand comes after its last.
-        if (k == 0) {
-          if (moves(before)) closing_last = entry;
-        } else {
-          add(std::array{std::pair(before, entry), std::pair(k, -entry)});
-        }
+        add(k == 0, std::array{std::pair(before, entry), std::pair(k, -entry)});
       }
       if (has_after) {
         const double entry = 1 / (length_after * std::sqrt(length_after));
-        add(std::array{std::pair(k, -entry), std::pair(after, entry)});
+        add(before_seam, std::array{std::pair(k, -entry), std::pair(after, entry)});
       }
     } else if (has_before && has_after) {
       const double scale = 1 / std::sqrt(length_before + length_after);
       const double entry_before = scale / length_before;
       const double entry_after = scale / length_after;
-      if (k == 0) {
-        if (moves(after)) closing_first = entry_after;
-        if (moves(before)) closing_last = entry_before;
-      } else if (after == 0) {
-        add(std::array{std::pair(before, entry_before), std::pair(k, -entry_before - entry_after)});
-      } else {
-        add(std::array{std::pair(before, entry_before), std::pair(k, -entry_before - entry_after),
-                       std::pair(after, entry_after)});
-      }
+      add(k == 0 || before_seam, std::array{std::pair(before, entry_before), std::pair(k, -entry_before - entry_after),
+                                            std::pair(after, entry_after)});
     }
   }
-  if (closing_first != 0 || closing_last != 0) bending.add_closing_row(closing_first, closing_last);
+  add_pulls(size);
+  for (auto& row : far) bending.add_far_row(std::move(row));
+  for (const BendingMatrix::Entry& crutch : crutches) bending.add_far_row({crutch}, -1);
   runs_.push_back({begin, std::move(bending)});
 }
 
@@ -121,11 +138,16 @@ void CurvePreconditioner::build_spreading() {
   below_.assign(net.moving, 0);
   above_.assign(net.moving, 0);
   pivot_.assign(net.moving, 1);
+  slides_.assign(net.moving, 1);
+  for (const Strand& strand : curve_->strands) {
+    if (free(strand)) slides_[strand.nodes.front()] = 0;
+  }
   for (std::size_t i = 0; i < net.moving; ++i) {
     const auto links = net.rings.links(i);
     const auto shares = net.shares_of(i);
     for (std::size_t k = 0; k < links.size(); ++k) {
       const std::size_t j = links[k].node();
+      if (slides_[i] == 0 || (j < net.moving && slides_[j] == 0)) continue;
       const double share = shares.empty() ? 1 / static_cast<double>(links.size()) : shares[k];
       if (j + 1 == i) below_[i] = share;
       if (j == i + 1 && j < net.moving) above_[i] = share;
@@ -154,6 +176,24 @@ void CurvePreconditioner::carry_frames() {
       axis_[i] = axis;
       before = i;
     }
+    if (free(strand)) close_frames(strand);
+  }
+}
+
+void CurvePreconditioner::close_frames(const Strand& strand) {
+  const Net& net = curve_->net;
+  const std::size_t first = strand.nodes.front();
+  const std::size_t last = strand.nodes.back();
+  const Vector3& tangent = net.tangents[first];
+  const Vector3 d = net.positions[first] - net.positions[last];
+  if (tangent.isZero(0) || net.tangents[last].isZero(0) || !(d.dot(d) > net.tiny)) return;
+  const Vector3 around = carried(axis_[last], d, net.tangents[last], tangent);
+  const double turn = std::atan2(axis_[first].cross(around).dot(tangent), axis_[first].dot(around));
+  const auto count = static_cast<double>(strand.nodes.size());
+  for (std::size_t k = 0; k < strand.nodes.size(); ++k) {
+    Vector3& axis = axis_[strand.nodes[k]];
+    const double angle = -turn * static_cast<double>(k) / count;
+    axis = std::cos(angle) * axis + std::sin(angle) * net.tangents[strand.nodes[k]].cross(axis);
   }
 }
 
@@ -181,7 +221,7 @@ void CurvePreconditioner::correct(const Model& model, double /*enough*/, std::ve
       const double share = shares.empty() ? 1 / static_cast<double>(links.size()) : shares[k];
       if (links[k].node() < net.moving) asked += share * correction[links[k].node()];
     }
-    along[i] = asked.dot(net.tangents[i]);
+    along[i] = slides_[i] == 0 ? 0 : asked.dot(net.tangents[i]);
     if (below_[i] != 0) along[i] += below_[i] * along[i - 1];
     along[i] *= pivot_[i];
   }

@@ -2,7 +2,9 @@
 
 #include <vector>
 
+#include "base/threads.hpp"
 #include "solve/bending_matrix.hpp"
+#include "solve/point_stiffness.hpp"
 #include "solve/preconditioner.hpp"
 #include "spring/curve_net.hpp"
 
@@ -11,12 +13,14 @@ namespace vspring {
 /// For curves. Where slopes are small, with K the second difference and W_i = Σ 1/ℓ³, the V-Spring displacement with
 /// the circle's tangent is exactly −½ W⁻¹ Gᵀ G y, G y the curvatures √(h/4) κ, κ_i = (2/h_i) (Δy₊/ℓ₊ − Δy₋/ℓ₋) over the
 /// length h_i = ℓ₋ + ℓ₊: whatever the spacing. A node with a given direction has a curvature on each side; an end
-/// without has none. Along the curve, the regularisation is the second difference with the net's shares.
+/// without has none. Points with the stiffness S_i add −S y, a row √(2 W_i S_i) of G. Along the curve, the
+/// regularisation is the second difference with the net's shares. A closed curve of which no node is held slides along
+/// itself: its first node stays, and what the others do evens out the edges beside it too.
 class CurvePreconditioner final : public Preconditioner {
  public:
   explicit CurvePreconditioner(const CurveNet& curve) : curve_(&curve) {}
 
-  bool refresh() override;
+  bool refresh(const Model& model) override;
   void correct(const Model& model, double enough, std::vector<Vector3>& correction) override;
 
  private:
@@ -27,9 +31,15 @@ class CurvePreconditioner final : public Preconditioner {
   };
   void weigh();
   void build_bending(const Strand& strand);
+  /// A closed strand without a held node.
+  [[nodiscard]] bool free(const Strand& strand) const;
   void build_spreading();
   void carry_frames();
+  /// Spreads over a free strand the turn by which its frames miss each other once around.
+  void close_frames(const Strand& strand);
   const CurveNet* curve_;
+  ThreadTeam alone_{1};
+  PointStiffness stiffness_;
   std::vector<Run> runs_;
   /// 2 W of every moving node by the lengths that its edges have now: then the forces along a strand are differences of
   /// what passes between neighbours, and what is rough in them leaves no trace in long waves.
@@ -39,6 +49,7 @@ class CurvePreconditioner final : public Preconditioner {
   std::vector<double> below_;
   std::vector<double> above_;
   std::vector<double> pivot_;
+  std::vector<std::uint8_t> slides_;  // 0 for the node that stays
   std::vector<NodeForce> forces_;
   std::vector<Vector3> axis_;            // the frame's first axis across the curve at every node
   std::vector<Eigen::Vector2d> across_;  // the correction in that frame

@@ -22,6 +22,16 @@ constexpr double shortest_share = 0.25;
 constexpr int patience = 12;
 // A share of the tolerance.
 constexpr double negligible = 0.01;
+constexpr int iterations_per_tie = 5;
+// Changes of ties from which on a point changes over only if it is nearer by a margin, which doubles with every further
+// change: in the end none does. While steps are limited shapes have far to go, and many changes are free.
+constexpr int changes_without_margin = 8;
+constexpr int free_changes = 30;
+constexpr double first_margin = 1.0 / 64;
+
+double margin_after(int changes) {
+  return changes < changes_without_margin ? 0 : std::ldexp(first_margin, changes - changes_without_margin);
+}
 
 class Solver {
  public:
@@ -35,11 +45,29 @@ class Solver {
     BestShape best(net_, 1);
     double before = 0;
     int without_gain = 0;
+    double expected = std::numeric_limits<double>::infinity();
+    // Where points change over to other nodes, what was found before does not hold any more.
+    int changes = 0;
+    int changes_from_far = 0;
+    const auto renew_ties = [&](bool far) {
+      if (!task.renew_ties || !task.renew_ties(margin_after(changes))) return false;
+      if (far) ++changes_from_far;
+      if (!far || changes_from_far > free_changes) ++changes;
+      forget();
+      best = BestShape(net_, 1);
+      before = 0;
+      without_gain = 0;
+      return true;
+    };
+    bool limited = false;
+    int last_changes = 0;
     while (result.iterations < task.max_iterations) {
       if (context.cancelled()) {
         result.outcome = Outcome::cancelled;
         break;
       }
+      if (last_changes == 0 && result.iterations > 0 && (limited || result.iterations % iterations_per_tie == 0))
+        (void)renew_ties(limited);
       find_correction(negligible * task.tolerance);
       ++result.iterations;
       const double size = largest_correction();
@@ -49,17 +77,21 @@ class Solver {
       }
       // Corrections shrink about geometrically. Never by less than half: then a shape that was once near enough still
       // is when it is looked at without its history.
-      const double expected = size / (1 - std::clamp(before > 0 ? size / before : 0, 0.5, 0.75));
+      expected = size / (1 - std::clamp(before > 0 ? size / before : 0, 0.5, 0.75));
       without_gain = expected < 0.7 * best.residual() ? 0 : without_gain + 1;
       best.look(expected);
       if (task.on_iteration) task.on_iteration(expected);
       // The last correction is not taken: what it says of the shape is true of the shape before it.
       if (expected < task.tolerance && largest_turn() <= greatest_turn) {
+        if (last_changes < task.most_changes && renew_ties(false)) {
+          ++last_changes;
+          continue;
+        }
         result.outcome = Outcome::converged;
         result.expected_error = expected;
         return result;
       }
-      const bool limited = take_step();
+      limited = take_step();
       if (limited) without_gain = 0;
       before = limited ? 0 : size;
       if (without_gain >= patience) {
@@ -67,7 +99,7 @@ class Solver {
         break;
       }
     }
-    result.expected_error = best.restore();
+    result.expected_error = std::min(best.restore(), expected);
     return result;
   }
 
@@ -84,7 +116,7 @@ class Solver {
 
   void find_correction(double enough) {
     update_directions(net_, model_, team_);
-    if (preconditioner_.refresh()) forget();
+    if (preconditioner_.refresh(model_)) forget();
     preconditioner_.correct(model_, enough, correction_);
   }
 

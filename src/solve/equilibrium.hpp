@@ -15,7 +15,11 @@ struct EquilibriumTask {
   double tolerance = 1e-5;  ///< expected largest distance of a node from its final place, in the net's coordinates
   int max_iterations = 200;
   /// Called after every iteration with the expected distance.
-  std::function<void(double)> on_iteration;
+  std::function<void(double)> on_iteration = nullptr;
+  /// Ties scattered points to the nodes that are nearest by now, but for a margin, see PointTies::renew().
+  std::function<bool(double)> renew_ties = nullptr;
+  /// After how many changes of ties at the end it may end all the same.
+  int most_changes = 20;
 };
 
 struct EquilibriumResult {
@@ -25,7 +29,8 @@ struct EquilibriumResult {
 };
 
 /// Goes to where all displacements of the model vanish: corrections by the preconditioner, Anderson acceleration, steps
-/// so short that no edge turns much. Ends with the shape of the smallest expected error. See docs/solver.md.
+/// so short that no edge turns much. Ends with the shape of the smallest expected error, with points where their ties
+/// do not change any more. See docs/solver.md.
 EquilibriumResult go_to_equilibrium(Net& net, const Model& model, Preconditioner& preconditioner,
                                     const EquilibriumTask& task, ThreadTeam& team, Context& context);
 

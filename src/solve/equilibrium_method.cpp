@@ -25,6 +25,7 @@ constexpr int first_try = 80;
 constexpr double lost_at = 1e-3;
 // What a coarse level leaves undone, the finer ones have to do with more nodes.
 constexpr double coarse_share = 0.3;
+constexpr int coarse_changes = 2;
 // Moving nodes up to which a second start costs next to nothing.
 constexpr std::size_t few = 2000;
 // Moving nodes up to which a second start is of any use where coarser levels led nowhere.
@@ -53,7 +54,7 @@ std::vector<Eigen::Vector3f> rounded(const Net& net) {
 class Run {
  public:
   Run(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
-      ProgressReporter& progress, FairReport& report)
+      ProgressReporter& progress, FairReport& report, PointLevels* points = nullptr)
       : hierarchy_(hierarchy),
         model_(model),
         options_(options),
@@ -61,7 +62,8 @@ class Run {
         team_(team),
         context_(context),
         progress_(progress),
-        report_(report) {}
+        report_(report),
+        points_(points) {}
 
   /// Without a look at coarser levels.
   void run_on_shape_itself(Preconditioner& preconditioner) {
@@ -74,7 +76,16 @@ class Run {
     Net& finest = hierarchy_.net(last);
     report_.outcome = context_.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
     if (context_.cancelled() || options_.max_iterations == 0) return;
-    if (may_be_there(finest)) (void)relax(last, 1);
+    // Coarser levels do not keep a distribution, and where points are, a start is near.
+    const bool try_first = points_ && options_.distribution == Distribution::keep;
+    if (try_first || may_be_there(finest)) {
+      const std::vector<Vector3> start = try_first ? finest.positions : std::vector<Vector3>();
+      (void)relax(last, try_first ? std::min(options_.max_iterations.value_or(near_limit), near_limit) : 1);
+      if (try_first && unfinished()) {
+        finest.positions = start;
+        report_.outcome = Outcome::iteration_limit;
+      }
+    }
     if (report_.outcome == Outcome::iteration_limit) go_down();
   }
 
@@ -86,13 +97,22 @@ class Run {
     std::vector<Eigen::Vector3f> own_start;
     const std::size_t first = hierarchy_.first_of_use();
     for (std::size_t k = first; k <= last; ++k) {
+      tie_points(k);
       (void)relax(k, k == first ? std::min(limit, first_try) : limit);
       if (k == first && limit > first_try && unfinished()) {
-        if (lost()) hierarchy_.forget_shape(k);
+        // Points know better, and may be all that holds it.
+        if (lost() && !points_) hierarchy_.forget_shape(k);
+        tie_points(k);
         (void)relax(k, limit);
       }
       if (!own_start.empty() && ((unfinished() && lost()) || caught_in_a_fold(k))) try_own_start(k, own_start, limit);
       if (k == last) break;
+      if (points_ && unfinished() && lost()) {
+        // Points too far out for this level: finer ones do better from the start itself.
+        tie_points(last);
+        (void)relax(last, limit);
+        break;
+      }
       own_start = hierarchy_.net(k + 1).moving <= not_too_many ? rounded(hierarchy_.net(k + 1))
                                                                : std::vector<Eigen::Vector3f>();
       update_directions(hierarchy_.net(k), model_, team_);
@@ -110,6 +130,7 @@ class Run {
     const Outcome outcome = report_.outcome;
     const double energy = energy_of(net).sum;
     for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = start[i].cast<double>();
+    tie_points(level);
     (void)relax(level, limit);
     if (report_.outcome == Outcome::cancelled) return;
     const bool better = was_unfinished || unfinished()
@@ -117,9 +138,14 @@ class Run {
                             : energy_of(net).sum < energy;
     if (better) return;
     net.positions = reached;
+    tie_points(level);
     report_.outcome = outcome;
     report_.residual = residual;
     report_.expected_error = residual;
+  }
+
+  void tie_points(std::size_t level) {
+    if (points_) points_->tie(level);
   }
 
   SpringEnergy energy_of(Net& net) {
@@ -169,6 +195,8 @@ class Run {
     EquilibriumTask task;
     task.tolerance = options_.tolerance * size_ * (level == last ? 1 : coarse_share);
     task.max_iterations = max_iterations;
+    if (points_) task.renew_ties = [&](double margin) { return points_->renew(margin); };
+    if (level != last) task.most_changes = coarse_changes;
     task.on_iteration = [&](double expected) {
       report_.history.push_back(expected / size_);
       progress_.report("fairing", share / 2, static_cast<int>(report_.history.size()), expected / size_);
@@ -192,19 +220,20 @@ class Run {
   Context& context_;
   ProgressReporter& progress_;
   FairReport& report_;
+  PointLevels* points_;
 };
 
 }  // namespace
 
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
-                     Context& context, ProgressReporter& progress, FairReport& report) {
-  Run(hierarchy, model, options, team, context, progress, report).run();
+                     Context& context, ProgressReporter& progress, FairReport& report, PointLevels* points) {
+  Run(hierarchy, model, options, team, context, progress, report, points).run();
 }
 
 void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,
                                const FairOptions& options, ThreadTeam& team, Context& context,
-                               ProgressReporter& progress, FairReport& report) {
-  Run(hierarchy, model, options, team, context, progress, report).run_on_shape_itself(preconditioner);
+                               ProgressReporter& progress, FairReport& report, PointLevels* points) {
+  Run(hierarchy, model, options, team, context, progress, report, points).run_on_shape_itself(preconditioner);
 }
 
 }  // namespace vspring

@@ -46,8 +46,11 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
     run_sweeps(gathered.net, *model, options, team, context, progress, report);
   } else {
     CurveHierarchy hierarchy(curve_levels(std::move(gathered), options.distribution));
-    const auto run = report.method == Method::multigrid ? run_multigrid : run_equilibrium;
-    run(hierarchy, *model, options, team, context, progress, report);
+    if (report.method == Method::multigrid) {
+      run_multigrid(hierarchy, *model, options, team, context, progress, report);
+    } else {
+      run_equilibrium(hierarchy, *model, options, team, context, progress, report);
+    }
     gathered = std::move(hierarchy).take();
   }
 

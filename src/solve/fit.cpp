@@ -4,11 +4,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <numeric>
 #include <utility>
 
 #include "base/progress.hpp"
@@ -16,9 +19,13 @@
 #include "constraints/holding.hpp"
 #include "fairness/measure.hpp"
 #include "fit/nearest_nodes.hpp"
+#include "fit/point_factors.hpp"
 #include "fit/point_ties.hpp"
 #include "solve/account.hpp"
+#include "solve/fit_points.hpp"
+#include "solve/pulled_shape.hpp"
 #include "solve/sweep_method.hpp"
+#include "solve/tolerance_fit.hpp"
 #include "spring/curve_net.hpp"
 #include "vspring/error.hpp"
 
@@ -28,28 +35,14 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double largest_weight = 1e50;
-
-bool is_weight(double weight) { return weight >= 0 && weight <= largest_weight; }
-
-void check_points(const ScatteredPoints& points) {
-  const auto refuse = [](const std::string& message) { throw Error(ErrorCode::invalid_argument, message); };
-  const std::size_t count = points.positions.size();
-  if (count == 0) refuse("there are no points to fit to");
-  if (count > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
-    refuse(fmt::format("{} points are more than there may be: {}", count, std::numeric_limits<Index>::max()));
-  if (!points.weights.empty() && points.weights.size() != count)
-    refuse(fmt::format("{} weights are given for {} points: one for each is needed, or none", points.weights.size(),
-                       count));
-  for (std::size_t j = 0; j < count; ++j) {
-    if (!points.positions[j].allFinite()) refuse(fmt::format("point {} is not finite; leave it out", j));
-  }
-  for (std::size_t j = 0; j < points.weights.size(); ++j) {
-    if (!is_weight(points.weights[j]))
-      refuse(
-          fmt::format("the weight of point {} must be from 0 to {:g}, not {}", j, largest_weight, points.weights[j]));
-  }
-}
+// The last steps of a plain iteration are about k times their distance.
+constexpr double step_share = 0.1;
+// The smoothing lengths that tolerances are looked for from, in mean edges.
+constexpr double first_lengths[] = {3, 1, 0.3, 0.1};
+// Of a tolerance, to which equilibria are found.
+constexpr double precision = 1e-3;
+// Of outliers and shape.
+constexpr int most_turns = 12;
 
 /// What is said in other words of surfaces and of curves.
 void mark_nodes(const PolygonMesh& mesh, std::vector<std::uint8_t>& marks) {
@@ -66,16 +59,6 @@ void mark_nodes(const PolygonCurve& curve, std::vector<std::uint8_t>& marks) {
   }
 }
 
-Net net_of(const PolygonMesh& mesh, const Constraints& constraints) { return gather_net(mesh, constraints); }
-Net net_of(const PolygonCurve& curve, const Constraints& constraints) { return gather_net(curve, constraints).net; }
-
-auto model_of(const PolygonMesh& /*mesh*/, const Net& /*net*/, const FairOptions& options) {
-  return surface_model(options.pseudo_normals);
-}
-auto model_of(const PolygonCurve& /*curve*/, const Net& net, const FairOptions& options) {
-  return curve_model_for(net, options.curve);
-}
-
 Index faces_of(const PolygonMesh& mesh) { return mesh.face_count(); }
 Index faces_of(const PolygonCurve& /*curve*/) { return 0; }
 
@@ -86,29 +69,10 @@ Fairness fairness_of(const PolygonCurve& curve, const Constraints& constraints, 
   return measure(curve, &constraints);
 }
 
-PointDistances summary(std::vector<double> distances) {
-  PointDistances result;
-  const auto furthest = std::max_element(distances.begin(), distances.end());
-  Distance& all = result.all;
-  all.greatest = *furthest;
-  all.node = static_cast<Index>(furthest - distances.begin());
-  all.count = static_cast<Index>(distances.size());
-  double squares = 0;
-  for (const double distance : distances) {
-    const double share = all.greatest > 0 ? distance / all.greatest : 0;
-    squares += share * share;
-  }
-  all.rms = all.greatest * std::sqrt(squares / static_cast<double>(distances.size()));
-  const auto percentile = [&](double share) {
-    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(distances.size())));
-    const auto place = distances.begin() + rank - 1;
-    std::nth_element(distances.begin(), place, distances.end());
-    return *place;
-  };
-  result.median = percentile(0.5);
-  result.percentile90 = percentile(0.9);
-  result.percentile99 = percentile(0.99);
-  return result;
+double diagonal_of(const Net& net) {
+  Eigen::AlignedBox<double, 3> box;
+  for (const Vector3& position : net.positions) box.extend(position);
+  return box.isEmpty() ? 1 : box.diagonal().norm();
 }
 
 template <typename Shape>
@@ -133,53 +97,274 @@ class Fitting {
     progress.report("preparing", 0);
     FitReport& report = result_.report;
     FairReport& fair = report.fair;
-    fair.method = Method::sweep;
-    fair.threads = team_.size();
-    fair.faces = faces_of(shape_);
-    report.points = static_cast<Index>(points_.positions.size());
-    fit(progress);
+    kept_.assign(points_.positions.size(), 1);
+    if (options_.outliers > 0) {
+      leave_outliers_out(progress);
+    } else {
+      fit(progress, false);
+    }
 
-    Shape fitted = shape_;
-    fitted.set_positions(result_.positions);
     fair.before = fairness_of(shape_, constraints_, team_);
-    fair.after = fairness_of(fitted, constraints_, team_);
+    fair.after = fairness_of(fitted(), constraints_, team_);
     report.before = summary(point_distances(points_.positions, shape_, measuring_));
-    result_.distances = point_distances(points_.positions, fitted, measuring_);
-    report.after = summary(result_.distances);
+    result_.distances = distances();
+    std::vector<double> counted;
+    for (std::size_t j = 0; j < kept_.size(); ++j) {
+      if (kept_[j] != 0) counted.push_back(result_.distances[j]);
+    }
+    report.outliers = static_cast<Index>(kept_.size() - counted.size());
+    report.after = summary(std::move(counted));
     fair.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     return std::move(result_);
   }
 
  private:
-  void fit(ProgressReporter& progress) {
-    FairReport& report = result_.report.fair;
-    std::vector<double> weights = point_weights();
-    std::vector<Index> nearest = find_nearest();
-    std::vector<std::uint8_t> pulled(static_cast<std::size_t>(shape_.node_count()), 0);
-    for (std::size_t j = 0; j < nearest.size(); ++j) {
-      if (nearest[j] >= 0 && weights[j] > 0) pulled[static_cast<std::size_t>(nearest[j])] = 1;
-    }
-    report.warnings = check_constraints(shape_, constraints_, pulled);
-    Net net = net_of(shape_, constraints_);
-    count_nodes(net, constraints_, report);
-    const auto model = model_of(shape_, net, options_.fair);
-    distribute(net, *model, options_.fair.distribution, team_);
-    PointTies ties(net, points_.positions, weights, nearest);
-    weights = {};
-    nearest = {};
-    std::function<void()> renew_ties;
-    if (!net.points.empty()) renew_ties = [&] { ties.renew(team_); };
-    run_sweeps(net, *model, options_.fair, team_, context_, progress, report, renew_ties);
-    count_points(net);
-    result_.positions = scatter_positions(net, shape_.positions(), constraints_, options_.fair.strength);
-    measure_moves(net, shape_.positions(), result_.positions, report);
+  [[nodiscard]] Shape fitted() const {
+    Shape fitted = shape_;
+    fitted.set_positions(result_.positions);
+    return fitted;
   }
 
-  [[nodiscard]] std::vector<double> point_weights() const {
+  [[nodiscard]] std::vector<double> distances() const {
+    return point_distances(points_.positions, fitted(), measuring_);
+  }
+
+  /// The report of a fit that begins.
+  void start_report(Method method) {
+    result_.report = {};
+    FairReport& fair = result_.report.fair;
+    fair.method = method;
+    fair.threads = team_.size();
+    fair.faces = faces_of(shape_);
+    result_.report.points = static_cast<Index>(points_.positions.size());
+  }
+
+  /// Fits and leaves out the points that are furthest away, in turns, until they stay the same.
+  void leave_outliers_out(ProgressReporter& progress) {
+    const bool searches = options_.within || options_.rms;
+    // A tolerance means nothing as long as outliers count.
+    bool smooth_first = searches;
+    for (int turn = 0; turn < most_turns; ++turn) {
+      fit(progress, smooth_first);
+      if (context_.cancelled()) return;
+      if (choose_kept(distances())) continue;
+      if (!smooth_first) return;
+      smooth_first = false;
+    }
+    if (smooth_first) fit(progress, false);
+    result_.report.fair.warnings.emplace_back(
+        "the outliers went on changing with the shape: the last ones are left out");
+  }
+
+  /// True where that are others than before.
+  bool choose_kept(const std::vector<double>& distances) {
+    std::vector<std::uint32_t> order(distances.size());
+    std::iota(order.begin(), order.end(), 0U);
+    const auto count =
+        static_cast<std::ptrdiff_t>(std::floor(options_.outliers * static_cast<double>(distances.size())));
+    std::nth_element(order.begin(), order.begin() + count, order.end(), [&](std::uint32_t a, std::uint32_t b) {
+      return distances[a] > distances[b] || (distances[a] == distances[b] && a < b);
+    });
+    std::vector<std::uint8_t> kept(distances.size(), 1);
+    for (std::ptrdiff_t k = 0; k < count; ++k) kept[order[static_cast<std::size_t>(k)]] = 0;
+    const bool others = kept != kept_;
+    kept_ = std::move(kept);
+    return others;
+  }
+
+  /// smooth: by some edges, instead of to a tolerance.
+  void fit(ProgressReporter& progress, bool smooth) {
+    start_report(options_.fair.method.value_or(Method::equilibrium));
+    FairReport& report = result_.report.fair;
+    LoosePoints points = loose_points();
+    const auto has_weight = [](double weight) { return weight > 0; };
+    if (std::none_of(points.weights.begin(), points.weights.end(), has_weight)) {
+      FairResult plain = vspring::fair(shape_, constraints_, options_.fair, context_);
+      report = std::move(plain.report);
+      result_.positions = std::move(plain.positions);
+      return;
+    }
+    std::vector<std::uint8_t> pulled(static_cast<std::size_t>(shape_.node_count()), 0);
+    for (std::size_t j = 0; j < points.nearest.size(); ++j) {
+      if (points.nearest[j] >= 0 && has_weight(points.weights[j]))
+        pulled[static_cast<std::size_t>(points.nearest[j])] = 1;
+    }
+    report.warnings = check_constraints(shape_, constraints_, pulled);
+    if (report.method == Method::sweep) {
+      sweep(std::move(points), options_.fair, progress);
+      return;
+    }
+    if (options_.within || options_.rms) {
+      fit_to_tolerance(std::move(points), progress, smooth);
+      return;
+    }
+    go_to_equilibrium(std::move(points), progress);
+    const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
+    if (found || options_.fair.method || options_.fair.max_iterations) return;
+    // Nobody asked for this method: the paper's iteration ends where points crumple a shape, too.
+    std::vector<std::string> warnings = std::move(report.warnings);
+    warnings.emplace_back(
+        "no equilibrium was found: this is the plain iteration's shape; the points may be too noisy for their weight "
+        "and for edges as short as these, or too little may be held: hold more nodes, let a smaller region move, or "
+        "keep the distribution of the nodes");
+    start_report(Method::sweep);
+    report.warnings = std::move(warnings);
+    FairOptions options = options_.fair;
+    if (!options_.smoothing_length)
+      options.step_tolerance = std::min(options.step_tolerance, step_share * options_.weight);
+    sweep(loose_points(), options, progress);
+  }
+
+  void go_to_equilibrium(LoosePoints points, ProgressReporter& progress) {
+    auto gathered = gather();
+    const auto smoothing = smoothing_in(net_of(gathered));
+    PulledShape shape(std::move(gathered), options_.fair, std::move(points), smoothing, team_);
+    shape.find(context_, progress, result_.report.fair);
+    finish(shape.net());
+  }
+
+  void fit_to_tolerance(LoosePoints points, ProgressReporter& progress, bool smooth) {
+    FitReport& report = result_.report;
+    const double tolerance = options_.within ? *options_.within : *options_.rms;
+    const auto figure_of = [&](const std::vector<double>& distances) {
+      double greatest = 0;
+      double squares = 0;
+      double count = 0;
+      for (std::size_t j = 0; j < distances.size(); ++j) {
+        greatest = std::max(greatest, distances[j]);
+        squares += distances[j] * distances[j];
+        count += kept_[j];
+      }
+      return options_.within ? greatest : std::sqrt(squares / count);
+    };
+    if (!smooth && plain_fairing_is_within(tolerance, figure_of)) return;
+    auto gathered = gather();
+    const double scale = net_of(gathered).frame.scale();
+    const double edge = mean_edge(net_of(gathered));
+    const auto length = std::make_shared<double>(edge);
+    FairOptions options = options_.fair;
+    options.tolerance = std::min(options.tolerance, precision * tolerance * scale / diagonal_of(net_of(gathered)));
+    PulledShape shape(std::move(gathered), options, std::move(points), length, team_);
+    // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
+    const std::vector<Vector3> start = shape.net().positions;
+    for (const double first : first_lengths) {
+      *length = first * edge;
+      shape.net().positions = start;
+      shape.find(context_, progress, report.fair);
+      if (report.fair.outcome == Outcome::converged || context_.cancelled()) break;
+    }
+    const auto finish_with = [&](double found) {
+      finish(shape.net());
+      report.smoothing_length = found / scale;
+    };
+    if (smooth || context_.cancelled()) {
+      finish_with(*length);
+      return;
+    }
+    ToleranceFitTask task;
+    task.net = &shape.net();
+    task.length = length;
+    task.follow = [&] {
+      FairReport one;
+      shape.follow(context_, progress, one);
+      report.fair.iterations += one.iterations;
+      report.fair.history.insert(report.fair.history.end(), one.history.begin(), one.history.end());
+      report.fair.residual = one.residual;
+      report.fair.expected_error = one.expected_error;
+      report.fair.outcome = one.outcome;
+      return one.outcome == Outcome::converged;
+    };
+    task.cancelled = [&] { return context_.cancelled(); };
+    task.measure = [&] {
+      finish_positions(shape.net());
+      std::vector<double> all = distances();
+      for (std::size_t j = 0; j < all.size(); ++j) all[j] = kept_[j] != 0 ? all[j] * scale : 0;
+      return all;
+    };
+    task.energy = [&] { return fairness_of(fitted(), constraints_, team_).vspring_energy; };
+    const auto local_figure = [&](const std::vector<double>& all) { return figure_of(all); };
+    ToleranceFitResult found = smooth_within(task, tolerance * scale, local_figure);
+    if (options_.within && !context_.cancelled()) found = hold_within(task, tolerance * scale, found);
+    finish_with(found.length);
+    report.active_points = found.active;
+    if (context_.cancelled()) {
+      report.fair.outcome = Outcome::cancelled;
+      return;
+    }
+    report.fair.outcome = !found.within   ? Outcome::stalled
+                          : found.settled ? Outcome::converged
+                                          : Outcome::iteration_limit;
+    if (!found.within)
+      report.fair.warnings.push_back(
+          fmt::format("no shape of this mesh was found within {:g}: this is the one that comes nearest; points may lie "
+                      "at what is held, or edges may be too long",
+                      tolerance));
+    else if (!found.settled)
+      report.fair.warnings.emplace_back("the shape is within the tolerance, but may not be the fairest that is");
+  }
+
+  /// Then that is the fairest.
+  template <typename Figure>
+  bool plain_fairing_is_within(double tolerance, const Figure& figure_of) {
+    try {
+      (void)check_constraints(shape_, constraints_);
+    } catch (const Error&) {
+      // Only points hold it.
+      return false;
+    }
+    FairResult plain = vspring::fair(shape_, constraints_, options_.fair, context_);
+    if (plain.report.outcome != Outcome::converged && !context_.cancelled()) return false;
+    result_.positions = std::move(plain.positions);
+    std::vector<double> all = distances();
+    for (std::size_t j = 0; j < all.size(); ++j) all[j] *= kept_[j];
+    if (!context_.cancelled() && !(figure_of(all) <= tolerance)) return false;
+    result_.report.fair = std::move(plain.report);
+    return true;
+  }
+
+  void finish_positions(const Net& net) {
+    result_.positions = scatter_positions(net, shape_.positions(), constraints_, options_.fair.strength);
+  }
+
+  void sweep(LoosePoints points, FairOptions options, ProgressReporter& progress) {
+    auto gathered = gather();
+    Net& net = net_of(gathered);
+    const auto model = model_of(gathered, options);
+    distribute(net, *model, options.distribution, team_);
+    const auto smoothing = smoothing_in(net);
+    PointTies ties(net, points.positions, points.weights, points.nearest,
+                   smoothing ? pull_by_smoothing(smoothing) : PointFactors());
+    points = {};
+    std::function<void()> renew_ties;
+    if (!net.points.empty()) renew_ties = [&] { (void)ties.renew(team_); };
+    run_sweeps(net, *model, options, team_, context_, progress, result_.report.fair, renew_ties);
+    finish(net);
+  }
+
+  auto gather() {
+    auto gathered = gather_net(shape_, constraints_);
+    count_nodes(net_of(gathered), constraints_, result_.report.fair);
+    return gathered;
+  }
+
+  std::shared_ptr<double> smoothing_in(const Net& net) {
+    if (!options_.smoothing_length) return nullptr;
+    result_.report.smoothing_length = options_.smoothing_length;
+    return std::make_shared<double>(*options_.smoothing_length * net.frame.scale());
+  }
+
+  void finish(const Net& net) {
+    count_points(net);
+    finish_positions(net);
+    measure_moves(net, shape_.positions(), result_.positions, result_.report.fair);
+  }
+
+  [[nodiscard]] LoosePoints loose_points() {
     std::vector<double> weights = points_.weights;
     weights.resize(points_.positions.size(), 1);
-    for (double& weight : weights) weight *= options_.weight;
-    return weights;
+    const double weight = options_.smoothing_length || options_.within || options_.rms ? 1 : options_.weight;
+    for (std::size_t j = 0; j < weights.size(); ++j) weights[j] *= kept_[j] * weight;
+    return {points_.positions, std::move(weights), find_nearest()};
   }
 
   [[nodiscard]] std::vector<Index> find_nearest() {
@@ -212,6 +397,7 @@ class Fitting {
   Context measuring_;
   ThreadTeam team_;
   FitResult result_;
+  std::vector<std::uint8_t> kept_;  // of every point, 0 for those left out
 };
 
 template <typename Shape>
@@ -223,15 +409,6 @@ FitResult fit_shape(const Shape& shape, const Constraints& constraints, const Sc
 }
 
 }  // namespace
-
-void FitOptions::validate() const {
-  fair.validate();
-  const auto refuse = [](const std::string& message) { throw Error(ErrorCode::invalid_argument, message); };
-  if (!is_weight(weight)) refuse(fmt::format("weight must be from 0 to {:g}, not {}", largest_weight, weight));
-  if (fair.method.value_or(Method::sweep) != Method::sweep)
-    refuse(fmt::format("points can be fitted by method sweep only, not {}", name(*fair.method)));
-  if (fair.fair_boundary) refuse("points cannot be fitted while the boundary is faired: fair the boundary first");
-}
 
 FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {

@@ -16,8 +16,9 @@ class Preconditioner {
   Preconditioner(const Preconditioner&) = delete;
   Preconditioner& operator=(const Preconditioner&) = delete;
 
-  /// Looks at the shape as it is now. True where that has changed so much that all was built anew.
-  virtual bool refresh() = 0;
+  /// Looks at the shape, and the points that pull at it, as they are now. True where that has changed so much that all
+  /// was built anew. Needs directions.
+  virtual bool refresh(const Model& model) = 0;
 
   /// The correction of every moving node for the forces that the model puts on them. Needs directions. enough: an error
   /// of it that does not matter.

@@ -100,8 +100,11 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   std::optional<double> missed_by;
   if (report.method != Method::sweep) {
     hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution, team_), team_);
-    const auto method = report.method == Method::multigrid ? run_multigrid : run_equilibrium;
-    method(*hierarchy_, *model_, options_, team_, context, progress, report);
+    if (report.method == Method::multigrid) {
+      run_multigrid(*hierarchy_, *model_, options_, team_, context, progress, report);
+    } else {
+      run_equilibrium(*hierarchy_, *model_, options_, team_, context, progress, report);
+    }
     const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
     if (found || options_.method || options_.max_iterations) return {};
     // Nobody asked for this method: the paper's iteration ends on shapes that have no equilibrium, too.
@@ -141,7 +144,7 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, Fai
   report.method = Method::equilibrium;
   ProgressReporter progress(context);
   report.threads = team_.size();
-  hierarchy_->follow(constraints);
+  hierarchy_->follow(constraints, *model_);
   run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, options_, team_, context, progress,
                             report);
   return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;

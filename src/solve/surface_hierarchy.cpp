@@ -44,7 +44,7 @@ void SurfaceHierarchy::limit(std::size_t levels) {
 
 Preconditioner& SurfaceHierarchy::preconditioner(std::size_t level) {
   make_systems(level);
-  return preconditioner_.emplace(system_levels_, *spreading_, *team_);
+  return preconditioner_.emplace(system_levels_, *spreading_, *anchor_, *team_);
 }
 
 Preconditioner& SurfaceHierarchy::kept_preconditioner() {
@@ -64,7 +64,8 @@ void SurfaceHierarchy::make_systems(std::size_t level) {
     restrict_shape(levels_[k], coarse);
     system_levels_.interpolations.push_back(interpolation(levels_[k].net, coarse.net, coarse.finer, *team_));
   }
-  spreading_ = spreading_solver(system_levels_, *team_);
+  anchor_.emplace(levels_[level].net);
+  spreading_ = spreading_solver(system_levels_, *team_, !anchor_->needed());
 }
 
 void SurfaceHierarchy::start() {
@@ -93,7 +94,7 @@ void SurfaceHierarchy::prolong_from(std::size_t level) {
   spread_along(level + 1);
 }
 
-void SurfaceHierarchy::follow(const Constraints& constraints) {
+void SurfaceHierarchy::follow(const Constraints& constraints, const Model& model) {
   Net& net = levels_.back().net;
   std::vector<Vector3> moves(net.positions.size() - net.moving);
   for (std::size_t k = 0; k < moves.size(); ++k) {
@@ -105,7 +106,7 @@ void SurfaceHierarchy::follow(const Constraints& constraints) {
   }
   const bool any_moved = std::any_of(moves.begin(), moves.end(), [](const Vector3& move) { return !move.isZero(0); });
   if (any_moved) {
-    (void)kept_preconditioner().refresh();
+    (void)kept_preconditioner().refresh(model);
     std::vector<Vector3> correction;
     preconditioner_->follow(moves, correction);
     for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += correction[i];
@@ -134,12 +135,13 @@ void SurfaceHierarchy::spread_along(std::size_t level) {
     });
     double least_edge = forces.front().mean_edge;
     for (const NodeForce& force : forces) least_edge = std::min(least_edge, force.mean_edge);
+    anchor_->hold(steps);
     spreading_->solve(steps, {.enough = negligible_slide * least_edge, .share = slide_share});
+    for (std::size_t i = 0; i < net.moving; ++i) steps[i] -= steps[i].dot(net.normals[i]) * net.normals[i];
+    anchor_->hold(steps);
     bool worth_it = false;
-    for (std::size_t i = 0; i < net.moving; ++i) {
-      steps[i] -= steps[i].dot(net.normals[i]) * net.normals[i];
+    for (std::size_t i = 0; i < net.moving; ++i)
       worth_it = worth_it || steps[i].norm() > worth_sliding * forces[i].mean_edge;
-    }
     if (!worth_it) break;
     slide(net, steps, *team_);
   }

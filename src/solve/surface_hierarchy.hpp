@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "levels/surface_levels.hpp"
+#include "solve/anchor.hpp"
 #include "solve/hierarchy.hpp"
 #include "solve/linear_solver.hpp"
 #include "solve/surface_preconditioner.hpp"
@@ -36,7 +37,7 @@ class SurfaceHierarchy final : public Hierarchy {
 
   /// Held nodes of the shape itself go to their new places, and have their new normals; its moving nodes follow as they
   /// would if slopes were small. Coarser levels stay as they are.
-  void follow(const Constraints& constraints);
+  void follow(const Constraints& constraints, const Model& model);
 
   Net take() && { return std::move(levels_.back().net); }
 
@@ -49,6 +50,7 @@ class SurfaceHierarchy final : public Hierarchy {
   std::vector<SurfaceLevel> levels_;
   std::optional<std::size_t> systems_of_;  ///< the level that these are for
   SystemLevels system_levels_;
+  std::optional<Anchor> anchor_;
   std::unique_ptr<LinearSolver> spreading_;
   std::optional<SurfacePreconditioner> preconditioner_;
   ThreadTeam* team_;

@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "solve/bending_form.hpp"
+#include "spring/bending_factor.hpp"
 
 namespace vspring {
 
@@ -16,6 +17,11 @@ constexpr double bending_share = 0.15;
 constexpr double spreading_share = 1;
 // Of the weights 1/ℓ.
 constexpr float greatest_change = 1.15F;
+// Nodes that points hold by more than this many times the springs' stiffness go to the point all the same; single
+// precision has room for no more.
+constexpr double stiffest = 1e8;
+// What is asked of a node, in the net's coordinates; a step has its limits anyway.
+constexpr double most_asked = 1e12;
 // Of how far a surface may be taken to fall away, as a share of the step.
 constexpr double steepest = 0.5;
 
@@ -57,10 +63,16 @@ double sagitta(const Net& net, std::size_t i, const Vector3& step) {
 
 }  // namespace
 
-SurfacePreconditioner::SurfacePreconditioner(const SystemLevels& levels, LinearSolver& spreading, ThreadTeam& team)
-    : net_(levels.net), team_(&team), factor_(bending_factor(*net_)), bending_(levels, team), spreading_(&spreading) {}
+SurfacePreconditioner::SurfacePreconditioner(const SystemLevels& levels, LinearSolver& spreading, const Anchor& anchor,
+                                             ThreadTeam& team)
+    : net_(levels.net),
+      team_(&team),
+      factor_(bending_factor(*net_)),
+      bending_(levels, team),
+      spreading_(&spreading),
+      anchor_(&anchor) {}
 
-bool SurfacePreconditioner::refresh() {
+bool SurfacePreconditioner::refresh(const Model& model) {
   weigh_edges(*net_, *team_, weight_);
   std::atomic<bool> fits = !built_weight_.empty();
   if (fits) {
@@ -71,9 +83,13 @@ bool SurfacePreconditioner::refresh() {
       }
     });
   }
-  if (fits) return false;
+  const bool pulled_otherwise = stiffness_.renew(*net_, model, *team_);
+  if (fits && !pulled_otherwise) return false;
   built_weight_ = weight_;
-  bending_.build();
+  std::vector<double> pull(stiffness_.values().begin(), stiffness_.values().end());
+  for (std::size_t i = 0; i < pull.size(); ++i)
+    pull[i] = static_cast<double>(weight_[i]) / factor_ * std::min(pull[i], stiffest);
+  bending_.build(pull, pulled_otherwise);
   return true;
 }
 
@@ -86,7 +102,8 @@ void SurfacePreconditioner::correct(const Model& model, double enough, std::vect
     model.find_forces(net, {begin, end}, forces);
     for (std::size_t i = begin; i < end; ++i) {
       const NodeForce& force = forces[i - begin];
-      along_[i] = static_cast<double>(weight_[i]) / factor_ * force.spring.dot(net.normals[i]);
+      const double asked = force.spring.dot(net.normals[i]) / std::max(force.stiffness / stiffest, 1.0);
+      along_[i] = static_cast<double>(weight_[i]) / factor_ * std::clamp(asked, -most_asked, most_asked);
       correction[i] = force.regularisation;
     }
   });
@@ -121,12 +138,11 @@ void SurfacePreconditioner::solve(double enough, std::vector<Vector3>& correctio
   };
   bending_.solve(along_, {.enough = enough, .share = bending_share});
   in_parallel([&](std::size_t i) { correction[i] = asked_across(i, correction[i]); });
+  anchor_->hold(correction);
   spreading_->solve(correction, {.enough = enough, .share = spreading_share});
-  in_parallel([&](std::size_t i) {
-    const Vector3& normal = net.normals[i];
-    const Vector3 along_surface = correction[i] - correction[i].dot(normal) * normal;
-    correction[i] = (along_[i] - sagitta(net, i, along_surface)) * normal + along_surface;
-  });
+  in_parallel([&](std::size_t i) { correction[i] -= correction[i].dot(net.normals[i]) * net.normals[i]; });
+  anchor_->hold(correction);
+  in_parallel([&](std::size_t i) { correction[i] += (along_[i] - sagitta(net, i, correction[i])) * net.normals[i]; });
 }
 
 Vector3 SurfacePreconditioner::asked_across(std::size_t i, const Vector3& regularisation) const {

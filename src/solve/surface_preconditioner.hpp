@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "base/threads.hpp"
+#include "solve/anchor.hpp"
 #include "solve/linear_solver.hpp"
+#include "solve/point_stiffness.hpp"
 #include "solve/preconditioner.hpp"
 #include "solve/surface_systems.hpp"
 #include "spring/net.hpp"
@@ -13,14 +15,14 @@
 namespace vspring {
 
 /// For surfaces. Along the normals the inverse of the bending form (see bending_form()), taken as if the surface were
-/// flat; across them that of the graph's Laplacian, which takes into account where the correction along the normals
-/// goes.
+/// flat, with what points add to its diagonal; across them that of the graph's Laplacian, which takes into account
+/// where the correction along the normals goes.
 class SurfacePreconditioner final : public Preconditioner {
  public:
-  /// levels, spreading: of the net that is worked on; they must outlive it.
-  SurfacePreconditioner(const SystemLevels& levels, LinearSolver& spreading, ThreadTeam& team);
+  /// levels, spreading, anchor: of the net that is worked on; they must outlive it.
+  SurfacePreconditioner(const SystemLevels& levels, LinearSolver& spreading, const Anchor& anchor, ThreadTeam& team);
 
-  bool refresh() override;
+  bool refresh(const Model& model) override;
   void correct(const Model& model, double enough, std::vector<Vector3>& correction) override;
 
   /// The correction of every moving node that brings back equilibrium, if slopes are small, where held nodes move:
@@ -39,6 +41,8 @@ class SurfacePreconditioner final : public Preconditioner {
   double factor_;
   BendingSystem bending_;
   LinearSolver* spreading_;
+  const Anchor* anchor_;
+  PointStiffness stiffness_;
   /// The sums of 1/ℓ of every moving node by the lengths that its edges have now: then what neighbours ask of each
   /// other cancels, and what is rough in the forces leaves no trace in long waves.
   std::vector<float> weight_;

@@ -9,19 +9,26 @@
 
 namespace vspring {
 
+namespace {
+
+// Of the diagonal; for single precision, too.
+constexpr double shift_of_free = 1e-5;
+
+}  // namespace
+
 BendingSystem::BendingSystem(const SystemLevels& levels, ThreadTeam& team) : levels_(&levels), team_(&team) {
   if (levels.interpolations.empty()) factor_ = std::make_unique<CholeskySolver>(team);
 }
 
 BendingSystem::~BendingSystem() = default;
 
-void BendingSystem::build() {
+void BendingSystem::build(std::span<const double> pull, bool pulled_otherwise) {
   if (factor_) {
-    factor_->build(bending_form(*levels_->net, *team_));
+    factor_->build(bending_form(*levels_->net, *team_, pull));
     return;
   }
-  FactoredMatrix matrix = factored_bending_form(*levels_->net, *team_);
-  if (multigrid_) {
+  FactoredMatrix matrix = factored_bending_form(*levels_->net, *team_, pull);
+  if (multigrid_ && !pulled_otherwise) {
     multigrid_->replace_finest(std::move(matrix));
     return;
   }
@@ -37,18 +44,19 @@ void BendingSystem::solve(std::span<double> values, const Accuracy& accuracy) {
   }
 }
 
-std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team) {
+std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held) {
   const Net& net = *levels.net;
+  const auto form = [&] { return held ? spreading_form(net, team) : spreading_form(net, team, shift_of_free); };
   if (levels.interpolations.empty()) {
     auto solver = std::make_unique<CholeskySolver>(team);
-    solver->build(spreading_form(net, team));
+    solver->build(form());
     return solver;
   }
   auto solver = std::make_unique<MultigridSolver>(levels.interpolations, team);
-  if (net.shares.empty()) {
+  if (net.shares.empty() && held) {
     solver->build(GraphLaplacian(net));
   } else {
-    solver->build(WholeMatrix(spreading_form(net, team), team));
+    solver->build(WholeMatrix(form(), team));
   }
   return solver;
 }

@@ -26,8 +26,9 @@ class BendingSystem {
   BendingSystem(const BendingSystem&) = delete;
   BendingSystem& operator=(const BendingSystem&) = delete;
 
-  /// Builds the form from where the nodes are now; that of coarser levels once.
-  void build();
+  /// Builds the form from where the nodes are now, with `pull` added to its diagonal (empty: nothing); that of coarser
+  /// levels once, but where pulled_otherwise.
+  void build(std::span<const double> pull = {}, bool pulled_otherwise = false);
   void solve(std::span<double> values, const Accuracy& accuracy);
 
  private:
@@ -37,7 +38,8 @@ class BendingSystem {
   std::unique_ptr<class MultigridSolver> multigrid_;
 };
 
-/// A solver with the Laplacian of the net's graph, see spreading_form().
-std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team);
+/// A solver with the Laplacian of the net's graph, see spreading_form(). held: whether all of it hangs together with
+/// held nodes; else constants are damped.
+std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held = true);
 
 }  // namespace vspring

@@ -40,7 +40,7 @@ class Model {
   /// the largest displacement relative to the mean length of the node's edges (§4.6).
   virtual double move(Net& net, Block block) const = 0;
 
-  /// The same displacements for nodes that stay: one force for every node of the block.
+  /// The same displacements for nodes that stay: one force for every node of the block, with what its points ask.
   virtual void find_forces(const Net& net, Block block, std::span<NodeForce> forces) const = 0;
 };
 

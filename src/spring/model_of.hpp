@@ -36,8 +36,10 @@ class ModelOf final : public Model {
   double move(Net& net, Block block) const override {
     double greatest = 0;
     for (std::size_t i = block.begin; i < block.end; ++i) {
-      const NodeForce force = rules_.force(net, i);
-      const Vector3 displacement = sprung_step(net, i, force) + force.regularisation;
+      const NodeForce force = force_with_points(net, i);
+      // Points pull at where the node comes to be. So any weight is stable, small ones act as the paper's, and what the
+      // iteration ends in is the same.
+      const Vector3 displacement = force.spring / (1 + force.stiffness) + force.regularisation;
       net.positions[i] += displacement;
       if (force.mean_edge > 0) greatest = std::max(greatest, displacement.norm() / force.mean_edge);
     }
@@ -45,17 +47,18 @@ class ModelOf final : public Model {
   }
 
   void find_forces(const Net& net, Block block, std::span<NodeForce> forces) const override {
-    for (std::size_t i = block.begin; i < block.end; ++i) forces[i - block.begin] = rules_.force(net, i);
+    for (std::size_t i = block.begin; i < block.end; ++i) forces[i - block.begin] = force_with_points(net, i);
   }
 
  private:
-  /// dP_i + dPc_i, over 1 + stiffness: points pull at where the node comes to be. So any weight is stable, small ones
-  /// act as the paper's, and what the iteration ends in is the same.
-  Vector3 sprung_step(const Net& net, std::size_t i, const NodeForce& force) const {
-    if (net.points.empty()) return force.spring;
+  NodeForce force_with_points(const Net& net, std::size_t i) const {
+    NodeForce force = rules_.force(net, i);
+    if (net.points.empty()) return force;
     const PointForce points =
         point_force(net, i, force.mean_edge, [&](const Vector3& d) { return rules_.sprung(net, i, d); });
-    return (force.spring + points.displacement) / (1 + points.stiffness);
+    force.spring += points.displacement;
+    force.stiffness = points.stiffness;
+    return force;
   }
 
   Rules rules_;

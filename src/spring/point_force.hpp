@@ -14,7 +14,8 @@ struct PointForce {
 
 /// Eq. 9 and the average of its displacements with w_j = 1/‖P_i − Q_j‖. sprung(d): the part of d along which the
 /// springs of the node act; the rest of V_j − P_i leads to the foot Q_j. Feet nearer than a hundredth of the mean edge
-/// count as that near: the weights stay bounded, and do not jump while a node slides past the foot of a point.
+/// count as that near: the weights stay bounded, and do not jump while a node slides past the foot of a point. All of
+/// it times the node's factor.
 template <typename Sprung>
 PointForce point_force(const Net& net, std::size_t i, double mean_edge, const Sprung& sprung) {
   const double nearest_foot = 0.01 * mean_edge;
@@ -30,8 +31,9 @@ PointForce point_force(const Net& net, std::size_t i, double mean_edge, const Sp
     force.stiffness += stiffness;
   }
   if (weights > 0) {
-    force.displacement /= weights;
-    force.stiffness /= weights;
+    const double share = net.points.factor(i) / weights;
+    force.displacement *= share;
+    force.stiffness *= share;
   }
   return force;
 }

@@ -11,14 +11,17 @@ namespace vspring {
 /// Scattered points, each tied to one node of a net (§4.5), in the coordinates of the net.
 struct TiedPoints {
   std::vector<Vector3> positions;
-  std::vector<double> weights;       ///< k_j of Eq. 9
-  std::vector<std::uint32_t> order;  ///< the points, node by node of the net
-  std::vector<std::uint32_t> begin;  ///< where each node's begin in that order, and at last their number
+  std::vector<double> weights;         ///< k_j of Eq. 9
+  std::vector<std::uint32_t> numbers;  ///< of each among those that were given; clusters have none
+  std::vector<std::uint32_t> order;    ///< the points, node by node of the net
+  std::vector<std::uint32_t> begin;    ///< where each node's begin in that order, and at last their number
+  std::vector<double> factors;         ///< of every node: what the average of its k_j is multiplied by; empty: 1
 
   [[nodiscard]] bool empty() const noexcept { return order.empty(); }
   [[nodiscard]] std::span<const std::uint32_t> of(std::size_t node) const noexcept {
     return {order.data() + begin[node], begin[node + 1] - begin[node]};
   }
+  [[nodiscard]] double factor(std::size_t node) const noexcept { return factors.empty() ? 1 : factors[node]; }
 };
 
 }  // namespace vspring

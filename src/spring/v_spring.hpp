@@ -20,9 +20,12 @@ inline double spring_difference(const Vector3& d, const Vector3& normal_i, const
 
 /// What the neighbours of a node ask of it.
 struct NodeForce {
-  Vector3 spring = Vector3::Zero();          ///< dP_i of Eq. 8, along the normal
+  Vector3 spring = Vector3::Zero();          ///< dP_i of Eq. 8, along the normal; of a model with points, + dPc_i
   Vector3 regularisation = Vector3::Zero();  ///< dPu_i of §4.4, across the normal
   double mean_edge = 0;                      ///< mean length of the node's edges
+  /// Of the points that are tied to the node, whose displacement dPc_i is in `spring`: by how much that falls per
+  /// length that the node moves along it.
+  double stiffness = 0;
 };
 
 /// Eq. 8 with w_j = 1/‖P_i − P_j‖, and §4.4. A node without a normal (zero) is not sprung and goes to the mean of its

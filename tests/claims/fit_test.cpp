@@ -25,6 +25,7 @@ constexpr double pi = std::numbers::pi;
 FitOptions with_weight(double weight, double step_tolerance = 1e-8, int iterations = 20000) {
   FitOptions options;
   options.weight = weight;
+  options.fair.method = Method::sweep;
   options.fair.step_tolerance = step_tolerance;
   options.fair.max_iterations = iterations;
   return options;
@@ -358,8 +359,8 @@ TEST(Fit, RefusalsNameThePoint) {
   points.positions[17].y() = 0;
   EXPECT_NE(refusal(points, with_weight(-1)).find("weight"), std::string::npos);
   FitOptions options;
-  options.fair.method = Method::equilibrium;
-  EXPECT_NE(refusal(points, options).find("sweep"), std::string::npos);
+  options.fair.method = Method::multigrid;
+  EXPECT_NE(refusal(points, options).find("multigrid"), std::string::npos);
   options = {};
   options.fair.fair_boundary = true;
   EXPECT_NE(refusal(points, options).find("boundary"), std::string::npos);
@@ -388,7 +389,10 @@ double gain(double weight, int waves, int edges) {
   const double height = 0.02 / edges;
   std::vector<Vector3> nodes = segment(edges).positions();
   for (Vector3& node : nodes) node.y() = height * std::sin(2 * pi * waves * node.x());
-  const FitOptions options = with_weight(weight, 1e-9, 400000);
+  FitOptions options = with_weight(weight);
+  options.fair.method = Method::equilibrium;
+  options.fair.tolerance = 1e-9;
+  options.fair.max_iterations = {};
   const FitResult result = fit(PolygonCurve(nodes), held_ends(nodes), {.positions = nodes}, options);
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   double sum = 0;

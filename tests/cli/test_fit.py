@@ -32,7 +32,7 @@ class Fit(Case):
         after = heights(self.folder / "out.obj")
         self.assertAlmostEqual(max(after), 0.2, delta=0.01)
         report = self.read_json("r.json")
-        self.assertEqual((report["outcome"], report["method"], report["points"]["count"]), ("converged", "sweep", 3000))
+        self.assertEqual((report["outcome"], report["method"], report["points"]["count"]), ("converged", "equilibrium", 3000))
         distance = report["points"]["distance"]
         self.assertAlmostEqual(distance["before"]["greatest"], 0.2, delta=0.01)
         self.assertLess(distance["after"]["rms"], 0.01)
@@ -117,8 +117,10 @@ class Fit(Case):
 
     def test_a_closed_surface_that_only_points_hold(self):
         shape = self.write("ball.obj", sphere(4, radius=0.9))
-        # Points along normals alone do not keep nodes from sliding, so steps never get small.
-        self.fit(shape, self.write("points.obj", sphere(12, radius=1.0)), "--weight", "0.1", "--step-tolerance", "0.005")
+        points = self.write("points.obj", sphere(12, radius=1.0))
+        # Points along normals alone do not keep nodes from sliding, so steps of the plain iteration never get small.
+        self.fit(shape, points, "--weight", "0.1", "--method", "sweep", "--step-tolerance", "0.005")
+        self.fit(shape, points, "--weight", "0.1")
         for line in vertex_lines((self.folder / "out.obj").read_text()):
             self.assertAlmostEqual(math.hypot(*map(float, line.split()[1:])), 1, delta=0.02)
 
@@ -147,6 +149,33 @@ class Fit(Case):
         self.assertEqual((result.returncode, result.stderr), (0, b""))
         self.assertEqual(result.stdout, (self.folder / "out.obj").read_bytes())
 
+    def test_a_smoothing_length(self):
+        shape = self.write("flat.obj", grid(12, lambda x, y: 0))
+        points = self.write("points.xyz", xyz(self.cloud()))
+        result = self.fit(shape, points, "--smoothing-length", "0.05", "--report", self.folder / "r.json")
+        self.assertAlmostEqual(max(heights(self.folder / "out.obj")), 0.2, delta=0.01)
+        report = self.read_json("r.json")["points"]
+        self.assertEqual((report["smoothing_length"], report["weight"], report["within"]), (0.05, None, None))
+        self.assertIn("smoothing length 0.05 units", result.stdout.decode())
+
+    def test_a_tolerance(self):
+        shape = self.write("flat.obj", grid(12, lambda x, y: 0))
+        cloud = self.cloud()
+        points = self.write("points.xyz", xyz(cloud))
+        for option, figure in (("--within", "greatest"), ("--rms", "rms")):
+            with self.subTest(option=option):
+                self.fit(shape, points, option, "0.02", "--report", self.folder / "r.json")
+                report = self.read_json("r.json")
+                self.assertEqual(report["outcome"], "converged")
+                self.assertLessEqual(report["points"]["distance"]["after"][figure], 0.02)
+                self.assertGreater(report["points"]["distance"]["after"][figure], 0.018)
+        outlier = self.write("more.xyz", xyz(cloud + [(0.5, 0.5, 3.0)]))
+        self.fit(shape, outlier, "--within", "0.02", "--outliers", "0.0005", "--report", self.folder / "r.json")
+        self.assertEqual(self.read_json("r.json")["points"]["outliers"], 1)
+        out_of_reach = self.write("held.xyz", xyz(cloud + [(-0.1, 0.5, 0.0)]))
+        result = self.fit(shape, out_of_reach, "--within", "0.02", status=3)
+        self.assertIn("no shape of this mesh", result.stderr.decode())
+
     def test_an_end_at_the_limit_of_iterations(self):
         self.fit(self.write("flat.obj", grid(6)), self.write("points.xyz", xyz(self.cloud(100))), "--weight", "0.1", "--max-iterations", "2", status=3)
 
@@ -160,6 +189,10 @@ class Fit(Case):
         good = [shape, "--points", points, "--weight", "1"]
         for arguments, status, word in (([shape, "--points", points], 1, "--weight"), ([shape, "--weight", "1"], 1, "--points"),
                                         ([shape, "--points", points, "--weight", "-1"], 1, "--weight"),
+                                        ([shape, "--points", points, "--weight", "1", "--within", "1"], 1, "--within"),
+                                        ([shape, "--points", points, "--within", "0"], 1, "--within"),
+                                        ([shape, "--points", points, "--within", "1", "--method", "sweep"], 1, "sweep"),
+                                        ([shape, "--points", points, "--rms", "1", "--outliers", "1"], 1, "--outliers"),
                                         ([shape, "--points", self.folder / "none.xyz", "--weight", "1"], 2, "none.xyz"),
                                         ([shape, "--points", far, "--weight", "1"], 1, "point 1 "),
                                         ([shape, "--points", light, "--weight", "1"], 2, "light.xyz:2: the weight is -2"),

@@ -28,7 +28,7 @@ double residual(const std::vector<Row>& rows, std::size_t size, double closing_f
       g(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(rows[r].first + k)) = rows[r].entries[k];
   }
   if (closing) {
-    matrix.add_closing_row(closing_first, closing_last);
+    matrix.add_far_row({{0, closing_first}, {size - 1, closing_last}});
     g(g.rows() - 1, 0) += closing_first;
     g(g.rows() - 1, n - 1) += closing_last;
   }

@@ -50,7 +50,7 @@ double left_over(const Bent& curve, Distribution distribution) {
   update_directions(net, *model, alone);
   std::vector<NodeForce> forces(net.moving);
   model->find_forces(net, {0, net.moving}, forces);
-  preconditioner.refresh();
+  preconditioner.refresh(*model);
   std::vector<Vector3> correction;
   preconditioner.correct(*model, 0, correction);
   for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += correction[i];
@@ -117,7 +117,7 @@ TEST(CurvePreconditioner, CutsClosedChainsAtAHeldNodeWithoutATrace) {
     update_directions(net, *model, alone);
     std::vector<NodeForce> forces(net.moving);
     model->find_forces(net, {0, net.moving}, forces);
-    preconditioner.refresh();
+    preconditioner.refresh(*model);
     std::vector<Vector3> correction;
     preconditioner.correct(*model, 0, correction);
     for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += correction[i];

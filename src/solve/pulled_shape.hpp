@@ -1,0 +1,100 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "base/threads.hpp"
+#include "fit/point_factors.hpp"
+#include "fit/point_ties.hpp"
+#include "levels/curve_levels.hpp"
+#include "levels/surface_levels.hpp"
+#include "solve/curve_hierarchy.hpp"
+#include "solve/equilibrium_method.hpp"
+#include "solve/point_levels.hpp"
+#include "solve/surface_hierarchy.hpp"
+#include "solve/sweep_method.hpp"
+#include "spring/model.hpp"
+
+namespace vspring {
+
+// What is said in other words of surfaces and of curves.
+inline Net& net_of(Net& net) { return net; }
+inline Net& net_of(CurveNet& curve) { return curve.net; }
+inline auto model_of(const Net& /*net*/, const FairOptions& options) { return surface_model(options.pseudo_normals); }
+inline auto model_of(const CurveNet& curve, const FairOptions& options) {
+  return curve_model_for(curve.net, options.curve);
+}
+inline SurfaceHierarchy hierarchy_of(Net net, const Model& model, Distribution distribution, ThreadTeam& team) {
+  return {surface_levels(std::move(net), model, distribution, team), team};
+}
+inline CurveHierarchy hierarchy_of(CurveNet curve, const Model& /*model*/, Distribution distribution,
+                                   ThreadTeam& /*team*/) {
+  return CurveHierarchy(curve_levels(std::move(curve), distribution));
+}
+
+/// Scattered points as they come, and the nodes of the shape that are nearest to them. Freed when they are tied.
+struct LoosePoints {
+  std::span<const Vector3> positions;
+  std::vector<double> weights;
+  std::vector<Index> nearest;
+};
+
+/// A shape at the equilibrium with points that pull at it, which is found once from its start, and then again and again
+/// from the last one. Gathered: a Net or CurveNet.
+template <typename Gathered>
+class PulledShape {
+ public:
+  /// smoothing: the smoothing length in the coordinates of the net, see pull_by_smoothing(); null for Eq. 9.
+  PulledShape(Gathered gathered, const FairOptions& options, LoosePoints points,
+              std::shared_ptr<const double> smoothing, ThreadTeam& team)
+      : options_(options),
+        team_(&team),
+        model_(model_of(gathered, options)),
+        hierarchy_(hierarchy_of(std::move(gathered), *model_, options.distribution, team)),
+        ties_(net(), points.positions, points.weights, points.nearest,
+              smoothing ? pull_by_smoothing(smoothing) : PointFactors()),
+        levels_(hierarchy_, ties_, std::move(smoothing), team) {}
+
+  Net& net() { return hierarchy_.net(hierarchy_.count() - 1); }
+
+  void find(Context& context, ProgressReporter& progress, FairReport& report) {
+    run_equilibrium(hierarchy_, *model_, options_, *team_, context, progress, report,
+                    net().points.empty() ? nullptr : &levels_);
+  }
+
+  /// From the last shape, where points or what they pull by have changed a little; by plain iterations where the solver
+  /// of the equilibrium finds nothing.
+  void follow(Context& context, ProgressReporter& progress, FairReport& report) {
+    const std::size_t last = hierarchy_.count() - 1;
+    levels_.tie(last);
+    const std::vector<Vector3> start = net().positions;
+    run_equilibrium_from_near(hierarchy_, hierarchy_.preconditioner(last), *model_, options_, *team_, context, progress,
+                              report, &levels_);
+    if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
+    net().positions = start;
+    levels_.tie(last);
+    SweepTask task{.step_tolerance = plain_tolerance, .max_iterations = plain_iterations};
+    task.renew_ties = [&] { (void)levels_.renew(0); };
+    report.outcome = sweep_until_still(net(), *model_, task, *team_, context).outcome;
+    update_directions(net(), *model_, *team_);
+  }
+
+ private:
+  // The last steps of a plain iteration are about k times their distance.
+  static constexpr double plain_tolerance = 1e-4;
+  static constexpr int plain_iterations = 300;
+
+  const FairOptions& options_;
+  ThreadTeam* team_;
+  std::unique_ptr<const Model> model_;
+  decltype(hierarchy_of(std::declval<Gathered>(), std::declval<const Model&>(), Distribution::even,
+                        std::declval<ThreadTeam&>())) hierarchy_;
+  PointTies ties_;
+  PointLevels levels_;
+};
+
+}  // namespace vspring

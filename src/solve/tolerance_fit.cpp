@@ -1,0 +1,150 @@
+// Tolerances in place of weights.
+
+#include "solve/tolerance_fit.hpp"
+
+#include <Eigen/Geometry>
+
+namespace vspring {
+
+namespace {
+
+// Smoothing lengths that are tried, in mean edges and in sizes of the shape.
+constexpr double shortest_length = 0.02;
+constexpr double longest_length = 10;
+constexpr double stride = 2;
+// Of the tolerance: near enough.
+constexpr double close_share = 0.01;
+constexpr int most_trials = 60;
+// Aimed at less than the tolerance, so that what is left of a correction does not go beyond.
+constexpr double aimed_share = 0.995;
+constexpr double holding_share = 0.99;
+// Of the energy, in so many turns.
+constexpr double settled_share = 0.005;
+constexpr int turns_per_look = 15;
+constexpr int most_turns = 120;
+constexpr int hopeless_turns = 45;
+// Of the weight of a point, in a turn and over all.
+constexpr double greatest_change = 3;
+constexpr double pace = 0.7;
+constexpr double pace_of_all = 2;
+constexpr double least_weight = 1e-9;
+constexpr double most_weight = 1e9;
+
+double size_of(const Net& net) {
+  Eigen::AlignedBox<double, 3> box;
+  for (const Vector3& position : net.positions) box.extend(position);
+  return box.diagonal().norm();
+}
+
+}  // namespace
+
+ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
+                                 const std::function<double(const std::vector<double>&)>& tolerated) {
+  Net& net = *task.net;
+  const double longest = longest_length * size_of(net);
+  const double shortest = shortest_length * mean_edge(net);
+  ToleranceFitResult result;
+  std::vector<Vector3> best = net.positions;
+  double least = std::numeric_limits<double>::infinity();
+  double nearest = *task.length;
+  // Lengths within and beyond the tolerance, and the figures there.
+  std::optional<std::pair<double, double>> inside;
+  std::optional<std::pair<double, double>> outside;
+  const auto look = [&](bool found) {
+    const double figure = found ? tolerated(task.measure()) : std::numeric_limits<double>::infinity();
+    const bool within = figure <= tolerance;
+    if (within && (!inside || *task.length > inside->first)) {
+      inside = {*task.length, figure};
+      best = net.positions;
+    } else if (!within) {
+      if (!outside || *task.length < outside->first) outside = {*task.length, figure};
+      if (!inside && figure < least) {
+        best = net.positions;
+        nearest = *task.length;
+      }
+    }
+    least = std::min(least, figure);
+  };
+  look(true);
+  for (int turn = 0; turn < most_trials; ++turn) {
+    if (!outside) {
+      if (*task.length >= longest) break;
+      *task.length *= stride;
+    } else if (!inside) {
+      if (*task.length <= shortest) break;
+      *task.length /= stride;
+    } else {
+      const auto& [a, at_a] = *inside;
+      const auto& [b, at_b] = *outside;
+      if (at_a >= (1 - close_share) * tolerance || b < (1 + close_share) * a) break;
+      // Between both by the logarithms, a little to the side that is within; kept off the ends.
+      const double share = at_b > at_a && at_a > 0 && std::isfinite(at_b)
+                               ? std::log(tolerance / at_a) / std::log(at_b / at_a) - 0.02
+                               : 0.5;
+      *task.length = a * std::pow(b / a, std::clamp(share, 0.1, 0.9));
+    }
+    if (inside) net.positions = best;
+    const bool found = task.follow();
+    if (task.cancelled()) break;
+    look(found);
+  }
+  net.positions = best;
+  result.within = inside.has_value();
+  result.settled = result.within;
+  result.length = inside ? inside->first : nearest;
+  *task.length = result.length;
+  return result;
+}
+
+ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, ToleranceFitResult smooth) {
+  Net& net = *task.net;
+  TiedPoints& points = net.points;
+  const std::vector<double> weights = points.weights;
+  const double aim = aimed_share * tolerance;
+  ToleranceFitResult result = smooth;
+  result.settled = false;
+  std::vector<Vector3> best = net.positions;
+  double least_energy = std::numeric_limits<double>::infinity();
+  double least_greatest = std::numeric_limits<double>::infinity();
+  // The least energy some turns ago.
+  double before = least_energy;
+  result.within = false;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const std::vector<double> distances = task.measure();
+    const double greatest = *std::max_element(distances.begin(), distances.end());
+    const bool within = greatest <= tolerance;
+    const double energy = within ? task.energy() : 0;
+    if (within ? energy < least_energy : !result.within && greatest < least_greatest) {
+      best = net.positions;
+      if (within) least_energy = energy;
+      const auto holds = [&](double distance) { return distance > holding_share * tolerance; };
+      result.active = static_cast<Index>(std::count_if(distances.begin(), distances.end(), holds));
+    }
+    least_greatest = std::min(least_greatest, greatest);
+    result.within = result.within || within;
+    if (turn % turns_per_look == turns_per_look - 1) {
+      if (result.within && least_energy > (1 - settled_share) * before) {
+        result.settled = true;
+        break;
+      }
+      if (!result.within && turn + 1 >= hopeless_turns) break;
+      before = least_energy;
+    }
+    // All together by as much as the furthest asks: so shapes on the way stay about within, once one has been.
+    const double all =
+        result.within ? std::pow(std::clamp(greatest / aim, 1 / greatest_change, greatest_change), pace_of_all) : 1;
+    const double power = result.within ? pace : 1;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      const double share = std::clamp(distances[points.numbers[k]] / aim, 1 / greatest_change, greatest_change);
+      const double change = all * std::pow(share, power);
+      points.weights[k] = std::clamp(points.weights[k] * change, least_weight * weights[k], most_weight * weights[k]);
+    }
+    (void)task.follow();
+    if (task.cancelled()) break;
+  }
+  points.weights = weights;
+  net.positions = best;
+  return result;
+}
+
+}  // namespace vspring

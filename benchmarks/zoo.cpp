@@ -21,6 +21,8 @@ using namespace bench;
 using namespace support;
 
 constexpr int cells = 48;
+// A distance, as a share of the diagonal.
+constexpr double another_equilibrium = 1e-4;
 
 struct Tally {
   int converged = 0;
@@ -35,13 +37,21 @@ struct Summary {
 };
 
 /// The error of a result by a run to 1e-12; none where that run does not get far enough.
-std::optional<double> true_error(const Specimen& specimen, FairOptions options, const FairResult& result) {
+std::optional<double> error_by(const PolygonMesh& start, const Specimen& specimen, FairOptions options,
+                               const FairResult& result) {
   const double expected = result.report.expected_error.value_or(0);
   options.tolerance = 1e-12;
-  const FairResult truth = fair(specimen.start, specimen.constraints, options);
+  const FairResult truth = fair(start, specimen.constraints, options);
   if (truth.report.outcome != Outcome::converged && !(truth.report.expected_error.value_or(1) < 1e-3 * expected))
     return std::nullopt;
   return greatest_distance(result.positions, truth.positions) / diagonal(specimen.start, specimen.constraints);
+}
+
+/// By a run from the same start; where that ends at another equilibrium, by one from the result.
+std::optional<double> true_error(const Specimen& specimen, const FairOptions& options, const FairResult& result) {
+  const std::optional<double> error = error_by(specimen.start, specimen, options, result);
+  if (error && *error < another_equilibrium) return error;
+  return error_by(with_positions(specimen.start, result.positions), specimen, options, result);
 }
 
 void run(const Specimen& specimen, Tally& tally, Summary& summary) {

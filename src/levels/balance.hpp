@@ -27,7 +27,7 @@ Place balance(const Net& net, const ForEach& for_each) {
   place.normal = direction(place.normal, 1);
   double lift = 0;
   for_each([&](std::size_t j, double weight) {
-    lift += weight * spring_difference(net.positions[j] - place.position, place.normal, net.normals[j]);
+    lift += weight * steady_difference(net.positions[j] - place.position, place.normal, net.normals[j]);
   });
   place.position += lift * place.normal;
   return place;

@@ -7,6 +7,7 @@
 
 #include "solve/anderson.hpp"
 #include "solve/best_shape.hpp"
+#include "solve/largest_turn.hpp"
 
 namespace vspring {
 
@@ -16,8 +17,6 @@ constexpr std::size_t depth = 6;
 constexpr std::size_t nodes_per_task = 2048;
 // No edge may turn or stretch by more than about this in one step: the equations are near to linear up to there.
 constexpr double greatest_turn = 0.3;
-constexpr double stretch_share = 0.4;
-constexpr double shortest_share = 0.25;
 // Iterations that do not get nearer, with steps of full length, before rounding is taken to have the last word.
 constexpr int patience = 12;
 // A share of the tolerance.
@@ -82,7 +81,7 @@ class Solver {
       best.look(expected);
       if (task.on_iteration) task.on_iteration(expected);
       // The last correction is not taken: what it says of the shape is true of the shape before it.
-      if (expected < task.tolerance && largest_turn() <= greatest_turn) {
+      if (expected < task.tolerance && largest_turn(net_, correction_, team_) <= greatest_turn) {
         if (last_changes < task.most_changes && renew_ties(false)) {
           ++last_changes;
           continue;
@@ -120,70 +119,20 @@ class Solver {
     preconditioner_.correct(model_, enough, correction_);
   }
 
-  template <typename Value>
-  double greatest_over_nodes(const Value& value) {
-    greatest_.assign((net_.moving + nodes_per_task - 1) / nodes_per_task, 0);
-    parallel_ranges(team_, net_.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-      double greatest = 0;
-      bool finite = true;
-      for (std::size_t i = begin; i < end; ++i) {
-        const double one = value(i);
-        finite = finite && std::isfinite(one);
-        greatest = std::max(greatest, one);
-      }
-      greatest_[begin / nodes_per_task] = finite ? greatest : std::numeric_limits<double>::infinity();
-    });
-    return greatest_.empty() ? 0 : *std::max_element(greatest_.begin(), greatest_.end());
-  }
-
   double largest_correction() {
-    return std::sqrt(greatest_over_nodes([&](std::size_t i) { return correction_[i].squaredNorm(); }));
-  }
-
-  /// How much of a difference between two ends of an edge counts, squared. Along a surface the equations are nearly
-  /// linear.
-  [[nodiscard]] double squared_change(const Vector3& difference, std::size_t i) const {
-    const double all = difference.squaredNorm();
-    if (!net_.tangents.empty()) return all;
-    const double across = difference.dot(net_.normals[i]);
-    return std::max(across * across, stretch_share * stretch_share * all);
-  }
-
-  /// The largest turn or stretch of an edge by the step in correction_.
-  double largest_turn() {
-    return std::sqrt(greatest_over_nodes([&](std::size_t i) {
-      const auto links = net_.rings.links(i);
-      double squares = 0;
-      double spokes = 0;
-      for (const Link link : links) {
-        if (!link.spoke()) continue;
-        squares += (net_.positions[link.node()] - net_.positions[i]).squaredNorm();
-        spokes += 1;
-      }
-      // An edge far shorter than its neighbours is out of place, and has to turn.
-      const double least_square = spokes > 0 ? shortest_share * shortest_share * squares / spokes : 0;
-      double greatest = 0;
-      for (const Link link : links) {
-        if (!link.spoke()) continue;
-        const std::size_t j = link.node();
-        const Vector3 difference = (j < net_.moving ? correction_[j] : Vector3(Vector3::Zero())) - correction_[i];
-        const double square = (net_.positions[j] - net_.positions[i]).squaredNorm();
-        greatest = std::max(greatest, squared_change(difference, i) / std::max(square, least_square));
-      }
-      return greatest;
-    }));
+    return std::sqrt(greatest_over_nodes(net_, team_, [&](std::size_t i) { return correction_[i].squaredNorm(); }));
   }
 
   /// Moves the nodes. True where the step had to be shortened.
   bool take_step() {
-    const double turn = largest_turn();
+    const double turn = largest_turn(net_, correction_, team_);
     double share = 1;
     if (turn > greatest_turn) {
       forget();
       share = greatest_turn / turn;
     } else {
       std::visit([&](auto& anderson) { anderson.accelerate(correction_); }, anderson_);
-      const double accelerated = largest_turn();
+      const double accelerated = largest_turn(net_, correction_, team_);
       if (accelerated > greatest_turn) {
         forget();
         share = greatest_turn / accelerated;
@@ -201,7 +150,6 @@ class Solver {
   ThreadTeam& team_;
   std::variant<Anderson<float>, Anderson<double>> anderson_;
   std::vector<Vector3> correction_;
-  std::vector<double> greatest_;
 };
 
 }  // namespace

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "solve/equilibrium.hpp"
+#include "solve/pseudo_transient.hpp"
 #include "solve/spring_energy.hpp"
+#include "sweep/sweep.hpp"
 
 namespace vspring {
 
@@ -30,6 +33,11 @@ constexpr int coarse_changes = 2;
 constexpr std::size_t few = 2000;
 // Moving nodes up to which a second start is of any use where coarser levels led nowhere.
 constexpr std::size_t not_too_many = 100'000;
+// Moving nodes up to which the flow is followed where corrections lead nowhere, and how much of that is tried.
+constexpr std::size_t few_enough_to_follow = 10'000;
+constexpr int fewest_steps = 20;
+constexpr int most_steps = 100;
+constexpr std::size_t most_node_steps = 200'000;
 // The cosine of 60°.
 constexpr double sharpest_turn = 0.5;
 constexpr double greatest_displacement_ratio = 4;
@@ -67,8 +75,7 @@ class Run {
 
   /// Without a look at coarser levels.
   void run_on_shape_itself(Preconditioner& preconditioner) {
-    (void)relax(hierarchy_.count() - 1, std::min(options_.max_iterations.value_or(near_limit), near_limit),
-                preconditioner);
+    relax(hierarchy_.count() - 1, std::min(options_.max_iterations.value_or(near_limit), near_limit), preconditioner);
   }
 
   void run() {
@@ -80,7 +87,7 @@ class Run {
     const bool try_first = points_ && options_.distribution == Distribution::keep;
     if (try_first || may_be_there(finest)) {
       const std::vector<Vector3> start = try_first ? finest.positions : std::vector<Vector3>();
-      (void)relax(last, try_first ? std::min(options_.max_iterations.value_or(near_limit), near_limit) : 1);
+      relax(last, try_first ? std::min(options_.max_iterations.value_or(near_limit), near_limit) : 1);
       if (try_first && unfinished()) {
         finest.positions = start;
         report_.outcome = Outcome::iteration_limit;
@@ -93,24 +100,28 @@ class Run {
   void go_down() {
     const int limit = options_.max_iterations.value_or(default_limit);
     const std::size_t last = hierarchy_.count() - 1;
+    const Net& finest = hierarchy_.net(last);
+    const bool may_follow_flow =
+        !points_ && !options_.max_iterations && finest.tangents.empty() && finest.moving <= few_enough_to_follow;
+    const std::vector<Vector3> start = may_follow_flow ? finest.positions : std::vector<Vector3>();
     hierarchy_.start();
     std::vector<Eigen::Vector3f> own_start;
     const std::size_t first = hierarchy_.first_of_use();
     for (std::size_t k = first; k <= last; ++k) {
       tie_points(k);
-      (void)relax(k, k == first ? std::min(limit, first_try) : limit);
+      relax(k, k == first ? std::min(limit, first_try) : limit);
       if (k == first && limit > first_try && unfinished()) {
         // Points know better, and may be all that holds it.
         if (lost() && !points_) hierarchy_.forget_shape(k);
         tie_points(k);
-        (void)relax(k, limit);
+        relax(k, limit);
       }
       if (!own_start.empty() && ((unfinished() && lost()) || caught_in_a_fold(k))) try_own_start(k, own_start, limit);
       if (k == last) break;
       if (points_ && unfinished() && lost()) {
         // Points too far out for this level: finer ones do better from the start itself.
         tie_points(last);
-        (void)relax(last, limit);
+        relax(last, limit);
         break;
       }
       own_start = hierarchy_.net(k + 1).moving <= not_too_many ? rounded(hierarchy_.net(k + 1))
@@ -118,30 +129,74 @@ class Run {
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
     }
+    if (may_follow_flow && unfinished()) try_flow(start);
+  }
+
+  /// Corrections that take a surface for flat and even may lead nowhere where it has folds. The flow of the plain
+  /// iteration, with all that it depends on, may lead somewhere: from the shape that was reached, from where some
+  /// sweeps take the start, from a soap film or from the start itself.
+  void try_flow(const std::vector<Vector3>& start) {
+    const std::size_t last = hierarchy_.count() - 1;
+    Net& net = hierarchy_.net(last);
+    const Reached best = reached(last);
+    const auto from_start = [&](int sweeps) {
+      net.positions = start;
+      Sweep sweep(net, model_, team_);
+      for (int k = 0; k < sweeps; ++k) (void)sweep.iterate();
+    };
+    const std::function<void()> starts[] = {[] {}, [&] { from_start(10); }, [&] { hierarchy_.forget_shape(last); },
+                                            [&] { from_start(0); }, [&] { from_start(1000); }};
+    int left = static_cast<int>(most_node_steps / net.moving);
+    const int at_once = std::clamp(left / 3, fewest_steps, most_steps);
+    for (const auto& go_to_start : starts) {
+      if (left < at_once) break;
+      go_to_start();
+      const int before = report_.iterations;
+      relax(last, at_once,
+            [&](const EquilibriumTask& task) { return follow_flow(net, model_, task, team_, context_); });
+      left -= report_.iterations - before;
+      if (report_.outcome == Outcome::converged) return;
+      const bool cancelled = report_.outcome == Outcome::cancelled;
+      go_back(last, best);
+      if (cancelled) {
+        report_.outcome = Outcome::cancelled;
+        return;
+      }
+    }
   }
 
   /// A level too coarse for the shape to have an equilibrium, or to have the right one, hands up what is no help: then
   /// the start itself may be one. The better of both stays.
   void try_own_start(std::size_t level, std::span<const Eigen::Vector3f> start, int limit) {
     Net& net = hierarchy_.net(level);
-    const std::vector<Vector3> reached = net.positions;
+    const Reached before = reached(level);
     const bool was_unfinished = unfinished();
-    const double residual = report_.residual;
-    const Outcome outcome = report_.outcome;
     const double energy = energy_of(net).sum;
     for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = start[i].cast<double>();
     tie_points(level);
-    (void)relax(level, limit);
+    relax(level, limit);
     if (report_.outcome == Outcome::cancelled) return;
     const bool better = was_unfinished || unfinished()
-                            ? !unfinished() || (was_unfinished && report_.residual < residual)
+                            ? !unfinished() || (was_unfinished && report_.residual < before.residual)
                             : energy_of(net).sum < energy;
-    if (better) return;
-    net.positions = reached;
+    if (!better) go_back(level, before);
+  }
+
+  /// A shape, and what is known of it.
+  struct Reached {
+    std::vector<Vector3> positions;
+    Outcome outcome;
+    double residual;
+  };
+
+  Reached reached(std::size_t level) { return {hierarchy_.net(level).positions, report_.outcome, report_.residual}; }
+
+  void go_back(std::size_t level, const Reached& reached) {
+    hierarchy_.net(level).positions = reached.positions;
     tie_points(level);
-    report_.outcome = outcome;
-    report_.residual = residual;
-    report_.expected_error = residual;
+    report_.outcome = reached.outcome;
+    report_.residual = reached.residual;
+    report_.expected_error = reached.residual;
   }
 
   void tie_points(std::size_t level) {
@@ -183,14 +238,19 @@ class Run {
     return report_.outcome == Outcome::iteration_limit || report_.outcome == Outcome::stalled;
   }
 
-  Outcome relax(std::size_t level, int max_iterations) {
-    return relax(level, max_iterations, hierarchy_.preconditioner(level));
+  void relax(std::size_t level, int max_iterations) { relax(level, max_iterations, hierarchy_.preconditioner(level)); }
+
+  void relax(std::size_t level, int max_iterations, Preconditioner& preconditioner) {
+    relax(level, max_iterations, [&](const EquilibriumTask& task) {
+      return go_to_equilibrium(hierarchy_.net(level), model_, preconditioner, task, team_, context_);
+    });
   }
 
-  Outcome relax(std::size_t level, int max_iterations, Preconditioner& preconditioner) {
+  void relax(std::size_t level, int max_iterations,
+             const std::function<EquilibriumResult(const EquilibriumTask&)>& method) {
     const auto begin = Clock::now();
     const std::size_t last = hierarchy_.count() - 1;
-    Net& net = hierarchy_.net(level);
+    const Net& net = hierarchy_.net(level);
     const double share = static_cast<double>(net.moving) / static_cast<double>(hierarchy_.net(last).moving);
     EquilibriumTask task;
     task.tolerance = options_.tolerance * size_ * (level == last ? 1 : coarse_share);
@@ -201,7 +261,7 @@ class Run {
       report_.history.push_back(expected / size_);
       progress_.report("fairing", share / 2, static_cast<int>(report_.history.size()), expected / size_);
     };
-    const EquilibriumResult result = go_to_equilibrium(net, model_, preconditioner, task, team_, context_);
+    const EquilibriumResult result = method(task);
     report_.iterations += result.iterations;
     report_.levels.push_back({.moving_nodes = static_cast<Index>(net.moving),
                               .iterations = result.iterations,
@@ -209,7 +269,6 @@ class Run {
     report_.outcome = result.outcome;
     report_.residual = result.expected_error / size_;
     report_.expected_error = report_.residual;
-    return result.outcome;
   }
 
   Hierarchy& hierarchy_;

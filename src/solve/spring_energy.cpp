@@ -13,7 +13,7 @@ SpringEnergy spring_energy(const Net& net) {
       const std::size_t j = link.node();
       if (!link.spoke() || (j < net.moving && j < i)) continue;
       const Vector3 d = net.positions[j] - net.positions[i];
-      const double difference = spring_difference(d, net.normals[i], net.normals[j]);
+      const double difference = steady_difference(d, net.normals[i], net.normals[j]);
       energy.sum += difference * difference / (d.squaredNorm() + net.tiny);
       if (!net.normals[i].isZero(0) && !net.normals[j].isZero(0))
         energy.least_cosine = std::min(energy.least_cosine, net.normals[i].dot(net.normals[j]));

@@ -2,6 +2,7 @@
 
 // The forces on one node: V-Spring (§3, Eqs. 4, 5, 8) and the regularisation of the node distribution (§4.4).
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -16,6 +17,15 @@ inline double spring_difference(const Vector3& d, const Vector3& normal_i, const
   const double cosine = normal_i.dot(normal_j);
   const double along_j = d.dot(normal_j);
   return (d.dot(normal_i) + (cosine < 0 ? -along_j : along_j)) / (1 + std::abs(cosine));
+}
+
+/// The same as it acts on nodes: within 3.6° of a right angle N_j is turned round by degrees, as a force that jumps may
+/// have no equilibrium.
+inline double steady_difference(const Vector3& d, const Vector3& normal_i, const Vector3& normal_j) {
+  constexpr double steepness = 16;
+  const double cosine = normal_i.dot(normal_j);
+  const double sense = std::clamp(steepness * cosine, -1.0, 1.0);
+  return (d.dot(normal_i) + sense * d.dot(normal_j)) / (1 + std::abs(cosine));
 }
 
 /// What the neighbours of a node ask of it.
@@ -48,7 +58,7 @@ NodeForce node_force(std::size_t i, std::span<const Link> links, const Positions
     const double length = std::sqrt(d.dot(d) + tiny);
     const double weight = 1 / length;
     weights += weight;
-    differences += weight * spring_difference(d, normal, normals[j]);
+    differences += weight * steady_difference(d, normal, normals[j]);
     lengths += length;
     spokes += 1;
     mean += shares.empty() ? d : Vector3(shares[k] * d);

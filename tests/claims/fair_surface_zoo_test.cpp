@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,30 @@ TEST(Zoo, TheTrueErrorIsAtMostThreeTimesTheExpectedOne) {
       // Where spacing is graded the estimate is careful.
       EXPECT_GT(error, expected / 10);
     }
+  }
+}
+
+TEST(Zoo, WhereCorrectionsLeadNowhereTheFlowOfThePlainIterationDoes) {
+  // Quads shrink inwards by a factor a ring.
+  const PolygonMesh polygon = polygon_cap(12, 12);
+  const PolygonMesh start = pressed(polygon, 0.5);
+  const Constraints constraints = held_boundary(polygon, radial);
+  const FairResult result = fair(start, constraints, to_equilibrium(1e-10));
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-8);
+  // Iterations that are limited are all that is done.
+  FairOptions limited = to_equilibrium(1e-10);
+  limited.max_iterations = 200;
+  EXPECT_NE(fair(start, constraints, limited).report.outcome, Outcome::converged);
+}
+
+TEST(Zoo, CrumpledPatchesComeToAnEquilibrium) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const PolygonMesh start = generate::add_noise(generate::plane({.columns = 6, .rows = 6}), 0.25, seed);
+    const FairResult result = fair(start, clamped_boundary(start), to_equilibrium(1e-5));
+    EXPECT_GT(result.report.before.greatest_turn, 90);
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
   }
 }
 

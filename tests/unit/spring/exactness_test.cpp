@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
+#include <numbers>
 #include <string>
 
 #include "spring/model.hpp"
@@ -108,6 +110,20 @@ TEST(VSpring, DifferenceIsThatOfTheSpringLengths) {
   const Vector3 skew(0, 0, 0.7);
   const Vector3 normal_j(std::cos(0.8), std::sin(0.8), 0);
   EXPECT_NEAR(spring_difference(skew + 2.25 * normal_j - Vector3(2, 0, 0), {1, 0, 0}, normal_j), 0.25, 1e-14);
+}
+
+TEST(VSpring, TheForceChangesOverByDegreesWhereNormalsAreAtARightAngle) {
+  const Vector3 d(0.3, 0.8, -0.2);
+  const Vector3 normal_i(1, 0, 0);
+  const auto difference = [&](double turn, double sense) {
+    return steady_difference(d, normal_i, sense * Vector3(std::cos(turn), std::sin(turn), 0));
+  };
+  constexpr double right = std::numbers::pi / 2;
+  constexpr double step = 1e-4;
+  for (double turn = right - 0.1; turn < right + 0.1; turn += step) {
+    EXPECT_NEAR(difference(turn, 1), difference(turn + step, 1), 16 * step);
+    EXPECT_DOUBLE_EQ(difference(turn, 1), difference(turn, -1)) << "the sense of a normal must not matter";
+  }
 }
 
 }  // namespace

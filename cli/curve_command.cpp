@@ -10,6 +10,7 @@
 #include "choice.hpp"
 #include "closed_chains.hpp"
 #include "fairing.hpp"
+#include "fitting.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::cli {
@@ -20,6 +21,7 @@ struct CurveArguments : FairingArguments {
   std::optional<CurveFormat> format;
   bool closed = false;
   Resampling resampling;
+  PullArguments pull;
 };
 
 int run_curve(CurveArguments arguments) {
@@ -27,6 +29,7 @@ int run_curve(CurveArguments arguments) {
     arguments.options.curve = CurveRules::paper();
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
+  (void)asks_to_fit(arguments.pull);
   check_outputs(arguments);
   refuse_views(arguments, true);
   Fairing fairing(arguments);
@@ -44,7 +47,9 @@ int run_curve(CurveArguments arguments) {
     file.source = nullptr;
     file.groups.clear();
   }
-  FairResult result = fair(file.curve, constraints, arguments.options, fairing.context());
+  FairedOrFitted done =
+      fair_or_fit(file.curve, constraints, before.positions(), arguments, arguments.pull, fairing.context());
+  FairResult& result = done.faired;
   if (file.source) {
     for (const Repeat& repeat : repeats)
       result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
@@ -55,11 +60,12 @@ int run_curve(CurveArguments arguments) {
       lost_warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
     return lost_warnings;
   };
+  const auto draw = [&] { return draw_curve(file, result.positions, {.before = &before}); };
   PolygonCurve after = file.curve;
   after.set_positions(result.positions);
   return fairing.finish<PolygonCurve>(
       {file.curve, after, constraints, result.report}, before.positions(), std::move(warnings),
-      {.shape = write, .picture = [&] { return draw_curve(file, result.positions, {.before = &before}); }});
+      {.shape = write, .picture = draw, .figures = done.figures(), .lines = done.lines()});
 }
 
 const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj},
@@ -135,6 +141,7 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
              "output");
   add_constraint_options(command, *arguments, words);
   add_node_options(command, *arguments);
+  add_pull_options(command, arguments->pull, pull_of_own_nodes);
   add_method_options(command, *arguments, words);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, false);

@@ -10,6 +10,7 @@
 
 #include "choice.hpp"
 #include "fairing.hpp"
+#include "fitting.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::cli {
@@ -18,6 +19,7 @@ namespace {
 
 struct FairArguments : FairingArguments {
   std::optional<SurfaceFormat> format;
+  PullArguments pull;
 };
 
 int run_fair(FairArguments arguments) {
@@ -25,13 +27,16 @@ int run_fair(FairArguments arguments) {
     arguments.options.pseudo_normals = PseudoNormals::average;
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
+  (void)asks_to_fit(arguments.pull);
   check_outputs(arguments);
   refuse_views(arguments, false);
   Fairing fairing(arguments);
   const SurfaceFile file = read_surface(arguments.input, arguments.format);
   const Constraints constraints =
       make_constraints(arguments, file.mesh, {.groups = &file.groups, .normals = &file.normals});
-  const FairResult result = fair(file.mesh, constraints, arguments.options, fairing.context());
+  const FairedOrFitted done =
+      fair_or_fit(file.mesh, constraints, file.mesh.positions(), arguments, arguments.pull, fairing.context());
+  const FairResult& result = done.faired;
   const auto write = [&] {
     std::vector<std::string> warnings;
     for (const std::string& lost : write_surface(arguments.output, file, result.positions, arguments.format))
@@ -41,7 +46,8 @@ int run_fair(FairArguments arguments) {
   PolygonMesh after = file.mesh;
   after.set_positions(result.positions);
   return fairing.finish<PolygonMesh>({file.mesh, after, constraints, result.report}, file.mesh.positions(),
-                                     file.warnings, {.shape = write, .picture = {}});
+                                     file.warnings,
+                                     {.shape = write, .picture = {}, .figures = done.figures(), .lines = done.lines()});
 }
 
 const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNormals::link},
@@ -93,6 +99,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
                 "Fair the boundary loops first, as curves between their nodes that rules hold, then the surface that "
                 "they bound; in place of --fix boundary (default: off)")
       ->group(holding_group);
+  add_pull_options(command, arguments->pull, pull_of_own_nodes);
   add_method_options(command, *arguments, words);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, true);

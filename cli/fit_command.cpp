@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,76 +16,21 @@
 #include "choice.hpp"
 #include "closed_chains.hpp"
 #include "fairing.hpp"
+#include "fitting.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::cli {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct FitArguments : FairingArguments {
   std::optional<AnyFormat> format;
   std::string points;
-  std::optional<double> weight;
-  FitOptions fit;  ///< what is not of weights or of fairing in them
+  PullArguments pull;
   std::optional<double> step_tolerance;
   bool curve = false;
   bool closed = false;
 };
-
-Json to_json(const PointDistances& distances) {
-  return {{"greatest", distances.all.greatest},
-          {"point", distances.all.node},
-          {"rms", distances.all.rms},
-          {"median", distances.median},
-          {"percentile90", distances.percentile90},
-          {"percentile99", distances.percentile99}};
-}
-
-Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
-/// The least and the greatest weight of the points; nothing where the file gives none.
-using WeightRange = std::optional<std::pair<double, double>>;
-
-WeightRange range_of(const std::vector<double>& weights) {
-  if (weights.empty()) return std::nullopt;
-  const auto [least, greatest] = std::minmax_element(weights.begin(), weights.end());
-  return std::pair(*least, *greatest);
-}
-
-Json to_json(const FitReport& report, const WeightRange& weights, const FitArguments& arguments) {
-  return {{"points",
-           {{"file", arguments.points},
-            {"weight", optional(arguments.weight)},
-            {"smoothing_length", optional(report.smoothing_length)},
-            {"within", optional(arguments.fit.within)},
-            {"rms", optional(arguments.fit.rms)},
-            {"weights", weights ? Json{{"least", weights->first}, {"greatest", weights->second}} : Json()},
-            {"count", report.points},
-            {"outliers", report.outliers},
-            {"active", report.active_points},
-            {"pulling", report.pulling_points},
-            {"nodes_with_points", report.pulled_nodes},
-            {"most_on_a_node", report.most_points},
-            {"distance", {{"before", to_json(report.before)}, {"after", to_json(report.after)}}}}}};
-}
-
-std::string lines_of(const FitReport& report, const WeightRange& weights) {
-  std::string text =
-      fmt::format("{} points{}, of which {} pull at {} nodes\n", report.points,
-                  weights ? fmt::format(" of weights {:.4g} to {:.4g}", weights->first, weights->second) : "",
-                  report.pulling_points, report.pulled_nodes);
-  const auto line = [&](const char* name, double before, double after) {
-    text += fmt::format("{}{:.4g} → {:.4g} units\n", name, before, after);
-  };
-  line("rms distance     ", report.before.all.rms, report.after.all.rms);
-  line("99 % within      ", report.before.percentile99, report.after.percentile99);
-  line("greatest         ", report.before.all.greatest, report.after.all.greatest);
-  if (report.smoothing_length) text += fmt::format("smoothing length {:.4g} units\n", *report.smoothing_length);
-  if (report.outliers > 0) text += fmt::format("outliers         {} left out after\n", report.outliers);
-  return text;
-}
 
 std::vector<Repeat> close(SurfaceFile& /*file*/) { return {}; }
 std::vector<Repeat> close(CurveFile& file) { return close_chains(file.curve); }
@@ -116,21 +60,20 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   const std::vector<Repeat> repeats = arguments.closed ? close(file) : std::vector<Repeat>{};
   const Shape& shape = shape_of(file);
   const Constraints constraints = make_constraints(arguments, shape, rule_input(file));
-  FitOptions options = arguments.fit;
-  options.fair = arguments.options;
-  options.weight = arguments.weight.value_or(options.weight);
+  FairOptions fairing_options = arguments.options;
   if (arguments.paper) {
-    options.fair.pseudo_normals = PseudoNormals::average;
-    options.fair.curve = CurveRules::paper();
-    if (!options.fair.method) options.fair.method = Method::sweep;
+    fairing_options.pseudo_normals = PseudoNormals::average;
+    fairing_options.curve = CurveRules::paper();
+    if (!fairing_options.method) fairing_options.method = Method::sweep;
   }
   // The last steps of a fit are about k times their distance.
-  options.fair.step_tolerance = arguments.step_tolerance.value_or(
-      arguments.weight.value_or(0) > 0 ? std::min(options.fair.step_tolerance, options.weight / 10)
-                                       : options.fair.step_tolerance);
+  double& step_tolerance = fairing_options.step_tolerance;
+  const double weight = arguments.pull.weight.value_or(0);
+  step_tolerance =
+      arguments.step_tolerance.value_or(weight > 0 ? std::min(step_tolerance, weight / 10) : step_tolerance);
   ScatteredPoints points = read_points(arguments.points);
-  FitResult result = fit(shape, constraints, points, options, fairing.context());
-  const WeightRange weights = range_of(points.weights);
+  FitResult result = fit(shape, constraints, points, fit_options(arguments.pull, fairing_options), fairing.context());
+  const FitAccount account(result.report, arguments.pull, arguments.points, points.weights);
   const PolygonMesh cloud(std::move(points.positions), {0}, {});
   for (const Repeat& repeat : repeats)
     result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
@@ -153,8 +96,8 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
                                 .picture = [&] { return picture_of(file, result.positions, cloud.positions()); },
                                 .points = cloud.positions(),
                                 .scalars = point_deviation,
-                                .figures = to_json(result.report, weights, arguments),
-                                .lines = lines_of(result.report, weights)});
+                                .figures = account.figures(),
+                                .lines = account.lines()});
 }
 
 int run_fit(const FitArguments& arguments) {
@@ -162,8 +105,7 @@ int run_fit(const FitArguments& arguments) {
   if (!arguments.deviation.empty() &&
       scalar_format(std::filesystem::path(arguments.deviation).extension().string()) != ScalarFormat::ply)
     throw Error(ErrorCode::invalid_argument, arguments.deviation + ": deviations of points go to PLY; name it .ply");
-  const FitOptions& fit = arguments.fit;
-  if ((arguments.weight ? 1 : 0) + (fit.smoothing_length ? 1 : 0) + (fit.within ? 1 : 0) + (fit.rms ? 1 : 0) != 1)
+  if (!asks_to_fit(arguments.pull))
     throw Error(ErrorCode::invalid_argument, "one of --weight, --smoothing-length, --within and --rms has to be given");
   if (arguments.points == "-" && arguments.input == "-")
     throw Error(ErrorCode::invalid_argument, "--points: standard input is the shape already");
@@ -181,38 +123,7 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
                   "PLY's property or CSV's column weight or confidence, the fourth or seventh number in XYZ")
       ->required()
       ->type_name("POINTS");
-  const std::string pulling_group = "How points pull: one of";
-  command
-      .add_option("--weight", arguments.weight,
-                  "The paper's k: how much a point counts against the springs of its node; 0.01 takes away waves of "
-                  "some 12 edges, 0.00001 of some 66, large ones interpolate")
-      ->type_name("K")
-      ->check(CLI::NonNegativeNumber)
-      ->group(pulling_group);
-  command
-      .add_option("--smoothing-length", arguments.fit.smoothing_length,
-                  "Take away what is shorter than about 6 times this, whatever the mesh (units of the input)")
-      ->type_name("L")
-      ->check(CLI::PositiveNumber)
-      ->group(pulling_group);
-  command
-      .add_option("--within", arguments.fit.within,
-                  "The fairest shape from which no point is further away than this (units of the input)")
-      ->type_name("D")
-      ->check(CLI::PositiveNumber)
-      ->group(pulling_group);
-  command
-      .add_option("--rms", arguments.fit.rms,
-                  "The fairest shape from which points are this far away, root mean square (units of the input)")
-      ->type_name("D")
-      ->check(CLI::PositiveNumber)
-      ->group(pulling_group);
-  command
-      .add_option("--outliers", arguments.fit.outliers,
-                  "Leave this share of the points out, those furthest away: 0 to less than 1 (default: 0)")
-      ->type_name("P")
-      ->check(CLI::Range(0.0, 0.999999))
-      ->group(fairing_group);
+  add_pull_options(command, arguments.pull, "How points pull: one of");
   add_choice(command, "--method", arguments.options.method, methods,
              "The accelerated solver that goes to the true equilibrium, or the paper's plain iteration (default: "
              "equilibrium; where it finds none, sweep)")

@@ -115,6 +115,37 @@ class Fit(Case):
         self.assertTrue(picture.rstrip().endswith("</svg>"))
         self.assertIn('id="points"', picture)
 
+    def test_fair_and_curve_take_their_own_nodes_for_points(self):
+        generator = random.Random(3)
+        surface = self.write("noisy.obj", grid(12, lambda x, y: 0.01 * generator.uniform(-1, 1)))
+        curve = self.write("noisy.csv", "".join(f"{k / 40!r},{0.1 * math.sin(k / 12) + 0.002 * generator.uniform(-1, 1)!r}\n" for k in range(41)))
+        for command, shape, output in (("fair", surface, "out.obj"), ("curve", curve, "out.csv")):
+            for option in ("--weight", "--smoothing-length", "--within", "--rms"):
+                with self.subTest(command=command, option=option):
+                    value = {"--weight": "0.01", "--smoothing-length": "0.1"}.get(option, "0.004")
+                    result = run(command, shape, "-o", self.folder / output, option, value, "--report", self.folder / "r.json")
+                    self.assertEqual(result.returncode, 0, result.stderr.decode())
+                    own = (self.folder / output).read_bytes()
+                    points = self.read_json("r.json")["points"]
+                    self.fit(shape, shape, option, value, output=output)
+                    self.assertEqual((self.folder / output).read_bytes(), own)
+                    self.assertEqual(points["file"], str(shape))
+                    if option in ("--within", "--rms"):
+                        self.assertLessEqual(points["distance"]["after"]["greatest" if option == "--within" else "rms"], 0.004)
+                    self.assertIn("rms distance", result.stdout.decode())
+        result = run("fair", surface, "-o", self.folder / "out.obj", "--within", "1", "--weight", "1")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("only one of --weight", result.stderr.decode())
+        self.assertEqual(run("curve", curve, "-o", self.folder / "out.csv", "--outliers", "0.1").returncode, 1)
+
+    def test_resampled_curves_stay_within_a_tolerance_of_what_they_were(self):
+        curve = self.write("wave.csv", "".join(f"{k / 30!r},{0.1 * math.sin(k / 5) + 0.001 * (-1) ** k!r}\n" for k in range(31)))
+        result = run("curve", curve, "-o", self.folder / "out.csv", "--within", "0.003", "--resample", "121", "--report", self.folder / "r.json")
+        self.assertEqual(result.returncode, 0, result.stderr.decode())
+        points = self.read_json("r.json")["points"]
+        self.assertEqual((points["count"], self.read_json("r.json")["nodes"]), (31, 121))
+        self.assertLessEqual(points["distance"]["after"]["greatest"], 0.003)
+
     def test_a_closed_surface_that_only_points_hold(self):
         shape = self.write("ball.obj", sphere(4, radius=0.9))
         points = self.write("points.obj", sphere(12, radius=1.0))

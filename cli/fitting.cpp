@@ -1,0 +1,127 @@
+#include "fitting.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "vspring/error.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const PointDistances& distances) {
+  return {{"greatest", distances.all.greatest},
+          {"point", distances.all.node},
+          {"rms", distances.all.rms},
+          {"median", distances.median},
+          {"percentile90", distances.percentile90},
+          {"percentile99", distances.percentile99}};
+}
+
+Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+}  // namespace
+
+void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading) {
+  command
+      .add_option("--weight", arguments.weight,
+                  "The paper's k: how much a point counts against the springs of its node; 0.01 takes away waves of "
+                  "some 12 edges, 0.00001 of some 66, large ones interpolate")
+      ->type_name("K")
+      ->check(CLI::NonNegativeNumber)
+      ->group(heading);
+  command
+      .add_option("--smoothing-length", arguments.smoothing_length,
+                  "Take away what is shorter than about 6 times this, whatever the mesh (units of the input)")
+      ->type_name("L")
+      ->check(CLI::PositiveNumber)
+      ->group(heading);
+  command
+      .add_option("--within", arguments.within,
+                  "The fairest shape from which no point is further away than this (units of the input)")
+      ->type_name("D")
+      ->check(CLI::PositiveNumber)
+      ->group(heading);
+  command
+      .add_option("--rms", arguments.rms,
+                  "The fairest shape from which points are this far away, root mean square (units of the input)")
+      ->type_name("D")
+      ->check(CLI::PositiveNumber)
+      ->group(heading);
+  command
+      .add_option("--outliers", arguments.outliers,
+                  "Leave this share of the points out, those furthest away: 0 to less than 1 (default: 0)")
+      ->type_name("P")
+      ->check(CLI::Range(0.0, 0.999999))
+      ->group(heading);
+}
+
+bool asks_to_fit(const PullArguments& arguments) {
+  const int given = (arguments.weight ? 1 : 0) + (arguments.smoothing_length ? 1 : 0) + (arguments.within ? 1 : 0) +
+                    (arguments.rms ? 1 : 0);
+  if (given > 1)
+    throw Error(ErrorCode::invalid_argument,
+                "only one of --weight, --smoothing-length, --within and --rms can be given");
+  if (given == 0 && arguments.outliers > 0)
+    throw Error(ErrorCode::invalid_argument,
+                "--outliers needs one of --weight, --smoothing-length, --within and --rms");
+  return given == 1;
+}
+
+FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing) {
+  FitOptions options;
+  options.fair = fairing;
+  options.weight = arguments.weight.value_or(options.weight);
+  options.smoothing_length = arguments.smoothing_length;
+  options.within = arguments.within;
+  options.rms = arguments.rms;
+  options.outliers = arguments.outliers;
+  return options;
+}
+
+FitAccount::FitAccount(const FitReport& report, const PullArguments& arguments, std::string points,
+                       const std::vector<double>& weights)
+    : report_(report), arguments_(arguments), points_(std::move(points)) {
+  if (weights.empty()) return;
+  const auto [least, greatest] = std::minmax_element(weights.begin(), weights.end());
+  weights_ = std::pair(*least, *greatest);
+}
+
+Json FitAccount::figures() const {
+  return {{"points",
+           {{"file", points_},
+            {"weight", optional(arguments_.weight)},
+            {"smoothing_length", optional(report_.smoothing_length)},
+            {"within", optional(arguments_.within)},
+            {"rms", optional(arguments_.rms)},
+            {"weights", weights_ ? Json{{"least", weights_->first}, {"greatest", weights_->second}} : Json()},
+            {"count", report_.points},
+            {"outliers", report_.outliers},
+            {"active", report_.active_points},
+            {"pulling", report_.pulling_points},
+            {"nodes_with_points", report_.pulled_nodes},
+            {"most_on_a_node", report_.most_points},
+            {"distance", {{"before", to_json(report_.before)}, {"after", to_json(report_.after)}}}}}};
+}
+
+std::string FitAccount::lines() const {
+  std::string text =
+      fmt::format("{} points{}, of which {} pull at {} nodes\n", report_.points,
+                  weights_ ? fmt::format(" of weights {:.4g} to {:.4g}", weights_->first, weights_->second) : "",
+                  report_.pulling_points, report_.pulled_nodes);
+  const auto line = [&](const char* name, double before, double after) {
+    text += fmt::format("{}{:.4g} → {:.4g} units\n", name, before, after);
+  };
+  line("rms distance     ", report_.before.all.rms, report_.after.all.rms);
+  line("99 % within      ", report_.before.percentile99, report_.after.percentile99);
+  line("greatest         ", report_.before.all.greatest, report_.after.all.greatest);
+  if (report_.smoothing_length) text += fmt::format("smoothing length {:.4g} units\n", *report_.smoothing_length);
+  if (report_.outliers > 0) text += fmt::format("outliers         {} left out after\n", report_.outliers);
+  return text;
+}
+
+}  // namespace vspring::cli

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fairing_options.hpp"
+#include "vspring/fit.hpp"
+
+namespace vspring::cli {
+
+/// How points pull: one of these, or none where a shape is only faired.
+struct PullArguments {
+  std::optional<double> weight;
+  std::optional<double> smoothing_length;
+  std::optional<double> within;
+  std::optional<double> rms;
+  double outliers = 0;
+};
+
+inline const std::string pull_of_own_nodes = "How the nodes of the input pull as points: none or one of";
+
+/// heading: of the options in the help text.
+void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading);
+
+/// Throws Error(invalid_argument) where more than one of the four is given, or --outliers without any.
+[[nodiscard]] bool asks_to_fit(const PullArguments& arguments);
+
+[[nodiscard]] FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing);
+
+/// What a report and people are told of points.
+class FitAccount {
+ public:
+  /// points: the file they are from. weights: of the points, or none.
+  FitAccount(const FitReport& report, const PullArguments& arguments, std::string points,
+             const std::vector<double>& weights);
+
+  [[nodiscard]] nlohmann::ordered_json figures() const;
+  [[nodiscard]] std::string lines() const;
+
+ private:
+  FitReport report_;
+  PullArguments arguments_;
+  std::string points_;
+  std::optional<std::pair<double, double>> weights_;  ///< the least and the greatest
+};
+
+struct FairedOrFitted {
+  FairResult faired;
+  std::optional<FitAccount> account;  ///< where points pulled
+
+  [[nodiscard]] nlohmann::ordered_json figures() const {
+    return account ? account->figures() : nlohmann::ordered_json::object();
+  }
+  [[nodiscard]] std::string lines() const { return account ? account->lines() : ""; }
+};
+
+/// Fairs a shape, and draws it towards points where that is asked for: its own nodes, as the input has them.
+template <typename Shape>
+FairedOrFitted fair_or_fit(const Shape& shape, const Constraints& constraints, const std::vector<Vector3>& nodes,
+                           const FairingArguments& arguments, const PullArguments& pull, Context& context) {
+  if (!asks_to_fit(pull)) return {fair(shape, constraints, arguments.options, context), std::nullopt};
+  FitResult fitted = fit(shape, constraints, {.positions = nodes}, fit_options(pull, arguments.options), context);
+  FitAccount account(fitted.report, pull, arguments.input, {});
+  return {{std::move(fitted.positions), std::move(fitted.report.fair)}, std::move(account)};
+}
+
+}  // namespace vspring::cli

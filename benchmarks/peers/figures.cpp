@@ -92,6 +92,7 @@ void compare_figures(const std::filesystem::path& drivers, const std::vector<std
       "|\n|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const double noise : {0.0, 0.02}) compare(cap_case(4000, noise), drivers);
   compare({"annulus", generate::annulus({.nodes = 3644, .boundary_nodes = 304}), false}, drivers);
+  compare({"funnel", generate::funnel(3644), false}, drivers);
   for (const std::string& path : meshes) {
     const PolygonMesh mesh = read_surface(path).mesh;
     for (const std::uint64_t run : {0, 1, 2}) {

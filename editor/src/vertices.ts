@@ -1,0 +1,104 @@
+// What is drawn of a surface: its nodes, those at sharp edges once for every smooth part that meets there.
+
+interface Faces {
+  begin: Int32Array;
+  nodes: Int32Array;
+}
+
+interface Edges {
+  count: number;
+  ends: Uint32Array;
+  faces: Int32Array;
+  against: Uint8Array;
+}
+
+export interface Vertices {
+  /** The node of every vertex; the first are the nodes in their order. */
+  nodes: Uint32Array;
+  /** The vertex of every corner of a face. */
+  corners: Uint32Array;
+  /** Ends of edges where the surface is sharp or ends. */
+  features: Uint32Array;
+}
+
+/** Normals of faces, their length twice the area. */
+function areasOf({ begin, nodes }: Faces, positions: Float32Array): Float32Array {
+  const areas = new Float32Array(3 * (begin.length - 1));
+  for (let f = 0; f + 1 < begin.length; ++f) {
+    const o = 3 * nodes[begin[f]];
+    for (let c = begin[f] + 1; c + 1 < begin[f + 1]; ++c) {
+      const [a, b] = [3 * nodes[c], 3 * nodes[c + 1]];
+      const [ax, ay, az] = [positions[a] - positions[o], positions[a + 1] - positions[o + 1], positions[a + 2] - positions[o + 2]];
+      const [bx, by, bz] = [positions[b] - positions[o], positions[b + 1] - positions[o + 1], positions[b + 2] - positions[o + 2]];
+      areas[3 * f] += ay * bz - az * by;
+      areas[3 * f + 1] += az * bx - ax * bz;
+      areas[3 * f + 2] += ax * by - ay * bx;
+    }
+  }
+  return areas;
+}
+
+/** Edges that turn by more than the angle, in degrees, or that do not join two faces of one sense. */
+function sharpEdges(areas: Float32Array, { count, faces, against }: Edges, angle: number): Uint8Array {
+  const sharp = new Uint8Array(count);
+  const limit = Math.cos((angle * Math.PI) / 180);
+  for (let e = 0; e < count; ++e) {
+    const [a, b] = [3 * faces[2 * e], 3 * faces[2 * e + 1]];
+    if (b < 0 || against[e]) {
+      sharp[e] = 1;
+      continue;
+    }
+    const dot = areas[a] * areas[b] + areas[a + 1] * areas[b + 1] + areas[a + 2] * areas[b + 2];
+    const lengths = Math.hypot(areas[a], areas[a + 1], areas[a + 2]) * Math.hypot(areas[b], areas[b + 1], areas[b + 2]);
+    if (dot < limit * lengths) sharp[e] = 1;
+  }
+  return sharp;
+}
+
+/** Corners around a node share a vertex where smooth edges join their faces. */
+export function verticesOf(faces: Faces, positions: Float32Array, edges: Edges, angle = 40): Vertices {
+  const { begin, nodes } = faces;
+  const sharp = sharpEdges(areasOf(faces, positions), edges, angle);
+  const parent = Uint32Array.from(nodes.keys());
+  const root = (corner: number): number => {
+    while (parent[corner] !== corner) corner = parent[corner] = parent[parent[corner]];
+    return corner;
+  };
+  const cornerAt = (face: number, node: number): number => {
+    let corner = begin[face];
+    while (nodes[corner] !== node) ++corner;
+    return corner;
+  };
+  for (let e = 0; e < edges.count; ++e) {
+    if (sharp[e]) continue;
+    for (const node of [edges.ends[2 * e], edges.ends[2 * e + 1]])
+      parent[root(cornerAt(edges.faces[2 * e], node))] = root(cornerAt(edges.faces[2 * e + 1], node));
+  }
+  const vertexNodes = Array.from({ length: positions.length / 3 }, (_, node) => node);
+  const taken = new Uint8Array(vertexNodes.length);
+  const vertexOf = new Int32Array(nodes.length).fill(-1);
+  const corners = new Uint32Array(nodes.length);
+  for (let c = 0; c < nodes.length; ++c) {
+    const r = root(c);
+    if (vertexOf[r] < 0) {
+      vertexOf[r] = taken[nodes[c]] ? vertexNodes.push(nodes[c]) - 1 : nodes[c];
+      taken[nodes[c]] = 1;
+    }
+    corners[c] = vertexOf[r];
+  }
+  const features: number[] = [];
+  for (let e = 0; e < edges.count; ++e) if (sharp[e]) features.push(edges.ends[2 * e], edges.ends[2 * e + 1]);
+  return { nodes: Uint32Array.from(vertexNodes), corners, features: Uint32Array.from(features) };
+}
+
+/** Normals of vertices: means of those of their faces by area. */
+export function normalsAt(faces: Faces, { nodes, corners }: Vertices, positions: Float32Array): Float32Array {
+  const areas = areasOf(faces, positions);
+  const normals = new Float32Array(3 * nodes.length);
+  for (let f = 0; f + 1 < faces.begin.length; ++f) {
+    for (let c = faces.begin[f]; c < faces.begin[f + 1]; ++c) {
+      for (let i = 0; i < 3; ++i) normals[3 * corners[c] + i] += areas[3 * f + i];
+    }
+  }
+  return normals;
+}

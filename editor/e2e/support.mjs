@@ -1,7 +1,7 @@
 // The editor in a real Chromium, served as anyone would serve it; and the native program beside it.
 
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { chromium } from 'playwright-core';
@@ -76,7 +76,6 @@ export async function downloaded(page, press) {
 }
 
 export async function rulesOf(page) {
-  const { readFileSync } = await import('node:fs');
   const { path } = await downloaded(page, () => page.getByRole('button', { name: 'Save', exact: true }).click());
   return readFileSync(path, 'utf8');
 }

@@ -14,6 +14,7 @@ import { View } from './view';
 const canvas = document.getElementById('canvas') as HTMLCanvasElement;
 const help = document.getElementById('help') as HTMLDialogElement;
 const format = document.getElementById('format') as HTMLSelectElement;
+const examples = document.getElementById('example') as HTMLSelectElement;
 const meshes = '.obj,.off,.ply,.stl';
 let look: Look = 'shaded';
 let held: Uint8Array = new Uint8Array();
@@ -22,6 +23,7 @@ const editor: Editor = new Editor({
   opened: (shape) => {
     view.markers.clear();
     held = new Uint8Array();
+    examples.value = [...examples.options].find(({ value }) => value === `examples/${editor.name}`)?.value ?? '';
     view.open(shape);
   },
   shape: (positions, settled) => view.show(positions, settled),
@@ -124,12 +126,7 @@ function escape(): void {
   else editor.pick(-1, false);
 }
 
-document.getElementById('example')!.addEventListener('change', (event) => {
-  const select = event.target as HTMLSelectElement;
-  void openAddress(select.value);
-  select.selectedIndex = 0;
-  canvas.focus();
-});
+examples.addEventListener('change', () => void openAddress(examples.value));
 acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, open);
 startTheme(() => view.restyle());
 view.restyle();

@@ -17,7 +17,7 @@ function ofSolution({ report, dragging, frames, showsInput, shape }: Editor): st
   if (showsInput) return 'The input';
   if (!report) return '';
   const { outcome, iterations, expectedError, seconds } = report;
-  const error = expectedError === null ? '' : ` · expected error ${short(100 * expectedError)} %`;
+  const error = expectedError === null ? '' : ` · expected error ${short(Number((100 * expectedError).toPrecision(2)))} %`;
   const rate = dragging ? ` · ${Math.round(frames.perSecond(performance.now()))} frames/s` : '';
   return `${outcome} · ${count(iterations, 'iteration')}${error} · ${Math.round(1000 * seconds)} ms${rate}`;
 }

@@ -47,7 +47,7 @@ export class View {
   open(shape: Shape): void {
     this.shape = shape;
     this.show(shape.input, true);
-    this.fit();
+    this.fit(true);
   }
 
   /** settled: what is sharp is looked for anew, which a shape that changes many times a second does without. */
@@ -92,15 +92,30 @@ export class View {
     this.draw();
   }
 
-  /** The whole surface, from the same side as at first where home says so. */
-  fit(home = true): void {
-    const reach = 0.58;
-    const from = home ? new Vector3(0.45, -0.85, 0.75) : this.camera.position.clone().sub(this.controls.target);
-    this.controls.target.set(0, 0, 0);
-    this.camera.position.copy(from.normalize().multiplyScalar(5));
-    this.camera.zoom = Math.min(1, this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight)) / reach;
+  /** The whole surface in the view; home: from the side that a surface is first seen from. */
+  fit(home = false): void {
+    const { camera, controls } = this;
+    const from = home ? new Vector3(0.45, -0.85, 0.75) : camera.position.clone().sub(controls.target);
+    camera.position.copy(from.normalize().multiplyScalar(5));
+    controls.target.set(0, 0, 0);
+    controls.update();
+    camera.updateMatrixWorld();
+    const low = new Vector3().setScalar(Infinity);
+    const high = new Vector3().setScalar(-Infinity);
+    const place = new Vector3();
+    for (let k = 0; k < this.places.length; k += 3) {
+      place.fromArray(this.places, k).applyMatrix4(camera.matrixWorldInverse);
+      low.min(place);
+      high.max(place);
+    }
+    if (low.x > high.x) return;
+    const middle = low.clone().add(high).multiplyScalar(0.5).applyMatrix4(camera.matrixWorld);
+    camera.position.sub(controls.target).add(middle);
+    controls.target.copy(middle);
+    const ratio = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
+    camera.zoom = 1.5 / Math.max(high.y - low.y, (high.x - low.x) / ratio, 1e-3);
     this.resize();
-    this.controls.update();
+    controls.update();
   }
 
   zoomBy(factor: number): void {

@@ -1,10 +1,8 @@
 // The state of the editor, and all that changes it.
 
 import { CoreClient, Solver } from './client';
-import {
-  boundaryFixed, edited, fromFile, heldNodes, heldPosition, initial, toFile, withBoundary,
-  type Constraints, type Edit, type Held, type Part, type Vector,
-} from './constraints';
+import * as holding from './constraints';
+import type { Constraints, Edit, Held, Part, Vector } from './constraints';
 import { FrameCounter } from './frames';
 import { begun, done, redone, undone, type History } from './history';
 import type { Job, Report, Solved } from './protocol';
@@ -32,7 +30,7 @@ export class Editor {
   busy = false;
   fraction = 0;
   showsInput = false;
-  history: History<Constraints> = begun(initial);
+  history: History<Constraints> = begun(holding.initial);
   readonly frames = new FrameCounter();
   private positions: Float64Array = new Float64Array();
   private drag: { nodes: number[]; start: Float64Array; places: Float64Array } | null = null;
@@ -80,9 +78,9 @@ export class Editor {
 
   private async openSurface(name: string, bytes: Uint8Array): Promise<void> {
     this.solver.clear();
-    const surface = await this.client.ask('open', { name, bytes, rules: toFile(initial) });
+    const surface = await this.client.ask('open', { name, bytes, rules: holding.toFile(holding.initial) });
     this.drag = null;
-    this.history = begun(initial);
+    this.history = begun(holding.initial);
     this.shape = shapeOf(surface);
     this.positions = surface.positions;
     Object.assign(this, { name, report: null, showsInput: false, picked: new Set(), hovered: -1, fileWarnings: surface.warnings });
@@ -92,13 +90,13 @@ export class Editor {
 
   private async openConstraints(text: string): Promise<void> {
     if (!this.shape) throw new Error('Open a surface first: constraints name its nodes');
-    const constraints = fromFile(text);
-    await this.client.ask('hold', { rules: toFile(constraints) });
+    const constraints = holding.fromFile(text);
+    await this.client.ask('hold', { rules: holding.toFile(constraints) });
     this.apply('Load constraints', constraints);
   }
 
   /** The file with the shape that the constraints give from the input. */
-  async written(name: string): Promise<Uint8Array> {
+  written(name: string): Promise<Uint8Array> {
     return this.client.ask('write', { name });
   }
 
@@ -119,22 +117,22 @@ export class Editor {
   }
 
   setBoundary(part: Part, fixed: boolean): void {
-    this.apply(`${fixed ? 'Fix' : 'Free'} boundary ${part}s`, withBoundary(this.constraints, part, fixed));
+    this.apply(`${fixed ? 'Fix' : 'Free'} boundary ${part}s`, holding.withBoundary(this.constraints, part, fixed));
   }
 
   isBoundaryFixed(part: Part): boolean {
-    return boundaryFixed(this.constraints, part);
+    return holding.boundaryFixed(this.constraints, part);
   }
 
   /** Positions are fixed where they are now seen; normals as in the input. */
   hold(part: Part, fixed: boolean): void {
     const change = (node: number): Edit => ({ [part]: !fixed ? 'free' : part === 'normal' ? 'fixed' : this.placeOf(node) });
     this.apply(`${fixed ? 'Fix' : 'Free'} ${part} of ${this.picked.size} ${this.picked.size === 1 ? 'node' : 'nodes'}`,
-      edited(this.constraints, this.picked, change));
+      holding.edited(this.constraints, this.picked, change));
   }
 
   isDraggable(node: number): boolean {
-    return (this.held.nodes[node] & heldPosition) !== 0;
+    return (this.held.nodes[node] & holding.heldPosition) !== 0;
   }
 
   undo(): void {
@@ -166,13 +164,8 @@ export class Editor {
     if (!this.drag) return;
     const { nodes, places } = this.drag;
     this.drag = null;
-    if (!keep) {
-      this.settle();
-      return;
-    }
-    const place = new Map(nodes.map((node, k) => [node, [...places.subarray(3 * k, 3 * k + 3)] as Vector]));
-    this.apply(nodes.length === 1 ? `Move node ${nodes[0]}` : `Move ${nodes.length} nodes`,
-      edited(this.constraints, nodes, (node) => ({ position: place.get(node) })));
+    if (!keep) this.settle();
+    else this.apply(nodes.length === 1 ? `Move node ${nodes[0]}` : `Move ${nodes.length} nodes`, holding.placed(this.constraints, nodes, places));
   }
 
   private placeOf(node: number): Vector {
@@ -190,8 +183,8 @@ export class Editor {
 
   private settle(): void {
     if (!this.shape) return;
-    this.held = heldNodes(this.constraints, this.shape.boundary);
-    this.solver.push({ rules: toFile(this.constraints) });
+    this.held = holding.heldNodes(this.constraints, this.shape.boundary);
+    this.solver.push({ rules: holding.toFile(this.constraints) });
     this.events.changed();
   }
 

@@ -5,6 +5,7 @@ import { heldPosition, toFile } from './constraints';
 import { Editor } from './editor';
 import { acceptDrops, choose, download, fromAddress, stem } from './files';
 import { Gestures } from './gestures';
+import { withLoops } from './loops';
 import { looks, type Look } from './materials';
 import { pick } from './picking';
 import { describe } from './status';
@@ -12,6 +13,7 @@ import { startTheme, switchTheme } from './theme';
 import { View } from './view';
 
 const canvas = document.getElementById('canvas') as HTMLCanvasElement;
+const panel = document.querySelector('aside')!;
 const help = document.getElementById('help') as HTMLDialogElement;
 const format = document.getElementById('format') as HTMLSelectElement;
 const examples = document.getElementById('example') as HTMLSelectElement;
@@ -38,8 +40,6 @@ const gestures = new Gestures(canvas, {
   hovered: (node) => {
     if (node === editor.hovered) return;
     editor.set({ hovered: node });
-    view.markers.set('hovered', node < 0 ? [] : [node]);
-    view.draw();
   },
   picked: (node, add) => editor.pick(node, add),
   dragBegun: (node) => editor.beginDrag(node, performance.now()),
@@ -47,7 +47,7 @@ const gestures = new Gestures(canvas, {
   dropped: () => editor.endDrag(true),
   cancelled: () => editor.endDrag(false),
 });
-const view = new View(canvas, () => editor.frames.drawn(performance.now()));
+const view = new View(canvas, panel, () => editor.frames.drawn(performance.now()));
 
 const opened = (): boolean => editor.shape !== null;
 const somePicked = (): boolean => editor.picked.size > 0;
@@ -63,6 +63,8 @@ const commands: Command[] = [
   { id: 'free-position', title: 'Free positions of picked nodes', keys: ['shift+f'], run: () => editor.hold('position', false), enabled: somePicked },
   { id: 'fix-normal', title: 'Fix normals of picked nodes', keys: ['n'], run: () => editor.hold('normal', true), enabled: somePicked },
   { id: 'free-normal', title: 'Free normals of picked nodes', keys: ['shift+n'], run: () => editor.hold('normal', false), enabled: somePicked },
+  { id: 'loop', title: 'Pick the boundary loops of picked nodes', keys: ['l'],
+    run: () => editor.set({ picked: withLoops(editor.shape!, editor.picked) }), enabled: () => [...editor.picked].some((node) => editor.shape!.boundary[node]) },
   ...(['position', 'normal'] as const).map((part) => ({
     id: `boundary-${part}s`, title: `Fix or free boundary ${part}s`, keys: [part === 'position' ? 'b' : 'shift+b'], enabled: opened,
     run: () => editor.setBoundary(part, !editor.isBoundaryFixed(part)), pressed: () => editor.isBoundaryFixed(part),
@@ -88,6 +90,7 @@ function changed(): void {
     view.markers.set('held', [...held.keys()].filter((node) => held[node] & heldPosition));
   }
   view.markers.set('picked', [...editor.picked]);
+  view.markers.set('hovered', editor.hovered < 0 || editor.picked.has(editor.hovered) ? [] : [editor.hovered]);
   view.draw();
   describe(editor);
   refresh();

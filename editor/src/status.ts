@@ -33,6 +33,7 @@ export function describe(editor: Editor): void {
   const { shape, fault, held, picked, fileWarnings, report, busy, fraction, dragging } = editor;
   part('name').textContent = editor.name;
   part('status').textContent = ofSolution(editor);
+  part('status').classList.toggle('doubtful', !editor.showsInput && report !== null && report.outcome !== 'converged');
   part('node').textContent = ofNode(editor);
   part('size').textContent = shape ? `${count(shape.input.length / 3, 'node')}, ${count(shape.faces.begin.length - 1, 'face')}` : '';
   part('picked').textContent = picked.size === 1 ? `Node ${[...picked][0]}` : picked.size ? `${picked.size} nodes` : 'No node picked';

@@ -28,8 +28,8 @@ export class View {
   private look: Look = 'shaded';
   private asked = false;
 
-  /** drawn: called after each picture. Throws where the browser has no WebGL 2. */
-  constructor(private readonly canvas: HTMLCanvasElement, private readonly drawn: () => void) {
+  /** panel: what may lie above the right end of the view. drawn: called after each picture. Throws where the browser has no WebGL 2. */
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly panel: HTMLElement, private readonly drawn: () => void) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.camera.up.set(0, 0, 1);
@@ -112,8 +112,11 @@ export class View {
     const middle = low.clone().add(high).multiplyScalar(0.5).applyMatrix4(camera.matrixWorld);
     camera.position.sub(controls.target).add(middle);
     controls.target.copy(middle);
-    const ratio = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight);
-    camera.zoom = 1.5 / Math.max(high.y - low.y, (high.x - low.x) / ratio, 1e-3);
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const covered = getComputedStyle(this.panel).position === 'absolute' ? width - this.panel.offsetLeft : 0;
+    camera.zoom = 1.6 / Math.max(high.y - low.y, ((high.x - low.x) * height) / Math.max(1, width - covered), 1e-3);
+    const aside = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0).multiplyScalar(covered / height / camera.zoom);
+    for (const end of [camera.position, controls.target]) end.add(aside);
     this.resize();
     controls.update();
   }

@@ -7,9 +7,8 @@ class Group {
   readonly points = new Points(new BufferGeometry(), markerMaterial());
   private nodes: ArrayLike<number> = [];
 
-  constructor(size: number, rimWidth: number, lift: number) {
+  constructor(private readonly size: number, rimWidth: number, lift: number) {
     const { uniforms } = this.points.material;
-    uniforms.size.value = size * window.devicePixelRatio;
     uniforms.rimWidth.value = rimWidth;
     uniforms.lift.value = lift;
     this.set([], new Float32Array());
@@ -30,6 +29,10 @@ class Group {
       at.setXYZ(k, places[node], places[node + 1], places[node + 2]);
     }
     at.needsUpdate = true;
+  }
+
+  scale(ratio: number): void {
+    this.points.material.uniforms.size.value = this.size * ratio;
   }
 
   colours(inside: Color, rim: Color): void {
@@ -60,6 +63,11 @@ export class Markers {
   /** Nothing is marked: another surface has other nodes. */
   clear(): void {
     for (const group of Object.values(this.groups)) group.set([], this.places);
+  }
+
+  /** ratio: of pixels of the picture to those of the page. */
+  scale(ratio: number): void {
+    for (const group of Object.values(this.groups)) group.scale(ratio);
   }
 
   restyle(colour: (name: string) => Color): void {

@@ -8,6 +8,7 @@ import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Markers } from './markers';
 import { looks, surfaceMaterial, type Look } from './materials';
 import type { Seen } from './picking';
+import { drawsInSoftware } from './software';
 import { placesOf, type Shape } from './shape';
 import { normalsAt, verticesOf, type Vertices } from './vertices';
 
@@ -27,10 +28,14 @@ export class View {
   private places: Float32Array = new Float32Array();
   private look: Look = 'shaded';
   private asked = false;
+  /** Smooth edges come from the card; without one, from a finer picture when all has been still for a while. */
+  private readonly software = drawsInSoftware();
+  private fine = false;
+  private rest = 0;
 
   /** panel: what may lie above the right end of the view. drawn: called after each picture. Throws where the browser has no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly panel: HTMLElement, private readonly drawn: () => void) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: true });
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -147,8 +152,11 @@ export class View {
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
+      this.refine(false);
       this.renderer.render(this.scene, this.camera);
       this.drawn();
+      clearTimeout(this.rest);
+      if (this.software) this.rest = window.setTimeout(() => this.refine(true), 300);
     });
   }
 
@@ -165,11 +173,24 @@ export class View {
     this.features.geometry = geometry(this.places.length / 3, vertices.features, ['position']);
   }
 
+  private refine(fine: boolean): void {
+    if (fine === this.fine) return;
+    this.fine = fine;
+    this.resizePicture();
+    if (fine) this.renderer.render(this.scene, this.camera);
+  }
+
+  private resizePicture(): void {
+    const ratio = window.devicePixelRatio * (this.fine ? 2 : 1);
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
+    this.markers.scale(ratio);
+  }
+
   private resize(): void {
     const { clientWidth, clientHeight } = this.canvas;
     const ratio = clientWidth / Math.max(1, clientHeight);
-    this.renderer.setPixelRatio(window.devicePixelRatio);
-    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.resizePicture();
     Object.assign(this.camera, { left: -ratio, right: ratio });
     this.camera.updateProjectionMatrix();
     this.draw();

@@ -53,14 +53,14 @@ export function bindCommands(commands: Command[]): () => void {
   };
 }
 
-/** Rows of a table of shortcuts. */
-export function listShortcuts(table: HTMLElement, commands: Command[]): void {
+/** Into a list of terms and their keys. */
+export function listShortcuts(list: HTMLElement, commands: Command[]): void {
   for (const { title, keys } of commands.filter((command) => command.keys.length > 0)) {
-    const row = document.createElement('tr');
-    const name = Object.assign(document.createElement('th'), { scope: 'row', textContent: title });
-    const cell = document.createElement('td');
+    const row = document.createElement('div');
+    const name = Object.assign(document.createElement('dt'), { textContent: title });
+    const cell = document.createElement('dd');
     for (const key of keys) cell.append(Object.assign(document.createElement('kbd'), { textContent: shown(key) }));
     row.append(name, cell);
-    table.append(row);
+    list.append(row);
   }
 }

@@ -63,7 +63,7 @@ const commands: Command[] = [
   { id: 'free-position', title: 'Free positions of picked nodes', keys: ['shift+f'], run: () => editor.hold('position', false), enabled: somePicked },
   { id: 'fix-normal', title: 'Fix normals of picked nodes', keys: ['n'], run: () => editor.hold('normal', true), enabled: somePicked },
   { id: 'free-normal', title: 'Free normals of picked nodes', keys: ['shift+n'], run: () => editor.hold('normal', false), enabled: somePicked },
-  { id: 'loop', title: 'Pick the boundary loops of picked nodes', keys: ['l'],
+  { id: 'loop', title: 'Pick boundary loops of picked nodes', keys: ['l'],
     run: () => editor.set({ picked: withLoops(editor.shape!, editor.picked) }), enabled: () => [...editor.picked].some((node) => editor.shape!.boundary[node]) },
   ...(['position', 'normal'] as const).map((part) => ({
     id: `boundary-${part}s`, title: `Fix or free boundary ${part}s`, keys: [part === 'position' ? 'b' : 'shift+b'], enabled: opened,
@@ -75,14 +75,14 @@ const commands: Command[] = [
   { id: 'fit', title: 'Show all', keys: ['0', 'home'], run: () => view.fit() },
   { id: 'zoom-in', title: 'Zoom in', keys: ['+', '='], run: () => view.zoomBy(1.25) },
   { id: 'zoom-out', title: 'Zoom out', keys: ['-'], run: () => view.zoomBy(0.8) },
-  { id: 'escape', title: 'Give up the drag, the solution that runs, or what is picked', keys: ['escape'], run: escape },
+  { id: 'escape', title: 'Give up what is dragged, solved or picked', keys: ['escape'], run: escape },
   { id: 'end', title: 'End the solution that runs', keys: [], run: () => editor.end(), enabled: () => editor.canEnd },
   { id: 'theme', title: 'Light or dark', keys: ['t'], run: () => { switchTheme(); view.restyle(); } },
   { id: 'help', title: 'Keyboard shortcuts', keys: ['?'], run: () => help.showModal() },
   { id: 'dismiss', title: 'Dismiss the message', keys: [], run: () => editor.set({ fault: null }) },
 ];
 const refresh = bindCommands(commands);
-listShortcuts(help.querySelector('table')!, commands);
+listShortcuts(help.querySelector('dl')!, commands);
 
 function changed(): void {
   if (held !== editor.held.nodes) {

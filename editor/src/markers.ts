@@ -44,7 +44,7 @@ class Group {
 export type MarkerKind = 'held' | 'picked' | 'hovered';
 
 export class Markers {
-  private readonly groups: Record<MarkerKind, Group> = { held: new Group(7, 0.3, 0.004), picked: new Group(14, 0.35, 0.006), hovered: new Group(12, 0.3, 0.007) };
+  private readonly groups: Record<MarkerKind, Group> = { held: new Group(7, 0.3, 0.004), picked: new Group(11, 0.3, 0.006), hovered: new Group(12, 0.35, 0.007) };
   private places: Float32Array = new Float32Array();
 
   get objects(): Points[] {

@@ -91,14 +91,27 @@ export function verticesOf(faces: Faces, positions: Float32Array, edges: Edges, 
   return { nodes: Uint32Array.from(vertexNodes), corners, features: Uint32Array.from(features) };
 }
 
-/** Normals of vertices: means of those of their faces by area. */
-export function normalsAt(faces: Faces, { nodes, corners }: Vertices, positions: Float32Array): Float32Array {
-  const areas = areasOf(faces, positions);
-  const normals = new Float32Array(3 * nodes.length);
-  for (let f = 0; f + 1 < faces.begin.length; ++f) {
-    for (let c = faces.begin[f]; c < faces.begin[f + 1]; ++c) {
-      for (let i = 0; i < 3; ++i) normals[3 * corners[c] + i] += areas[3 * f + i];
+/** Normals of vertices with Max's weights (1999), exact on spheres. */
+export function normalsAt({ begin, nodes }: Faces, { nodes: vertexNodes, corners }: Vertices, positions: Float32Array): Float32Array {
+  const normals = new Float32Array(3 * vertexNodes.length);
+  for (let f = 0; f + 1 < begin.length; ++f) {
+    for (let c = begin[f]; c < begin[f + 1]; ++c) {
+      const centre = 3 * nodes[c];
+      const a = 3 * nodes[c + 1 < begin[f + 1] ? c + 1 : begin[f]];
+      const b = 3 * nodes[c > begin[f] ? c - 1 : begin[f + 1] - 1];
+      const [ax, ay, az] = [positions[a] - positions[centre], positions[a + 1] - positions[centre + 1], positions[a + 2] - positions[centre + 2]];
+      const [bx, by, bz] = [positions[b] - positions[centre], positions[b + 1] - positions[centre + 1], positions[b + 2] - positions[centre + 2]];
+      const weight = 1 / ((ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz));
+      if (!Number.isFinite(weight)) continue;  // an edge without length
+      const vertex = 3 * corners[c];
+      normals[vertex] += weight * (ay * bz - az * by);
+      normals[vertex + 1] += weight * (az * bx - ax * bz);
+      normals[vertex + 2] += weight * (ax * by - ay * bx);
     }
+  }
+  for (let k = 0; k < normals.length; k += 3) {
+    const length = Math.hypot(normals[k], normals[k + 1], normals[k + 2]) || 1;
+    for (let i = k; i < k + 3; ++i) normals[i] /= length;
   }
   return normals;
 }

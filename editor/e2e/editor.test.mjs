@@ -21,7 +21,7 @@ afterEach(async () => {
   assert.deepEqual(faults, []);
 });
 
-const leftRim = [[0.1, 0.55], [0.6, 0.55]];
+const leftRim = [[0.02, 0.55], [0.5, 0.55]];
 const inside = [[0.5, 0.7], [0.5, 0.6]];
 
 async function saved(format) {
@@ -47,6 +47,7 @@ test('a node is dragged, undone and redone; the file is what the native program 
   const rule = JSON.parse(dragged).rules.at(-1);
   assert.deepEqual(rule.nodes, [held.node]);
 
+  assert.match(await page.getByRole('button', { name: 'Undo' }).getAttribute('title'), new RegExp(`Move node ${held.node}`));
   await page.keyboard.press('Control+z');
   await settled(page);
   assert.equal(await rulesOf(page), untouched);

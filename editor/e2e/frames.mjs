@@ -1,7 +1,9 @@
 // Frames a second while the inner rim of an annulus is dragged in a circle, one line for each size: node e2e/frames.mjs [nodes...].
+// SPEED: of the pointer, in pixels a second.
 
 import { find, Session, settled } from './support.mjs';
 
+const speed = Number(process.env.SPEED ?? 50);
 const sizes = process.argv.slice(2).map(Number);
 const session = await Session.start();
 try {
@@ -18,7 +20,7 @@ try {
     await page.keyboard.press('l');
     await page.mouse.down();
     for (let time = 0, start = performance.now(); time < 5; time = (performance.now() - start) / 1000)
-      await page.mouse.move(x + 25 * Math.sin(2 * time), y - 25 + 25 * Math.cos(2 * time));
+      await page.mouse.move(x + (speed / 2) * Math.sin(2 * time), y + (speed / 2) * (Math.cos(2 * time) - 1));
     const following = await page.locator('#status').textContent();
     await page.mouse.up();
     console.log(`${size} nodes: first picture ${Math.round(picture)} ms; anew: ${anew}; following: ${following}`);

@@ -8,6 +8,8 @@ export interface Command {
   run: () => void;
   enabled?: () => boolean;
   pressed?: () => boolean;
+  /** What it would be done to, for the button's tip. */
+  detail?: () => string | undefined;
 }
 
 function keyOf(event: KeyboardEvent): string {
@@ -34,8 +36,6 @@ export function bindCommands(commands: Command[]): () => void {
     if (!command) throw new Error(`There is no command ${button.dataset.command}`);
     bound.push({ button, command });
     button.addEventListener('click', () => command.run());
-    const key = command.keys[0];
-    button.title = key ? `${command.title} (${shown(key)})` : command.title;
   }
   addEventListener('keydown', (event) => {
     const key = keyOf(event);
@@ -48,6 +48,9 @@ export function bindCommands(commands: Command[]): () => void {
   return () => {
     for (const { button, command } of bound) {
       (button as HTMLButtonElement).disabled = !(command.enabled?.() ?? true);
+      const detail = command.detail?.();
+      const key = command.keys[0] ? ` (${shown(command.keys[0])})` : '';
+      button.title = `${command.title}${detail ? `: ${detail}` : ''}${key}`;
       if (command.pressed) button.setAttribute('aria-pressed', String(command.pressed()));
     }
   };

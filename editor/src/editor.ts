@@ -6,6 +6,7 @@ import type { Constraints, Edit, Held, Part, Vector } from './constraints';
 import { FrameCounter } from './frames';
 import { begun, done, redone, undone, type History } from './history';
 import type { Job, Report, Solved } from './protocol';
+import { Pull } from './pull';
 import { shapeOf, type Shape } from './shape';
 
 export interface EditorEvents {
@@ -33,8 +34,8 @@ export class Editor {
   history: History<Constraints> = begun(holding.initial);
   readonly frames = new FrameCounter();
   private positions: Float64Array = new Float64Array();
-  private drag: { nodes: number[]; start: Float64Array; places: Float64Array } | null = null;
-  private readonly client = new CoreClient((message) => this.setFault(message, 'file'));
+  private drag: Pull | null = null;
+  readonly client = new CoreClient((message) => this.setFault(message, 'file'));
   private readonly solver = new Solver(this.client, {
     solved: (solved, job) => this.solved(solved, job),
     failed: (message) => this.setFault(message, 'solver'),
@@ -95,15 +96,6 @@ export class Editor {
     this.apply('Load constraints', constraints);
   }
 
-  /** The file with the shape that the constraints give from the input. */
-  written(name: string): Promise<Uint8Array> {
-    return this.client.ask('write', { name });
-  }
-
-  end(): void {
-    this.client.endAll();
-  }
-
   toggleInput(): void {
     this.showsInput = !this.showsInput;
     this.events.shape(this.showsInput ? this.shape!.input : this.positions, true);
@@ -148,16 +140,15 @@ export class Editor {
     if (!this.picked.has(node)) this.pick(node, false);
     const nodes = [...this.picked].filter((other) => this.isDraggable(other));
     const start = Float64Array.from(nodes.flatMap((other) => this.placeOf(other)));
-    this.drag = { nodes, start, places: start };
+    this.drag = new Pull(nodes, start, 1 / this.shape!.scale);
     this.showsInput = false;
     this.frames.start(now);
   }
 
   dragBy(way: Vector, time: number): void {
     if (!this.drag) return;
-    const { nodes, start } = this.drag;
-    this.drag.places = start.map((part, k) => part + way[k % 3]);
-    this.solver.push({ drag: { nodes: Int32Array.from(nodes), places: this.drag.places, time } });
+    this.drag.aim(way, time);
+    this.solver.push({ drag: this.drag.step() });
   }
 
   endDrag(keep: boolean): void {
@@ -194,6 +185,10 @@ export class Editor {
     this.report = report;
     if (this.fault?.source === 'solver') this.fault = null;
     if (drag) this.frames.solved(drag.time);
+    if (drag && this.drag) {
+      this.drag.solved(drag, report.seconds);
+      if (!this.drag.arrived) this.solver.push({ drag: this.drag.step() });
+    }
     if (!this.showsInput) this.events.shape(positions, !drag);
     this.events.changed();
   }

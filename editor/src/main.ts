@@ -57,8 +57,10 @@ const commands: Command[] = [
   { id: 'load-constraints', title: 'Load constraints', keys: [], run: () => choose('.json', open), enabled: opened },
   { id: 'save-constraints', title: 'Save constraints', keys: ['ctrl+shift+s'], enabled: opened,
     run: () => download(`${stem(editor.name)}-constraints.json`, toFile(editor.constraints)) },
-  { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => editor.undo(), enabled: () => editor.history.past.length > 0 },
-  { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => editor.redo(), enabled: () => editor.history.future.length > 0 },
+  { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => editor.undo(), enabled: () => editor.history.past.length > 0,
+    detail: () => editor.history.now.label },
+  { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => editor.redo(), enabled: () => editor.history.future.length > 0,
+    detail: () => editor.history.future[0]?.label },
   { id: 'fix-position', title: 'Fix positions of picked nodes', keys: ['f'], run: () => editor.hold('position', true), enabled: somePicked },
   { id: 'free-position', title: 'Free positions of picked nodes', keys: ['shift+f'], run: () => editor.hold('position', false), enabled: somePicked },
   { id: 'fix-normal', title: 'Fix normals of picked nodes', keys: ['n'], run: () => editor.hold('normal', true), enabled: somePicked },
@@ -76,7 +78,7 @@ const commands: Command[] = [
   { id: 'zoom-in', title: 'Zoom in', keys: ['+', '='], run: () => view.zoomBy(1.25) },
   { id: 'zoom-out', title: 'Zoom out', keys: ['-'], run: () => view.zoomBy(0.8) },
   { id: 'escape', title: 'Give up what is dragged, solved or picked', keys: ['escape'], run: escape },
-  { id: 'end', title: 'End the solution that runs', keys: [], run: () => editor.end(), enabled: () => editor.canEnd },
+  { id: 'end', title: 'End the solution that runs', keys: [], run: () => editor.client.endAll(), enabled: () => editor.canEnd },
   { id: 'theme', title: 'Light or dark', keys: ['t'], run: () => { switchTheme(); view.restyle(); } },
   { id: 'help', title: 'Keyboard shortcuts', keys: ['?'], run: () => help.showModal() },
   { id: 'dismiss', title: 'Dismiss the message', keys: [], run: () => editor.set({ fault: null }) },
@@ -111,7 +113,7 @@ async function openAddress(address: string): Promise<void> {
 async function save(): Promise<void> {
   const name = `${stem(editor.name)}-fair.${format.value}`;
   try {
-    download(name, await editor.written(name));
+    download(name, await editor.client.ask('write', { name }));
   } catch (error) {
     editor.setFault((error as Error).message, 'file');
   }
@@ -125,7 +127,7 @@ function setLook(which: Look): void {
 
 function escape(): void {
   if (gestures.cancel()) return;
-  if (editor.canEnd) editor.end();
+  if (editor.canEnd) editor.client.endAll();
   else editor.pick(-1, false);
 }
 

@@ -11,6 +11,7 @@ const { pick } = await compiled('picking');
 const { verticesOf, normalsAt } = await compiled('vertices');
 const { shapeOf, placesOf } = await compiled('shape');
 const { withLoops } = await compiled('loops');
+const { Pull } = await compiled('pull');
 const { FrameCounter } = await compiled('frames');
 
 test('constraints come out of the file that they are written to', () => {
@@ -128,6 +129,24 @@ test('a boundary loop is picked from one of its nodes', () => {
     boundary: new Uint8Array(7).fill(1), warnings: [] });
   assert.deepEqual([...withLoops(shape, [5])].sort(), [4, 5, 6]);
   assert.deepEqual([...withLoops(shape, [0, 4])].length, 7);
+});
+
+test('a long way is made in steps, shorter ones where they take long, and ends where the pointer is', () => {
+  const pull = new Pull([7], Float64Array.of(0.1, 0.2, 0.3), 1);
+  pull.aim([1 / 3, 0, 0], 5);
+  const lengths = [];
+  for (let from = 0.1, steps = 0; !pull.arrived && steps < 100; ++steps) {
+    const drag = pull.step();
+    lengths.push(drag.places[0] - from);
+    from = drag.places[0];
+    pull.solved(drag, steps < 3 ? 0.1 : 0.01);
+    assert.equal(drag.time, pull.arrived ? 5 : -Infinity);
+  }
+  assert.ok(Math.abs(lengths[0] - 0.02) < 1e-12);
+  assert.ok(Math.abs(lengths[2] - 0.005) < 1e-12);
+  assert.ok(lengths.length < 12, 'steps grow again');
+  assert.deepEqual([...pull.step().places], [0.1 + 1 / 3, 0.2, 0.3]);
+  assert.deepEqual([...pull.places], [0.1 + 1 / 3, 0.2, 0.3]);
 });
 
 test('a frame counts if its shape is of a place at most 100 ms old', () => {

@@ -186,7 +186,7 @@ export class Editor {
     if (this.fault?.source === 'solver') this.fault = null;
     if (drag) this.frames.solved(drag.time);
     if (drag && this.drag) {
-      this.drag.solved(drag, report.seconds);
+      this.drag.solved(drag, report.iterations);
       if (!this.drag.arrived) this.solver.push({ drag: this.drag.step() });
     }
     if (!this.showsInput) this.events.shape(positions, !drag);

@@ -1,10 +1,12 @@
 // Held nodes on their way to the pointer. A shape follows short steps quickly and long ones badly, so long ways are made in steps,
-// as long as lately took no more than a frame's time.
+// as long as lately took few iterations.
 
 import type { Drag } from './protocol';
 import type { Vector } from './constraints';
 
-const frame = 0.05;  // seconds
+// Beyond 30 the library fairs anew, which takes many times as long.
+const few = 8;
+const many = 15;
 
 export class Pull {
   private target: Vector = [0, 0, 0];
@@ -39,10 +41,10 @@ export class Pull {
     return { nodes: Int32Array.from(this.nodes), places, time: share < 1 ? -Infinity : this.time };
   }
 
-  /** The places of a step are reached; seconds: that took. */
-  solved({ places }: Drag, seconds: number): void {
+  /** The places of a step are reached; iterations: that took. */
+  solved({ places }: Drag, iterations: number): void {
     this.there = [0, 1, 2].map((i) => places[i] - this.start[i]) as Vector;
     if (places.every((part, k) => part === this.start[k] + this.target[k % 3])) this.there = this.target;
-    this.longest = Math.min(this.size, this.longest * Math.min(2, Math.max(0.5, frame / seconds)));
+    this.longest = Math.min(this.size, this.longest * (iterations <= few ? 2 : iterations > many ? 0.5 : 1));
   }
 }

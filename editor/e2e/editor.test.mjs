@@ -109,6 +109,27 @@ test('a drag that is given up leaves nothing behind, and dragging elsewhere turn
   assert.notEqual(there, `Node ${held.node} · position fixed`);
 });
 
+test('the shape follows while the button is down', async () => {
+  const held = await find(page, /position fixed/, ...leftRim);
+  const picture = () => page.screenshot({ clip: { x: held.x + 20, y: held.y - 40, width: 150, height: 120 } });
+  const before = await picture();
+  await page.mouse.down();
+  for (let k = 1; k <= 5; ++k) await page.mouse.move(held.x - 8 * k, held.y - 8 * k);
+  await page.locator('#status', { hasText: 'frames/s' }).waitFor();
+  assert.ok(!before.equals(await picture()));
+  await page.mouse.up();
+  await settled(page);
+  assert.ok(!(await page.locator('#status').textContent()).includes('frames/s'));
+});
+
+test('a long solution is cancelled with the best shape so far', async () => {
+  session.generated('large.ply', 'annulus', '--nodes', '60000', '--noise', '0.02');
+  await page.goto(`${session.address}?file=files/large.ply`);
+  await page.getByRole('button', { name: 'Cancel' }).click();
+  await page.locator('#status', { hasText: 'cancelled' }).waitFor();
+  assert.match(await page.locator('#size').textContent(), /60,000 nodes/);
+});
+
 test('boundary normals change the shape; the boundary set free is refused in the words of the library, and undone', async () => {
   const before = nodesOf(readFileSync((await saved('obj')).path, 'utf8'));
   const normals = page.getByRole('button', { name: 'Normals fixed' });

@@ -20,6 +20,7 @@ const examples = document.getElementById('example') as HTMLSelectElement;
 const meshes = '.obj,.off,.ply,.stl';
 let look: Look = 'shaded';
 let held: Uint8Array = new Uint8Array();
+let marked: { picked: ReadonlySet<number>; hovered: number } = { picked: new Set(), hovered: -1 };
 
 const editor: Editor = new Editor({
   opened: (shape) => {
@@ -90,10 +91,14 @@ function changed(): void {
   if (held !== editor.held.nodes) {
     held = editor.held.nodes;
     view.markers.set('held', [...held.keys()].filter((node) => held[node] & heldPosition));
+    view.draw();
   }
-  view.markers.set('picked', [...editor.picked]);
-  view.markers.set('hovered', editor.hovered < 0 || editor.picked.has(editor.hovered) ? [] : [editor.hovered]);
-  view.draw();
+  if (marked.picked !== editor.picked || marked.hovered !== editor.hovered) {
+    marked = { picked: editor.picked, hovered: editor.hovered };
+    view.markers.set('picked', [...editor.picked]);
+    view.markers.set('hovered', editor.hovered < 0 || editor.picked.has(editor.hovered) ? [] : [editor.hovered]);
+    view.draw();
+  }
   describe(editor);
   refresh();
 }

@@ -1,0 +1,23 @@
+// Puts the editor into build/editor: the page, its two bundles, the library in WebAssembly and the examples. Any static server can serve it.
+
+import { cpSync, existsSync, mkdirSync, rmSync } from 'node:fs';
+import { join } from 'node:path';
+import { build } from 'esbuild';
+
+const root = new URL('../', import.meta.url).pathname;
+const out = join(root, 'build/editor');
+const core = ['vspring_core.js', 'vspring_core.wasm'].map((name) => join(root, 'build/wasm', name));
+const missing = core.find((path) => !existsSync(path));
+if (missing) {
+  console.error(`${missing} does not exist: run bindings/wasm/build first`);
+  process.exit(1);
+}
+
+rmSync(out, { recursive: true, force: true });
+mkdirSync(join(out, 'examples'), { recursive: true });
+const options = { absWorkingDir: join(root, 'editor'), bundle: true, minify: true, target: 'es2022', logLevel: 'warning', legalComments: 'linked' };
+await build({ ...options, entryPoints: ['src/main.ts', 'src/style.css'], outdir: out, format: 'esm' });
+// Not a module: what Emscripten makes is loaded by importScripts.
+await build({ ...options, entryPoints: ['src/worker.ts'], outdir: out, format: 'iife' });
+for (const path of [...core, join(root, 'editor/src/index.html')]) cpSync(path, join(out, path.split('/').at(-1)));
+for (const name of ['annulus.obj', 'pipe-blend.obj', 'saddle.ply']) cpSync(join(root, 'examples', name), join(out, 'examples', name));

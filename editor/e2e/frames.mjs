@@ -1,0 +1,31 @@
+// Frames a second while the inner rim of an annulus is dragged in a circle, one line for each size: node e2e/frames.mjs [nodes...].
+// SPEED: of the pointer, in pixels a second.
+
+import { find, Session, settled } from './support.mjs';
+
+const speed = Number(process.env.SPEED ?? 50);
+const sizes = process.argv.slice(2).map(Number);
+const session = await Session.start();
+try {
+  for (const size of sizes.length ? sizes : [2000, 15000]) {
+    session.generated('annulus.obj', 'annulus', '--nodes', String(size));
+    const begin = performance.now();
+    const { page } = await session.open('?file=files/annulus.obj');
+    await page.locator('#size', { hasText: 'nodes' }).waitFor();
+    const picture = performance.now() - begin;
+    await settled(page);
+    const anew = await page.locator('#status').textContent();
+    const { x, y } = await find(page, /position fixed/, [0.4, 0.4], [0.4, 0.7]);
+    await page.mouse.click(x, y);
+    await page.keyboard.press('l');
+    await page.mouse.down();
+    for (let time = 0, start = performance.now(); time < 5; time = (performance.now() - start) / 1000)
+      await page.mouse.move(x + (speed / 2) * Math.sin(2 * time), y + (speed / 2) * (Math.cos(2 * time) - 1));
+    const following = await page.locator('#status').textContent();
+    await page.mouse.up();
+    console.log(`${size} nodes: first picture ${Math.round(picture)} ms; anew: ${anew}; following: ${following}`);
+    await page.close();
+  }
+} finally {
+  await session.stop();
+}

@@ -1,0 +1,90 @@
+// The editor in a real Chromium, served as anyone would serve it; and the native program beside it.
+
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { chromium } from 'playwright-core';
+import { serve } from '../serve.mjs';
+
+export const root = new URL('../../', import.meta.url).pathname;
+const program = process.env.VSPRING ?? join(root, 'build/dev/vspring');
+
+export function native(...options) {
+  return execFileSync(program, options, { encoding: 'utf8' });
+}
+
+// Software drawing, the same on every machine. The sandbox needs rights that containers lack; the pages are our own.
+const flags = ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--force-device-scale-factor=1'];
+
+export class Session {
+  static async start() {
+    const session = new Session();
+    session.folder = mkdtempSync(join(tmpdir(), 'vspring-editor-'));
+    session.server = await serve({ '/': join(root, 'build/editor'), '/files/': session.folder });
+    session.address = `http://127.0.0.1:${session.server.address().port}/`;
+    session.browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: flags });
+    return session;
+  }
+
+  async stop() {
+    await this.browser.close();
+    this.server.close();
+    rmSync(this.folder, { recursive: true });
+  }
+
+  generated(name, ...options) {
+    const path = join(this.folder, name);
+    native('generate', ...options, '-o', path);
+    return path;
+  }
+
+  async open(query = '', options = {}) {
+    const page = await this.browser.newPage({ viewport: { width: 1200, height: 760 }, ...options });
+    const faults = [];
+    page.on('pageerror', (error) => faults.push(String(error)));
+    page.on('console', (message) => { if (message.type() === 'error') faults.push(message.text()); });
+    page.on('request', (request) => { if (!/^(blob|data):/.test(request.url()) && !request.url().startsWith(this.address)) faults.push(`asks for ${request.url()}`); });
+    await page.goto(this.address + query);
+    return { page, faults };
+  }
+}
+
+// Until nothing is being solved and the last outcome is that.
+export async function settled(page, outcome = 'converged') {
+  await page.locator('#progress').waitFor({ state: 'hidden' });
+  await page.locator('#status', { hasText: outcome }).waitFor({ timeout: 60_000 });
+}
+
+// Moves the pointer across the view until the footer says what is under it. Returns where that is, and the node.
+export async function find(page, pattern, from, to) {
+  const box = await page.locator('#canvas').boundingBox();
+  const steps = 120;
+  for (let k = 0; k <= steps; ++k) {
+    const [x, y] = [0, 1].map((i) => [box.x, box.y][i] + [box.width, box.height][i] * (from[i] + ((to[i] - from[i]) * k) / steps));
+    await page.mouse.move(x, y);
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    const text = await page.locator('#node').textContent();
+    if (pattern.test(text)) return { x, y, node: Number(text.match(/Node (\d+)/)[1]) };
+  }
+  throw new Error(`nothing between ${from} and ${to} is ${pattern}`);
+}
+
+export async function downloaded(page, press) {
+  const [download] = await Promise.all([page.waitForEvent('download'), press()]);
+  return { name: download.suggestedFilename(), path: await download.path() };
+}
+
+export async function rulesOf(page) {
+  const { path } = await downloaded(page, () => page.getByRole('button', { name: 'Save', exact: true }).click());
+  return readFileSync(path, 'utf8');
+}
+
+export function nodesOf(text) {
+  return text.split('\n').filter((line) => line.startsWith('v ')).map((line) => line.split(/\s+/).slice(1, 4).map(Number));
+}
+
+export function greatestDistance(a, b) {
+  if (a.length !== b.length) throw new Error(`${a.length} nodes and ${b.length}`);
+  return Math.max(...a.map((place, n) => Math.hypot(...place.map((part, i) => part - b[n][i]))));
+}

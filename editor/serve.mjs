@@ -1,0 +1,33 @@
+// A static server on loopback, for trying the editor and for its tests: node serve.mjs [port].
+
+import { createReadStream, statSync } from 'node:fs';
+import { createServer } from 'node:http';
+import { extname, join, normalize } from 'node:path';
+
+const types = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.json': 'application/json' };
+
+// folders: address prefix -> folder. Returns the server, which listens on 127.0.0.1 once the promise is kept.
+export function serve(folders, port = 0) {
+  const server = createServer((request, response) => {
+    const path = decodeURIComponent(new URL(request.url, 'http://x').pathname);
+    const prefix = Object.keys(folders).filter((start) => path.startsWith(start)).sort((a, b) => b.length - a.length)[0];
+    const file = prefix && join(folders[prefix], normalize('/' + path.slice(prefix.length)), path.endsWith('/') ? 'index.html' : '');
+    if (!file || !statSync(file, { throwIfNoEntry: false })?.isFile()) {
+      response.writeHead(404).end('not found');
+      return;
+    }
+    // The two policies let page and worker share memory, which lets the page end a solution that runs.
+    response.writeHead(200, {
+      'Content-Type': types[extname(file)] ?? 'application/octet-stream',
+      'Cross-Origin-Opener-Policy': 'same-origin',
+      'Cross-Origin-Embedder-Policy': 'require-corp',
+    });
+    createReadStream(file).pipe(response);
+  });
+  return new Promise((done, failed) => server.on('error', failed).listen(port, '127.0.0.1', () => done(server)));
+}
+
+if (process.argv[1] === new URL(import.meta.url).pathname) {
+  const server = await serve({ '/': new URL('../build/editor', import.meta.url).pathname }, Number(process.argv[2] ?? 8000));
+  console.log(`http://127.0.0.1:${server.address().port}/`);
+}

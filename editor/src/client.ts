@@ -1,0 +1,114 @@
+// The worker as promises, and the one place where what is to be solved waits.
+
+import type { Answer, Ask, Job, Kind, Reply, Request, Solved, Start } from './protocol';
+
+interface Waiting {
+  done: (answer: Answer<Kind>) => void;
+  failed: (error: Error) => void;
+  progress?: (fraction: number) => void;
+}
+
+export class CoreClient {
+  private readonly worker = new Worker(new URL('worker.js', document.baseURI));
+  private readonly waiting = new Map<number, Waiting>();
+  private readonly ended = self.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(4)) : null;
+  private last = 0;
+
+  /** broken: what to do where the worker itself fails, such as for want of memory. */
+  constructor(broken: (message: string) => void) {
+    this.worker.addEventListener('message', ({ data }: MessageEvent<Reply>) => this.receive(data));
+    this.worker.addEventListener('error', (event) => {
+      const message = `The library has failed: ${event.message || 'it cannot be loaded'}`;
+      for (const { failed } of this.waiting.values()) failed(new Error(message));
+      this.waiting.clear();
+      broken(message);
+    });
+    const start: Start = { core: new URL('vspring_core.js', document.baseURI).href, ended: this.ended };
+    this.worker.postMessage(start);
+  }
+
+  get canEnd(): boolean {
+    return this.ended !== null;
+  }
+
+  ask<K extends Kind>(kind: K, ask: Ask<K>, progress?: (fraction: number) => void): Promise<Answer<K>> {
+    const request: Request<K> = { number: ++this.last, kind, ask };
+    return new Promise<Answer<K>>((done, failed) => {
+      this.waiting.set(request.number, { done: done as Waiting['done'], failed, progress });
+      this.worker.postMessage(request);
+    });
+  }
+
+  /** All that has been asked so far ends soon, with the best shape so far. */
+  endAll(): void {
+    if (this.ended) Atomics.store(this.ended, 0, this.last);
+  }
+
+  private receive(reply: Reply): void {
+    const waiting = this.waiting.get(reply.number);
+    if (!waiting) return;
+    if ('fraction' in reply) {
+      waiting.progress?.(reply.fraction);
+      return;
+    }
+    this.waiting.delete(reply.number);
+    if ('error' in reply) waiting.failed(new Error(reply.error));
+    else waiting.done(reply.answer);
+  }
+}
+
+/** A newer job stands for an older one that still waits; constraints that the older one was to set are not lost. */
+export function merged(older: Job | null, newer: Job): Job {
+  return older?.rules !== undefined && newer.rules === undefined ? { ...newer, rules: older.rules } : newer;
+}
+
+export interface SolverEvents {
+  solved: (solved: Solved, job: Job) => void;
+  failed: (message: string, job: Job) => void;
+  progress: (fraction: number) => void;
+  /** Whether something is being solved. */
+  busy: (busy: boolean) => void;
+}
+
+/** At most one job runs and one waits. */
+export class Solver {
+  private running: Job | null = null;
+  private waiting: Job | null = null;
+
+  constructor(
+    private readonly client: Pick<CoreClient, 'ask' | 'endAll'>,
+    private readonly events: SolverEvents,
+  ) {}
+
+  push(job: Job): void {
+    if (this.running) {
+      this.waiting = merged(this.waiting, job);
+      // What comes from the input takes long, and is out of date already.
+      if (!this.running.drag) this.client.endAll();
+    } else {
+      void this.run(job);
+    }
+  }
+
+  /** Forgets what waits, as another file is opened. */
+  clear(): void {
+    this.waiting = null;
+    if (this.running) this.client.endAll();
+  }
+
+  private async run(job: Job): Promise<void> {
+    this.running = job;
+    this.events.busy(true);
+    try {
+      const solved = await this.client.ask('solve', job, this.events.progress);
+      this.events.solved(solved, job);
+    } catch (error) {
+      this.events.failed((error as Error).message, job);
+    }
+    this.running = null;
+    const next = this.waiting;
+    this.waiting = null;
+    if (next) void this.run(next);
+    else this.events.busy(false);
+  }
+}

@@ -1,0 +1,114 @@
+// What holds the surface, as plain data: the rules of a constraints file, then what was done by hand, node by node.
+
+export type Vector = [number, number, number];
+export type Hold<Given> = 'fixed' | 'free' | Given;
+
+/** One rule of a constraints file; what the editor does not know of it is kept as it is. */
+export interface Rule {
+  nodes: unknown;
+  position?: unknown;
+  normal?: unknown;
+}
+
+export interface Edit {
+  position?: Hold<Vector>;
+  normal?: Hold<Vector>;
+}
+
+export interface Constraints {
+  readonly rules: readonly Rule[];
+  readonly edits: Readonly<Record<number, Edit>>;
+}
+
+export type Part = 'position' | 'normal';
+
+export const initial: Constraints = { rules: [{ nodes: 'boundary', position: 'fixed' }], edits: {} };
+
+/** Throws where the text is no constraints file; what its rules say is checked by the library. */
+export function fromFile(text: string): Constraints {
+  const rules = (JSON.parse(text) as { rules?: unknown }).rules;
+  if (!Array.isArray(rules)) throw new Error('A constraints file has a list "rules"');
+  return { rules: rules as Rule[], edits: {} };
+}
+
+export function allRules({ rules, edits }: Constraints): Rule[] {
+  const nodes = Object.keys(edits).map(Number);
+  const byHand: Rule[] = [];
+  for (const part of ['position', 'normal'] as const) {
+    for (const hold of ['fixed', 'free'] as const) {
+      const these = nodes.filter((node) => edits[node][part] === hold);
+      if (these.length > 0) byHand.push({ nodes: these, [part]: hold });
+    }
+    const given = nodes.filter((node) => Array.isArray(edits[node][part]));
+    if (given.length > 0) byHand.push({ nodes: given, [part]: given.map((node) => edits[node][part]) });
+  }
+  return [...rules, ...byHand];
+}
+
+/** Numbers come out so that they are read as the same ones. */
+export function toFile(constraints: Constraints): string {
+  return `{"rules": [\n${allRules(constraints).map((rule) => '  ' + JSON.stringify(rule)).join(',\n')}\n]}\n`;
+}
+
+export function edited(constraints: Constraints, nodes: Iterable<number>, change: (node: number) => Edit): Constraints {
+  const edits = { ...constraints.edits };
+  for (const node of nodes) edits[node] = { ...edits[node], ...change(node) };
+  return { ...constraints, edits };
+}
+
+/** Holds positions at places, three numbers each. */
+export function placed(constraints: Constraints, nodes: readonly number[], places: Float64Array): Constraints {
+  const place = new Map(nodes.map((node, k) => [node, [...places.subarray(3 * k, 3 * k + 3)] as Vector]));
+  return edited(constraints, nodes, (node) => ({ position: place.get(node) }));
+}
+
+export function boundaryFixed({ rules }: Constraints, part: Part): boolean {
+  return rules.some((rule) => rule.nodes === 'boundary' && rule[part] === 'fixed');
+}
+
+export function withBoundary(constraints: Constraints, part: Part, fixed: boolean): Constraints {
+  const rest = constraints.rules
+    .map((rule) => {
+      if (rule.nodes !== 'boundary' || rule[part] !== 'fixed') return rule;
+      const { [part]: _, ...kept } = rule;
+      return kept as Rule;
+    })
+    .filter((rule) => rule.position !== undefined || rule.normal !== undefined);
+  return { ...constraints, rules: fixed ? [{ nodes: 'boundary', [part]: 'fixed' }, ...rest] : rest };
+}
+
+export const heldPosition = 1;
+export const heldNormal = 2;
+
+export interface Held {
+  /** heldPosition, heldNormal or both, by node. */
+  nodes: Uint8Array;
+  /** Rules whose nodes only the library knows, such as groups and regions: they hold, but are not marked. */
+  unmarked: number;
+}
+
+export function heldNodes(constraints: Constraints, boundary: Uint8Array): Held {
+  const nodes = new Uint8Array(boundary.length);
+  let unmarked = 0;
+  for (const rule of allRules(constraints)) {
+    const among = nodesOf(rule.nodes, boundary);
+    if (!among) {
+      ++unmarked;
+      continue;
+    }
+    for (const node of among) {
+      if (rule.position !== undefined) nodes[node] = rule.position === 'free' ? nodes[node] & ~heldPosition : nodes[node] | heldPosition;
+      if (rule.normal !== undefined) nodes[node] = rule.normal === 'free' ? nodes[node] & ~heldNormal : nodes[node] | heldNormal;
+    }
+  }
+  return { nodes, unmarked };
+}
+
+function nodesOf(which: unknown, boundary: Uint8Array): Iterable<number> | null {
+  if (Array.isArray(which)) return (which as number[]).filter((node) => node >= 0 && node < boundary.length);
+  const all = Array.from(boundary.keys());
+  if (which === 'all') return all;
+  if (which === 'boundary') return all.filter((node) => boundary[node]);
+  if (which === 'interior') return all.filter((node) => !boundary[node]);
+  return null;
+}

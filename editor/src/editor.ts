@@ -1,0 +1,195 @@
+// The state of the editor, and all that changes it.
+
+import { CoreClient, Solver } from './client';
+import * as holding from './constraints';
+import type { Constraints, Edit, Held, Part, Vector } from './constraints';
+import { FrameCounter } from './frames';
+import { begun, done, redone, undone, type History } from './history';
+import type { Job, Report, Solved } from './protocol';
+import { Pull } from './pull';
+import { shapeOf, type Shape } from './shape';
+
+export interface EditorEvents {
+  opened: (shape: Shape) => void;
+  /** Another shape is to be seen; settled: it is not one of many during a drag. */
+  shape: (positions: Float64Array, settled: boolean) => void;
+  /** Anything else that is shown has changed. */
+  changed: () => void;
+}
+
+type FaultSource = 'file' | 'solver';
+
+export class Editor {
+  name = '';
+  shape: Shape | null = null;
+  report: Report | null = null;
+  fileWarnings: string[] = [];
+  fault: { message: string; source: FaultSource } | null = null;
+  held: Held = { nodes: new Uint8Array(), unmarked: 0 };
+  picked: ReadonlySet<number> = new Set();
+  hovered = -1;
+  busy = false;
+  fraction = 0;
+  showsInput = false;
+  history: History<Constraints> = begun(holding.initial);
+  readonly frames = new FrameCounter();
+  private positions: Float64Array = new Float64Array();
+  private drag: Pull | null = null;
+  readonly client = new CoreClient((message) => this.setFault(message, 'file'));
+  private readonly solver = new Solver(this.client, {
+    solved: (solved, job) => this.solved(solved, job),
+    failed: (message) => this.setFault(message, 'solver'),
+    progress: (fraction) => this.set({ fraction }),
+    busy: (busy) => this.set({ busy, fraction: 0 }),
+  });
+
+  constructor(private readonly events: EditorEvents) {}
+
+  get constraints(): Constraints {
+    return this.history.now.state;
+  }
+
+  get dragging(): boolean {
+    return this.drag !== null;
+  }
+
+  get canEnd(): boolean {
+    return this.busy && !this.drag && this.client.canEnd;
+  }
+
+  set(state: Partial<Pick<Editor, 'busy' | 'fraction' | 'hovered' | 'picked' | 'fault'>>): void {
+    Object.assign(this, state);
+    this.events.changed();
+  }
+
+  setFault(message: string, source: FaultSource): void {
+    this.set({ fault: { message, source } });
+  }
+
+  /** A mesh or a constraints file. What cannot be read leaves everything as it was. */
+  async open(name: string, bytes: Uint8Array): Promise<void> {
+    try {
+      if (name.toLowerCase().endsWith('.json')) await this.openConstraints(new TextDecoder().decode(bytes));
+      else await this.openSurface(name, bytes);
+      this.set({ fault: null });
+    } catch (error) {
+      this.setFault((error as Error).message, 'file');
+    }
+  }
+
+  private async openSurface(name: string, bytes: Uint8Array): Promise<void> {
+    this.solver.clear();
+    const surface = await this.client.ask('open', { name, bytes, rules: holding.toFile(holding.initial) });
+    this.drag = null;
+    this.history = begun(holding.initial);
+    this.shape = shapeOf(surface);
+    this.positions = surface.positions;
+    Object.assign(this, { name, report: null, showsInput: false, picked: new Set(), hovered: -1, fileWarnings: surface.warnings });
+    this.events.opened(this.shape);
+    this.settle();
+  }
+
+  private async openConstraints(text: string): Promise<void> {
+    if (!this.shape) throw new Error('Open a surface first: constraints name its nodes');
+    const constraints = holding.fromFile(text);
+    await this.client.ask('hold', { rules: holding.toFile(constraints) });
+    this.apply('Load constraints', constraints);
+  }
+
+  toggleInput(): void {
+    this.showsInput = !this.showsInput;
+    this.events.shape(this.showsInput ? this.shape!.input : this.positions, true);
+    this.events.changed();
+  }
+
+  pick(node: number, add: boolean): void {
+    const picked = new Set(add ? this.picked : []);
+    if (node >= 0 && !(add && picked.delete(node))) picked.add(node);
+    this.set({ picked });
+  }
+
+  setBoundary(part: Part, fixed: boolean): void {
+    this.apply(`${fixed ? 'Fix' : 'Free'} boundary ${part}s`, holding.withBoundary(this.constraints, part, fixed));
+  }
+
+  isBoundaryFixed(part: Part): boolean {
+    return holding.boundaryFixed(this.constraints, part);
+  }
+
+  /** Positions are fixed where they are now seen; normals as in the input. */
+  hold(part: Part, fixed: boolean): void {
+    const change = (node: number): Edit => ({ [part]: !fixed ? 'free' : part === 'normal' ? 'fixed' : this.placeOf(node) });
+    this.apply(`${fixed ? 'Fix' : 'Free'} ${part} of ${this.picked.size} ${this.picked.size === 1 ? 'node' : 'nodes'}`,
+      holding.edited(this.constraints, this.picked, change));
+  }
+
+  isDraggable(node: number): boolean {
+    return (this.held.nodes[node] & holding.heldPosition) !== 0;
+  }
+
+  undo(): void {
+    this.travel(undone(this.history));
+  }
+
+  redo(): void {
+    this.travel(redone(this.history));
+  }
+
+  /** Takes the node, and with it all picked ones that are held if it is one of them. */
+  beginDrag(node: number, now: number): void {
+    if (!this.picked.has(node)) this.pick(node, false);
+    const nodes = [...this.picked].filter((other) => this.isDraggable(other));
+    const start = Float64Array.from(nodes.flatMap((other) => this.placeOf(other)));
+    this.drag = new Pull(nodes, start, 1 / this.shape!.scale);
+    this.showsInput = false;
+    this.frames.start(now);
+  }
+
+  dragBy(way: Vector, time: number): void {
+    if (!this.drag) return;
+    this.drag.aim(way, time);
+    this.solver.push({ drag: this.drag.step() });
+  }
+
+  endDrag(keep: boolean): void {
+    if (!this.drag) return;
+    const { nodes, places } = this.drag;
+    this.drag = null;
+    if (!keep) this.settle();
+    else this.apply(nodes.length === 1 ? `Move node ${nodes[0]}` : `Move ${nodes.length} nodes`, holding.placed(this.constraints, nodes, places));
+  }
+
+  private placeOf(node: number): Vector {
+    return [...this.positions.subarray(3 * node, 3 * node + 3)] as Vector;
+  }
+
+  private apply(label: string, constraints: Constraints): void {
+    this.travel(done(this.history, label, constraints));
+  }
+
+  private travel(history: History<Constraints>): void {
+    this.history = history;
+    this.settle();
+  }
+
+  private settle(): void {
+    if (!this.shape) return;
+    this.held = holding.heldNodes(this.constraints, this.shape.boundary);
+    this.solver.push({ rules: holding.toFile(this.constraints) });
+    this.events.changed();
+  }
+
+  private solved({ positions, report }: Solved, { drag }: Job): void {
+    if (positions.length !== this.positions.length) return;
+    this.positions = positions;
+    this.report = report;
+    if (this.fault?.source === 'solver') this.fault = null;
+    if (drag) this.frames.solved(drag.time);
+    if (drag && this.drag) {
+      this.drag.solved(drag, report.iterations);
+      if (!this.drag.arrived) this.solver.push({ drag: this.drag.step() });
+    }
+    if (!this.showsInput) this.events.shape(positions, !drag);
+    this.events.changed();
+  }
+}

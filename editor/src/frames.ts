@@ -1,0 +1,25 @@
+// Counts frames while something is dragged: one counts if it shows a shape solved for a place of the pointer at most 100 ms old.
+
+export class FrameCounter {
+  private begin = 0;
+  private count = 0;
+  private shown: number | null = null;
+
+  start(now: number): void {
+    Object.assign(this, { begin: now, count: 0, shown: null });
+  }
+
+  /** A shape for the pointer's place at that time will be drawn next. */
+  solved(time: number): void {
+    this.shown = time;
+  }
+
+  drawn(now: number): void {
+    if (this.shown !== null && now - this.shown <= 100) ++this.count;
+    this.shown = null;
+  }
+
+  perSecond(now: number): number {
+    return now > this.begin ? (1000 * this.count) / (now - this.begin) : 0;
+  }
+}

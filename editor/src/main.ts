@@ -1,0 +1,144 @@
+// Puts the editor together.
+
+import { bindCommands, listShortcuts, type Command } from './commands';
+import { heldPosition, toFile } from './constraints';
+import { Editor } from './editor';
+import { acceptDrops, choose, download, fromAddress, stem } from './files';
+import { Gestures } from './gestures';
+import { withLoops } from './loops';
+import { looks, type Look } from './materials';
+import { pick } from './picking';
+import { describe } from './status';
+import { startTheme, switchTheme } from './theme';
+import { View } from './view';
+
+const canvas = document.getElementById('canvas') as HTMLCanvasElement;
+const panel = document.querySelector('aside')!;
+const help = document.getElementById('help') as HTMLDialogElement;
+const format = document.getElementById('format') as HTMLSelectElement;
+const examples = document.getElementById('example') as HTMLSelectElement;
+const meshes = '.obj,.off,.ply,.stl';
+let look: Look = 'shaded';
+let held: Uint8Array = new Uint8Array();
+let marked: { picked: ReadonlySet<number>; hovered: number } = { picked: new Set(), hovered: -1 };
+
+const editor: Editor = new Editor({
+  opened: (shape) => {
+    view.markers.clear();
+    held = new Uint8Array();
+    examples.value = [...examples.options].find(({ value }) => value === `examples/${editor.name}`)?.value ?? '';
+    view.open(shape);
+  },
+  shape: (positions, settled) => view.show(positions, settled),
+  changed,
+});
+const gestures = new Gestures(canvas, {
+  pick: (x, y, radius) => {
+    const seen = view.seen();
+    return seen ? pick(seen, x, y, radius, (node) => editor.isDraggable(node)) : -1;
+  },
+  draggable: (node) => editor.isDraggable(node),
+  hovered: (node) => {
+    if (node === editor.hovered) return;
+    editor.set({ hovered: node });
+  },
+  picked: (node, add) => editor.pick(node, add),
+  dragBegun: (node) => editor.beginDrag(node, performance.now()),
+  dragged: (across, down, time) => editor.dragBy(view.wayOf(across, down), time),
+  dropped: () => editor.endDrag(true),
+  cancelled: () => editor.endDrag(false),
+});
+const view = new View(canvas, panel, () => editor.frames.drawn(performance.now()));
+
+const opened = (): boolean => editor.shape !== null;
+const somePicked = (): boolean => editor.picked.size > 0;
+const commands: Command[] = [
+  { id: 'open', title: 'Open a mesh', keys: ['o', 'ctrl+o'], run: () => choose(meshes, open) },
+  { id: 'save', title: 'Save the result', keys: ['ctrl+s'], run: () => void save(), enabled: opened },
+  { id: 'load-constraints', title: 'Load constraints', keys: [], run: () => choose('.json', open), enabled: opened },
+  { id: 'save-constraints', title: 'Save constraints', keys: ['ctrl+shift+s'], enabled: opened,
+    run: () => download(`${stem(editor.name)}-constraints.json`, toFile(editor.constraints)) },
+  { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => editor.undo(), enabled: () => editor.history.past.length > 0,
+    detail: () => editor.history.now.label },
+  { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => editor.redo(), enabled: () => editor.history.future.length > 0,
+    detail: () => editor.history.future[0]?.label },
+  { id: 'fix-position', title: 'Fix positions of picked nodes', keys: ['f'], run: () => editor.hold('position', true), enabled: somePicked },
+  { id: 'free-position', title: 'Free positions of picked nodes', keys: ['shift+f'], run: () => editor.hold('position', false), enabled: somePicked },
+  { id: 'fix-normal', title: 'Fix normals of picked nodes', keys: ['n'], run: () => editor.hold('normal', true), enabled: somePicked },
+  { id: 'free-normal', title: 'Free normals of picked nodes', keys: ['shift+n'], run: () => editor.hold('normal', false), enabled: somePicked },
+  { id: 'loop', title: 'Pick boundary loops of picked nodes', keys: ['l'],
+    run: () => editor.set({ picked: withLoops(editor.shape!, editor.picked) }), enabled: () => [...editor.picked].some((node) => editor.shape!.boundary[node]) },
+  ...(['position', 'normal'] as const).map((part) => ({
+    id: `boundary-${part}s`, title: `Fix or free boundary ${part}s`, keys: [part === 'position' ? 'b' : 'shift+b'], enabled: opened,
+    run: () => editor.setBoundary(part, !editor.isBoundaryFixed(part)), pressed: () => editor.isBoundaryFixed(part),
+  })),
+  ...looks.map((which) => ({ id: which, title: which[0].toUpperCase() + which.slice(1), keys: [String(['shaded', 'wire', 'zebra'].indexOf(which) + 1)],
+    run: () => setLook(which), pressed: () => look === which })),
+  { id: 'input', title: 'Show the input or the result', keys: ['i'], run: () => editor.toggleInput(), enabled: opened, pressed: () => editor.showsInput },
+  { id: 'fit', title: 'Show all', keys: ['0', 'home'], run: () => view.fit() },
+  { id: 'zoom-in', title: 'Zoom in', keys: ['+', '='], run: () => view.zoomBy(1.25) },
+  { id: 'zoom-out', title: 'Zoom out', keys: ['-'], run: () => view.zoomBy(0.8) },
+  { id: 'escape', title: 'Give up what is dragged, solved or picked', keys: ['escape'], run: escape },
+  { id: 'end', title: 'End the solution that runs', keys: [], run: () => editor.client.endAll(), enabled: () => editor.canEnd },
+  { id: 'theme', title: 'Light or dark', keys: ['t'], run: () => { switchTheme(); view.restyle(); } },
+  { id: 'help', title: 'Keyboard shortcuts', keys: ['?'], run: () => help.showModal() },
+  { id: 'dismiss', title: 'Dismiss the message', keys: [], run: () => editor.set({ fault: null }) },
+];
+const refresh = bindCommands(commands);
+listShortcuts(help.querySelector('dl')!, commands);
+
+function changed(): void {
+  if (held !== editor.held.nodes) {
+    held = editor.held.nodes;
+    view.markers.set('held', [...held.keys()].filter((node) => held[node] & heldPosition));
+    view.draw();
+  }
+  if (marked.picked !== editor.picked || marked.hovered !== editor.hovered) {
+    marked = { picked: editor.picked, hovered: editor.hovered };
+    view.markers.set('picked', [...editor.picked]);
+    view.markers.set('hovered', editor.hovered < 0 || editor.picked.has(editor.hovered) ? [] : [editor.hovered]);
+    view.draw();
+  }
+  describe(editor);
+  refresh();
+}
+
+function open({ name, bytes }: { name: string; bytes: Uint8Array }): void {
+  void editor.open(name, bytes);
+}
+
+async function openAddress(address: string): Promise<void> {
+  try {
+    open(await fromAddress(address));
+  } catch (error) {
+    editor.setFault((error as Error).message, 'file');
+  }
+}
+
+async function save(): Promise<void> {
+  const name = `${stem(editor.name)}-fair.${format.value}`;
+  try {
+    download(name, await editor.client.ask('write', { name }));
+  } catch (error) {
+    editor.setFault((error as Error).message, 'file');
+  }
+}
+
+function setLook(which: Look): void {
+  look = which;
+  view.setLook(which);
+  refresh();
+}
+
+function escape(): void {
+  if (gestures.cancel()) return;
+  if (editor.canEnd) editor.client.endAll();
+  else editor.pick(-1, false);
+}
+
+examples.addEventListener('change', () => void openAddress(examples.value));
+acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, open);
+startTheme(() => view.restyle());
+view.restyle();
+changed();
+void openAddress(new URLSearchParams(location.search).get('file') ?? 'examples/annulus.obj');

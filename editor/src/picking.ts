@@ -1,0 +1,56 @@
+// Which node is under the pointer: the nearest on the screen that nothing hides. Linear in the size of the surface.
+
+/** What is seen: places in the units of the view, and how they come to the screen, by columns as in three.js. */
+export interface Seen {
+  places: Float32Array;
+  triangles: Uint32Array;
+  /** From places to the cube of the view. */
+  matrix: ArrayLike<number>;
+  width: number;
+  height: number;
+}
+
+/** Pixels across and down, and the depth in the cube of the view. */
+function projected({ places, matrix: m, width, height }: Seen): Float32Array {
+  const screen = new Float32Array(places.length);
+  for (let k = 0; k < places.length; k += 3) {
+    const [x, y, z] = [places[k], places[k + 1], places[k + 2]];
+    screen[k] = ((m[0] * x + m[4] * y + m[8] * z + m[12]) / 2 + 0.5) * width;
+    screen[k + 1] = (0.5 - (m[1] * x + m[5] * y + m[9] * z + m[13]) / 2) * height;
+    screen[k + 2] = m[2] * x + m[6] * y + m[10] * z + m[14];
+  }
+  return screen;
+}
+
+/** Whether a triangle that does not have the node lies before it. */
+function hidden(screen: Float32Array, triangles: Uint32Array, node: number, slack: number): boolean {
+  const [x, y, z] = screen.subarray(3 * node, 3 * node + 3);
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [a, b, c] = [triangles[t], triangles[t + 1], triangles[t + 2]];
+    if (a === node || b === node || c === node) continue;
+    const [ax, ay] = [screen[3 * a] - x, screen[3 * a + 1] - y];
+    const [bx, by] = [screen[3 * b] - x, screen[3 * b + 1] - y];
+    const [cx, cy] = [screen[3 * c] - x, screen[3 * c + 1] - y];
+    const [wa, wb, wc] = [bx * cy - by * cx, cx * ay - cy * ax, ax * by - ay * bx];
+    const sum = wa + wb + wc;
+    if (sum === 0 || wa * sum < 0 || wb * sum < 0 || wc * sum < 0) continue;
+    if ((wa * screen[3 * a + 2] + wb * screen[3 * b + 2] + wc * screen[3 * c + 2]) / sum < z - slack) return true;
+  }
+  return false;
+}
+
+/** The node within so many pixels of a point, or -1. preferred: nodes that count as nearer by half the radius. */
+export function pick(seen: Seen, x: number, y: number, radius: number, preferred: (node: number) => boolean): number {
+  const screen = projected(seen);
+  const candidates: { node: number; distance: number }[] = [];
+  for (let k = 0; k < screen.length; k += 3) {
+    const [dx, dy] = [screen[k] - x, screen[k + 1] - y];
+    if (Math.abs(dx) > radius || Math.abs(dy) > radius) continue;
+    const distance = Math.hypot(dx, dy);
+    if (distance <= radius) candidates.push({ node: k / 3, distance: preferred(k / 3) ? distance - radius / 2 : distance });
+  }
+  candidates.sort((a, b) => a.distance - b.distance);
+  // A few of the nearest: where all of those are hidden, the rest is, or is too crowded to be meant.
+  for (const { node } of candidates.slice(0, 12)) if (!hidden(screen, seen.triangles, node, 1e-4)) return node;
+  return -1;
+}

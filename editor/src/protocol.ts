@@ -1,0 +1,68 @@
+// What the page asks of the worker, and what it answers. Arrays are handed over, not copied.
+
+export interface OpenedSurface {
+  positions: Float64Array;
+  faceBegin: Int32Array;
+  corners: Int32Array;
+  boundary: Uint8Array;
+  warnings: string[];
+}
+
+export interface Report {
+  outcome: string;
+  iterations: number;
+  seconds: number;
+  expectedError: number | null;
+  movingNodes: number;
+  greatestMove: number;
+  warnings: string[];
+}
+
+/** Places of held nodes, three numbers each. */
+export interface Drag {
+  nodes: Int32Array;
+  places: Float64Array;
+  /** When the pointer was there, in milliseconds as of performance.now(). */
+  time: number;
+}
+
+/** rules: a constraints file, where what holds has changed. drag: held nodes under the pointer; without it the surface is faired anew from the input. */
+export interface Job {
+  rules?: string;
+  drag?: Drag;
+}
+
+export interface Solved {
+  positions: Float64Array;
+  report: Report;
+}
+
+export interface Requests {
+  open: { ask: { name: string; bytes: Uint8Array; rules: string }; answer: OpenedSurface };
+  /** Throws, and leaves what held, where the rules are refused. */
+  hold: { ask: { rules: string }; answer: null };
+  solve: { ask: Job; answer: Solved };
+  /** The bytes of a file of that name, with the shape that its constraints give from the input. */
+  write: { ask: { name: string }; answer: Uint8Array };
+}
+
+export type Kind = keyof Requests;
+export type Ask<K extends Kind> = Requests[K]['ask'];
+export type Answer<K extends Kind> = Requests[K]['answer'];
+
+export interface Request<K extends Kind = Kind> {
+  number: number;
+  kind: K;
+  ask: Ask<K>;
+}
+
+/** Shared memory where the page may write the number of the last request that is to end soon; null where it may not be shared. */
+export interface Start {
+  core: string;
+  ended: Int32Array | null;
+}
+
+export type Reply =
+  | { number: number; answer: Answer<Kind> }
+  | { number: number; error: string }
+  | { number: number; fraction: number };

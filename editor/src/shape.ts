@@ -1,0 +1,48 @@
+// The open surface as the view needs it: moved to the origin and scaled to a size of one, so that single precision serves.
+
+import { edgesOf, trianglesOf } from '../../page/mesh.js';
+import type { OpenedSurface } from './protocol';
+
+export interface Shape {
+  faces: { begin: Int32Array; nodes: Int32Array };
+  boundary: Uint8Array;
+  edges: { count: number; ends: Uint32Array; faces: Int32Array; against: Uint8Array };
+  /** Nodes of triangles, for picking; and the corners of faces they stand for, for drawing. */
+  triangles: Uint32Array;
+  triangleCorners: Uint32Array;
+  centre: [number, number, number];
+  /** From units of the file to those of the view. */
+  scale: number;
+  input: Float64Array;
+}
+
+export function shapeOf({ positions, faceBegin, corners, boundary }: OpenedSurface): Shape {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  for (let k = 0; k < positions.length; ++k) {
+    low[k % 3] = Math.min(low[k % 3], positions[k]);
+    high[k % 3] = Math.max(high[k % 3], positions[k]);
+  }
+  const size = Math.hypot(...high.map((end, axis) => end / 2 - low[axis] / 2)) * 2;
+  // Numbered by corners, so that a fan is laid through corners rather than nodes.
+  const places = new Float64Array(3 * corners.length);
+  corners.forEach((node, c) => places.set(positions.subarray(3 * node, 3 * node + 3), 3 * c));
+  const triangleCorners: Uint32Array = trianglesOf({ begin: faceBegin, nodes: corners.map((_, c) => c) }, places);
+  const faces = { begin: faceBegin, nodes: corners };
+  return {
+    faces,
+    boundary,
+    edges: edgesOf(faces, positions.length / 3),
+    triangles: triangleCorners.map((corner) => corners[corner]),
+    triangleCorners,
+    centre: [0, 1, 2].map((axis) => low[axis] / 2 + high[axis] / 2) as [number, number, number],
+    scale: size > 0 && Number.isFinite(size) ? 1 / size : 1,
+    input: positions,
+  };
+}
+
+export function placesOf({ centre, scale }: Shape, positions: Float64Array): Float32Array {
+  const places = new Float32Array(positions.length);
+  for (let k = 0; k < positions.length; ++k) places[k] = (positions[k] - centre[k % 3]) * scale;
+  return places;
+}

@@ -1,0 +1,50 @@
+// What is said in words: of the shape, how it was solved, and what went wrong.
+
+import { short } from '../../page/numbers.js';
+import { heldNormal, heldPosition } from './constraints';
+import type { Editor } from './editor';
+
+function part(id: string): HTMLElement {
+  return document.getElementById(id)!;
+}
+
+function count(number: number, one: string, many = `${one}s`): string {
+  return `${number.toLocaleString('en')} ${number === 1 ? one : many}`;
+}
+
+function ofSolution({ report, dragging, frames, showsInput, shape }: Editor): string {
+  if (!shape) return 'Open a mesh, or drop one here';
+  if (showsInput) return 'The input';
+  if (!report) return '';
+  const { outcome, iterations, expectedError, seconds } = report;
+  const error = expectedError === null ? '' : ` · expected error ${short(Number((100 * expectedError).toPrecision(2)))} %`;
+  const rate = dragging ? ` · ${Math.round(frames.perSecond(performance.now()))} frames/s` : '';
+  return `${outcome} · ${count(iterations, 'iteration')}${error} · ${Math.round(1000 * seconds)} ms${rate}`;
+}
+
+function ofNode({ hovered, held }: Editor): string {
+  if (hovered < 0) return '';
+  const bits = held.nodes[hovered];
+  const what = [bits & heldPosition && 'position fixed', bits & heldNormal && 'normal fixed'].filter(Boolean);
+  return `Node ${hovered} · ${what.join(', ') || 'free'}`;
+}
+
+export function describe(editor: Editor): void {
+  const { shape, fault, held, picked, fileWarnings, report, busy, fraction, dragging } = editor;
+  part('name').textContent = editor.name;
+  part('status').textContent = ofSolution(editor);
+  part('status').classList.toggle('doubtful', !editor.showsInput && report !== null && report.outcome !== 'converged');
+  part('node').textContent = ofNode(editor);
+  part('size').textContent = shape ? `${count(shape.input.length / 3, 'node')}, ${count(shape.faces.begin.length - 1, 'face')}` : '';
+  part('picked').textContent = picked.size === 1 ? `Node ${[...picked][0]}` : picked.size ? `${picked.size} nodes` : 'No node picked';
+  part('unmarked').hidden = held.unmarked === 0;
+  part('unmarked').textContent = `${count(held.unmarked, 'rule')} about groups or regions: what they hold is not marked.`;
+  part('fault').hidden = !fault;
+  if (part('fault').firstElementChild!.textContent !== fault?.message) part('fault').firstElementChild!.textContent = fault?.message ?? '';
+  part('progress').hidden = !busy || dragging;
+  part('progress').querySelector('progress')!.value = fraction;
+  const warnings = [...fileWarnings, ...(report?.warnings ?? [])];
+  part('warnings').hidden = warnings.length === 0;
+  part('warnings').querySelector('ul')!.replaceChildren(...warnings.map((textContent) =>
+    Object.assign(document.createElement('li'), { textContent })));
+}

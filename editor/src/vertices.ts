@@ -1,0 +1,117 @@
+// What is drawn of a surface: its nodes, those at sharp edges once for every smooth part that meets there.
+
+interface Faces {
+  begin: Int32Array;
+  nodes: Int32Array;
+}
+
+interface Edges {
+  count: number;
+  ends: Uint32Array;
+  faces: Int32Array;
+  against: Uint8Array;
+}
+
+export interface Vertices {
+  /** The node of every vertex; the first are the nodes in their order. */
+  nodes: Uint32Array;
+  /** The vertex of every corner of a face. */
+  corners: Uint32Array;
+  /** Ends of edges where the surface is sharp or ends. */
+  features: Uint32Array;
+}
+
+/** Normals of faces, their length twice the area. */
+function areasOf({ begin, nodes }: Faces, positions: Float32Array): Float32Array {
+  const areas = new Float32Array(3 * (begin.length - 1));
+  for (let f = 0; f + 1 < begin.length; ++f) {
+    const o = 3 * nodes[begin[f]];
+    for (let c = begin[f] + 1; c + 1 < begin[f + 1]; ++c) {
+      const [a, b] = [3 * nodes[c], 3 * nodes[c + 1]];
+      const [ax, ay, az] = [positions[a] - positions[o], positions[a + 1] - positions[o + 1], positions[a + 2] - positions[o + 2]];
+      const [bx, by, bz] = [positions[b] - positions[o], positions[b + 1] - positions[o + 1], positions[b + 2] - positions[o + 2]];
+      areas[3 * f] += ay * bz - az * by;
+      areas[3 * f + 1] += az * bx - ax * bz;
+      areas[3 * f + 2] += ax * by - ay * bx;
+    }
+  }
+  return areas;
+}
+
+/** Edges that turn by more than the angle, in degrees, or that do not join two faces of one sense. */
+function sharpEdges(areas: Float32Array, { count, faces, against }: Edges, angle: number): Uint8Array {
+  const sharp = new Uint8Array(count);
+  const limit = Math.cos((angle * Math.PI) / 180);
+  for (let e = 0; e < count; ++e) {
+    const [a, b] = [3 * faces[2 * e], 3 * faces[2 * e + 1]];
+    if (b < 0 || against[e]) {
+      sharp[e] = 1;
+      continue;
+    }
+    const dot = areas[a] * areas[b] + areas[a + 1] * areas[b + 1] + areas[a + 2] * areas[b + 2];
+    const lengths = Math.hypot(areas[a], areas[a + 1], areas[a + 2]) * Math.hypot(areas[b], areas[b + 1], areas[b + 2]);
+    if (dot < limit * lengths) sharp[e] = 1;
+  }
+  return sharp;
+}
+
+/** Corners around a node share a vertex where smooth edges join their faces. */
+export function verticesOf(faces: Faces, positions: Float32Array, edges: Edges, angle = 40): Vertices {
+  const { begin, nodes } = faces;
+  const sharp = sharpEdges(areasOf(faces, positions), edges, angle);
+  const parent = Uint32Array.from(nodes.keys());
+  const root = (corner: number): number => {
+    while (parent[corner] !== corner) corner = parent[corner] = parent[parent[corner]];
+    return corner;
+  };
+  const cornerAt = (face: number, node: number): number => {
+    let corner = begin[face];
+    while (nodes[corner] !== node) ++corner;
+    return corner;
+  };
+  for (let e = 0; e < edges.count; ++e) {
+    if (sharp[e]) continue;
+    for (const node of [edges.ends[2 * e], edges.ends[2 * e + 1]])
+      parent[root(cornerAt(edges.faces[2 * e], node))] = root(cornerAt(edges.faces[2 * e + 1], node));
+  }
+  const vertexNodes = Array.from({ length: positions.length / 3 }, (_, node) => node);
+  const taken = new Uint8Array(vertexNodes.length);
+  const vertexOf = new Int32Array(nodes.length).fill(-1);
+  const corners = new Uint32Array(nodes.length);
+  for (let c = 0; c < nodes.length; ++c) {
+    const r = root(c);
+    if (vertexOf[r] < 0) {
+      vertexOf[r] = taken[nodes[c]] ? vertexNodes.push(nodes[c]) - 1 : nodes[c];
+      taken[nodes[c]] = 1;
+    }
+    corners[c] = vertexOf[r];
+  }
+  const features: number[] = [];
+  for (let e = 0; e < edges.count; ++e) if (sharp[e]) features.push(edges.ends[2 * e], edges.ends[2 * e + 1]);
+  return { nodes: Uint32Array.from(vertexNodes), corners, features: Uint32Array.from(features) };
+}
+
+/** Normals of vertices with Max's weights (1999), exact on spheres. */
+export function normalsAt({ begin, nodes }: Faces, { nodes: vertexNodes, corners }: Vertices, positions: Float32Array): Float32Array {
+  const normals = new Float32Array(3 * vertexNodes.length);
+  for (let f = 0; f + 1 < begin.length; ++f) {
+    for (let c = begin[f]; c < begin[f + 1]; ++c) {
+      const centre = 3 * nodes[c];
+      const a = 3 * nodes[c + 1 < begin[f + 1] ? c + 1 : begin[f]];
+      const b = 3 * nodes[c > begin[f] ? c - 1 : begin[f + 1] - 1];
+      const [ax, ay, az] = [positions[a] - positions[centre], positions[a + 1] - positions[centre + 1], positions[a + 2] - positions[centre + 2]];
+      const [bx, by, bz] = [positions[b] - positions[centre], positions[b + 1] - positions[centre + 1], positions[b + 2] - positions[centre + 2]];
+      const weight = 1 / ((ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz));
+      if (!Number.isFinite(weight)) continue;  // an edge without length
+      const vertex = 3 * corners[c];
+      normals[vertex] += weight * (ay * bz - az * by);
+      normals[vertex + 1] += weight * (az * bx - ax * bz);
+      normals[vertex + 2] += weight * (ax * by - ay * bx);
+    }
+  }
+  for (let k = 0; k < normals.length; k += 3) {
+    const length = Math.hypot(normals[k], normals[k + 1], normals[k + 2]) || 1;
+    for (let i = k; i < k + 3; ++i) normals[i] /= length;
+  }
+  return normals;
+}

@@ -1,0 +1,198 @@
+// The view: the surface, its lines and markers, drawn when something has changed.
+
+import {
+  BufferAttribute, BufferGeometry, Color, ColorManagement, LineBasicMaterial, LinearSRGBColorSpace, LineSegments, Matrix4, Mesh, MOUSE,
+  OrthographicCamera, Scene, Vector3, WebGLRenderer,
+} from 'three';
+import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { Markers } from './markers';
+import { looks, surfaceMaterial, type Look } from './materials';
+import type { Seen } from './picking';
+import { drawsInSoftware } from './software';
+import { placesOf, type Shape } from './shape';
+import { normalsAt, verticesOf, type Vertices } from './vertices';
+
+ColorManagement.enabled = false;  // colours are those of the style sheet
+
+export class View {
+  readonly markers = new Markers();
+  private readonly scene = new Scene();
+  private readonly camera = new OrthographicCamera(-1, 1, 1, -1, -50, 50);
+  private readonly renderer: WebGLRenderer;
+  private readonly controls: OrbitControls;
+  private readonly surface = new Mesh(new BufferGeometry(), surfaceMaterial());
+  private readonly lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
+  private readonly features = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
+  private shape: Shape | null = null;
+  private vertices: Vertices | null = null;
+  private places: Float32Array = new Float32Array();
+  private look: Look = 'shaded';
+  private asked = false;
+  /** Smooth edges come from the card; without one, from a finer picture when all has been still for a while. */
+  private readonly software = drawsInSoftware();
+  private fine = false;
+  private rest = 0;
+
+  /** panel: what may lie above the right end of the view. drawn: called after each picture. Throws where the browser has no WebGL 2. */
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly panel: HTMLElement, private readonly drawn: () => void) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software });
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.PAN };
+    this.controls.zoomToCursor = true;
+    this.controls.minZoom = 0.05;
+    this.controls.maxZoom = 1e4;
+    this.controls.addEventListener('change', () => this.draw());
+    this.scene.add(this.surface, this.lines, this.features, ...this.markers.objects);
+    for (const object of this.scene.children) object.frustumCulled = false;
+    new ResizeObserver(() => this.resize()).observe(canvas);
+  }
+
+  open(shape: Shape): void {
+    this.shape = shape;
+    this.show(shape.input, true);
+    this.fit(true);
+  }
+
+  /** settled: what is sharp is looked for anew, which a shape that changes many times a second does without. */
+  show(positions: Float64Array, settled: boolean): void {
+    if (!this.shape) return;
+    this.places = placesOf(this.shape, positions);
+    if (settled || !this.vertices) this.split(this.shape);
+    const { nodes } = this.vertices!;
+    const at = this.surface.geometry.getAttribute('position').array as Float32Array;
+    for (let v = 0; v < nodes.length; ++v) for (let i = 0; i < 3; ++i) at[3 * v + i] = this.places[3 * nodes[v] + i];
+    (this.surface.geometry.getAttribute('normal').array as Float32Array).set(normalsAt(this.shape.faces, this.vertices!, this.places));
+    for (const name of ['position', 'normal']) this.surface.geometry.getAttribute(name).needsUpdate = true;
+    for (const { geometry } of [this.lines, this.features]) {
+      (geometry.getAttribute('position').array as Float32Array).set(this.places);
+      geometry.getAttribute('position').needsUpdate = true;
+    }
+    this.markers.move(this.places);
+    this.draw();
+  }
+
+  setLook(look: Look): void {
+    this.look = look;
+    this.restyle();
+  }
+
+  /** Takes the colours of the style sheet. */
+  restyle(): void {
+    const style = getComputedStyle(this.canvas);
+    const colour = (name: string): Color => {
+      this.canvas.style.color = `var(${name})`;
+      return new Color().setStyle(style.color);
+    };
+    this.renderer.setClearColor(colour('--stage'));
+    const { kind, colour: fill } = this.surface.material.uniforms;
+    kind.value = looks.indexOf(this.look);
+    fill.value = colour(this.look === 'wire' ? '--stage' : '--surface');
+    this.lines.material.color = colour('--wire');
+    this.features.material.color = colour('--feature');
+    this.lines.visible = this.look === 'wire';
+    this.markers.restyle(colour);
+    this.canvas.style.color = '';
+    this.draw();
+  }
+
+  /** The whole surface in the view; home: from the side that a surface is first seen from. */
+  fit(home = false): void {
+    const { camera, controls } = this;
+    const from = home ? new Vector3(0.45, -0.85, 0.75) : camera.position.clone().sub(controls.target);
+    camera.position.copy(from.normalize().multiplyScalar(5));
+    controls.target.set(0, 0, 0);
+    controls.update();
+    camera.updateMatrixWorld();
+    const low = new Vector3().setScalar(Infinity);
+    const high = new Vector3().setScalar(-Infinity);
+    const place = new Vector3();
+    for (let k = 0; k < this.places.length; k += 3) {
+      place.fromArray(this.places, k).applyMatrix4(camera.matrixWorldInverse);
+      low.min(place);
+      high.max(place);
+    }
+    if (low.x > high.x) return;
+    const middle = low.clone().add(high).multiplyScalar(0.5).applyMatrix4(camera.matrixWorld);
+    camera.position.sub(controls.target).add(middle);
+    controls.target.copy(middle);
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const covered = getComputedStyle(this.panel).position === 'absolute' ? width - this.panel.offsetLeft : 0;
+    camera.zoom = 1.6 / Math.max(high.y - low.y, ((high.x - low.x) * height) / Math.max(1, width - covered), 1e-3);
+    const aside = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0).multiplyScalar(covered / height / camera.zoom);
+    for (const end of [camera.position, controls.target]) end.add(aside);
+    this.resize();
+    controls.update();
+  }
+
+  zoomBy(factor: number): void {
+    this.camera.zoom = Math.min(1e4, Math.max(0.05, this.camera.zoom * factor));
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  seen(): Seen | null {
+    if (!this.shape) return null;
+    this.camera.updateMatrixWorld();
+    const matrix = new Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse).elements;
+    return { places: this.places, triangles: this.shape.triangles, matrix, width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+
+  /** A way on the screen, in pixels, as one in the plane of the view, in units of the file. */
+  wayOf(across: number, down: number): [number, number, number] {
+    const perPixel = 2 / this.camera.zoom / this.canvas.clientHeight / (this.shape?.scale ?? 1);
+    const [right, up] = [0, 1].map((column) => new Vector3().setFromMatrixColumn(this.camera.matrixWorld, column));
+    return right.multiplyScalar(across * perPixel).addScaledVector(up, -down * perPixel).toArray();
+  }
+
+  /** Many changes, one picture: when the browser paints next. */
+  draw(): void {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.refine(false);
+      this.renderer.render(this.scene, this.camera);
+      this.drawn();
+      clearTimeout(this.rest);
+      if (this.software) this.rest = window.setTimeout(() => this.refine(true), 300);
+    });
+  }
+
+  private split(shape: Shape): void {
+    const vertices = (this.vertices = verticesOf(shape.faces, this.places, shape.edges));
+    const geometry = (count: number, index: Uint32Array, names: string[]): BufferGeometry => {
+      const made = new BufferGeometry().setIndex(new BufferAttribute(index, 1));
+      for (const name of names) made.setAttribute(name, new BufferAttribute(new Float32Array(3 * count), 3));
+      return made;
+    };
+    for (const object of [this.surface, this.lines, this.features]) object.geometry.dispose();
+    this.surface.geometry = geometry(vertices.nodes.length, shape.triangleCorners.map((c) => vertices.corners[c]), ['position', 'normal']);
+    this.lines.geometry = geometry(this.places.length / 3, shape.edges.ends, ['position']);
+    this.features.geometry = geometry(this.places.length / 3, vertices.features, ['position']);
+  }
+
+  private refine(fine: boolean): void {
+    if (fine === this.fine) return;
+    this.fine = fine;
+    this.resizePicture();
+    if (fine) this.renderer.render(this.scene, this.camera);
+  }
+
+  private resizePicture(): void {
+    const ratio = window.devicePixelRatio * (this.fine ? 2 : 1);
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
+    this.markers.scale(ratio);
+  }
+
+  private resize(): void {
+    const { clientWidth, clientHeight } = this.canvas;
+    const ratio = clientWidth / Math.max(1, clientHeight);
+    this.resizePicture();
+    Object.assign(this.camera, { left: -ratio, right: ratio });
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+}

@@ -1,0 +1,92 @@
+// The worker that owns the library and the open surface. It answers one request after the other.
+
+import type { Core, CoreFactory, CoreSurface } from './core';
+import type { Answer, Ask, Kind, Reply, Request, Start } from './protocol';
+
+declare const vspringCore: CoreFactory;
+declare function importScripts(address: string): void;
+declare function postMessage(reply: Reply, transfer?: Transferable[]): void;
+
+let core: Core;
+let surface: CoreSurface | null = null;
+let ended: Int32Array | null = null;
+/** Whether the shape is the one that the constraints give from the input. */
+let settled = false;
+
+type Progress = (fraction: number) => boolean;
+type Handlers = { [K in Kind]: (ask: Ask<K>, progress: Progress) => Answer<K> };
+
+function opened(): CoreSurface {
+  if (!surface) throw new Error('No surface is open');
+  return surface;
+}
+
+const handlers: Handlers = {
+  open({ name, bytes, rules }) {
+    const next = new core.Surface(bytes, name);
+    try {
+      next.setRules(rules);
+    } catch (error) {
+      next.delete();
+      throw error;
+    }
+    surface?.delete();
+    surface = next;
+    settled = false;
+    return { positions: next.positions(), faceBegin: next.faceBegin(), corners: next.corners(), boundary: next.boundary(), warnings: next.warnings() };
+  },
+  hold({ rules }) {
+    opened().setRules(rules);
+    settled = false;
+    return null;
+  },
+  solve({ rules, drag }, progress) {
+    const target = opened();
+    settled = false;
+    if (rules !== undefined) target.setRules(rules);
+    drag?.nodes.forEach((node, k) => target.holdPosition(node, drag.places[3 * k], drag.places[3 * k + 1], drag.places[3 * k + 2]));
+    const report = drag ? target.follow(progress) : target.fair(progress);
+    settled = !drag && report.outcome !== 'cancelled';
+    return { positions: target.positions(), report };
+  },
+  write({ name }) {
+    const target = opened();
+    if (!settled) target.fair(null);
+    settled = true;
+    return target.write(name);
+  },
+};
+
+function transferables(answer: Answer<Kind>): Transferable[] {
+  if (answer === null) return [];
+  return [answer, ...(ArrayBuffer.isView(answer) ? [] : Object.values(answer))].filter(ArrayBuffer.isView).map((array) => array.buffer as ArrayBuffer);
+}
+
+function handle<K extends Kind>({ number, kind, ask }: Request<K>): void {
+  const progress: Progress = (fraction) => {
+    postMessage({ number, fraction });
+    return ended !== null && Atomics.load(ended, 0) >= number;
+  };
+  try {
+    const answer = handlers[kind](ask, progress);
+    postMessage({ number, answer }, transferables(answer));
+  } catch (error) {
+    postMessage({ number, error: error instanceof Error ? error.message : String(error) });
+  }
+}
+
+const ready = new Promise<void>((done, failed) => {
+  self.addEventListener('message', ({ data }: MessageEvent<Start>) => {
+    ended = data.ended;
+    importScripts(data.core);
+    vspringCore({ locateFile: (name) => new URL(name, data.core).href }).then((loaded) => {
+      core = loaded;
+      done();
+    }, failed);
+  }, { once: true });
+});
+
+self.addEventListener('message', ({ data }: MessageEvent<Start | Request>) => {
+  if (!('kind' in data)) return;
+  ready.then(() => handle(data), (error: unknown) => postMessage({ number: data.number, error: `The library cannot be loaded: ${error}` }));
+});

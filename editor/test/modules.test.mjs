@@ -1,0 +1,163 @@
+// What needs no browser: constraints, history, the one job that waits, picking, sharp edges, frames.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { compiled } from './support.mjs';
+
+const constraints = await compiled('constraints');
+const history = await compiled('history');
+const { merged, Solver } = await compiled('client');
+const { pick } = await compiled('picking');
+const { verticesOf, normalsAt } = await compiled('vertices');
+const { shapeOf, placesOf } = await compiled('shape');
+const { withLoops } = await compiled('loops');
+const { Pull } = await compiled('pull');
+const { FrameCounter } = await compiled('frames');
+
+test('constraints come out of the file that they are written to', () => {
+  const { initial, edited, placed, toFile, fromFile, heldNodes, withBoundary } = constraints;
+  const third = 1 / 3;
+  let state = placed(initial, [4, 2], Float64Array.of(third, 1e-30, -2, 1, 2, 3));
+  state = edited(state, [1], () => ({ position: 'free', normal: 'fixed' }));
+  const boundary = Uint8Array.of(1, 1, 0, 0, 0);
+  const rules = JSON.parse(toFile(state)).rules;
+  assert.deepEqual(rules, [
+    { nodes: 'boundary', position: 'fixed' },
+    { nodes: [1], position: 'free' },
+    { nodes: [2, 4], position: [[1, 2, 3], [third, 1e-30, -2]] },
+    { nodes: [1], normal: 'fixed' },
+  ]);
+  const again = fromFile(toFile(state));
+  assert.equal(toFile(again), toFile(state));
+  for (const same of [state, again]) assert.deepEqual([...heldNodes(same, boundary).nodes], [1, 2, 1, 0, 1]);
+  const without = withBoundary(withBoundary(state, 'normal', true), 'position', false);
+  assert.deepEqual(JSON.parse(toFile(without)).rules[0], { nodes: 'boundary', normal: 'fixed' });
+  assert.deepEqual(initial.edits, {}, 'states are never changed');
+});
+
+test('rules about groups and regions are kept, and counted as not marked', () => {
+  const file = '{"rules": [\n  {"nodes":{"group":"rim"},"position":"fixed","note":1},\n  {"nodes":"interior","normal":"file"}\n]}\n';
+  const state = constraints.fromFile(file);
+  assert.equal(constraints.toFile(state), file);
+  const held = constraints.heldNodes(state, Uint8Array.of(1, 0));
+  assert.deepEqual([[...held.nodes], held.unmarked], [[0, 2], 1]);
+  assert.throws(() => constraints.fromFile('{"rule": []}'), /a list "rules"/);
+  assert.throws(() => constraints.fromFile('{'), SyntaxError);
+});
+
+test('what is undone can be redone, until something else is done', () => {
+  const { begun, done, undone, redone } = history;
+  const two = done(done(begun(0), 'one', 1), 'two', 2);
+  assert.equal(undone(two).now.state, 1);
+  assert.deepEqual(redone(undone(two)), two);
+  const other = done(undone(two), 'three', 3);
+  assert.deepEqual([other.now.state, other.past.length, other.future.length], [3, 2, 0]);
+});
+
+test('newer jobs stand for those that wait, and constraints are not lost', async () => {
+  const drag = (time) => ({ drag: { nodes: Int32Array.of(0), places: new Float64Array(3), time } });
+  assert.deepEqual(merged({ rules: 'a' }, drag(1)), { rules: 'a', ...drag(1) });
+  assert.deepEqual(merged(drag(1), { rules: 'b' }), { rules: 'b' });
+  const asked = [];
+  const ends = [];
+  const busy = [];
+  const client = { ask: (_, job) => new Promise((done) => asked.push({ job, done })), endAll: () => ends.push(asked.length) };
+  const solver = new Solver(client, { solved() {}, failed() {}, progress() {}, busy: (on) => busy.push(on) });
+  for (let time = 0; time < 50; ++time) solver.push(drag(time));
+  assert.equal(asked.length, 1);
+  asked[0].done({});
+  await new Promise(setImmediate);
+  assert.deepEqual(asked.map(({ job }) => job.drag.time), [0, 49]);
+  solver.push({ rules: 'c' });
+  assert.deepEqual(ends, [], 'a frame is shown');
+  asked[1].done({});
+  await new Promise(setImmediate);
+  solver.push(drag(60));
+  assert.deepEqual(ends, [3], 'what takes long is not waited for');
+  asked[2].done({});
+  await new Promise(setImmediate);
+  asked[3].done({});
+  await new Promise(setImmediate);
+  assert.deepEqual([asked.length, busy.at(-1)], [4, false]);
+});
+
+// A cube of six quads about the origin, its sides all facing outwards.
+function cube() {
+  const positions = Float64Array.from({ length: 24 }, (_, k) => ((Math.floor(k / 3) >> (k % 3)) & 1 ? 3 : 1));
+  const corners = Int32Array.of(0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5);
+  return shapeOf({ positions, corners, faceBegin: Int32Array.from({ length: 7 }, (_, f) => 4 * f), boundary: new Uint8Array(8), warnings: [] });
+}
+
+test('a cube is drawn with a vertex for each of its 24 corners, and with true normals', () => {
+  const shape = cube();
+  const places = placesOf(shape, shape.input);
+  const vertices = verticesOf(shape.faces, places, shape.edges);
+  assert.equal(shape.triangles.length, 36);
+  assert.equal(vertices.nodes.length, 24);
+  assert.equal(vertices.features.length, 24);
+  const normals = normalsAt(shape.faces, vertices, places);
+  for (let v = 0; v < 24; ++v) {
+    const normal = [...normals.subarray(3 * v, 3 * v + 3)];
+    assert.equal(normal.filter((part) => part !== 0).length, 1);
+    const axis = normal.findIndex((part) => part !== 0);
+    assert.equal(Math.sign(normal[axis]), Math.sign(places[3 * vertices.nodes[v] + axis]));
+  }
+  assert.equal(verticesOf(shape.faces, places, shape.edges, 100).nodes.length, 8, 'one for each node where nothing is sharp');
+});
+
+test('picks the nearest node that nothing hides', () => {
+  const shape = cube();
+  const matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0.1, 0, -1, 0, 0, 0, 0, 1];  // from above, a little from the side
+  const seen = { places: placesOf(shape, shape.input), triangles: shape.triangles, matrix, width: 200, height: 200 };
+  const [x, y, z] = seen.places.subarray(12, 15);
+  const at = [100 * (1 + x + 0.1 * z), 100 * (1 - y)];
+  assert.ok(z > 0);
+  assert.equal(pick(seen, ...at, 3, () => false), 4);
+  const [hx, hy, hz] = seen.places.subarray(0, 3);
+  assert.ok(hz < 0);
+  const below = [100 * (1 + hx + 0.1 * hz), 100 * (1 - hy)];
+  assert.equal(pick(seen, ...below, 3, () => false), 0, 'seen beside the upper side');
+  assert.equal(pick(seen, below[0] + 11.6, below[1], 12, (node) => node === 4), 4);
+  const [fx, fy, fz] = seen.places.subarray(3, 6);
+  assert.equal(pick(seen, 100 * (1 + fx + 0.1 * fz), 100 * (1 - fy), 3, () => false), -1, 'under the upper side');
+  assert.equal(pick(seen, 100, 100, 3, () => false), -1);
+});
+
+test('a boundary loop is picked from one of its nodes', () => {
+  // A square with a triangle beside it.
+  const shape = shapeOf({ positions: new Float64Array(21), corners: Int32Array.of(0, 1, 2, 3, 4, 5, 6), faceBegin: Int32Array.of(0, 4, 7),
+    boundary: new Uint8Array(7).fill(1), warnings: [] });
+  assert.deepEqual([...withLoops(shape, [5])].sort(), [4, 5, 6]);
+  assert.deepEqual([...withLoops(shape, [0, 4])].length, 7);
+});
+
+test('a long way is made in steps, shorter ones where they take many iterations, and ends where the pointer is', () => {
+  const pull = new Pull([7], Float64Array.of(0.1, 0.2, 0.3), 1);
+  pull.aim([1 / 3, 0, 0], 5);
+  const lengths = [];
+  for (let from = 0.1, steps = 0; !pull.arrived && steps < 100; ++steps) {
+    const drag = pull.step();
+    lengths.push(drag.places[0] - from);
+    from = drag.places[0];
+    pull.solved(drag, steps < 3 ? 20 : 5);
+    assert.equal(drag.time, pull.arrived ? 5 : -Infinity);
+  }
+  assert.ok(Math.abs(lengths[0] - 0.02) < 1e-12);
+  assert.ok(Math.abs(lengths[2] - 0.005) < 1e-12);
+  assert.ok(lengths.length < 12, 'steps grow again');
+  assert.deepEqual([...pull.step().places], [0.1 + 1 / 3, 0.2, 0.3]);
+  assert.deepEqual([...pull.places], [0.1 + 1 / 3, 0.2, 0.3]);
+});
+
+test('a frame counts if its shape is of a place at most 100 ms old', () => {
+  const frames = new FrameCounter();
+  frames.start(1000);
+  frames.solved(1000);
+  frames.drawn(1050);
+  frames.drawn(1060);
+  frames.solved(1000);
+  frames.drawn(1200);
+  frames.solved(1400);
+  frames.drawn(1500);
+  assert.equal(frames.perSecond(1500), 4);
+});

@@ -25,7 +25,8 @@ bool mostly_longer(const Drawing& drawing, double scale, double longest) {
   std::ptrdiff_t longer = 0;
   std::ptrdiff_t all = 0;
   for (const Drawing::Run& run : drawing.runs) {
-    longer += std::ranges::count_if(run.curvatures, [&](const Vector2& c) { return scale * c.norm() > longest; });
+    longer += std::count_if(run.curvatures.begin(), run.curvatures.end(),
+                            [&](const Vector2& c) { return scale * c.norm() > longest; });
     all += std::ssize(run.curvatures);
   }
   return 2 * longer > all;

@@ -39,7 +39,8 @@ struct FairOptions {
   /// mean length of its edges.
   double step_tolerance = 1e-3;
   /// Where not given: 10,000 sweeps, with multigrid on each level; 200 iterations of the equilibrium solver on each of
-  /// its levels.
+  /// its levels, and where these lead nowhere, on surfaces of up to 10,000 moving nodes, steps along the flow of the
+  /// plain iteration.
   std::optional<int> max_iterations = std::nullopt;
   /// Multigrid: levels, the shape itself among them; fewer where that has too few nodes. Where not given: 6 as in the
   /// paper, but fewer where the coarsest would have under 60 moving nodes, and more where there are enough for another;

@@ -11,7 +11,6 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <utility>
 
 #include "base/progress.hpp"
@@ -106,14 +105,11 @@ class Fitting {
 
     fair.before = fairness_of(shape_, constraints_, team_);
     fair.after = fairness_of(fitted(), constraints_, team_);
-    report.before = summary(point_distances(points_.positions, shape_, measuring_));
+    const std::vector<std::uint8_t> every(kept_.size(), 1);
+    report.before = summary(point_distances(points_.positions, shape_, measuring_), every);
     result_.distances = distances();
-    std::vector<double> counted;
-    for (std::size_t j = 0; j < kept_.size(); ++j) {
-      if (kept_[j] != 0) counted.push_back(result_.distances[j]);
-    }
-    report.outliers = static_cast<Index>(kept_.size() - counted.size());
-    report.after = summary(std::move(counted));
+    report.after = summary(result_.distances, kept_);
+    report.outliers = report.points - report.after.all.count;
     fair.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     return std::move(result_);
   }
@@ -147,29 +143,14 @@ class Fitting {
     for (int turn = 0; turn < most_turns; ++turn) {
       fit(progress, smooth_first);
       if (context_.cancelled()) return;
-      if (choose_kept(distances())) continue;
+      const auto before = std::exchange(kept_, without_furthest(distances(), options_.outliers));
+      if (before != kept_) continue;
       if (!smooth_first) return;
       smooth_first = false;
     }
     if (smooth_first) fit(progress, false);
     result_.report.fair.warnings.emplace_back(
         "the outliers went on changing with the shape: the last ones are left out");
-  }
-
-  /// True where that are others than before.
-  bool choose_kept(const std::vector<double>& distances) {
-    std::vector<std::uint32_t> order(distances.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto count =
-        static_cast<std::ptrdiff_t>(std::floor(options_.outliers * static_cast<double>(distances.size())));
-    std::nth_element(order.begin(), order.begin() + count, order.end(), [&](std::uint32_t a, std::uint32_t b) {
-      return distances[a] > distances[b] || (distances[a] == distances[b] && a < b);
-    });
-    std::vector<std::uint8_t> kept(distances.size(), 1);
-    for (std::ptrdiff_t k = 0; k < count; ++k) kept[order[static_cast<std::size_t>(k)]] = 0;
-    const bool others = kept != kept_;
-    kept_ = std::move(kept);
-    return others;
   }
 
   /// smooth: by some edges, instead of to a tolerance.
@@ -364,7 +345,8 @@ class Fitting {
     weights.resize(points_.positions.size(), 1);
     const double weight = options_.smoothing_length || options_.within || options_.rms ? 1 : options_.weight;
     for (std::size_t j = 0; j < weights.size(); ++j) weights[j] *= kept_[j] * weight;
-    return {points_.positions, std::move(weights), find_nearest()};
+    if (nearest_.empty()) nearest_ = find_nearest();
+    return {points_.positions, std::move(weights), nearest_};
   }
 
   [[nodiscard]] std::vector<Index> find_nearest() {
@@ -398,6 +380,7 @@ class Fitting {
   ThreadTeam team_;
   FitResult result_;
   std::vector<std::uint8_t> kept_;  // of every point, 0 for those left out
+  std::vector<Index> nearest_;      // the node nearest to every point at the start
 };
 
 template <typename Shape>

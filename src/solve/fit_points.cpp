@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "vspring/error.hpp"
@@ -38,23 +39,41 @@ void check_points(const ScatteredPoints& points) {
   }
 }
 
-PointDistances summary(std::vector<double> distances) {
+std::vector<std::uint8_t> without_furthest(std::span<const double> distances, double share) {
+  std::vector<std::uint32_t> order(distances.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto count = static_cast<std::ptrdiff_t>(std::floor(share * static_cast<double>(distances.size())));
+  std::nth_element(order.begin(), order.begin() + count, order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return distances[a] > distances[b] || (distances[a] == distances[b] && a < b);
+  });
+  std::vector<std::uint8_t> kept(distances.size(), 1);
+  for (std::ptrdiff_t k = 0; k < count; ++k) kept[order[static_cast<std::size_t>(k)]] = 0;
+  return kept;
+}
+
+PointDistances summary(std::span<const double> distances, std::span<const std::uint8_t> counted) {
   PointDistances result;
-  const auto furthest = std::max_element(distances.begin(), distances.end());
   Distance& all = result.all;
-  all.greatest = *furthest;
-  all.node = static_cast<Index>(furthest - distances.begin());
-  all.count = static_cast<Index>(distances.size());
+  std::vector<double> those;
+  for (std::size_t j = 0; j < distances.size(); ++j) {
+    if (counted[j] == 0) continue;
+    if (those.empty() || distances[j] > all.greatest) {
+      all.greatest = distances[j];
+      all.node = static_cast<Index>(j);
+    }
+    those.push_back(distances[j]);
+  }
+  all.count = static_cast<Index>(those.size());
   double squares = 0;
-  for (const double distance : distances) {
+  for (const double distance : those) {
     const double share = all.greatest > 0 ? distance / all.greatest : 0;
     squares += share * share;
   }
-  all.rms = all.greatest * std::sqrt(squares / static_cast<double>(distances.size()));
+  all.rms = all.greatest * std::sqrt(squares / static_cast<double>(those.size()));
   const auto percentile = [&](double share) {
-    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(distances.size())));
-    const auto place = distances.begin() + rank - 1;
-    std::nth_element(distances.begin(), place, distances.end());
+    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(those.size())));
+    const auto place = those.begin() + rank - 1;
+    std::nth_element(those.begin(), place, those.end());
     return *place;
   };
   result.median = percentile(0.5);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "vspring/fit.hpp"
@@ -9,7 +11,10 @@ namespace vspring {
 /// Throws Error(invalid_argument) naming a point that fit() does not take.
 void check_points(const ScatteredPoints& points);
 
-/// What there is to say of the distances of one point or more.
-PointDistances summary(std::vector<double> distances);
+/// One entry per point, 0 for the share of them that is furthest away, rounded down; of equals the first ones go.
+std::vector<std::uint8_t> without_furthest(std::span<const double> distances, double share);
+
+/// What there is to say of the distances of the points that count, one or more: counted is 1 for these, else 0.
+PointDistances summary(std::span<const double> distances, std::span<const std::uint8_t> counted);
 
 }  // namespace vspring

@@ -318,6 +318,8 @@ TEST(FitOutliers, AreLeftOut) {
     EXPECT_LT(off(result), 0.005);
     EXPECT_LT(result.report.after.all.greatest, 0.005);
     EXPECT_EQ(result.report.after.all.count, 97);
+    EXPECT_EQ(result.distances[static_cast<std::size_t>(result.report.after.all.node)],
+              result.report.after.all.greatest);
     EXPECT_NEAR(result.distances[45], 0.3, 0.05);
   }
   EXPECT_GT(off(fit(wave.curve, wave.held, points, smoothing(0.05, 1e-6))), 0.02);

@@ -140,6 +140,48 @@ class Surface {
   /// From the last shape, where that leads somewhere.
   val follow(const val& progress) { return solve(progress); }
 
+  /// What must hold besides for only those nodes to move: `fixed`, nodes that stay where the file has them, and `rim`
+  /// with its `normals`, three numbers each.
+  [[nodiscard]] val region(const val& nodes) const {
+    return forwarding_errors([&] {
+      Constraints restricted = *constraints_;
+      restrict_to_region(restricted, file_.mesh, emscripten::convertJSArrayToNumberVector<Index>(nodes));
+      std::vector<Index> fixed;
+      std::vector<Index> rim;
+      std::vector<Vector3> normals;
+      for (Index node = 0; node < node_count(); ++node) {
+        if (restricted.position_fixed(node) && !constraints_->position_fixed(node)) fixed.push_back(node);
+        if (!restricted.normal_fixed(node) || constraints_->normal_fixed(node)) continue;
+        rim.push_back(node);
+        normals.push_back(restricted.normal(node));
+      }
+      val result = val::object();
+      result.set("fixed", array_of("Int32Array", fixed.size(), fixed.data()));
+      result.set("rim", array_of("Int32Array", rim.size(), rim.data()));
+      result.set("normals", positions_array(normals));
+      return result;
+    });
+  }
+  /// The principal curvatures of a shape of these nodes: `k1` and `k2`, k1 not less than k2.
+  [[nodiscard]] val curvatures(const val& positions) const {
+    return forwarding_errors([&] {
+      PolygonMesh mesh = file_.mesh;
+      mesh.set_positions(vectors_of(positions));
+      Context context;
+      context.threads = 1;
+      std::vector<double> k1;
+      std::vector<double> k2;
+      for (const NodeCurvature& at : vspring::curvatures(mesh, context)) {
+        k1.push_back(at.k1);
+        k2.push_back(at.k2);
+      }
+      val result = val::object();
+      result.set("k1", array_of("Float64Array", k1.size(), k1.data()));
+      result.set("k2", array_of("Float64Array", k2.size(), k2.data()));
+      return result;
+    });
+  }
+
   /// The bytes of a file of that name, with the last shape.
   [[nodiscard]] val write(const std::string& name) const {
     return forwarding_errors([&] {
@@ -206,6 +248,8 @@ EMSCRIPTEN_BINDINGS(vspring) {
       .function("freeNormal", &Surface::free_normal)
       .function("fair", &Surface::fair)
       .function("follow", &Surface::follow)
+      .function("region", &Surface::region)
+      .function("curvatures", &Surface::curvatures)
       .function("write", &Surface::write)
       .function("setPositions", &Surface::set_positions);
   emscripten::function(

@@ -114,6 +114,34 @@ test('follows a node that is dragged, and memory does not grow', () => {
   surface.delete();
 });
 
+test('what holds a region is what --region holds, and curvatures are those of --scalars', () => {
+  const path = generated('saddle.ply', 'saddle', '--columns', '14', '--rows', '14', '--noise', '0.01');
+  const surface = opened(path, 'saddle.ply');
+  const nodes = Int32Array.of(80, 81, 82, 94, 95, 96, 108, 109, 110, 111);
+  const { fixed, rim, normals } = surface.region(nodes);
+  surface.setRules(JSON.stringify({ rules: [...JSON.parse(rules).rules, { nodes: [...fixed], position: 'fixed' },
+    { nodes: [...rim], normal: Array.from(rim, (_, k) => [...normals.subarray(3 * k, 3 * k + 3)]) }] }));
+  surface.fair(null);
+  writeFileSync(join(folder, 'region.json'), JSON.stringify([...nodes]));
+  const fair = join(folder, 'region.ply');
+  native('fair', path, '-o', fair, '--constraints', join(folder, 'rules.json'), '--region', join(folder, 'region.json'), '--quiet');
+  const expected = opened(fair, 'saddle.ply');
+  assert.ok(greatestDistance(surface.positions(), expected.positions()) < 1e-6);
+  assert.ok(greatestDistance(surface.positions(), opened(path, 'saddle.ply').positions()) > 1e-3);
+  assert.throws(() => surface.region(Int32Array.of(-1)), /node -1 does not exist/);
+
+  const scalars = join(folder, 'scalars.vtp');
+  native('measure', fair, '--scalars', scalars);
+  const text = readFileSync(scalars, 'utf8');
+  const { k1, k2 } = surface.curvatures(expected.positions());
+  for (const [name, values] of [['principal_curvature_1', k1], ['principal_curvature_2', k2]]) {
+    const theirs = text.match(new RegExp(`Name="${name}"[^>]*>([^<]*)<`))[1].trim().split(/\s+/).map(Number);
+    assert.equal(theirs.length, values.length);
+    theirs.forEach((value, k) => assert.ok(Math.abs(value - values[k]) < 1e-6, `${name} of node ${k}: ${value}, ${values[k]}`));
+  }
+  for (const one of [surface, expected]) one.delete();
+});
+
 test('ends soon when asked to, with a shape', () => {
   const surface = opened(generated('cancel.obj', 'annulus', '--nodes', '6000', '--noise', '0.05'), 'cancel.obj');
   const report = surface.fair((fraction) => fraction > 0);

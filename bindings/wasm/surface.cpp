@@ -1,0 +1,168 @@
+// A surface that is open: what holds it, and its fair shape.
+
+#include <optional>
+
+#include "values.hpp"
+
+namespace vspring {
+
+namespace {
+
+/// One surface that is open.
+class Surface {
+ public:
+  /// bytes: a Uint8Array. name: of the file, for its format and for messages.
+  Surface(const val& bytes, const std::string& name) {
+    forwarding_errors(
+        [&] { file_ = read_from(bytes, name, [](const std::string& path) { return read_surface(path); }); });
+    constraints_.emplace(file_.mesh.node_count());
+    positions_ = file_.mesh.positions();
+  }
+
+  [[nodiscard]] int node_count() const { return file_.mesh.node_count(); }
+  [[nodiscard]] int face_count() const { return file_.mesh.face_count(); }
+  [[nodiscard]] val positions() const { return positions_array(positions_); }
+  [[nodiscard]] val face_begin() const {
+    return array_of("Int32Array", file_.mesh.face_begin().size(), file_.mesh.face_begin().data());
+  }
+  [[nodiscard]] val corners() const {
+    return array_of("Int32Array", file_.mesh.corners().size(), file_.mesh.corners().data());
+  }
+  /// 1 for every node of a boundary.
+  [[nodiscard]] val boundary() const {
+    const auto nodes = boundary_nodes(file_.mesh);
+    return array_of("Uint8Array", nodes.size(), nodes.data());
+  }
+  [[nodiscard]] val warnings() const { return list_of(file_.warnings); }
+
+  /// Holds as the constraints file says that the command line takes, and nothing else.
+  void set_rules(const std::string& json) {
+    forwarding_errors([&] {
+      Constraints constraints(file_.mesh.node_count());
+      apply_rules(constraints, file_.mesh, json, {.groups = &file_.groups, .normals = &file_.normals});
+      constraints_ = std::move(constraints);
+    });
+  }
+  void hold_position(Index node, double x, double y, double z) {
+    forwarding_errors([&] { constraints_->fix_position(node, Vector3(x, y, z)); });
+  }
+  void free_position(Index node) {
+    forwarding_errors([&] { constraints_->free_position(node); });
+  }
+  void hold_normal(Index node, double x, double y, double z) {
+    forwarding_errors([&] { constraints_->fix_normal(node, Vector3(x, y, z)); });
+  }
+  void free_normal(Index node) {
+    forwarding_errors([&] { constraints_->free_normal(node); });
+  }
+
+  /// From the file's shape. progress(fraction): true ends it soon with the best shape so far.
+  val fair(const val& progress) {
+    session_.reset();
+    return solve(progress);
+  }
+  /// From the last shape, where that leads somewhere.
+  val follow(const val& progress) { return solve(progress); }
+
+  /// What must hold besides for only those nodes to move: `fixed`, nodes that stay where the file has them, and `rim`
+  /// with its `normals`, three numbers each.
+  [[nodiscard]] val region(const val& nodes) const {
+    return forwarding_errors([&] {
+      Constraints restricted = *constraints_;
+      restrict_to_region(restricted, file_.mesh, emscripten::convertJSArrayToNumberVector<Index>(nodes));
+      std::vector<Index> fixed;
+      std::vector<Index> rim;
+      std::vector<Vector3> normals;
+      for (Index node = 0; node < node_count(); ++node) {
+        if (restricted.position_fixed(node) && !constraints_->position_fixed(node)) fixed.push_back(node);
+        if (!restricted.normal_fixed(node) || constraints_->normal_fixed(node)) continue;
+        rim.push_back(node);
+        normals.push_back(restricted.normal(node));
+      }
+      val result = val::object();
+      result.set("fixed", array_of("Int32Array", fixed.size(), fixed.data()));
+      result.set("rim", array_of("Int32Array", rim.size(), rim.data()));
+      result.set("normals", positions_array(normals));
+      return result;
+    });
+  }
+  /// The principal curvatures of a shape of these nodes: `k1` and `k2`, k1 not less than k2.
+  [[nodiscard]] val curvatures(const val& positions) const {
+    return forwarding_errors([&] {
+      PolygonMesh mesh = file_.mesh;
+      mesh.set_positions(vectors_of(positions));
+      Context context;
+      context.threads = 1;
+      std::vector<double> k1;
+      std::vector<double> k2;
+      for (const NodeCurvature& at : vspring::curvatures(mesh, context)) {
+        k1.push_back(at.k1);
+        k2.push_back(at.k2);
+      }
+      val result = val::object();
+      result.set("k1", array_of("Float64Array", k1.size(), k1.data()));
+      result.set("k2", array_of("Float64Array", k2.size(), k2.data()));
+      return result;
+    });
+  }
+
+  /// The bytes of a file of that name, with the last shape.
+  [[nodiscard]] val write(const std::string& name) const {
+    return forwarding_errors([&] {
+      return bytes_written(name, [&](const std::string& path) { (void)write_surface(path, file_, positions_); });
+    });
+  }
+  /// Another shape of the same nodes, such as an earlier one.
+  void set_positions(const val& positions) {
+    forwarding_errors([&] {
+      PolygonMesh mesh = file_.mesh;
+      mesh.set_positions(vectors_of(positions));
+      positions_ = mesh.positions();
+    });
+  }
+
+ private:
+  val solve(const val& progress) {
+    return forwarding_errors([&] {
+      if (!session_) session_.emplace(file_.mesh, FairOptions{}, 1);
+      Context context;
+      context.threads = 1;
+      ask(context, progress);
+      FairResult result = session_->fair(*constraints_, context);
+      positions_ = std::move(result.positions);
+      return to_val(result.report);
+    });
+  }
+
+  SurfaceFile file_;
+  std::vector<Vector3> positions_;
+  std::optional<Constraints> constraints_;
+  std::optional<FairingSession> session_;
+};
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(vspring_surface) {
+  emscripten::class_<Surface>("Surface")
+      .constructor<val, std::string>()
+      .function("nodeCount", &Surface::node_count)
+      .function("faceCount", &Surface::face_count)
+      .function("positions", &Surface::positions)
+      .function("faceBegin", &Surface::face_begin)
+      .function("corners", &Surface::corners)
+      .function("boundary", &Surface::boundary)
+      .function("warnings", &Surface::warnings)
+      .function("setRules", &Surface::set_rules)
+      .function("holdPosition", &Surface::hold_position)
+      .function("freePosition", &Surface::free_position)
+      .function("holdNormal", &Surface::hold_normal)
+      .function("freeNormal", &Surface::free_normal)
+      .function("fair", &Surface::fair)
+      .function("follow", &Surface::follow)
+      .function("region", &Surface::region)
+      .function("curvatures", &Surface::curvatures)
+      .function("write", &Surface::write)
+      .function("setPositions", &Surface::set_positions);
+}
+
+}  // namespace vspring

@@ -1,0 +1,115 @@
+// Between the library and JavaScript: arrays, lists, errors, progress, reports, files in memory.
+
+#pragma once
+
+#include <emscripten/bind.h>
+#include <emscripten/val.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "vspring/vspring.hpp"
+
+namespace vspring {
+
+using emscripten::val;
+
+/// A copy of its own, to be handed to another thread.
+template <typename Number>
+val array_of(const char* type, std::size_t count, const Number* numbers) {
+  const val view(emscripten::typed_memory_view(count, numbers));
+  return val::global(type).new_(view);
+}
+
+inline val positions_array(const std::vector<Vector3>& positions) {
+  static_assert(sizeof(Vector3) == 3 * sizeof(double));
+  return array_of("Float64Array", 3 * positions.size(), positions.empty() ? nullptr : positions.front().data());
+}
+
+inline std::vector<Vector3> vectors_of(const val& array) {
+  const auto numbers = emscripten::convertJSArrayToNumberVector<double>(array);
+  std::vector<Vector3> vectors(numbers.size() / 3);
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    vectors[i] = Vector3(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]);
+  return vectors;
+}
+
+inline val list_of(const std::vector<std::string>& lines) {
+  val list = val::array();
+  for (const std::string& line : lines) list.call<void>("push", val(line));
+  return list;
+}
+
+/// Library errors become JavaScript ones with the same text.
+template <typename Call>
+auto forwarding_errors(const Call& call) {
+  try {
+    return call();
+  } catch (const std::exception& error) {
+    val::global("Error").new_(std::string(error.what())).throw_();
+  }
+}
+
+/// A file in memory for as long as something is read from it or written to it.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const std::string& name) : path_("/" + name) {}
+  ~MemoryFile() { (void)std::remove(path_.c_str()); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// What is written to a file of that name, as a Uint8Array. write(path).
+template <typename Write>
+val bytes_written(const std::string& name, const Write& write) {
+  const MemoryFile memory(name);
+  write(memory.path());
+  std::string bytes;
+  std::FILE* stream = std::fopen(memory.path().c_str(), "rb");
+  char part[65536];
+  for (std::size_t size = 1; size > 0;) {
+    size = std::fread(part, 1, sizeof part, stream);
+    bytes.append(part, size);
+  }
+  std::fclose(stream);
+  return array_of("Uint8Array", bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+}
+
+/// What is read from bytes, a Uint8Array, under that name. read(path).
+template <typename Read>
+auto read_from(const val& bytes, const std::string& name, const Read& read) {
+  const MemoryFile memory(name);
+  write_file(memory.path(), bytes.as<std::string>());
+  return read(memory.path());
+}
+
+/// Asks progress(fraction), which may be null; true from it ends the solution soon.
+inline void ask(Context& context, const val& progress) {
+  if (progress.isNull() || progress.isUndefined()) return;
+  context.on_progress = [&context, progress](const Progress& now) {
+    if (progress(now.fraction).as<bool>()) context.cancel();
+  };
+}
+
+inline val to_val(const FairReport& report) {
+  val result = val::object();
+  result.set("outcome", std::string(name(report.outcome)));
+  result.set("iterations", report.iterations);
+  result.set("seconds", report.seconds);
+  result.set("expectedError", report.expected_error ? val(*report.expected_error) : val::null());
+  result.set("movingNodes", report.moving_nodes);
+  result.set("energyBefore", report.before.vspring_energy);
+  result.set("energyAfter", report.after.vspring_energy);
+  result.set("greatestTurnAfter", report.after.greatest_turn);
+  result.set("greatestMove", report.greatest_move);
+  result.set("warnings", list_of(report.warnings));
+  return result;
+}
+
+}  // namespace vspring

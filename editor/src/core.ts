@@ -1,6 +1,6 @@
 // The library in WebAssembly as the worker sees it: see docs/webassembly.md.
 
-import type { Report } from './protocol';
+import type { Region, Report } from './protocol';
 
 export interface CoreSurface {
   positions(): Float64Array;
@@ -12,6 +12,7 @@ export interface CoreSurface {
   holdPosition(node: number, x: number, y: number, z: number): void;
   fair(progress: ((fraction: number) => boolean) | null): Report;
   follow(progress: ((fraction: number) => boolean) | null): Report;
+  region(nodes: Int32Array): Region;
   write(name: string): Uint8Array;
   delete(): void;
 }

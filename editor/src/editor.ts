@@ -7,6 +7,7 @@ import { FrameCounter } from './frames';
 import { begun, done, redone, undone, type History } from './history';
 import type { Job, Report, Solved } from './protocol';
 import { Pull } from './pull';
+import { restricted } from './region';
 import { shapeOf, type Shape } from './shape';
 
 export interface EditorEvents {
@@ -121,6 +122,17 @@ export class Editor {
     const change = (node: number): Edit => ({ [part]: !fixed ? 'free' : part === 'normal' ? 'fixed' : this.placeOf(node) });
     this.apply(`${fixed ? 'Fix' : 'Free'} ${part} of ${this.picked.size} ${this.picked.size === 1 ? 'node' : 'nodes'}`,
       holding.edited(this.constraints, this.picked, change));
+  }
+
+  /** All other nodes are fixed, and what moves joins them smoothly. */
+  async fairOnlyPicked(): Promise<void> {
+    const { constraints } = this;
+    try {
+      const region = await this.client.ask('region', { rules: holding.toFile(constraints), nodes: Int32Array.from(this.picked) });
+      if (constraints === this.constraints) this.apply(`Fair only ${this.picked.size} ${this.picked.size === 1 ? 'node' : 'nodes'}`, restricted(constraints, region));
+    } catch (error) {
+      this.setFault((error as Error).message, 'solver');
+    }
   }
 
   isDraggable(node: number): boolean {

@@ -1,6 +1,8 @@
 // Pointer on the view: a click picks, a held node is dragged, all else is left to the camera.
 
 export interface GestureEvents {
+  /** Whether the pointer is to pick and drag, and no other tool is in hand. */
+  active: () => boolean;
   /** The node at a point of the canvas, or -1. */
   pick: (x: number, y: number, radius: number) => number;
   draggable: (node: number) => boolean;
@@ -43,13 +45,20 @@ export class Gestures {
   }
 
   private down(event: PointerEvent): void {
-    if (this.start || event.button !== 0 || !event.isPrimary) return;
+    if (!event.isPrimary && this.start) this.joined(event);
+    if (!this.events.active() || this.start || event.button !== 0 || !event.isPrimary) return;
     const node = this.pick(event);
     const drags = node >= 0 && !event.shiftKey && this.events.draggable(node);
     this.start = { id: event.pointerId, x: event.clientX, y: event.clientY, node, moved: false, drags };
     if (!drags) return;
     event.stopImmediatePropagation();
     this.canvas.setPointerCapture(event.pointerId);
+  }
+
+  /** A second finger: the view moves, and nothing is picked; it does not count while a node is dragged. */
+  private joined(event: PointerEvent): void {
+    if (this.start!.drags) event.stopImmediatePropagation();
+    this.start!.moved = true;
   }
 
   private move(event: PointerEvent): void {
@@ -77,11 +86,11 @@ export class Gestures {
 
   /** At most once a frame. */
   private hover(event: PointerEvent): void {
-    if (this.hoverAsked || event.buttons !== 0) return;
+    if (!this.events.active() || this.hoverAsked || event.buttons !== 0) return;
     this.hoverAsked = true;
     requestAnimationFrame(() => {
       this.hoverAsked = false;
-      if (this.start) return;
+      if (this.start || !this.events.active()) return;
       const node = this.pick(event);
       this.canvas.style.cursor = node < 0 ? 'grab' : this.events.draggable(node) ? 'move' : 'pointer';
       this.events.hovered(node);

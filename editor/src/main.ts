@@ -5,11 +5,13 @@ import { heldPosition, toFile } from './constraints';
 import { Editor } from './editor';
 import { acceptDrops, choose, download, fromAddress, stem } from './files';
 import { Gestures } from './gestures';
-import { withLoops } from './loops';
 import { looks, type Look } from './materials';
 import { pick } from './picking';
+import { selectionCommands } from './selection';
 import { describe } from './status';
 import { startTheme, switchTheme } from './theme';
+import { rove } from './toolbar';
+import { Tools } from './tools';
 import { View } from './view';
 
 const canvas = document.getElementById('canvas') as HTMLCanvasElement;
@@ -32,7 +34,13 @@ const editor: Editor = new Editor({
   shape: (positions, settled) => view.show(positions, settled),
   changed,
 });
+const tools: Tools = new Tools(canvas, document.querySelector('#overlay')!, {
+  seen: () => view.seen(),
+  picked: () => editor.picked,
+  pick: (picked) => editor.set({ picked }),
+});
 const gestures = new Gestures(canvas, {
+  active: () => tools.tool === 'pick',
   pick: (x, y, radius) => {
     const seen = view.seen();
     return seen ? pick(seen, x, y, radius, (node) => editor.isDraggable(node)) : -1;
@@ -66,8 +74,7 @@ const commands: Command[] = [
   { id: 'free-position', title: 'Free positions of picked nodes', keys: ['shift+f'], run: () => editor.hold('position', false), enabled: somePicked },
   { id: 'fix-normal', title: 'Fix normals of picked nodes', keys: ['n'], run: () => editor.hold('normal', true), enabled: somePicked },
   { id: 'free-normal', title: 'Free normals of picked nodes', keys: ['shift+n'], run: () => editor.hold('normal', false), enabled: somePicked },
-  { id: 'loop', title: 'Pick boundary loops of picked nodes', keys: ['l'],
-    run: () => editor.set({ picked: withLoops(editor.shape!, editor.picked) }), enabled: () => [...editor.picked].some((node) => editor.shape!.boundary[node]) },
+  ...selectionCommands(editor, tools, toolChanged),
   ...(['position', 'normal'] as const).map((part) => ({
     id: `boundary-${part}s`, title: `Fix or free boundary ${part}s`, keys: [part === 'position' ? 'b' : 'shift+b'], enabled: opened,
     run: () => editor.setBoundary(part, !editor.isBoundaryFixed(part)), pressed: () => editor.isBoundaryFixed(part),
@@ -131,11 +138,19 @@ function setLook(which: Look): void {
 }
 
 function escape(): void {
-  if (gestures.cancel()) return;
+  if (gestures.cancel() || tools.cancel()) return;
   if (editor.canEnd) editor.client.endAll();
-  else editor.pick(-1, false);
+  else if (somePicked()) editor.pick(-1, false);
+  else tools.set('pick');
+  toolChanged();
 }
 
+function toolChanged(): void {
+  view.leaveToTool(tools.tool !== 'pick');
+  editor.set({ hovered: -1 });
+}
+
+rove(document.querySelector('[role=toolbar]')!);
 examples.addEventListener('change', () => void openAddress(examples.value));
 acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, open);
 startTheme(() => view.restyle());

@@ -31,8 +31,9 @@ class Group {
     at.needsUpdate = true;
   }
 
-  scale(ratio: number): void {
-    this.points.material.uniforms.size.value = this.size * ratio;
+  scale(ratio: number, spacing: number): void {
+    const size = this.nodes.length > 50 ? Math.max(3, Math.min(this.size, 0.7 * spacing)) : this.size;
+    this.points.material.uniforms.size.value = size * ratio;
   }
 
   colours(inside: Color, rim: Color): void {
@@ -65,9 +66,9 @@ export class Markers {
     for (const group of Object.values(this.groups)) group.set([], this.places);
   }
 
-  /** ratio: of pixels of the picture to those of the page. */
-  scale(ratio: number): void {
-    for (const group of Object.values(this.groups)) group.scale(ratio);
+  /** ratio: of pixels of the picture to those of the page. spacing: of nodes, in pixels of the page; where many are marked, discs leave gaps. */
+  scale(ratio: number, spacing: number): void {
+    for (const group of Object.values(this.groups)) group.scale(ratio, spacing);
   }
 
   restyle(colour: (name: string) => Color): void {

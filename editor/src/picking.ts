@@ -11,7 +11,7 @@ export interface Seen {
 }
 
 /** Pixels across and down, and the depth in the cube of the view. */
-function projected({ places, matrix: m, width, height }: Seen): Float32Array {
+export function projected({ places, matrix: m, width, height }: Seen): Float32Array {
   const screen = new Float32Array(places.length);
   for (let k = 0; k < places.length; k += 3) {
     const [x, y, z] = [places[k], places[k + 1], places[k + 2]];

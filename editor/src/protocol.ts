@@ -37,10 +37,18 @@ export interface Solved {
   report: Report;
 }
 
+/** What must hold besides for only some nodes to move: nodes that stay where the input has them, and the rim with its normals, three numbers each. */
+export interface Region {
+  fixed: Int32Array;
+  rim: Int32Array;
+  normals: Float64Array;
+}
+
 export interface Requests {
   open: { ask: { name: string; bytes: Uint8Array; rules: string }; answer: OpenedSurface };
   /** Throws, and leaves what held, where the rules are refused. */
   hold: { ask: { rules: string }; answer: null };
+  region: { ask: { rules: string; nodes: Int32Array }; answer: Region };
   solve: { ask: Job; answer: Solved };
   /** The bytes of a file of that name, with the shape that its constraints give from the input. */
   write: { ask: { name: string }; answer: Uint8Array };

@@ -14,6 +14,8 @@ export interface Shape {
   /** From units of the file to those of the view. */
   scale: number;
   input: Float64Array;
+  /** Mean length of the edges, in units of the view. */
+  spacing: number;
 }
 
 export function shapeOf({ positions, faceBegin, corners, boundary }: OpenedSurface): Shape {
@@ -29,16 +31,28 @@ export function shapeOf({ positions, faceBegin, corners, boundary }: OpenedSurfa
   corners.forEach((node, c) => places.set(positions.subarray(3 * node, 3 * node + 3), 3 * c));
   const triangleCorners: Uint32Array = trianglesOf({ begin: faceBegin, nodes: corners.map((_, c) => c) }, places);
   const faces = { begin: faceBegin, nodes: corners };
+  const edges = edgesOf(faces, positions.length / 3);
+  const scale = size > 0 && Number.isFinite(size) ? 1 / size : 1;
   return {
     faces,
     boundary,
-    edges: edgesOf(faces, positions.length / 3),
+    edges,
     triangles: triangleCorners.map((corner) => corners[corner]),
     triangleCorners,
     centre: [0, 1, 2].map((axis) => low[axis] / 2 + high[axis] / 2) as [number, number, number],
-    scale: size > 0 && Number.isFinite(size) ? 1 / size : 1,
+    scale,
     input: positions,
+    spacing: scale * meanLength(edges, positions),
   };
+}
+
+function meanLength({ count, ends }: Shape['edges'], positions: Float64Array): number {
+  let sum = 0;
+  for (let e = 0; e < count; ++e) {
+    const [a, b] = [3 * ends[2 * e], 3 * ends[2 * e + 1]];
+    sum += Math.hypot(positions[a] - positions[b], positions[a + 1] - positions[b + 1], positions[a + 2] - positions[b + 2]);
+  }
+  return count > 0 ? sum / count : 0;
 }
 
 export function placesOf({ centre, scale }: Shape, positions: Float64Array): Float32Array {

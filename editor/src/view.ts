@@ -1,12 +1,13 @@
 // The view: the surface, its lines and markers, drawn when something has changed.
 
 import {
-  BufferAttribute, BufferGeometry, Color, ColorManagement, LineBasicMaterial, LinearSRGBColorSpace, LineSegments, Matrix4, Mesh, MOUSE,
-  OrthographicCamera, Scene, Vector3, WebGLRenderer,
+  BufferAttribute, BufferGeometry, Color, ColorManagement, LineBasicMaterial, LinearSRGBColorSpace, LineSegments, Matrix4, Mesh, OrthographicCamera,
+  Scene, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Markers } from './markers';
 import { looks, surfaceMaterial, type Look } from './materials';
+import { assignButtons, moveByWheel } from './navigation';
 import type { Seen } from './picking';
 import { drawsInSoftware } from './software';
 import { placesOf, type Shape } from './shape';
@@ -39,7 +40,8 @@ export class View {
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.mouseButtons = { LEFT: MOUSE.ROTATE, MIDDLE: MOUSE.PAN, RIGHT: MOUSE.PAN };
+    this.leaveToTool(false);
+    moveByWheel(canvas, (across, down) => this.moveBy(across, down));
     this.controls.zoomToCursor = true;
     this.controls.minZoom = 0.05;
     this.controls.maxZoom = 1e4;
@@ -132,6 +134,11 @@ export class View {
     this.draw();
   }
 
+  /** taken: a tool has the left button and the single finger. */
+  leaveToTool(taken: boolean): void {
+    assignButtons(this.controls, taken);
+  }
+
   seen(): Seen | null {
     if (!this.shape) return null;
     this.camera.updateMatrixWorld();
@@ -146,6 +153,13 @@ export class View {
     return right.multiplyScalar(across * perPixel).addScaledVector(up, -down * perPixel).toArray();
   }
 
+  private moveBy(across: number, down: number): void {
+    const way = new Vector3(...this.wayOf(-across, -down)).multiplyScalar(this.shape?.scale ?? 1);
+    for (const end of [this.camera.position, this.controls.target]) end.add(way);
+    this.controls.update();
+    this.draw();
+  }
+
   /** Many changes, one picture: when the browser paints next. */
   draw(): void {
     if (this.asked) return;
@@ -153,6 +167,7 @@ export class View {
     requestAnimationFrame(() => {
       this.asked = false;
       this.refine(false);
+      this.scaleMarkers();
       this.renderer.render(this.scene, this.camera);
       this.drawn();
       clearTimeout(this.rest);
@@ -184,7 +199,12 @@ export class View {
     const ratio = window.devicePixelRatio * (this.fine ? 2 : 1);
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
-    this.markers.scale(ratio);
+    this.scaleMarkers();
+  }
+
+  private scaleMarkers(): void {
+    const spacing = ((this.shape?.spacing ?? 0) * this.camera.zoom * this.canvas.clientHeight) / 2;
+    this.markers.scale(this.renderer.getPixelRatio(), spacing);
   }
 
   private resize(): void {

@@ -40,6 +40,11 @@ const handlers: Handlers = {
     settled = false;
     return null;
   },
+  region({ rules, nodes }) {
+    opened().setRules(rules);
+    settled = false;
+    return opened().region(nodes);
+  },
   solve({ rules, drag }, progress) {
     const target = opened();
     settled = false;

@@ -2,8 +2,6 @@
 
 import {powersOf, short, ticksOf} from './numbers.js';
 
-const width = 520;
-const height = 260;
 const edge = {left: 58, right: 12, top: 12, bottom: 38};
 const mostPoints = 1500;
 
@@ -37,8 +35,8 @@ function thinned(points) {
   return kept;
 }
 
-// x, y: {label, low, high, log}. series: {name, style, lines: lists of [x, y]}.
-export function addChart(parent, {id, title, x, y, series}) {
+// x, y: {label, low, high, log}. series: {name, style, lines: lists of [x, y]}. size: in pixels, where the chart is not scaled to its place.
+export function addChart(parent, {id, title, x, y, series, size: {width, height} = {width: 520, height: 260}}) {
   const figure = document.createElement('figure');
   figure.id = id;
   parent.append(figure);

@@ -60,8 +60,8 @@ export function addSurfaceCharts(parent, shapes, leading, report) {
   addHistory(parent, report);
 }
 
-// unit: the length of the input that is 1 in the page. leading: the shape whose curvature is shown whole.
-export function addCurveCharts(parent, shapes, {unit, leading, planar}, report) {
+// unit: the length of the input that is 1 in the page. leading: the shape whose curvature is shown whole. size: see addChart().
+export function addCurveCharts(parent, shapes, {unit, leading, planar, size}, report) {
   const series = shapes.map(({title, chains}, k) => ({name: title, style: styleOf(k, shapes.length),
     lines: chains.map(({arc, curvatures}) =>
       arc.map((length, n) => [length * unit, curvatures[n] === null ? null : curvatures[n] / unit])
@@ -72,8 +72,8 @@ export function addCurveCharts(parent, shapes, {unit, leading, planar}, report) 
   const high = Math.max(0, ...bounds.map((pair) => pair[1]));
   const far = Math.max(...series.flatMap((one) => one.lines.flat().slice(-1)).map((point) => point[0]), 0);
   const space = 0.05 * (high - low);
-  addChart(parent, {id: 'curvature', title: 'Curvature along the curve', series,
-    x: {label: 'arc length, units of the input', low: 0, high: far},
-    y: {label: planar ? 'curvature, left is positive' : 'curvature', low: low - space, high: high + space}});
+  addChart(parent, {id: 'curvature', title: 'Curvature along the curve', series, size,
+    x: {label: `arc length, units of the input${planar ? '; curvature is positive to the left' : ''}`, low: 0, high: far},
+    y: {label: 'curvature, 1/unit', low: low - space, high: high + space}});
   addHistory(parent, report);
 }

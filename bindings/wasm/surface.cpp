@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "region.hpp"
 #include "values.hpp"
 
 namespace vspring {
@@ -67,24 +68,7 @@ class Surface {
   /// What must hold besides for only those nodes to move: `fixed`, nodes that stay where the file has them, and `rim`
   /// with its `normals`, three numbers each.
   [[nodiscard]] val region(const val& nodes) const {
-    return forwarding_errors([&] {
-      Constraints restricted = *constraints_;
-      restrict_to_region(restricted, file_.mesh, emscripten::convertJSArrayToNumberVector<Index>(nodes));
-      std::vector<Index> fixed;
-      std::vector<Index> rim;
-      std::vector<Vector3> normals;
-      for (Index node = 0; node < node_count(); ++node) {
-        if (restricted.position_fixed(node) && !constraints_->position_fixed(node)) fixed.push_back(node);
-        if (!restricted.normal_fixed(node) || constraints_->normal_fixed(node)) continue;
-        rim.push_back(node);
-        normals.push_back(restricted.normal(node));
-      }
-      val result = val::object();
-      result.set("fixed", array_of("Int32Array", fixed.size(), fixed.data()));
-      result.set("rim", array_of("Int32Array", rim.size(), rim.data()));
-      result.set("normals", positions_array(normals));
-      return result;
-    });
+    return region_of(*constraints_, file_.mesh, nodes, {"normals", &Constraints::normal_fixed, &Constraints::normal});
   }
   /// The principal curvatures of a shape of these nodes: `k1` and `k2`, k1 not less than k2.
   [[nodiscard]] val curvatures(const val& positions) const {

@@ -25,7 +25,7 @@ function shown(key: string): string {
 
 function takesText(target: EventTarget | null): boolean {
   return target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement
-    || (target instanceof HTMLInputElement && !['checkbox', 'radio', 'button'].includes(target.type));
+    || (target instanceof HTMLInputElement && !['checkbox', 'radio', 'button', 'range'].includes(target.type));
 }
 
 /** Binds every element with data-command, and the keys. Returns what brings the buttons up to date. */

@@ -8,11 +8,14 @@ export interface Rule {
   nodes: unknown;
   position?: unknown;
   normal?: unknown;
+  tangent?: unknown;
 }
 
 export interface Edit {
   position?: Hold<Vector>;
   normal?: Hold<Vector>;
+  /** Of curves. */
+  tangent?: Hold<Vector>;
 }
 
 export interface Constraints {
@@ -20,7 +23,8 @@ export interface Constraints {
   readonly edits: Readonly<Record<number, Edit>>;
 }
 
-export type Part = 'position' | 'normal';
+const parts = ['position', 'normal', 'tangent'] as const;
+export type Part = (typeof parts)[number];
 
 export const initial: Constraints = { rules: [{ nodes: 'boundary', position: 'fixed' }], edits: {} };
 
@@ -34,7 +38,7 @@ export function fromFile(text: string): Constraints {
 export function allRules({ rules, edits }: Constraints): Rule[] {
   const nodes = Object.keys(edits).map(Number);
   const byHand: Rule[] = [];
-  for (const part of ['position', 'normal'] as const) {
+  for (const part of parts) {
     for (const hold of ['fixed', 'free'] as const) {
       const these = nodes.filter((node) => edits[node][part] === hold);
       if (these.length > 0) byHand.push({ nodes: these, [part]: hold });
@@ -73,15 +77,17 @@ export function withBoundary(constraints: Constraints, part: Part, fixed: boolea
       const { [part]: _, ...kept } = rule;
       return kept as Rule;
     })
-    .filter((rule) => rule.position !== undefined || rule.normal !== undefined);
+    .filter((rule) => parts.some((other) => rule[other] !== undefined));
   return { ...constraints, rules: fixed ? [{ nodes: 'boundary', [part]: 'fixed' }, ...rest] : rest };
 }
 
 export const heldPosition = 1;
 export const heldNormal = 2;
+export const heldTangent = 4;
+const bits: Record<Part, number> = { position: heldPosition, normal: heldNormal, tangent: heldTangent };
 
 export interface Held {
-  /** heldPosition, heldNormal or both, by node. */
+  /** Sums of heldPosition, heldNormal and heldTangent, by node. */
   nodes: Uint8Array;
   /** Rules whose nodes only the library knows, such as groups and regions: they hold, but are not marked. */
   unmarked: number;
@@ -96,9 +102,9 @@ export function heldNodes(constraints: Constraints, boundary: Uint8Array): Held 
       ++unmarked;
       continue;
     }
+    const said = parts.filter((part) => rule[part] !== undefined);
     for (const node of among) {
-      if (rule.position !== undefined) nodes[node] = rule.position === 'free' ? nodes[node] & ~heldPosition : nodes[node] | heldPosition;
-      if (rule.normal !== undefined) nodes[node] = rule.normal === 'free' ? nodes[node] & ~heldNormal : nodes[node] | heldNormal;
+      for (const part of said) nodes[node] = rule[part] === 'free' ? nodes[node] & ~bits[part] : nodes[node] | bits[part];
     }
   }
   return { nodes, unmarked };

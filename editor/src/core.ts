@@ -1,11 +1,10 @@
 // The library in WebAssembly as the worker sees it: see docs/webassembly.md.
 
-import type { Region, Report } from './protocol';
+import type { Opened, OpenedCurve, Region, Report } from './protocol';
 
-export interface CoreSurface {
+/** What surfaces and curves have in common. */
+export interface CoreShape {
   positions(): Float64Array;
-  faceBegin(): Int32Array;
-  corners(): Int32Array;
   boundary(): Uint8Array;
   warnings(): string[];
   setRules(json: string): void;
@@ -17,8 +16,43 @@ export interface CoreSurface {
   delete(): void;
 }
 
+export interface CoreSurface extends CoreShape {
+  faceCount(): number;
+  faceBegin(): Int32Array;
+  corners(): Int32Array;
+}
+
+export interface CoreCurve extends CoreShape {
+  chainBegin(): Int32Array;
+  chainNodes(): Int32Array;
+  closed(): Uint8Array;
+  planar(): boolean;
+  resample(nodes: number): Int32Array;
+}
+
 export interface Core {
   Surface: new (bytes: Uint8Array, name: string) => CoreSurface;
+  Curve: (new (bytes: Uint8Array, name: string) => CoreCurve) & { through(places: Float64Array, closed: boolean): CoreCurve };
+}
+
+/** A surface or a curve, by the rule of the command line: by the extension, and an OBJ file without faces is a curve. */
+export function openShape(core: Core, name: string, bytes: Uint8Array): CoreSurface | CoreCurve {
+  if (!/\.(csv|dat|xyz)$/i.test(name)) {
+    const surface = new core.Surface(bytes, name);
+    if (surface.faceCount() > 0 || !/\.obj$/i.test(name)) return surface;
+    surface.delete();
+  }
+  return new core.Curve(bytes, name);
+}
+
+const common = (shape: CoreShape) => ({ positions: shape.positions(), boundary: shape.boundary(), warnings: shape.warnings() });
+
+export function describeCurve(curve: CoreCurve): OpenedCurve {
+  return { ...common(curve), chainBegin: curve.chainBegin(), chainNodes: curve.chainNodes(), closed: curve.closed(), planar: curve.planar() };
+}
+
+export function describe(shape: CoreSurface | CoreCurve): Opened {
+  return 'faceBegin' in shape ? { ...common(shape), faceBegin: shape.faceBegin(), corners: shape.corners() } : describeCurve(shape);
 }
 
 export type CoreFactory = (options: { locateFile: (name: string) => string }) => Promise<Core>;

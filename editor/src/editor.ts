@@ -5,13 +5,14 @@ import * as holding from './constraints';
 import type { Constraints, Edit, Held, Part, Vector } from './constraints';
 import { FrameCounter } from './frames';
 import { begun, done, redone, undone, type History } from './history';
-import type { Job, Report, Solved } from './protocol';
+import type { Job, Opened, Report, Solved } from './protocol';
 import { Pull } from './pull';
 import { restricted } from './region';
-import { shapeOf, type Shape } from './shape';
+import { nothing, shapeOf, type Shape } from './shape';
 
 export interface EditorEvents {
-  opened: (shape: Shape) => void;
+  /** stays: where it is seen. */
+  opened: (shape: Shape, stays: boolean) => void;
   /** Another shape is to be seen; settled: it is not one of many during a drag. */
   shape: (positions: Float64Array, settled: boolean) => void;
   /** Anything else that is shown has changed. */
@@ -32,6 +33,8 @@ export class Editor {
   busy = false;
   fraction = 0;
   showsInput = false;
+  /** Whether the curve was drawn here. */
+  drawn = false;
   history: History<Constraints> = begun(holding.initial);
   readonly frames = new FrameCounter();
   private positions: Float64Array = new Float64Array();
@@ -67,31 +70,71 @@ export class Editor {
     this.set({ fault: { message, source } });
   }
 
-  /** A mesh or a constraints file. What cannot be read leaves everything as it was. */
+  /** What the normal of a surface is to a curve: its tangent. */
+  get direction(): Part {
+    return this.shape?.curve ? 'tangent' : 'normal';
+  }
+
+  /** A shape or a constraints file. What cannot be read leaves everything as it was. */
   async open(name: string, bytes: Uint8Array): Promise<void> {
     try {
       if (name.toLowerCase().endsWith('.json')) await this.openConstraints(new TextDecoder().decode(bytes));
-      else await this.openSurface(name, bytes);
+      else await this.openShape(name, bytes);
       this.set({ fault: null });
     } catch (error) {
       this.setFault((error as Error).message, 'file');
     }
   }
 
-  private async openSurface(name: string, bytes: Uint8Array): Promise<void> {
+  private async openShape(name: string, bytes: Uint8Array): Promise<void> {
     this.solver.clear();
-    const surface = await this.client.ask('open', { name, bytes, rules: holding.toFile(holding.initial) });
+    this.take(name, await this.client.ask('open', { name, bytes, rules: holding.toFile(holding.initial) }), holding.initial);
+  }
+
+  private take(name: string, opened: Opened, constraints: Constraints, drawn = false): void {
     this.drag = null;
-    this.history = begun(holding.initial);
-    this.shape = shapeOf(surface);
-    this.positions = surface.positions;
-    Object.assign(this, { name, report: null, showsInput: false, picked: new Set(), hovered: -1, fileWarnings: surface.warnings });
-    this.events.opened(this.shape);
+    this.history = begun(constraints);
+    this.shape = shapeOf(opened);
+    this.positions = opened.positions;
+    Object.assign(this, { name, drawn, report: null, fault: null, showsInput: false, picked: new Set(), hovered: -1, fileWarnings: opened.warnings });
+    this.events.opened(this.shape, drawn);
     this.settle();
   }
 
+  /** Nothing is open. */
+  close(): void {
+    this.solver.clear();
+    this.drag = null;
+    this.history = begun(holding.initial);
+    this.shape = null;
+    this.positions = new Float64Array();
+    this.held = { nodes: new Uint8Array(), unmarked: 0 };
+    Object.assign(this, { name: '', drawn: false, report: null, fault: null, showsInput: false, picked: new Set(), hovered: -1, fileWarnings: [] });
+    this.events.opened(nothing, false);
+    this.events.changed();
+  }
+
+  /** A curve through places, held there, with so many nodes a span. edit: what else holds at the place of that number. */
+  async draw(places: readonly Vector[], closed: boolean, perSpan: number, edit: (place: number) => Edit = () => ({})): Promise<void> {
+    this.solver.clear();
+    try {
+      const nodes = perSpan * (places.length - (closed ? 0 : 1)) + (closed ? 0 : 1);
+      const opened = await this.client.ask('draw', { places: Float64Array.from(places.flat()), closed, nodes });
+      const kept = [...opened.from.keys()].filter((node) => opened.from[node] >= 0);
+      this.take('curve.csv', opened, holding.edited(holding.initial, kept, (node) => ({ ...edit(opened.from[node]), position: places[opened.from[node]] })), true);
+    } catch (error) {
+      this.setFault((error as Error).message, 'file');
+    }
+  }
+
+  /** The drawn curve through the nodes that are held, as they are now. */
+  redraw(closed: boolean, perSpan: number): void {
+    const held = [...this.shape!.curve!.runs.nodes].filter((node) => this.isDraggable(node));
+    void this.draw(held.map((node) => this.placeOf(node)), closed, perSpan, (k) => this.constraints.edits[held[k]]);
+  }
+
   private async openConstraints(text: string): Promise<void> {
-    if (!this.shape) throw new Error('Open a surface first: constraints name its nodes');
+    if (!this.shape) throw new Error('Open a shape first: constraints name its nodes');
     const constraints = holding.fromFile(text);
     await this.client.ask('hold', { rules: holding.toFile(constraints) });
     this.apply('Load constraints', constraints);
@@ -117,9 +160,9 @@ export class Editor {
     return holding.boundaryFixed(this.constraints, part);
   }
 
-  /** Positions are fixed where they are now seen; normals as in the input. */
+  /** Positions are fixed where they are now seen; normals and tangents as in the input. */
   hold(part: Part, fixed: boolean): void {
-    const change = (node: number): Edit => ({ [part]: !fixed ? 'free' : part === 'normal' ? 'fixed' : this.placeOf(node) });
+    const change = (node: number): Edit => ({ [part]: !fixed ? 'free' : part === 'position' ? this.placeOf(node) : 'fixed' });
     this.apply(`${fixed ? 'Fix' : 'Free'} ${part} of ${this.picked.size} ${this.picked.size === 1 ? 'node' : 'nodes'}`,
       holding.edited(this.constraints, this.picked, change));
   }
@@ -152,7 +195,7 @@ export class Editor {
     if (!this.picked.has(node)) this.pick(node, false);
     const nodes = [...this.picked].filter((other) => this.isDraggable(other));
     const start = Float64Array.from(nodes.flatMap((other) => this.placeOf(other)));
-    this.drag = new Pull(nodes, start, 1 / this.shape!.scale);
+    this.drag = new Pull(nodes, start, 1 / this.shape!.scale, !this.shape!.curve);
     this.showsInput = false;
     this.frames.start(now);
   }

@@ -2,9 +2,12 @@
 
 import { bindCommands, listShortcuts, type Command } from './commands';
 import { heldPosition, toFile } from './constraints';
+import { CurvePanel } from './curve_panel';
+import { Drawing } from './drawing';
 import { Editor } from './editor';
 import { acceptDrops, choose, download, fromAddress, stem } from './files';
 import { Gestures } from './gestures';
+import { showFor } from './kinds';
 import { looks, type Look } from './materials';
 import { pick } from './picking';
 import { selectionCommands } from './selection';
@@ -19,21 +22,27 @@ const panel = document.querySelector('aside')!;
 const help = document.getElementById('help') as HTMLDialogElement;
 const format = document.getElementById('format') as HTMLSelectElement;
 const examples = document.getElementById('example') as HTMLSelectElement;
-const meshes = '.obj,.off,.ply,.stl';
+const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz';
 let look: Look = 'shaded';
 let held: Uint8Array = new Uint8Array();
 let marked: { picked: ReadonlySet<number>; hovered: number } = { picked: new Set(), hovered: -1 };
 
 const editor: Editor = new Editor({
-  opened: (shape) => {
+  opened: (shape, stays) => {
     view.markers.clear();
     held = new Uint8Array();
     examples.value = [...examples.options].find(({ value }) => value === `examples/${editor.name}`)?.value ?? '';
-    view.open(shape);
+    showFor(shape, editor.name, format);
+    view.open(shape, stays);
+    curves.open(shape);
   },
-  shape: (positions, settled) => view.show(positions, settled),
+  shape: (positions, settled) => {
+    view.show(positions, settled);
+    curves.show(positions, settled);
+  },
   changed,
 });
+const drawing = new Drawing(canvas, editor, () => view, () => refresh());
 const tools: Tools = new Tools(canvas, document.querySelector('#overlay')!, {
   seen: () => view.seen(),
   picked: () => editor.picked,
@@ -58,27 +67,33 @@ const gestures = new Gestures(canvas, {
 });
 const view = new View(canvas, panel, () => editor.frames.drawn(performance.now()));
 
+const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
+
 const opened = (): boolean => editor.shape !== null;
+const isCurve = (): boolean => editor.shape?.curve != null;
 const somePicked = (): boolean => editor.picked.size > 0;
 const commands: Command[] = [
-  { id: 'open', title: 'Open a mesh', keys: ['o', 'ctrl+o'], run: () => choose(meshes, open) },
+  { id: 'open', title: 'Open a mesh or a curve', keys: ['o', 'ctrl+o'], run: () => choose(shapes, open) },
   { id: 'save', title: 'Save the result', keys: ['ctrl+s'], run: () => void save(), enabled: opened },
   { id: 'load-constraints', title: 'Load constraints', keys: [], run: () => choose('.json', open), enabled: opened },
   { id: 'save-constraints', title: 'Save constraints', keys: ['ctrl+shift+s'], enabled: opened,
     run: () => download(`${stem(editor.name)}-constraints.json`, toFile(editor.constraints)) },
+  ...drawing.commands,
   { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => editor.undo(), enabled: () => editor.history.past.length > 0,
     detail: () => editor.history.now.label },
   { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => editor.redo(), enabled: () => editor.history.future.length > 0,
     detail: () => editor.history.future[0]?.label },
   { id: 'fix-position', title: 'Fix positions of picked nodes', keys: ['f'], run: () => editor.hold('position', true), enabled: somePicked },
   { id: 'free-position', title: 'Free positions of picked nodes', keys: ['shift+f'], run: () => editor.hold('position', false), enabled: somePicked },
-  { id: 'fix-normal', title: 'Fix normals of picked nodes', keys: ['n'], run: () => editor.hold('normal', true), enabled: somePicked },
-  { id: 'free-normal', title: 'Free normals of picked nodes', keys: ['shift+n'], run: () => editor.hold('normal', false), enabled: somePicked },
+  { id: 'fix-normal', title: 'Fix normals or tangents of picked nodes', keys: ['n'], run: () => editor.hold(editor.direction, true), enabled: somePicked },
+  { id: 'free-normal', title: 'Free normals or tangents of picked nodes', keys: ['shift+n'], run: () => editor.hold(editor.direction, false), enabled: somePicked },
   ...selectionCommands(editor, tools, toolChanged),
-  ...(['position', 'normal'] as const).map((part) => ({
-    id: `boundary-${part}s`, title: `Fix or free boundary ${part}s`, keys: [part === 'position' ? 'b' : 'shift+b'], enabled: opened,
-    run: () => editor.setBoundary(part, !editor.isBoundaryFixed(part)), pressed: () => editor.isBoundaryFixed(part),
-  })),
+  { id: 'boundary-positions', title: 'Fix or free boundary positions', keys: ['b'], enabled: opened,
+    run: () => editor.setBoundary('position', !editor.isBoundaryFixed('position')), pressed: () => editor.isBoundaryFixed('position') },
+  { id: 'boundary-normals', title: 'Fix or free boundary normals or tangents', keys: ['shift+b'], enabled: opened,
+    run: () => editor.setBoundary(editor.direction, !editor.isBoundaryFixed(editor.direction)), pressed: () => editor.isBoundaryFixed(editor.direction) },
+  { id: 'comb', title: 'Curvature comb', keys: ['c'], run: () => curves.toggleComb(), enabled: isCurve, pressed: () => curves.comb },
+  { id: 'plot', title: 'Plot of curvature', keys: ['p'], run: () => { curves.fold(); refresh(); }, enabled: isCurve, pressed: () => curves.unfolded },
   ...looks.map((which) => ({ id: which, title: which[0].toUpperCase() + which.slice(1), keys: [String(['shaded', 'wire', 'zebra'].indexOf(which) + 1)],
     run: () => setLook(which), pressed: () => look === which })),
   { id: 'input', title: 'Show the input or the result', keys: ['i'], run: () => editor.toggleInput(), enabled: opened, pressed: () => editor.showsInput },

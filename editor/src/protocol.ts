@@ -1,12 +1,26 @@
 // What the page asks of the worker, and what it answers. Arrays are handed over, not copied.
 
-export interface OpenedSurface {
+interface OpenedShape {
   positions: Float64Array;
-  faceBegin: Int32Array;
-  corners: Int32Array;
+  /** 1 for every node of a boundary, of a curve: for every end. */
   boundary: Uint8Array;
   warnings: string[];
 }
+
+export interface OpenedSurface extends OpenedShape {
+  faceBegin: Int32Array;
+  corners: Int32Array;
+}
+
+export interface OpenedCurve extends OpenedShape {
+  chainBegin: Int32Array;
+  chainNodes: Int32Array;
+  closed: Uint8Array;
+  /** Whether the file has two coordinates a node. */
+  planar: boolean;
+}
+
+export type Opened = OpenedSurface | OpenedCurve;
 
 export interface Report {
   outcome: string;
@@ -41,11 +55,16 @@ export interface Solved {
 export interface Region {
   fixed: Int32Array;
   rim: Int32Array;
-  normals: Float64Array;
+  /** Of surfaces. */
+  normals?: Float64Array;
+  /** Of curves. */
+  tangents?: Float64Array;
 }
 
 export interface Requests {
-  open: { ask: { name: string; bytes: Uint8Array; rules: string }; answer: OpenedSurface };
+  open: { ask: { name: string; bytes: Uint8Array; rules: string }; answer: Opened };
+  /** Opens the curve through places, three numbers each, that are held there, with so many nodes in all. from: for every node the place that it is at, or -1. */
+  draw: { ask: { places: Float64Array; closed: boolean; nodes: number }; answer: OpenedCurve & { from: Int32Array } };
   /** Throws, and leaves what held, where the rules are refused. */
   hold: { ask: { rules: string }; answer: null };
   region: { ask: { rules: string; nodes: Int32Array }; answer: Region };

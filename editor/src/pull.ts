@@ -14,9 +14,9 @@ export class Pull {
   private time = 0;
   private longest: number;
 
-  /** start: three numbers for each node. size: of the shape, in the same units. */
-  constructor(readonly nodes: readonly number[], private readonly start: Float64Array, private readonly size: number) {
-    this.longest = 0.02 * size;
+  /** start: three numbers for each node. size: of the shape, in the same units. stepwise: not for curves, where the length of a step does not matter. */
+  constructor(readonly nodes: readonly number[], private readonly start: Float64Array, private readonly size: number, private readonly stepwise = true) {
+    this.longest = stepwise ? 0.02 * size : Infinity;
   }
 
   /** Where the nodes are to be at last. */
@@ -45,6 +45,6 @@ export class Pull {
   solved({ places }: Drag, iterations: number): void {
     this.there = [0, 1, 2].map((i) => places[i] - this.start[i]) as Vector;
     if (places.every((part, k) => part === this.start[k] + this.target[k % 3])) this.there = this.target;
-    this.longest = Math.min(this.size, this.longest * (iterations <= few ? 2 : iterations > many ? 0.5 : 1));
+    if (this.stepwise) this.longest = Math.min(this.size, this.longest * (iterations <= few ? 2 : iterations > many ? 0.5 : 1));
   }
 }

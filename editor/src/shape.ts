@@ -1,9 +1,24 @@
-// The open surface as the view needs it: moved to the origin and scaled to a size of one, so that single precision serves.
+// The open surface or curve as the view needs it: moved to the origin and scaled to a size of one, so that single precision serves.
 
 import { edgesOf, trianglesOf } from '../../page/mesh.js';
-import type { OpenedSurface } from './protocol';
+import type { Vector } from './constraints';
+import { planeOf } from './curve_plane';
+import type { Opened, OpenedCurve } from './protocol';
+
+/** What only curves have. */
+export interface CurveParts {
+  /** Nodes of the chains, one chain after the other. */
+  runs: { begin: Int32Array; nodes: Int32Array };
+  closed: boolean[];
+  /** Whether it stays at z = 0, as its file has no other place for it. */
+  planar: boolean;
+  /** The normal of the plane in which it lies, if in one. */
+  plane: Vector | null;
+}
 
 export interface Shape {
+  /** Null for a surface; of a curve there are no faces. */
+  curve: CurveParts | null;
   faces: { begin: Int32Array; nodes: Int32Array };
   boundary: Uint8Array;
   edges: { count: number; ends: Uint32Array; faces: Int32Array; against: Uint8Array };
@@ -18,7 +33,25 @@ export interface Shape {
   spacing: number;
 }
 
-export function shapeOf({ positions, faceBegin, corners, boundary }: OpenedSurface): Shape {
+function edgesOfChains({ runs, closed }: CurveParts): Shape['edges'] {
+  const ends: number[] = [];
+  closed.forEach((loop, c) => {
+    const nodes = runs.nodes.subarray(runs.begin[c], runs.begin[c + 1]);
+    nodes.forEach((node, k) => {
+      if (k + 1 < nodes.length || loop) ends.push(node, nodes[(k + 1) % nodes.length]);
+    });
+  });
+  return { count: ends.length / 2, ends: Uint32Array.from(ends), faces: new Int32Array(ends.length).fill(-1), against: new Uint8Array(ends.length / 2) };
+}
+
+function curveOf({ positions, chainBegin, chainNodes, closed, planar }: OpenedCurve): CurveParts {
+  return { runs: { begin: chainBegin, nodes: chainNodes }, closed: [...closed].map(Boolean), planar, plane: planar ? [0, 0, 1] : planeOf(positions) };
+}
+
+export function shapeOf(opened: Opened): Shape {
+  const { positions, boundary } = opened;
+  const curve = 'chainBegin' in opened ? curveOf(opened) : null;
+  const [faceBegin, corners] = 'faceBegin' in opened ? [opened.faceBegin, opened.corners] : [Int32Array.of(0), new Int32Array()];
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
   for (let k = 0; k < positions.length; ++k) {
@@ -31,9 +64,10 @@ export function shapeOf({ positions, faceBegin, corners, boundary }: OpenedSurfa
   corners.forEach((node, c) => places.set(positions.subarray(3 * node, 3 * node + 3), 3 * c));
   const triangleCorners: Uint32Array = trianglesOf({ begin: faceBegin, nodes: corners.map((_, c) => c) }, places);
   const faces = { begin: faceBegin, nodes: corners };
-  const edges = edgesOf(faces, positions.length / 3);
+  const edges = curve ? edgesOfChains(curve) : edgesOf(faces, positions.length / 3);
   const scale = size > 0 && Number.isFinite(size) ? 1 / size : 1;
   return {
+    curve,
     faces,
     boundary,
     edges,
@@ -54,6 +88,13 @@ function meanLength({ count, ends }: Shape['edges'], positions: Float64Array): n
   }
   return count > 0 ? sum / count : 0;
 }
+
+/** What is open where nothing is: the view looks down on the plane z = 0, ten units high. */
+export const nothing: Shape = {
+  ...shapeOf({ positions: new Float64Array(), boundary: new Uint8Array(), warnings: [], chainBegin: Int32Array.of(0), chainNodes: new Int32Array(), closed: new Uint8Array(), planar: true }),
+  centre: [0, 0, 0],
+  scale: 0.1,
+};
 
 export function placesOf({ centre, scale }: Shape, positions: Float64Array): Float32Array {
   const places = new Float32Array(positions.length);

@@ -1,8 +1,9 @@
 // What is said in words: of the shape, how it was solved, and what went wrong.
 
 import { short } from '../../page/numbers.js';
-import { heldNormal, heldPosition } from './constraints';
+import { heldNormal, heldPosition, heldTangent } from './constraints';
 import type { Editor } from './editor';
+import type { Shape } from './shape';
 
 function part(id: string): HTMLElement {
   return document.getElementById(id)!;
@@ -13,7 +14,7 @@ function count(number: number, one: string, many = `${one}s`): string {
 }
 
 function ofSolution({ report, dragging, frames, showsInput, shape }: Editor): string {
-  if (!shape) return 'Open a mesh, or drop one here';
+  if (!shape) return 'Open a mesh or a curve, or drop one here';
   if (showsInput) return 'The input';
   if (!report) return '';
   const { outcome, iterations, expectedError, seconds } = report;
@@ -25,8 +26,14 @@ function ofSolution({ report, dragging, frames, showsInput, shape }: Editor): st
 function ofNode({ hovered, held }: Editor): string {
   if (hovered < 0) return '';
   const bits = held.nodes[hovered];
-  const what = [bits & heldPosition && 'position fixed', bits & heldNormal && 'normal fixed'].filter(Boolean);
+  const what = [bits & heldPosition && 'position fixed', bits & heldNormal && 'normal fixed', bits & heldTangent && 'tangent fixed'].filter(Boolean);
   return `Node ${hovered} · ${what.join(', ') || 'free'}`;
+}
+
+function ofParts({ faces, curve }: Shape): string {
+  if (!curve) return count(faces.begin.length - 1, 'face');
+  const { closed } = curve;
+  return closed.length === 1 ? `${closed[0] ? 'closed' : 'open'} curve` : count(closed.length, 'chain');
 }
 
 export function describe(editor: Editor): void {
@@ -35,7 +42,7 @@ export function describe(editor: Editor): void {
   part('status').textContent = ofSolution(editor);
   part('status').classList.toggle('doubtful', !editor.showsInput && report !== null && report.outcome !== 'converged');
   part('node').textContent = ofNode(editor);
-  part('size').textContent = shape ? `${count(shape.input.length / 3, 'node')}, ${count(shape.faces.begin.length - 1, 'face')}` : '';
+  part('size').textContent = shape ? `${count(shape.input.length / 3, 'node')}, ${ofParts(shape)}` : '';
   part('picked').textContent = picked.size === 1 ? `Node ${[...picked][0]}` : picked.size ? `${picked.size} nodes` : 'No node picked';
   part('unmarked').hidden = held.unmarked === 0;
   part('unmarked').textContent = `${count(held.unmarked, 'rule')} about groups or regions: what they hold is not marked.`;

@@ -5,18 +5,25 @@ import {
   Scene, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { Vector } from './constraints';
+import { CurveLayer } from './curve_layer';
+import { gridOfUnits } from './grid';
 import { Markers } from './markers';
 import { looks, surfaceMaterial, type Look } from './materials';
 import { assignButtons, moveByWheel } from './navigation';
 import type { Seen } from './picking';
+import { pixelOf, placeAt, towards } from './projection';
 import { drawsInSoftware } from './software';
-import { placesOf, type Shape } from './shape';
+import { nothing, placesOf, type Shape } from './shape';
 import { normalsAt, verticesOf, type Vertices } from './vertices';
 
 ColorManagement.enabled = false;  // colours are those of the style sheet
 
 export class View {
   readonly markers = new Markers();
+  readonly curve = new CurveLayer();
+  private readonly sketch = new CurveLayer();
+  private readonly grid = gridOfUnits();
   private readonly scene = new Scene();
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, -50, 50);
   private readonly renderer: WebGLRenderer;
@@ -46,15 +53,21 @@ export class View {
     this.controls.minZoom = 0.05;
     this.controls.maxZoom = 1e4;
     this.controls.addEventListener('change', () => this.draw());
-    this.scene.add(this.surface, this.lines, this.features, ...this.markers.objects);
+    this.scene.add(this.surface, this.lines, this.features, this.grid, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects);
     for (const object of this.scene.children) object.frustumCulled = false;
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
 
-  open(shape: Shape): void {
+  /** stays: the view stays where it is in units of the file. */
+  open(shape: Shape, stays: boolean): void {
+    const before = this.shape ?? nothing;
     this.shape = shape;
+    this.features.visible = !shape.curve;
+    this.grid.visible = shape === nothing;
+    this.curve.setComb(new Float32Array(), new Float32Array());
     this.show(shape.input, true);
-    this.fit(true);
+    if (stays) this.reframe(before, shape);
+    else this.fit(true);
   }
 
   /** settled: what is sharp is looked for anew, which a shape that changes many times a second does without. */
@@ -71,6 +84,7 @@ export class View {
       (geometry.getAttribute('position').array as Float32Array).set(this.places);
       geometry.getAttribute('position').needsUpdate = true;
     }
+    this.curve.show(this.shape.curve ? this.places : new Float32Array(), this.shape.curve ? this.shape.edges.ends : []);
     this.markers.move(this.places);
     this.draw();
   }
@@ -94,15 +108,18 @@ export class View {
     this.lines.material.color = colour('--wire');
     this.features.material.color = colour('--feature');
     this.lines.visible = this.look === 'wire';
+    this.curve.restyle(colour);
+    this.sketch.restyle(colour);
+    this.grid.material.color = colour('--line');
     this.markers.restyle(colour);
     this.canvas.style.color = '';
     this.draw();
   }
 
-  /** The whole surface in the view; home: from the side that a surface is first seen from. */
+  /** The whole shape in the view; home: from the side that it is first seen from, of a plane curve down on its plane. */
   fit(home = false): void {
     const { camera, controls } = this;
-    const from = home ? new Vector3(0.45, -0.85, 0.75) : camera.position.clone().sub(controls.target);
+    const from = home ? new Vector3(...(this.shape?.curve?.plane ?? [0.45, -0.85, 0.75])) : camera.position.clone().sub(controls.target);
     camera.position.copy(from.normalize().multiplyScalar(5));
     controls.target.set(0, 0, 0);
     controls.update();
@@ -115,7 +132,7 @@ export class View {
       low.min(place);
       high.max(place);
     }
-    if (low.x > high.x) return;
+    if (low.x > high.x) [low, high].forEach((end, k) => end.setScalar(k - 0.5));
     const middle = low.clone().add(high).multiplyScalar(0.5).applyMatrix4(camera.matrixWorld);
     camera.position.sub(controls.target).add(middle);
     controls.target.copy(middle);
@@ -146,15 +163,45 @@ export class View {
     return { places: this.places, triangles: this.shape.triangles, matrix, width: this.canvas.clientWidth, height: this.canvas.clientHeight };
   }
 
-  /** A way on the screen, in pixels, as one in the plane of the view, in units of the file. */
-  wayOf(across: number, down: number): [number, number, number] {
-    const perPixel = 2 / this.camera.zoom / this.canvas.clientHeight / (this.shape?.scale ?? 1);
+  /** A way on the screen, in pixels, as one in the plane of the view, in units of the file; of planar curves in theirs. */
+  wayOf(across: number, down: number): Vector {
+    const way = this.wayInView(across, down).divideScalar(this.shape?.scale ?? 1);
+    if (this.shape?.curve?.planar) {
+      const along = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 2);
+      if (Math.abs(along.z) > 0.1) way.addScaledVector(along, -way.z / along.z);
+      way.z = 0;
+    }
+    return way.toArray();
+  }
+
+  /** From the view towards whoever looks at it. */
+  get towards(): Vector {
+    return towards(this.camera);
+  }
+
+  placeAt(x: number, y: number, normal: Vector): Vector | null {
+    return placeAt(this.camera, this.canvas, this.shape ?? nothing, x, y, normal);
+  }
+
+  pixelOf(place: Vector): [number, number] {
+    return pixelOf(this.camera, this.canvas, this.shape ?? nothing, place);
+  }
+
+  /** Places joined one after the other, as somebody draws them. */
+  showSketch(places: readonly Vector[]): void {
+    const ends = places.flatMap((_, k) => (k > 0 ? [k - 1, k] : []));
+    this.sketch.show(placesOf(this.shape ?? nothing, Float64Array.from(places.flat())), ends);
+    this.draw();
+  }
+
+  private wayInView(across: number, down: number): Vector3 {
+    const perPixel = 2 / this.camera.zoom / this.canvas.clientHeight;
     const [right, up] = [0, 1].map((column) => new Vector3().setFromMatrixColumn(this.camera.matrixWorld, column));
-    return right.multiplyScalar(across * perPixel).addScaledVector(up, -down * perPixel).toArray();
+    return right.multiplyScalar(across * perPixel).addScaledVector(up, -down * perPixel);
   }
 
   private moveBy(across: number, down: number): void {
-    const way = new Vector3(...this.wayOf(-across, -down)).multiplyScalar(this.shape?.scale ?? 1);
+    const way = this.wayInView(-across, -down);
     for (const end of [this.camera.position, this.controls.target]) end.add(way);
     this.controls.update();
     this.draw();
@@ -173,6 +220,15 @@ export class View {
       clearTimeout(this.rest);
       if (this.software) this.rest = window.setTimeout(() => this.refine(true), 300);
     });
+  }
+
+  private reframe(from: Shape, to: Shape): void {
+    const { camera, controls } = this;
+    const moved = controls.target.clone().divideScalar(from.scale).add(new Vector3(...from.centre)).sub(new Vector3(...to.centre)).multiplyScalar(to.scale);
+    camera.position.add(moved).sub(controls.target);
+    controls.target.copy(moved);
+    this.zoomBy(from.scale / to.scale);
+    controls.update();
   }
 
   private split(shape: Shape): void {
@@ -203,8 +259,10 @@ export class View {
   }
 
   private scaleMarkers(): void {
-    const spacing = ((this.shape?.spacing ?? 0) * this.camera.zoom * this.canvas.clientHeight) / 2;
-    this.markers.scale(this.renderer.getPixelRatio(), spacing);
+    const ratio = this.renderer.getPixelRatio();
+    const spacing = this.shape?.curve ? Infinity : ((this.shape?.spacing ?? 0) * this.camera.zoom * this.canvas.clientHeight) / 2;
+    this.markers.scale(ratio, spacing);
+    for (const layer of [this.curve, this.sketch]) layer.scale(ratio);
   }
 
   private resize(): void {

@@ -1,6 +1,6 @@
-// The worker that owns the library and the open surface. It answers one request after the other.
+// The worker that owns the library and the open shape. It answers one request after the other.
 
-import type { Core, CoreFactory, CoreSurface } from './core';
+import { describe, describeCurve, openShape, type Core, type CoreFactory, type CoreShape } from './core';
 import type { Answer, Ask, Kind, Reply, Request, Start } from './protocol';
 
 declare const vspringCore: CoreFactory;
@@ -8,7 +8,7 @@ declare function importScripts(address: string): void;
 declare function postMessage(reply: Reply, transfer?: Transferable[]): void;
 
 let core: Core;
-let surface: CoreSurface | null = null;
+let shape: CoreShape | null = null;
 let ended: Int32Array | null = null;
 /** Whether the shape is the one that the constraints give from the input. */
 let settled = false;
@@ -16,24 +16,40 @@ let settled = false;
 type Progress = (fraction: number) => boolean;
 type Handlers = { [K in Kind]: (ask: Ask<K>, progress: Progress) => Answer<K> };
 
-function opened(): CoreSurface {
-  if (!surface) throw new Error('No surface is open');
-  return surface;
+function opened(): CoreShape {
+  if (!shape) throw new Error('Nothing is open');
+  return shape;
+}
+
+function take(next: CoreShape): void {
+  shape?.delete();
+  shape = next;
+  settled = false;
 }
 
 const handlers: Handlers = {
   open({ name, bytes, rules }) {
-    const next = new core.Surface(bytes, name);
+    const next = openShape(core, name, bytes);
     try {
       next.setRules(rules);
     } catch (error) {
       next.delete();
       throw error;
     }
-    surface?.delete();
-    surface = next;
-    settled = false;
-    return { positions: next.positions(), faceBegin: next.faceBegin(), corners: next.corners(), boundary: next.boundary(), warnings: next.warnings() };
+    take(next);
+    return describe(next);
+  },
+  draw({ places, closed, nodes }) {
+    const curve = core.Curve.through(places, closed);
+    try {
+      curve.setRules('{"rules": [{"nodes": "all", "position": "fixed"}]}');
+      const from = curve.resample(nodes);
+      take(curve);
+      return { ...describeCurve(curve), from };
+    } catch (error) {
+      curve.delete();
+      throw error;
+    }
   },
   hold({ rules }) {
     opened().setRules(rules);

@@ -163,3 +163,60 @@ test('refuses what the native program refuses, in its words', () => {
   assert.throws(() => surface.fair(null), /nothing holds the component/);
   surface.delete();
 });
+
+function placesOf(curve) {
+  const numbers = curve.positions();
+  return Array.from({ length: numbers.length / 3 }, (_, node) => [...numbers.subarray(3 * node, 3 * node + 3)]);
+}
+
+test('curves: fairs and writes as the native program does, in every format', () => {
+  const wave = Array.from({ length: 41 }, (_, k) => `${k / 10},${Math.sin(k / 6) + 0.02 * ((k * 7) % 5)}`).join('\n');
+  const path = join(folder, 'wave.csv');
+  writeFileSync(path, `x,y\n${wave}\n`);
+  const held = JSON.stringify({ rules: [{ nodes: 'boundary', position: 'fixed', tangent: 'fixed' }, { nodes: [20], position: [[2, 1, 0]] }] });
+  writeFileSync(join(folder, 'held.json'), held);
+  native('curve', path, '-o', join(folder, 'fair.csv'), '--constraints', join(folder, 'held.json'), '--quiet');
+  const curve = new core.Curve(new Uint8Array(readFileSync(path)), 'wave.csv');
+  assert.deepEqual([curve.nodeCount(), curve.planar(), [...curve.chainBegin()], [...curve.closed()]], [41, true, [0, 41], [0]]);
+  assert.deepEqual([...curve.chainNodes()], [...Array(41).keys()]);
+  assert.deepEqual([...curve.boundary().keys()].filter((node) => curve.boundary()[node]), [0, 40]);
+  curve.setRules(held);
+  assert.equal(curve.fair(null).outcome, 'converged');
+  const expected = new core.Curve(new Uint8Array(readFileSync(join(folder, 'fair.csv'))), 'fair.csv');
+  assert.ok(greatestDistance(curve.positions(), expected.positions()) < 3e-4);
+  assert.deepEqual(placesOf(curve)[20], [2, 1, 0]);
+  for (const format of ['csv', 'dat', 'obj', 'xyz']) {
+    const again = new core.Curve(curve.write(`out.${format}`), `out.${format}`);
+    assert.deepEqual(again.positions(), curve.positions());
+    again.delete();
+  }
+  assert.match(new TextDecoder().decode(curve.write('out.svg')), /<svg/);
+
+  curve.freeTangent(0);
+  curve.holdTangent(40, 0, 1, 0);
+  curve.holdPosition(20, 2, 2, 0);
+  curve.follow(null);
+  assert.deepEqual(placesOf(curve)[20], [2, 2, 0]);
+  const [before, last] = placesOf(curve).slice(-2);
+  assert.ok(Math.abs(last[0] - before[0]) < 0.5 * (last[1] - before[1]), `it ends upwards: ${before} to ${last}`);
+  curve.freePosition(20);
+  assert.throws(() => curve.holdPosition(41, 0, 0, 0), /node 41 does not exist/);
+  assert.throws(() => new core.Curve(new TextEncoder().encode('x,y\n1,zero\n'), 'bad.csv'), /bad\.csv:2/);
+  curve.delete();
+  expected.delete();
+});
+
+test('curves: through places that were drawn, with even nodes in between', () => {
+  const curve = core.Curve.through(Float64Array.of(0, 0, 0, 4, 0, 0, 4, 4, 0), true);
+  assert.ok(curve.planar());
+  curve.setRules('{"rules": [{"nodes": "all", "position": "fixed"}]}');
+  const from = curve.resample(60);
+  assert.deepEqual([...from].filter((node) => node >= 0), [0, 1, 2]);
+  assert.equal(curve.nodeCount(), 60);
+  const report = curve.fair(null);
+  assert.deepEqual([report.outcome, report.movingNodes], ['converged', 57]);
+  assert.deepEqual(placesOf(curve)[from.indexOf(1)], [4, 0, 0]);
+  assert.throws(() => curve.resample(2), /too few|2 nodes|number of nodes/);
+  assert.ok(!core.Curve.through(Float64Array.of(0, 0, 0, 1, 0, 0, 1, 1, 1), false).planar());
+  curve.delete();
+});

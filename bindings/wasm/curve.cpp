@@ -1,0 +1,165 @@
+// A curve that is open or drawn: what holds it, and its fair shape.
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "region.hpp"
+#include "values.hpp"
+
+namespace vspring {
+
+namespace {
+
+/// One curve that is open. What it has in common with Surface has the same name there.
+class Curve {
+ public:
+  /// bytes: a Uint8Array. name: of the file, for its format and for messages.
+  Curve(const val& bytes, const std::string& name)
+      : Curve(forwarding_errors(
+            [&] { return read_from(bytes, name, [](const std::string& path) { return read_curve(path); }); })) {}
+
+  /// One chain through places that were drawn, of two columns where all of them have z = 0.
+  static Curve through(const val& positions, bool closed) {
+    CurveFile file;
+    file.curve = PolygonCurve(vectors_of(positions), closed);
+    const auto& places = file.curve.positions();
+    file.planar = std::all_of(places.begin(), places.end(), [](const Vector3& place) { return place.z() == 0; });
+    return Curve(std::move(file));
+  }
+
+  [[nodiscard]] int node_count() const { return file_.curve.node_count(); }
+  [[nodiscard]] val positions() const { return positions_array(positions_); }
+  /// Where each chain begins among chain_nodes(), and their number.
+  [[nodiscard]] val chain_begin() const {
+    std::vector<Index> begin = {0};
+    for (const auto& chain : file_.curve.chains())
+      begin.push_back(begin.back() + static_cast<Index>(chain.nodes.size()));
+    return array_of("Int32Array", begin.size(), begin.data());
+  }
+  [[nodiscard]] val chain_nodes() const {
+    std::vector<Index> nodes;
+    for (const auto& chain : file_.curve.chains()) nodes.insert(nodes.end(), chain.nodes.begin(), chain.nodes.end());
+    return array_of("Int32Array", nodes.size(), nodes.data());
+  }
+  /// 1 for every closed chain.
+  [[nodiscard]] val closed() const {
+    std::vector<std::uint8_t> closed;
+    for (const auto& chain : file_.curve.chains()) closed.push_back(chain.closed ? 1 : 0);
+    return array_of("Uint8Array", closed.size(), closed.data());
+  }
+  /// 1 for every end of a chain.
+  [[nodiscard]] val boundary() const {
+    const auto nodes = boundary_nodes(file_.curve);
+    return array_of("Uint8Array", nodes.size(), nodes.data());
+  }
+  /// Whether the file has two coordinates a node.
+  [[nodiscard]] bool planar() const { return file_.planar; }
+  [[nodiscard]] val warnings() const { return list_of(file_.warnings); }
+
+  void set_rules(const std::string& json) {
+    forwarding_errors([&] {
+      Constraints constraints(file_.curve.node_count());
+      apply_rules(constraints, file_.curve, json, {.groups = &file_.groups});
+      constraints_ = std::move(constraints);
+    });
+  }
+  void hold_position(Index node, double x, double y, double z) {
+    forwarding_errors([&] { constraints_->fix_position(node, Vector3(x, y, z)); });
+  }
+  void free_position(Index node) {
+    forwarding_errors([&] { constraints_->free_position(node); });
+  }
+  void hold_tangent(Index node, double x, double y, double z) {
+    forwarding_errors([&] { constraints_->fix_tangent(node, Vector3(x, y, z)); });
+  }
+  void free_tangent(Index node) {
+    forwarding_errors([&] { constraints_->free_tangent(node); });
+  }
+
+  /// What must hold besides for only those nodes to move, with the `tangents` of the rim.
+  [[nodiscard]] val region(const val& nodes) const {
+    return region_of(*constraints_, file_.curve, nodes,
+                     {"tangents", &Constraints::tangent_fixed, &Constraints::tangent});
+  }
+
+  /// Even nodes between those that are held, `nodes` in all; they are the curve from then on. Returns for every node
+  /// its number before, -1 for new ones.
+  val resample(Index nodes) {
+    return forwarding_errors([&] {
+      Resampled even = vspring::resample(file_.curve, *constraints_, {.nodes = nodes});
+      // What the file carried belongs to nodes that are no longer there.
+      file_.source = nullptr;
+      file_.groups.clear();
+      file_.curve = std::move(even.curve);
+      constraints_ = std::move(even.constraints);
+      positions_ = file_.curve.positions();
+      return array_of("Int32Array", even.from.size(), even.from.data());
+    });
+  }
+
+  /// Always from the file's shape: curves take so little time that they follow this way too.
+  val fair(const val& progress) {
+    return forwarding_errors([&] {
+      Context context;
+      context.threads = 1;
+      ask(context, progress);
+      FairResult result = vspring::fair(file_.curve, *constraints_, {}, context);
+      positions_ = std::move(result.positions);
+      return to_val(result.report);
+    });
+  }
+
+  /// The bytes of a file of that name, with the last shape; a picture has the first one behind.
+  [[nodiscard]] val write(const std::string& name) const {
+    return forwarding_errors([&] {
+      return bytes_written(name, [&](const std::string& path) {
+        (void)write_curve(path, file_, positions_, std::nullopt, {.before = &file_.curve});
+      });
+    });
+  }
+  void set_positions(const val& positions) {
+    forwarding_errors([&] {
+      PolygonCurve curve = file_.curve;
+      curve.set_positions(vectors_of(positions));
+      positions_ = curve.positions();
+    });
+  }
+
+ private:
+  explicit Curve(CurveFile file)
+      : file_(std::move(file)), positions_(file_.curve.positions()), constraints_(file_.curve.node_count()) {}
+
+  CurveFile file_;
+  std::vector<Vector3> positions_;
+  std::optional<Constraints> constraints_;
+};
+
+}  // namespace
+
+EMSCRIPTEN_BINDINGS(vspring_curve) {
+  emscripten::class_<Curve>("Curve")
+      .constructor<val, std::string>()
+      .class_function("through", &Curve::through)
+      .function("nodeCount", &Curve::node_count)
+      .function("positions", &Curve::positions)
+      .function("chainBegin", &Curve::chain_begin)
+      .function("chainNodes", &Curve::chain_nodes)
+      .function("closed", &Curve::closed)
+      .function("boundary", &Curve::boundary)
+      .function("planar", &Curve::planar)
+      .function("warnings", &Curve::warnings)
+      .function("setRules", &Curve::set_rules)
+      .function("holdPosition", &Curve::hold_position)
+      .function("freePosition", &Curve::free_position)
+      .function("holdTangent", &Curve::hold_tangent)
+      .function("freeTangent", &Curve::free_tangent)
+      .function("region", &Curve::region)
+      .function("resample", &Curve::resample)
+      .function("fair", &Curve::fair)
+      .function("follow", &Curve::fair)
+      .function("write", &Curve::write)
+      .function("setPositions", &Curve::set_positions);
+}
+
+}  // namespace vspring

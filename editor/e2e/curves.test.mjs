@@ -1,0 +1,220 @@
+// Curves in the editor: real pointer and keys, and the native program's result to compare with.
+
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, afterEach, before, beforeEach, test } from 'node:test';
+import { downloaded, find, greatestDistance, native, rulesOf, Session, settled } from './support.mjs';
+
+let session;
+let page;
+let faults;
+
+before(async () => {
+  session = await Session.start();
+  const wave = Array.from({ length: 61 }, (_, k) => [k / 10, Math.sin(k / 9) + 0.02 * ((k * 7) % 5)]);
+  const ring = Array.from({ length: 48 }, (_, k) => (Math.PI * k) / 24).map((a) => [2 * Math.cos(a), Math.sin(a), 0.4 * Math.sin(2 * a) + 0.02 * Math.cos(11 * a)]);
+  const rows = (points, between) => points.map((point) => point.join(between)).join('\n') + '\n';
+  writeFileSync(join(session.folder, 'wave.csv'), `x,y\n${rows(wave, ',')}`);
+  writeFileSync(join(session.folder, 'wave.dat'), `Wave\n${rows(wave, ' ')}`);
+  writeFileSync(join(session.folder, 'ring.xyz'), rows(ring, ' '));
+  writeFileSync(join(session.folder, 'ring.obj'), `${ring.map((point) => `v ${point.join(' ')}\n`).join('')}l ${ring.map((_, k) => k + 1).join(' ')} 1\n`);
+});
+after(() => session.stop());
+afterEach(async () => {
+  await page.close();
+  assert.deepEqual(faults, []);
+});
+
+async function opened(name) {
+  ({ page, faults } = await session.open(`?file=files/${name}`));
+  await page.locator('#name', { hasText: name }).waitFor();
+}
+
+async function saved(format) {
+  if (format) await page.getByLabel('File format').selectOption(format);
+  return downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
+}
+
+// Places of a table of numbers, or of OBJ.
+function placesOf(path) {
+  return readFileSync(path, 'utf8').split('\n').map((line) => line.replace(/^v /, '').split(/[\s,]+/).filter(Boolean).map(Number))
+    .filter((row) => row.length >= 2 && row.every(Number.isFinite)).map(([x, y, z = 0]) => [x, y, z]);
+}
+
+async function dragFrom({ x, y }, across, down, held = async () => {}) {
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let k = 1; k <= 8; ++k) await page.mouse.move(x + (across * k) / 8, y + (down * k) / 8);
+  await held();
+  await page.mouse.up();
+  await settled(page);
+}
+
+// What the program makes of the file and the constraints that the editor has saved.
+function faired(input, rules, ...options) {
+  const [file, out] = ['rules.json', `fair-${input}`].map((name) => join(session.folder, name));
+  writeFileSync(file, rules);
+  native('curve', join(session.folder, input), '-o', out, '--constraints', file, '--quiet', ...options);
+  return placesOf(out);
+}
+
+test('a plane curve is seen from above, dragged in its plane, and saved as the native program fairs it', async () => {
+  await opened('wave.csv');
+  await settled(page);
+  assert.match(await page.locator('#size').textContent(), /61 nodes, open curve/);
+  const untouched = placesOf((await saved()).path);
+  const free = await find(page, /free/, [0.35, 0.02], [0.35, 0.98]);
+  await page.mouse.click(free.x, free.y);
+  await page.keyboard.press('f');
+  await settled(page);
+  let seen;
+  await dragFrom(free, 30, -90, async () => {
+    await page.locator('#status', { hasText: 'frames/s' }).waitFor();
+    seen = await page.locator('#plot path.second').getAttribute('d');
+  });
+  await page.locator(`#plot path.second:not([d="${seen}"])`).waitFor({ state: 'attached', timeout: 1 }).catch(() => {});
+  const rules = await rulesOf(page);
+  const place = JSON.parse(rules).rules.at(-1).position[0];
+  assert.equal(place[2], 0, 'it stays in the plane of the file');
+
+  const { name, path } = await saved();
+  assert.equal(name, 'wave-fair.csv');
+  assert.match(readFileSync(path, 'utf8'), /^x,y\n/);
+  const ours = placesOf(path);
+  assert.ok(greatestDistance(ours, faired('wave.csv', rules)) < 1e-4);
+  assert.deepEqual(ours[free.node], place);
+  assert.ok(greatestDistance(ours, untouched) > 0.3);
+
+  await page.keyboard.press('z');
+  await settled(page);
+  await page.keyboard.press('z');
+  await settled(page);
+  assert.ok(greatestDistance(placesOf((await saved()).path), untouched) < 1e-12);
+});
+
+test('every format of curves is read and written; a closed one is held where nodes are fixed', async () => {
+  await opened('wave.dat');
+  await settled(page);
+  const wave = placesOf((await saved()).path);
+  for (const format of ['csv', 'obj', 'xyz']) assert.deepEqual(placesOf((await saved(format)).path), wave);
+  assert.match(readFileSync((await saved('svg')).path, 'utf8'), /<svg/);
+  assert.ok(greatestDistance(wave, faired('wave.dat', await rulesOf(page))) < 1e-4);
+  await page.goto(`${session.address}?file=files/ring.xyz`);
+  await page.locator('#name', { hasText: 'ring.xyz' }).waitFor();
+  await settled(page);
+  assert.match(await page.locator('#size').textContent(), /48 nodes, open curve/);
+
+  await page.goto(`${session.address}?file=files/ring.obj`);
+  await page.getByRole('alert').filter({ hasText: /held|holds|fixed/ }).waitFor();
+  assert.match(await page.locator('#size').textContent(), /48 nodes, closed curve/);
+  for (const share of [0.25, 0.45, 0.65]) {
+    const { x, y } = await find(page, /free/, [share, 0.1], [share, 0.9]);
+    await page.keyboard.down('Shift');
+    await page.mouse.click(x, y);
+    await page.keyboard.up('Shift');
+  }
+  assert.equal(await page.locator('#picked').textContent(), '3 nodes');
+  await page.keyboard.press('f');
+  await settled(page);
+  await page.keyboard.press('n');
+  await settled(page);
+  const rules = await rulesOf(page);
+  assert.equal(JSON.parse(rules).rules.at(-1).tangent, 'fixed');
+  const { path } = await saved();
+  assert.match(path && readFileSync(path, 'utf8'), /\nl /);
+  assert.ok(greatestDistance(placesOf(path), faired('ring.obj', rules)) < 1e-4);
+});
+
+test('the comb and the plot follow; both can be put away', async () => {
+  await opened('wave.csv');
+  await settled(page);
+  const picture = async () => (await page.locator('#canvas').screenshot()).toString('base64');
+  const plot = page.locator('#plot svg');
+  assert.match(await plot.getAttribute('aria-label'), /curvature, 1\/unit.* against arc length, units of the input; curvature is positive to the left, input and shown/);
+  const low = await page.locator('#canvas').boundingBox();
+  await page.mouse.move(3, 3);
+  const withComb = await picture();
+  await page.keyboard.press('c');
+  assert.notEqual(await picture(), withComb);
+  assert.equal(await page.getByLabel('Comb').inputValue(), '0');
+  await page.getByLabel('Comb').fill('2');
+  assert.notEqual(await picture(), withComb);
+
+  const before = await page.locator('#plot path.second').getAttribute('d');
+  await page.getByRole('button', { name: 'Tangents fixed' }).click();
+  await settled(page);
+  await page.waitForFunction((d) => document.querySelector('#plot path.second').getAttribute('d') !== d, before);
+
+  await page.getByRole('button', { name: 'Fold the plot away' }).click();
+  assert.ok(await page.locator('#dock').isHidden());
+  assert.ok((await page.locator('#canvas').boundingBox()).height > low.height + 100);
+  await page.keyboard.press('p');
+  await plot.waitFor();
+});
+
+async function drawn(points, end) {
+  await page.getByRole('button', { name: 'New curve' }).click();
+  const box = await page.locator('#canvas').boundingBox();
+  for (const [x, y] of points) await page.mouse.click(box.x + box.width * x, box.y + box.height * y);
+  await end(box);
+  await page.locator('#name', { hasText: 'curve.csv' }).waitFor();
+  await settled(page);
+}
+
+// The places that a constraints file holds by their own numbers, and what the program makes of a curve through them.
+function fairedThrough(rules, nodes, ...options) {
+  const { position } = JSON.parse(rules).rules.find((rule) => Array.isArray(rule.position));
+  writeFileSync(join(session.folder, 'drawn.csv'), `x,y\n${position.map(([x, y]) => `${x},${y}`).join('\n')}\n`);
+  return faired('drawn.csv', JSON.stringify({ rules: [{ nodes: 'all', position: 'fixed' }] }), '--resample', String(nodes), ...options);
+}
+
+test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as the native program makes it', async () => {
+  ({ page, faults } = await session.open('?file=files/wave.csv'));
+  await page.locator('#name', { hasText: 'wave.csv' }).waitFor();
+  await settled(page);
+  await drawn([[0.15, 0.6], [0.3, 0.3], [0.45, 0.9], [0.45, 0.65], [0.6, 0.4]], async () => {
+    for (let k = 0; k < 3; ++k) await page.keyboard.press('Backspace');
+    const box = await page.locator('#canvas').boundingBox();
+    for (const [x, y] of [[0.45, 0.65], [0.6, 0.4]]) await page.mouse.click(box.x + box.width * x, box.y + box.height * y);
+    await page.keyboard.press('Enter');
+  });
+  assert.match(await page.locator('#size').textContent(), /61 nodes, open curve/);
+  const rules = await rulesOf(page);
+  assert.deepEqual(JSON.parse(rules).rules.at(-1).position.map(([, , z]) => z), [0, 0, 0, 0]);
+  assert.ok(greatestDistance(placesOf((await saved('csv')).path), fairedThrough(rules, 61)) < 1e-4);
+
+  const held = await find(page, /position fixed/, [0.3, 0.3], [0.31, 0.3]);  // where it was drawn
+  await dragFrom(held, 10, 40);
+  const pulled = await rulesOf(page);
+  assert.notEqual(pulled, rules);
+
+  await page.getByRole('button', { name: 'Closed' }).click();
+  await page.locator('#size', { hasText: '80 nodes, closed curve' }).waitFor();
+  await settled(page);
+  assert.deepEqual(JSON.parse(await rulesOf(page)).rules.at(-1).position, JSON.parse(pulled).rules.at(-1).position);
+  const ours = placesOf((await saved('xyz')).path).slice(0, 80);  // the first once more at the end
+  assert.ok(greatestDistance(ours, fairedThrough(pulled, 80, '--closed').slice(0, 80)) < 1e-4);
+
+  await page.getByLabel('Nodes a span').fill('10');
+  await page.keyboard.press('Tab');
+  await page.locator('#size', { hasText: '40 nodes, closed curve' }).waitFor();
+  await settled(page);
+});
+
+test('a click on the first node closes, a double click ends, Escape gives up', async () => {
+  ({ page, faults } = await session.open());
+  await settled(page);
+  await drawn([[0.2, 0.3], [0.5, 0.25], [0.4, 0.7], [0.2, 0.3]], async () => {});
+  assert.match(await page.locator('#size').textContent(), /60 nodes, closed curve/);
+  await drawn([[0.2, 0.3], [0.5, 0.25]], async (box) => page.mouse.dblclick(box.x + 0.4 * box.width, box.y + 0.7 * box.height));
+  assert.match(await page.locator('#size').textContent(), /41 nodes, open curve/);
+
+  await page.keyboard.press('d');
+  assert.equal(await page.getByRole('button', { name: 'Draw a curve' }).getAttribute('aria-pressed'), 'true');
+  const box = await page.locator('#canvas').boundingBox();
+  await page.mouse.click(box.x + 0.3 * box.width, box.y + 0.3 * box.height);
+  await page.keyboard.press('Escape');
+  assert.equal(await page.getByRole('button', { name: 'Draw a curve' }).getAttribute('aria-pressed'), 'false');
+  assert.match(await page.locator('#size').textContent(), /41 nodes, open curve/);
+});

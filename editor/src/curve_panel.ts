@@ -1,0 +1,91 @@
+// The curvature of the open curve: its comb in the view, and its plot in the dock. Both follow the shape that is seen.
+
+import { addCurveCharts } from '../../page/charts.js';
+import { chainsOf } from '../../page/curve.js';
+import { combOf, toothOf, type Chain } from './comb';
+import type { CurveLayer } from './curve_layer';
+import type { Shape } from './shape';
+
+export class CurvePanel {
+  private shape: Shape | null = null;
+  private input: Chain[] = [];
+  private chains: Chain[] = [];
+  private tooth = 0;
+  private asked = false;
+  unfolded = true;
+
+  /** slider: how long hairs are, 1 as is good for most. dock: where the plot is, with its switch. drawn: has the view drawn. */
+  constructor(
+    private readonly layer: CurveLayer,
+    private readonly slider: HTMLInputElement,
+    private readonly dock: HTMLElement,
+    private readonly drawn: () => void,
+  ) {
+    slider.addEventListener('input', () => this.refresh());
+    new ResizeObserver(() => this.refresh()).observe(dock);
+  }
+
+  get comb(): boolean {
+    return Number(this.slider.value) > 0;
+  }
+
+  fold(): void {
+    this.unfolded = !this.unfolded;
+    this.dock.hidden = !this.unfolded;
+    this.refresh();
+  }
+
+  toggleComb(): void {
+    this.slider.value = this.comb ? '0' : '1';
+    this.refresh();
+  }
+
+  open(shape: Shape): void {
+    this.shape = shape.curve && shape;
+    this.dock.hidden = !this.shape || !this.unfolded;
+    this.input = this.chainsAt(shape.input);
+    this.show(shape.input, true);
+  }
+
+  /** settled: hairs get the length that is good for this shape; in a drag they keep theirs, to be compared. */
+  show(positions: Float64Array, settled: boolean): void {
+    if (!this.shape) return;
+    this.chains = this.chainsAt(positions);
+    if (settled || this.tooth === 0) this.tooth = toothOf(this.chains, 1 / this.shape.scale);
+    this.refresh();
+  }
+
+  private chainsAt(positions: Float64Array): Chain[] {
+    const curve = this.shape?.curve;
+    return curve ? chainsOf({ positions, runs: curve.runs, closed: curve.closed }, { planar: curve.plane !== null, towards: curve.plane }) as Chain[] : [];
+  }
+
+  /** Many changes, one picture. */
+  private refresh(): void {
+    if (!this.shape || this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      if (!this.shape) return;
+      this.drawComb(this.shape);
+      if (this.unfolded) this.drawPlot(this.shape);
+    });
+  }
+
+  private drawComb({ centre, scale }: Shape): void {
+    const tooth = this.tooth * Number(this.slider.value);
+    const { hairs, envelope } = combOf(tooth > 0 ? this.chains : [], tooth, 1 / scale, (point) => point.map((part, i) => (part - centre[i]) * scale) as typeof point);
+    this.layer.setComb(hairs, envelope);
+    this.drawn();
+  }
+
+  private drawPlot({ curve, input }: Shape): void {
+    const plot = this.dock.querySelector<HTMLElement>('#plot')!;
+    const { clientWidth: width, clientHeight: height } = plot;
+    if (width === 0) return;
+    const shapes = [{ title: 'input', chains: this.input }, { title: 'shown', chains: this.chains }];
+    plot.replaceChildren();
+    if (input.length === 0) return;
+    addCurveCharts(plot, shapes, { unit: 1, leading: 1, planar: curve!.plane !== null, size: { width, height } }, {});
+  }
+}

@@ -11,24 +11,32 @@ export function prepared({title, positions, runs, mean, gaussian}) {
     triangles: trianglesOf(runs, positions), normals: normalsOf(runs, positions, edges)};
 }
 
+const about = (centre, half) => [centre - half, centre + half];
+
+// The middle 96 % of values, or about their middle where that is little: a sphere is of one colour, although its curvature is not measured to the last digit.
+export function aboutMiddle(values, least) {
+  const [low, high] = quantiles(values, [0.02, 0.98]);
+  return about((low + high) / 2, Math.max((high - low) / 2, least, 0.02 * Math.abs(low + high) / 2));
+}
+
+// The least 98 % of values, without their signs.
+export function aboutZero(values, least) {
+  return about(0, Math.max(least, quantiles(values.map(Math.abs), [0.98])[0]));
+}
+
 // What colours can show: values for each shape, map, range of its colours.
 export function fieldsOf(shapes, {leading, reference, unit}) {
-  const about = (centre, half) => [centre - half, centre + half];
-  const even = (values, least) => about(0, Math.max(least, quantiles(values.map(Math.abs), [0.98])[0]));
-  const [low, high] = quantiles(shapes[leading].mean, [0.02, 0.98]);
-  // A sphere is of one colour, although its curvature is not measured to the last digit.
-  const least = Math.max(0.01, 0.02 * Math.abs(low + high) / 2);
   const fields = {
     mean: {name: 'Mean curvature × D', map: sequential, values: shapes.map((shape) => shape.mean),
-      range: about((low + high) / 2, Math.max((high - low) / 2, least))},
+      range: aboutMiddle(shapes[leading].mean, 0.01)},
     gaussian: {name: 'Gaussian curvature × D²', map: diverging, values: shapes.map((shape) => shape.gaussian),
-      range: even(shapes[leading].gaussian, 0.01)},
+      range: aboutZero(shapes[leading].gaussian, 0.01)},
   };
   const from = shapes[reference];
   if (from && from.runs === shapes[leading].runs) {
     const values = deviationsOf(shapes[leading].positions, from.positions, from.normals).map((part) => part * unit);
     fields.deviation = {name: `Deviation from “${from.title}”, units of the input`, map: diverging,
-      values: shapes.map(() => values), range: even(values, 1e-6 * unit)};
+      values: shapes.map(() => values), range: aboutZero(values, 1e-6 * unit)};
   }
   return fields;
 }

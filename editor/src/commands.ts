@@ -23,9 +23,12 @@ function shown(key: string): string {
   return key.split('+').filter(Boolean).map((part) => part[0].toUpperCase() + part.slice(1)).join(' ') || '+';
 }
 
-function takesText(target: EventTarget | null): boolean {
+/** Whether the key means something to what has the focus. */
+function takes(target: EventTarget | null, key: string): boolean {
+  if (target instanceof HTMLInputElement && target.type === 'range') return key === 'home';
+  if (key.startsWith('ctrl+')) return false;
   return target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement
-    || (target instanceof HTMLInputElement && !['checkbox', 'radio', 'button', 'range'].includes(target.type));
+    || (target instanceof HTMLInputElement && !['checkbox', 'radio', 'button'].includes(target.type));
 }
 
 /** Binds every element with data-command, and the keys. Returns what brings the buttons up to date. */
@@ -39,7 +42,7 @@ export function bindCommands(commands: Command[]): () => void {
   }
   addEventListener('keydown', (event) => {
     const key = keyOf(event);
-    if (event.altKey || document.querySelector('dialog[open]') || (takesText(event.target) && !key.startsWith('ctrl+'))) return;
+    if (event.altKey || document.querySelector('dialog[open]') || takes(event.target, key)) return;
     const command = commands.find(({ keys }) => keys.includes(key));
     if (!command) return;
     event.preventDefault();

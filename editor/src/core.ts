@@ -1,6 +1,6 @@
 // The library in WebAssembly as the worker sees it: see docs/webassembly.md.
 
-import type { Opened, OpenedCurve, Region, Report } from './protocol';
+import type { Curvatures, Opened, OpenedCurve, Region, Report } from './protocol';
 
 /** What surfaces and curves have in common. */
 export interface CoreShape {
@@ -12,6 +12,7 @@ export interface CoreShape {
   fair(progress: ((fraction: number) => boolean) | null): Report;
   follow(progress: ((fraction: number) => boolean) | null): Report;
   region(nodes: Int32Array): Region;
+  setPositions(positions: Float64Array): void;
   write(name: string): Uint8Array;
   delete(): void;
 }
@@ -20,6 +21,7 @@ export interface CoreSurface extends CoreShape {
   faceCount(): number;
   faceBegin(): Int32Array;
   corners(): Int32Array;
+  curvatures(positions: Float64Array): Curvatures;
 }
 
 export interface CoreCurve extends CoreShape {

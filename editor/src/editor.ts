@@ -9,6 +9,7 @@ import type { Job, Opened, Report, Solved } from './protocol';
 import { Pull } from './pull';
 import { restricted } from './region';
 import { nothing, shapeOf, type Shape } from './shape';
+import { between } from './strength';
 
 export interface EditorEvents {
   /** stays: where it is seen. */
@@ -35,9 +36,12 @@ export class Editor {
   showsInput = false;
   /** Whether the curve was drawn here. */
   drawn = false;
+  /** How far on the way from the input to the result that is which is seen and saved: 0 to 1. */
+  strength = 1;
   history: History<Constraints> = begun(holding.initial);
   readonly frames = new FrameCounter();
   private positions: Float64Array = new Float64Array();
+  seen: Float64Array = this.positions;
   private drag: Pull | null = null;
   readonly client = new CoreClient((message) => this.setFault(message, 'file'));
   private readonly solver = new Solver(this.client, {
@@ -51,6 +55,10 @@ export class Editor {
 
   get constraints(): Constraints {
     return this.history.now.state;
+  }
+
+  get result(): Float64Array {
+    return this.positions;
   }
 
   get dragging(): boolean {
@@ -95,8 +103,8 @@ export class Editor {
     this.drag = null;
     this.history = begun(constraints);
     this.shape = shapeOf(opened);
-    this.positions = opened.positions;
-    Object.assign(this, { name, drawn, report: null, fault: null, showsInput: false, picked: new Set(), hovered: -1, fileWarnings: opened.warnings });
+    this.positions = this.seen = opened.positions;
+    Object.assign(this, { name, drawn, report: null, fault: null, showsInput: false, strength: 1, picked: new Set(), hovered: -1, fileWarnings: opened.warnings });
     this.events.opened(this.shape, drawn);
     this.settle();
   }
@@ -107,9 +115,9 @@ export class Editor {
     this.drag = null;
     this.history = begun(holding.initial);
     this.shape = null;
-    this.positions = new Float64Array();
+    this.positions = this.seen = new Float64Array();
     this.held = { nodes: new Uint8Array(), unmarked: 0 };
-    Object.assign(this, { name: '', drawn: false, report: null, fault: null, showsInput: false, picked: new Set(), hovered: -1, fileWarnings: [] });
+    Object.assign(this, { name: '', drawn: false, report: null, fault: null, showsInput: false, strength: 1, picked: new Set(), hovered: -1, fileWarnings: [] });
     this.events.opened(nothing, false);
     this.events.changed();
   }
@@ -141,8 +149,18 @@ export class Editor {
   }
 
   toggleInput(): void {
-    this.showsInput = !this.showsInput;
-    this.events.shape(this.showsInput ? this.shape!.input : this.positions, true);
+    this.show({ showsInput: !this.showsInput }, true);
+  }
+
+  /** settled: the slider has been let go. */
+  setStrength(strength: number, settled: boolean): void {
+    this.show({ strength, showsInput: false }, settled);
+  }
+
+  private show(state: Partial<Pick<Editor, 'showsInput' | 'strength'>>, settled: boolean): void {
+    Object.assign(this, state);
+    this.seen = between(this.shape!.input, this.positions, this.showsInput ? 0 : this.strength);
+    this.events.shape(this.seen, settled);
     this.events.changed();
   }
 
@@ -192,11 +210,11 @@ export class Editor {
 
   /** Takes the node, and with it all picked ones that are held if it is one of them. */
   beginDrag(node: number, now: number): void {
+    this.show({ showsInput: false, strength: 1 }, false);
     if (!this.picked.has(node)) this.pick(node, false);
     const nodes = [...this.picked].filter((other) => this.isDraggable(other));
     const start = Float64Array.from(nodes.flatMap((other) => this.placeOf(other)));
     this.drag = new Pull(nodes, start, 1 / this.shape!.scale, !this.shape!.curve);
-    this.showsInput = false;
     this.frames.start(now);
   }
 
@@ -215,7 +233,7 @@ export class Editor {
   }
 
   private placeOf(node: number): Vector {
-    return [...this.positions.subarray(3 * node, 3 * node + 3)] as Vector;
+    return [...this.seen.subarray(3 * node, 3 * node + 3)] as Vector;
   }
 
   private apply(label: string, constraints: Constraints): void {
@@ -244,7 +262,7 @@ export class Editor {
       this.drag.solved(drag, report.iterations);
       if (!this.drag.arrived) this.solver.push({ drag: this.drag.step() });
     }
-    if (!this.showsInput) this.events.shape(positions, !drag);
-    this.events.changed();
+    if (this.showsInput) this.events.changed();
+    else this.show({}, !drag);
   }
 }

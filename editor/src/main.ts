@@ -6,12 +6,15 @@ import { CurvePanel } from './curve_panel';
 import { Drawing } from './drawing';
 import { Editor } from './editor';
 import { acceptDrops, choose, download, fromAddress, stem } from './files';
+import { Fields, fieldNames, type Field } from './fields';
 import { Gestures } from './gestures';
 import { showFor } from './kinds';
+import { showLegend } from './legend';
 import { looks, type Look } from './materials';
 import { pick } from './picking';
 import { selectionCommands } from './selection';
 import { describe } from './status';
+import { bindStrength } from './strength';
 import { startTheme, switchTheme } from './theme';
 import { rove } from './toolbar';
 import { Tools } from './tools';
@@ -24,6 +27,7 @@ const format = document.getElementById('format') as HTMLSelectElement;
 const examples = document.getElementById('example') as HTMLSelectElement;
 const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz';
 let look: Look = 'shaded';
+let coloured: Field | null = null;
 let held: Uint8Array = new Uint8Array();
 let marked: { picked: ReadonlySet<number>; hovered: number } = { picked: new Set(), hovered: -1 };
 
@@ -35,14 +39,26 @@ const editor: Editor = new Editor({
     showFor(shape, editor.name, format);
     view.open(shape, stays);
     curves.open(shape);
+    fields.open(shape);
   },
   shape: (positions, settled) => {
     view.show(positions, settled);
     curves.show(positions, settled);
+    fields.move(positions, editor.result, settled);
   },
   changed,
 });
 const drawing = new Drawing(canvas, editor, () => view, () => refresh());
+const fields = new Fields({
+  ask: (positions) => editor.client.ask('curvatures', { positions }),
+  show: (field) => {
+    coloured = field;
+    view.setField(field);
+    showLegend(document.getElementById('legend')!, field);
+    describe(editor, coloured);
+  },
+  failed: (message) => editor.setFault(message, 'solver'),
+});
 const tools: Tools = new Tools(canvas, document.querySelector('#overlay')!, {
   seen: () => view.seen(),
   picked: () => editor.picked,
@@ -69,12 +85,14 @@ const view = new View(canvas, panel, () => editor.frames.drawn(performance.now()
 
 const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
 
+const titles: Record<Look, string> = { shaded: 'Shaded', wire: 'Wire', zebra: 'Zebra', mean: 'Mean curvature', gaussian: 'Gaussian curvature', deviation: 'Deviation from the input' };
 const opened = (): boolean => editor.shape !== null;
 const isCurve = (): boolean => editor.shape?.curve != null;
 const somePicked = (): boolean => editor.picked.size > 0;
 const commands: Command[] = [
   { id: 'open', title: 'Open a mesh or a curve', keys: ['o', 'ctrl+o'], run: () => choose(shapes, open) },
-  { id: 'save', title: 'Save the result', keys: ['ctrl+s'], run: () => void save(), enabled: opened },
+  { id: 'save', title: 'Save the result', keys: ['ctrl+s'], run: () => void save(), enabled: opened,
+    detail: () => (editor.strength < 1 ? `${Math.round(100 * editor.strength)} % of the way from the input` : undefined) },
   { id: 'load-constraints', title: 'Load constraints', keys: [], run: () => choose('.json', open), enabled: opened },
   { id: 'save-constraints', title: 'Save constraints', keys: ['ctrl+shift+s'], enabled: opened,
     run: () => download(`${stem(editor.name)}-constraints.json`, toFile(editor.constraints)) },
@@ -94,8 +112,8 @@ const commands: Command[] = [
     run: () => editor.setBoundary(editor.direction, !editor.isBoundaryFixed(editor.direction)), pressed: () => editor.isBoundaryFixed(editor.direction) },
   { id: 'comb', title: 'Curvature comb', keys: ['c'], run: () => curves.toggleComb(), enabled: isCurve, pressed: () => curves.comb },
   { id: 'plot', title: 'Plot of curvature', keys: ['p'], run: () => { curves.fold(); refresh(); }, enabled: isCurve, pressed: () => curves.unfolded },
-  ...looks.map((which) => ({ id: which, title: which[0].toUpperCase() + which.slice(1), keys: [String(['shaded', 'wire', 'zebra'].indexOf(which) + 1)],
-    run: () => setLook(which), pressed: () => look === which })),
+  ...looks.map((which) => ({ id: which, title: titles[which], keys: [String(['shaded', 'wire', 'zebra', ...fieldNames].indexOf(which) + 1)],
+    run: () => setLook(which), pressed: () => look === which, enabled: () => !isCurve() || !fieldNames.some((name) => name === which) })),
   { id: 'input', title: 'Show the input or the result', keys: ['i'], run: () => editor.toggleInput(), enabled: opened, pressed: () => editor.showsInput },
   { id: 'fit', title: 'Show all', keys: ['0', 'home'], run: () => view.fit() },
   { id: 'zoom-in', title: 'Zoom in', keys: ['+', '='], run: () => view.zoomBy(1.25) },
@@ -121,7 +139,7 @@ function changed(): void {
     view.markers.set('hovered', editor.hovered < 0 || editor.picked.has(editor.hovered) ? [] : [editor.hovered]);
     view.draw();
   }
-  describe(editor);
+  describe(editor, coloured);
   refresh();
 }
 
@@ -140,7 +158,7 @@ async function openAddress(address: string): Promise<void> {
 async function save(): Promise<void> {
   const name = `${stem(editor.name)}-fair.${format.value}`;
   try {
-    download(name, await editor.client.ask('write', { name }));
+    download(name, await editor.client.ask('write', { name, strength: editor.strength }));
   } catch (error) {
     editor.setFault((error as Error).message, 'file');
   }
@@ -149,6 +167,7 @@ async function save(): Promise<void> {
 function setLook(which: Look): void {
   look = which;
   view.setLook(which);
+  fields.choose(fieldNames.find((name) => name === which) ?? null);
   refresh();
 }
 
@@ -165,6 +184,7 @@ function toolChanged(): void {
   editor.set({ hovered: -1 });
 }
 
+bindStrength(document.querySelector('#strength')!, (share, settled) => editor.setStrength(share, settled));
 rove(document.querySelector('[role=toolbar]')!);
 examples.addEventListener('change', () => void openAddress(examples.value));
 acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, open);

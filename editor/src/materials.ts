@@ -1,53 +1,39 @@
-// What the graphics card does: shading and reflection lines as in the page of --html, markers as discs.
+// What the graphics card does: surfaces as in the page of --html, markers as discs.
 
-import { Color, DoubleSide, GLSL3, ShaderMaterial } from 'three';
+import { Color, DoubleSide, GLSL3, ShaderMaterial, Vector2, Vector3 } from 'three';
+import { fragmentShader } from '../../page/shaders.js';
+import { fieldNames } from './fields';
 
 const vertexShader = `
+in float value;
 out vec3 place;
 out vec3 facing;
+out float height;
 void main() {
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
   place = seen.xyz;
   facing = normalMatrix * normal;
+  height = value;
   gl_Position = projectionMatrix * seen;
 }`;
 
-const fragmentShader = `
-uniform int kind;  // 0 one colour; 1 shaded; 2 reflection lines
-uniform vec3 colour;
-in vec3 place;
-in vec3 facing;
-out vec4 result;
-void main() {
-  vec3 n = normalize(facing);
-  // A surface is seen from both sides: the normal is on that of the face that is seen.
-  if (dot(n, cross(dFdx(place), dFdy(place))) < 0.0) n = -n;
-  float towards = max(n.z, 0.0);
-  if (kind == 0) {
-    result = vec4(colour, 1.0);
-  } else if (kind == 1) {
-    vec3 key = normalize(vec3(-0.5, 0.7, 0.8));
-    float shine = pow(max(dot(n, normalize(key + vec3(0.0, 0.0, 1.0))), 0.0), 48.0);
-    result = vec4(colour * (0.32 + 0.28 * towards + 0.5 * max(dot(n, key), 0.0)) + 0.12 * shine, 1.0);
-  } else {
-    // Long parallel lamps around the surface, upright in the view, as mirrored towards the eye.
-    vec3 mirrored = reflect(vec3(0.0, 0.0, -1.0), n);
-    float wave = cos(16.0 * atan(mirrored.x, mirrored.z));
-    float soft = min(fwidth(wave), 1.0);
-    float lamp = smoothstep(-soft, soft, wave);
-    result = vec4(vec3(0.08 + 0.86 * lamp) * (0.75 + 0.25 * towards), 1.0);
-  }
-}`;
-
-export const looks = ['wire', 'shaded', 'zebra'] as const;
+export const looks = ['wire', 'shaded', 'zebra', ...fieldNames] as const;
 export type Look = (typeof looks)[number];
+
+/** What the fragment shader calls a kind. */
+export function kindOf(look: Look): number {
+  return Math.min(3, looks.indexOf(look));
+}
 
 export function surfaceMaterial(): ShaderMaterial {
   return new ShaderMaterial({
     glslVersion: GLSL3,
     vertexShader,
-    fragmentShader,
-    uniforms: { kind: { value: 1 }, colour: { value: new Color() } },
+    // three.js writes the line of the version itself.
+    fragmentShader: fragmentShader.replace(/^#version.*/, ''),
+    uniforms: {
+      kind: { value: 1 }, colour: { value: new Color() }, range: { value: new Vector2(0, 1) }, stops: { value: Array.from({ length: 9 }, () => new Vector3()) },
+    },
     side: DoubleSide,
     // Lines on the surface are drawn before it.
     polygonOffset: true,

@@ -51,6 +51,12 @@ export interface Solved {
   report: Report;
 }
 
+/** The principal curvatures at the nodes, in units of the file; k1 is not less than k2. */
+export interface Curvatures {
+  k1: Float64Array;
+  k2: Float64Array;
+}
+
 /** What must hold besides for only some nodes to move: nodes that stay where the input has them, and the rim with its normals, three numbers each. */
 export interface Region {
   fixed: Int32Array;
@@ -69,8 +75,9 @@ export interface Requests {
   hold: { ask: { rules: string }; answer: null };
   region: { ask: { rules: string; nodes: Int32Array }; answer: Region };
   solve: { ask: Job; answer: Solved };
-  /** The bytes of a file of that name, with the shape that its constraints give from the input. */
-  write: { ask: { name: string }; answer: Uint8Array };
+  curvatures: { ask: { positions: Float64Array }; answer: Curvatures };
+  /** The bytes of a file of that name, with the shape that its constraints give from the input, or that share of the way to it. */
+  write: { ask: { name: string; strength: number }; answer: Uint8Array };
 }
 
 export type Kind = keyof Requests;

@@ -3,6 +3,7 @@
 import { short } from '../../page/numbers.js';
 import { heldNormal, heldPosition, heldTangent } from './constraints';
 import type { Editor } from './editor';
+import type { Field } from './fields';
 import type { Shape } from './shape';
 
 function part(id: string): HTMLElement {
@@ -23,11 +24,12 @@ function ofSolution({ report, dragging, frames, showsInput, shape }: Editor): st
   return `${outcome} · ${count(iterations, 'iteration')}${error} · ${Math.round(1000 * seconds)} ms${rate}`;
 }
 
-function ofNode({ hovered, held }: Editor): string {
+function ofNode({ hovered, held }: Editor, field: Field | null): string {
   if (hovered < 0) return '';
   const bits = held.nodes[hovered];
   const what = [bits & heldPosition && 'position fixed', bits & heldNormal && 'normal fixed', bits & heldTangent && 'tangent fixed'].filter(Boolean);
-  return `Node ${hovered} · ${what.join(', ') || 'free'}`;
+  const value = field ? ` · ${field.name} ${short(field.values[hovered])}` : '';
+  return `Node ${hovered} · ${what.join(', ') || 'free'}${value}`;
 }
 
 function ofParts({ faces, curve }: Shape): string {
@@ -36,12 +38,17 @@ function ofParts({ faces, curve }: Shape): string {
   return closed.length === 1 ? `${closed[0] ? 'closed' : 'open'} curve` : count(closed.length, 'chain');
 }
 
-export function describe(editor: Editor): void {
+/** field: what colours show. */
+export function describe(editor: Editor, field: Field | null): void {
   const { shape, fault, held, picked, fileWarnings, report, busy, fraction, dragging } = editor;
   part('name').textContent = editor.name;
   part('status').textContent = ofSolution(editor);
   part('status').classList.toggle('doubtful', !editor.showsInput && report !== null && report.outcome !== 'converged');
-  part('node').textContent = ofNode(editor);
+  part('node').textContent = ofNode(editor, field);
+  const strength = part('strength') as HTMLInputElement;
+  strength.disabled = !shape;
+  strength.value = String(Math.round(100 * editor.strength));
+  part('share').textContent = `${strength.value} %`;
   part('size').textContent = shape ? `${count(shape.input.length / 3, 'node')}, ${ofParts(shape)}` : '';
   part('picked').textContent = picked.size === 1 ? `Node ${[...picked][0]}` : picked.size ? `${picked.size} nodes` : 'No node picked';
   part('unmarked').hidden = held.unmarked === 0;

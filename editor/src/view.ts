@@ -9,7 +9,8 @@ import type { Vector } from './constraints';
 import { CurveLayer } from './curve_layer';
 import { gridOfUnits } from './grid';
 import { Markers } from './markers';
-import { looks, surfaceMaterial, type Look } from './materials';
+import type { Field } from './fields';
+import { kindOf, surfaceMaterial, type Look } from './materials';
 import { assignButtons, moveByWheel } from './navigation';
 import type { Seen } from './picking';
 import { pixelOf, placeAt, towards } from './projection';
@@ -35,6 +36,7 @@ export class View {
   private vertices: Vertices | null = null;
   private places: Float32Array = new Float32Array();
   private look: Look = 'shaded';
+  private field: Field | null = null;
   private asked = false;
   /** Smooth edges come from the card; without one, from a finer picture when all has been still for a while. */
   private readonly software = drawsInSoftware();
@@ -65,6 +67,7 @@ export class View {
     this.features.visible = !shape.curve;
     this.grid.visible = shape === nothing;
     this.curve.setComb(new Float32Array(), new Float32Array());
+    this.field = null;
     this.show(shape.input, true);
     if (stays) this.reframe(before, shape);
     else this.fit(true);
@@ -85,8 +88,27 @@ export class View {
       geometry.getAttribute('position').needsUpdate = true;
     }
     this.curve.show(this.shape.curve ? this.places : new Float32Array(), this.shape.curve ? this.shape.edges.ends : []);
+    this.colour();
     this.markers.move(this.places);
     this.draw();
+  }
+
+  /** What the colours show, of the nodes as they were seen when it was asked for. */
+  setField(field: Field | null): void {
+    this.field = field;
+    this.restyle();
+  }
+
+  private colour(): void {
+    if (!this.field || !this.vertices) return;
+    const { range, map, values } = this.field;
+    const { uniforms } = this.surface.material;
+    uniforms.range.value.set(...range);
+    map.forEach((colour, k) => uniforms.stops.value[k].set(...colour));
+    const heights = this.surface.geometry.getAttribute('value');
+    const { nodes } = this.vertices;
+    for (let v = 0; v < nodes.length; ++v) heights.setX(v, values[nodes[v]]);
+    heights.needsUpdate = true;
   }
 
   setLook(look: Look): void {
@@ -103,7 +125,8 @@ export class View {
     };
     this.renderer.setClearColor(colour('--stage'));
     const { kind, colour: fill } = this.surface.material.uniforms;
-    kind.value = looks.indexOf(this.look);
+    // Until its values are there, a surface is shaded.
+    kind.value = kindOf(kindOf(this.look) === 3 && !this.field ? 'shaded' : this.look);
     fill.value = colour(this.look === 'wire' ? '--stage' : '--surface');
     this.lines.material.color = colour('--wire');
     this.features.material.color = colour('--feature');
@@ -111,6 +134,7 @@ export class View {
     this.curve.restyle(colour);
     this.sketch.restyle(colour);
     this.grid.material.color = colour('--line');
+    this.colour();
     this.markers.restyle(colour);
     this.canvas.style.color = '';
     this.draw();
@@ -240,6 +264,7 @@ export class View {
     };
     for (const object of [this.surface, this.lines, this.features]) object.geometry.dispose();
     this.surface.geometry = geometry(vertices.nodes.length, shape.triangleCorners.map((c) => vertices.corners[c]), ['position', 'normal']);
+    this.surface.geometry.setAttribute('value', new BufferAttribute(new Float32Array(vertices.nodes.length), 1));
     this.lines.geometry = geometry(this.places.length / 3, shape.edges.ends, ['position']);
     this.features.geometry = geometry(this.places.length / 3, vertices.features, ['position']);
   }

@@ -1,7 +1,8 @@
 // The worker that owns the library and the open shape. It answers one request after the other.
 
-import { describe, describeCurve, openShape, type Core, type CoreFactory, type CoreShape } from './core';
+import { describe, describeCurve, openShape, type Core, type CoreFactory, type CoreShape, type CoreSurface } from './core';
 import type { Answer, Ask, Kind, Reply, Request, Start } from './protocol';
+import { between } from './strength';
 
 declare const vspringCore: CoreFactory;
 declare function importScripts(address: string): void;
@@ -12,6 +13,7 @@ let shape: CoreShape | null = null;
 let ended: Int32Array | null = null;
 /** Whether the shape is the one that the constraints give from the input. */
 let settled = false;
+let input: Float64Array = new Float64Array();
 
 type Progress = (fraction: number) => boolean;
 type Handlers = { [K in Kind]: (ask: Ask<K>, progress: Progress) => Answer<K> };
@@ -24,6 +26,7 @@ function opened(): CoreShape {
 function take(next: CoreShape): void {
   shape?.delete();
   shape = next;
+  input = next.positions();
   settled = false;
 }
 
@@ -70,11 +73,18 @@ const handlers: Handlers = {
     settled = !drag && report.outcome !== 'cancelled';
     return { positions: target.positions(), report };
   },
-  write({ name }) {
+  curvatures({ positions }) {
+    return (opened() as CoreSurface).curvatures(positions);  // nobody asks it of curves
+  },
+  write({ name, strength }) {
     const target = opened();
     if (!settled) target.fair(null);
     settled = true;
-    return target.write(name);
+    const result = target.positions();
+    target.setPositions(between(input, result, strength));
+    const bytes = target.write(name);
+    target.setPositions(result);
+    return bytes;
   },
 };
 

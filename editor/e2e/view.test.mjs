@@ -1,0 +1,120 @@
+// What is looked at: curvatures and deviation by their colours, and shapes between the input and the result.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, afterEach, before, beforeEach, test } from 'node:test';
+import { downloaded, find, greatestDistance, native, nodesOf, root, Session, settled } from './support.mjs';
+
+let session;
+let page;
+let faults;
+
+before(async () => { session = await Session.start(); });
+after(() => session.stop());
+beforeEach(() => { page = faults = null; });
+afterEach(async () => {
+  await page.close();
+  assert.deepEqual(faults, []);
+});
+
+async function open(file) {
+  ({ page, faults } = await session.open(`?file=${file}`));
+  await settled(page);
+}
+
+async function saved() {
+  const { path } = await downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
+  return path;
+}
+
+function scalarsOf(path, ...options) {
+  const file = join(session.folder, 'scalars.vtp');
+  native('measure', path, '--scalars', file, ...options);
+  const text = readFileSync(file, 'utf8');
+  return (name) => text.match(new RegExp(`Name="${name}"[^>]*>([^<]*)<`))[1].trim().split(/\s+/).map(Number);
+}
+
+const numberOf = (text) => Number(text.replace('−', '-').replace(/^[≤≥ ]+/, ''));
+const legend = async () => (await page.locator('#legend .marks span').allTextContents()).map(numberOf);
+const quantile = (values, share) => values.slice().sort((a, b) => a - b)[Math.round(share * (values.length - 1))];
+const near = (a, b, share, what) => assert.ok(Math.abs(a - b) <= share * Math.max(Math.abs(a), Math.abs(b)) + 1e-9, `${what}: ${a}, ${b}`);
+
+test('curvatures have the values of --scalars, at nodes and in the legend; their colours are those of the result', async () => {
+  await open('examples/pipe-blend.obj');
+  const path = join(session.folder, 'fair.obj');
+  native('fair', join(root, 'examples/pipe-blend.obj'), '-o', path, '--quiet');
+  const scalars = scalarsOf(path);
+  const pictures = new Set();
+  for (const [button, key, name, range] of [
+    ['Mean', '4', 'mean_curvature', (values) => [quantile(values, 0.02), quantile(values, 0.98)]],
+    ['Gaussian', '5', 'gaussian_curvature', (values) => [-quantile(values.map(Math.abs), 0.98), quantile(values.map(Math.abs), 0.98)]]]) {
+    await page.keyboard.press(key);
+    assert.equal(await page.getByRole('button', { name: button }).getAttribute('aria-pressed'), 'true');
+    await page.locator('#legend').waitFor();
+    const values = scalars(name);
+    const marks = await legend();
+    range(values).forEach((end, k) => near(marks[2 * k], end, 0.01, `${name} in the legend`));
+    const { node } = await find(page, new RegExp(`free · ${button.toLowerCase()}`), [0.4, 0.45], [0.4, 0.6]);
+    near(numberOf((await page.locator('#node').textContent()).split(' ').at(-1)), values[node], 0.01, `${name} of node ${node}`);
+    pictures.add((await page.locator('#canvas').screenshot()).toString('base64'));
+    await page.keyboard.press('i');
+    await page.locator('#status', { hasText: 'The input' }).waitFor();
+    assert.deepEqual(await legend(), marks, 'the input has the range of the result');
+    await page.keyboard.press('i');
+    await settled(page);
+  }
+  await page.keyboard.press('1');
+  await page.locator('#legend').waitFor({ state: 'hidden' });
+  pictures.add((await page.locator('#canvas').screenshot()).toString('base64'));
+  assert.equal(pictures.size, 3);
+});
+
+test('deviation is how far nodes lie from the input along its normal', async () => {
+  session.generated('plane.obj', 'plane', '--columns', '16', '--rows', '16');
+  await open('files/plane.obj');
+  await page.keyboard.press('6');
+  await page.locator('#legend').waitFor();
+  const held = await find(page, /position fixed/, [0.38, 0.5], [0.38, 1]);
+  await page.mouse.down();
+  for (let k = 1; k <= 6; ++k) await page.mouse.move(held.x, held.y - 8 * k);
+  await page.mouse.up();
+  await settled(page);
+  await page.locator('#legend .marks').filter({ hasText: /≥ 0\.\d/ }).waitFor();
+  const heights = nodesOf(readFileSync(await saved(), 'utf8')).map(([, , z]) => z);
+  const { node } = await find(page, /free · deviation/, [0.38, 0.55], [0.38, 0.75]);
+  const value = numberOf((await page.locator('#node').textContent()).split(' ').at(-1));
+  near(Math.abs(value), Math.abs(heights[node]), 0.001, `node ${node}`);
+  assert.ok(Math.abs(value) > 1e-4);
+  near((await legend())[2], quantile(heights.map(Math.abs), 0.98), 0.01, 'legend');
+});
+
+test('between input and result: what is saved is what --strength makes; a drag shows the result again', async () => {
+  await open('examples/annulus.obj');
+  const save = page.getByRole('button', { name: 'Save as' });
+  assert.doesNotMatch(await save.getAttribute('title'), /%/);
+  const whole = nodesOf(readFileSync(await saved(), 'utf8'));
+  const strength = page.getByLabel('Strength');
+  await strength.focus();
+  await page.keyboard.press('End');
+  for (let k = 0; k < 40; ++k) await page.keyboard.press('ArrowLeft');
+  assert.equal(await page.locator('#share').textContent(), '60 %');
+  assert.match(await save.getAttribute('title'), /60 % of the way from the input/);
+  const ours = nodesOf(readFileSync(await saved(), 'utf8'));
+  const path = join(session.folder, 'strength.obj');
+  native('fair', join(root, 'examples/annulus.obj'), '-o', path, '--strength', '0.6', '--quiet');
+  assert.ok(greatestDistance(ours, nodesOf(readFileSync(path, 'utf8'))) < 6e-5);
+  assert.ok(greatestDistance(ours, whole) > 0.01);
+  await strength.press('Home');
+  assert.deepEqual(nodesOf(readFileSync(await saved(), 'utf8')), nodesOf(readFileSync(join(root, 'examples/annulus.obj'), 'utf8')), 'the input itself');
+
+  await page.locator('#canvas').focus();
+  const held = await find(page, /position fixed/, [0.02, 0.55], [0.5, 0.55]);
+  await page.mouse.down();
+  await page.mouse.move(held.x - 10, held.y - 20);
+  assert.equal(await page.locator('#share').textContent(), '100 %');
+  await page.keyboard.press('Escape');
+  await page.mouse.up();
+  await settled(page);
+  assert.deepEqual(nodesOf(readFileSync(await saved(), 'utf8')), whole);
+});

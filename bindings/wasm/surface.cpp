@@ -57,6 +57,12 @@ class Surface {
     forwarding_errors([&] { constraints_->free_normal(node); });
   }
 
+  /// Whether boundary nodes whose position is free are faired first, as curves.
+  void set_fair_boundary(bool first) {
+    if (first != options_.fair_boundary) session_.reset();
+    options_.fair_boundary = first;
+  }
+
   /// From the file's shape. progress(fraction): true ends it soon with the best shape so far.
   val fair(const val& progress) {
     session_.reset();
@@ -108,7 +114,7 @@ class Surface {
  private:
   val solve(const val& progress) {
     return forwarding_errors([&] {
-      if (!session_) session_.emplace(file_.mesh, FairOptions{}, 1);
+      if (!session_) session_.emplace(file_.mesh, options_, 1);
       Context context;
       context.threads = 1;
       ask(context, progress);
@@ -121,6 +127,7 @@ class Surface {
   SurfaceFile file_;
   std::vector<Vector3> positions_;
   std::optional<Constraints> constraints_;
+  FairOptions options_;
   std::optional<FairingSession> session_;
 };
 
@@ -141,6 +148,7 @@ EMSCRIPTEN_BINDINGS(vspring_surface) {
       .function("freePosition", &Surface::free_position)
       .function("holdNormal", &Surface::hold_normal)
       .function("freeNormal", &Surface::free_normal)
+      .function("setFairBoundary", &Surface::set_fair_boundary)
       .function("fair", &Surface::fair)
       .function("follow", &Surface::follow)
       .function("region", &Surface::region)

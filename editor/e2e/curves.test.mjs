@@ -51,6 +51,12 @@ async function dragFrom({ x, y }, across, down, held = async () => {}) {
   await settled(page);
 }
 
+// The pointer away from the view, so that the footer names nothing that was under it before.
+async function leave() {
+  await page.mouse.move(3, 3);
+  await page.waitForFunction(() => document.getElementById('node').textContent === '');
+}
+
 // What the program makes of the file and the constraints that the editor has saved.
 function faired(input, rules, ...options) {
   const [file, out] = ['rules.json', `fair-${input}`].map((name) => join(session.folder, name));
@@ -68,12 +74,11 @@ test('a plane curve is seen from above, dragged in its plane, and saved as the n
   await page.mouse.click(free.x, free.y);
   await page.keyboard.press('f');
   await settled(page);
-  let seen;
+  const still = await page.locator('#plot path.second').getAttribute('d');
   await dragFrom(free, 30, -90, async () => {
     await page.locator('#status', { hasText: 'frames/s' }).waitFor();
-    seen = await page.locator('#plot path.second').getAttribute('d');
+    await page.waitForFunction((d) => document.querySelector('#plot path.second').getAttribute('d') !== d, still);
   });
-  await page.locator(`#plot path.second:not([d="${seen}"])`).waitFor({ state: 'attached', timeout: 1 }).catch(() => {});
   const rules = await rulesOf(page);
   const place = JSON.parse(rules).rules.at(-1).position[0];
   assert.equal(place[2], 0, 'it stays in the plane of the file');
@@ -109,6 +114,7 @@ test('every format of curves is read and written; a closed one is held where nod
   await page.getByRole('alert').filter({ hasText: /held|holds|fixed/ }).waitFor();
   assert.match(await page.locator('#size').textContent(), /48 nodes, closed curve/);
   for (const share of [0.25, 0.45, 0.65]) {
+    await leave();
     const { x, y } = await find(page, /free/, [share, 0.1], [share, 0.9]);
     await page.keyboard.down('Shift');
     await page.mouse.click(x, y);
@@ -184,6 +190,7 @@ test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as t
   assert.deepEqual(JSON.parse(rules).rules.at(-1).position.map(([, , z]) => z), [0, 0, 0, 0]);
   assert.ok(greatestDistance(placesOf((await saved('csv')).path), fairedThrough(rules, 61)) < 1e-4);
 
+  await leave();
   const held = await find(page, /position fixed/, [0.3, 0.3], [0.31, 0.3]);  // where it was drawn
   await dragFrom(held, 10, 40);
   const pulled = await rulesOf(page);
@@ -217,4 +224,42 @@ test('a click on the first node closes, a double click ends, Escape gives up', a
   await page.keyboard.press('Escape');
   assert.equal(await page.getByRole('button', { name: 'Draw a curve' }).getAttribute('aria-pressed'), 'false');
   assert.match(await page.locator('#size').textContent(), /41 nodes, open curve/);
+});
+
+test('boundary loops are faired first, then the surface, as --fair-boundary does; what holds them is dragged', async () => {
+  const input = session.generated('patch.obj', 'saddle', '--columns', '12', '--rows', '12', '--noise', '0.02');
+  await opened('patch.obj');
+  await settled(page);
+  // Of every four nodes along the sides three.
+  const nodes = Array.from({ length: 169 }, (_, node) => node).filter((node) => {
+    const [row, column] = [Math.floor(node / 13), node % 13];
+    return (row % 12 === 0 || column % 12 === 0) && (row + column) % 4 !== 2;
+  });
+  const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Load…' }).click()]);
+  await chooser.setFiles({ name: 'held.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify({ rules: [{ nodes, position: 'fixed' }] })) });
+  await page.locator('[title^="Undo: Load constraints"]').waitFor();
+  await settled(page);
+  const drawnIn = placesOf((await saved('obj')).path);
+  const first = page.getByRole('button', { name: 'Fair its loops first' });
+  await first.click();
+  await settled(page);
+  assert.equal(await first.getAttribute('aria-pressed'), 'true');
+  await leave();
+  let held;
+  for (let y = 0.4; !held; y += 0.06) held = await find(page, /position fixed/, [0.06, y], [0.5, y]).catch(() => null);
+  await dragFrom(held, -10, -40);
+
+  const rules = await rulesOf(page);
+  assert.ok(nodes.includes(JSON.parse(rules).rules.at(-1).nodes[0]));
+  const [file, out] = ['rules.json', 'fair-patch.obj'].map((name) => join(session.folder, name));
+  writeFileSync(file, rules);
+  native('fair', input, '-o', out, '--constraints', file, '--fair-boundary', '--quiet');
+  const vertices = (path) => placesOf(path).slice(0, 169);
+  const ours = vertices((await saved('obj')).path);
+  assert.ok(greatestDistance(ours, vertices(out)) < 2e-4, `${greatestDistance(ours, vertices(out))}`);
+  assert.ok(greatestDistance(ours, drawnIn.slice(0, 169)) > 0.01);
+  await page.keyboard.press('k');
+  assert.equal(await first.getAttribute('aria-pressed'), 'false');
+  assert.equal(await page.getByRole('button', { name: 'Positions fixed' }).getAttribute('aria-pressed'), 'true');
+  await settled(page);
 });

@@ -59,7 +59,9 @@ export class CoreClient {
 
 /** A newer job stands for an older one that still waits; constraints that the older one was to set are not lost. */
 export function merged(older: Job | null, newer: Job): Job {
-  return older?.rules !== undefined && newer.rules === undefined ? { ...newer, rules: older.rules } : newer;
+  if (older?.rules === undefined || newer.rules !== undefined) return newer;
+  const { drag: _, ...holds } = older;
+  return { ...holds, ...newer };
 }
 
 export interface SolverEvents {

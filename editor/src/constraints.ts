@@ -21,6 +21,8 @@ export interface Edit {
 export interface Constraints {
   readonly rules: readonly Rule[];
   readonly edits: Readonly<Record<number, Edit>>;
+  /** Of surfaces, and in no file: boundary nodes whose position is free are faired first, as curves. */
+  readonly fairBoundary?: boolean;
 }
 
 const parts = ['position', 'normal', 'tangent'] as const;
@@ -79,6 +81,11 @@ export function withBoundary(constraints: Constraints, part: Part, fixed: boolea
     })
     .filter((rule) => parts.some((other) => rule[other] !== undefined));
   return { ...constraints, rules: fixed ? [{ nodes: 'boundary', [part]: 'fixed' }, ...rest] : rest };
+}
+
+/** In place of a boundary that is fixed, and the other way round. */
+export function withFairBoundary(constraints: Constraints, fairBoundary: boolean): Constraints {
+  return { ...withBoundary(constraints, 'position', !fairBoundary), fairBoundary };
 }
 
 export const heldPosition = 1;

@@ -22,6 +22,7 @@ export interface CoreSurface extends CoreShape {
   faceBegin(): Int32Array;
   corners(): Int32Array;
   curvatures(positions: Float64Array): Curvatures;
+  setFairBoundary(first: boolean): void;
 }
 
 export interface CoreCurve extends CoreShape {

@@ -174,6 +174,10 @@ export class Editor {
     this.apply(`${fixed ? 'Fix' : 'Free'} boundary ${part}s`, holding.withBoundary(this.constraints, part, fixed));
   }
 
+  setFairBoundary(first: boolean): void {
+    this.apply(first ? 'Fair boundary loops' : 'Fix boundary positions', holding.withFairBoundary(this.constraints, first));
+  }
+
   isBoundaryFixed(part: Part): boolean {
     return holding.boundaryFixed(this.constraints, part);
   }
@@ -248,7 +252,7 @@ export class Editor {
   private settle(): void {
     if (!this.shape) return;
     this.held = holding.heldNodes(this.constraints, this.shape.boundary);
-    this.solver.push({ rules: holding.toFile(this.constraints) });
+    this.solver.push({ rules: holding.toFile(this.constraints), fairBoundary: this.constraints.fairBoundary ?? false });
     this.events.changed();
   }
 

@@ -19,7 +19,8 @@ const clickReach = 4;
 
 export class Gestures {
   private start: { id: number; x: number; y: number; node: number; moved: boolean; drags: boolean } | null = null;
-  private hoverAsked = false;
+  /** Where the pointer was last, until the next frame looks what is there. */
+  private hovering: PointerEvent | null = null;
 
   /** To be made before the camera's controls, which must not see the pointer where a node is dragged. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly events: GestureEvents) {
@@ -28,7 +29,10 @@ export class Gestures {
     canvas.addEventListener('pointermove', (event) => this.move(event), options);
     canvas.addEventListener('pointerup', (event) => this.up(event), options);
     canvas.addEventListener('pointercancel', () => this.cancel(), options);
-    canvas.addEventListener('pointerleave', () => events.hovered(-1));
+    canvas.addEventListener('pointerleave', () => {
+      this.hovering = null;
+      events.hovered(-1);
+    });
   }
 
   /** Ends a drag as if it had not been. Returns whether there was one. */
@@ -86,12 +90,15 @@ export class Gestures {
 
   /** At most once a frame. */
   private hover(event: PointerEvent): void {
-    if (!this.events.active() || this.hoverAsked || event.buttons !== 0) return;
-    this.hoverAsked = true;
+    if (!this.events.active() || event.buttons !== 0) return;
+    const asked = this.hovering !== null;
+    this.hovering = event;
+    if (asked) return;
     requestAnimationFrame(() => {
-      this.hoverAsked = false;
-      if (this.start || !this.events.active()) return;
-      const node = this.pick(event);
+      const at = this.hovering;
+      this.hovering = null;
+      if (!at || this.start || !this.events.active()) return;
+      const node = this.pick(at);
       this.canvas.style.cursor = node < 0 ? 'grab' : this.events.draggable(node) ? 'move' : 'pointer';
       this.events.hovered(node);
     });

@@ -110,6 +110,8 @@ const commands: Command[] = [
     run: () => editor.setBoundary('position', !editor.isBoundaryFixed('position')), pressed: () => editor.isBoundaryFixed('position') },
   { id: 'boundary-normals', title: 'Fix or free boundary normals or tangents', keys: ['shift+b'], enabled: opened,
     run: () => editor.setBoundary(editor.direction, !editor.isBoundaryFixed(editor.direction)), pressed: () => editor.isBoundaryFixed(editor.direction) },
+  { id: 'fair-boundary', title: 'Fair boundary loops, then the surface', keys: ['k'], enabled: () => opened() && !isCurve(),
+    run: () => editor.setFairBoundary(!editor.constraints.fairBoundary), pressed: () => editor.constraints.fairBoundary ?? false },
   { id: 'comb', title: 'Curvature comb', keys: ['c'], run: () => curves.toggleComb(), enabled: isCurve, pressed: () => curves.comb },
   { id: 'plot', title: 'Plot of curvature', keys: ['p'], run: () => { curves.fold(); refresh(); }, enabled: isCurve, pressed: () => curves.unfolded },
   ...looks.map((which) => ({ id: which, title: titles[which], keys: [String(['shaded', 'wire', 'zebra', ...fieldNames].indexOf(which) + 1)],

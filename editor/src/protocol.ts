@@ -40,9 +40,10 @@ export interface Drag {
   time: number;
 }
 
-/** rules: a constraints file, where what holds has changed. drag: held nodes under the pointer; without it the surface is faired anew from the input. */
+/** rules: a constraints file, where what holds has changed; with it, whether free boundary nodes are faired first. drag: held nodes under the pointer; without it the surface is faired anew from the input. */
 export interface Job {
   rules?: string;
+  fairBoundary?: boolean;
   drag?: Drag;
 }
 

@@ -10,5 +10,5 @@ export function restricted(constraints: Constraints, { fixed, rim, normals, tang
   for (const [part, directions] of [['normal', normals], ['tangent', tangents]] as const) {
     if (directions?.length) added.push({ nodes: [...rim], [part]: Array.from(rim, (_, k) => [...directions.subarray(3 * k, 3 * k + 3)]) });
   }
-  return { rules: [...allRules(constraints), ...added], edits: {} };
+  return { ...constraints, rules: [...allRules(constraints), ...added], edits: {} };
 }

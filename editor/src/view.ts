@@ -285,7 +285,7 @@ export class View {
 
   private scaleMarkers(): void {
     const ratio = this.renderer.getPixelRatio();
-    const spacing = this.shape?.curve ? Infinity : ((this.shape?.spacing ?? 0) * this.camera.zoom * this.canvas.clientHeight) / 2;
+    const spacing = ((this.shape?.spacing ?? 0) * this.camera.zoom * this.canvas.clientHeight) / 2;
     this.markers.scale(ratio, spacing);
     for (const layer of [this.curve, this.sketch]) layer.scale(ratio);
   }

@@ -1,6 +1,6 @@
 // The worker that owns the library and the open shape. It answers one request after the other.
 
-import { describe, describeCurve, openShape, type Core, type CoreFactory, type CoreShape, type CoreSurface } from './core';
+import { describe, describeCurve, openShape, type Core, type CoreCurve, type CoreFactory, type CoreSurface } from './core';
 import type { Answer, Ask, Kind, Reply, Request, Start } from './protocol';
 import { between } from './strength';
 
@@ -9,7 +9,7 @@ declare function importScripts(address: string): void;
 declare function postMessage(reply: Reply, transfer?: Transferable[]): void;
 
 let core: Core;
-let shape: CoreShape | null = null;
+let shape: CoreSurface | CoreCurve | null = null;
 let ended: Int32Array | null = null;
 /** Whether the shape is the one that the constraints give from the input. */
 let settled = false;
@@ -18,12 +18,12 @@ let input: Float64Array = new Float64Array();
 type Progress = (fraction: number) => boolean;
 type Handlers = { [K in Kind]: (ask: Ask<K>, progress: Progress) => Answer<K> };
 
-function opened(): CoreShape {
+function opened(): CoreSurface | CoreCurve {
   if (!shape) throw new Error('Nothing is open');
   return shape;
 }
 
-function take(next: CoreShape): void {
+function take(next: CoreSurface | CoreCurve): void {
   shape?.delete();
   shape = next;
   input = next.positions();
@@ -64,10 +64,11 @@ const handlers: Handlers = {
     settled = false;
     return opened().region(nodes);
   },
-  solve({ rules, drag }, progress) {
+  solve({ rules, fairBoundary, drag }, progress) {
     const target = opened();
     settled = false;
     if (rules !== undefined) target.setRules(rules);
+    if (fairBoundary !== undefined && 'setFairBoundary' in target) target.setFairBoundary(fairBoundary);
     drag?.nodes.forEach((node, k) => target.holdPosition(node, drag.places[3 * k], drag.places[3 * k + 1], drag.places[3 * k + 2]));
     const report = drag ? target.follow(progress) : target.fair(progress);
     settled = !drag && report.outcome !== 'cancelled';

@@ -220,3 +220,21 @@ test('curves: through places that were drawn, with even nodes in between', () =>
   assert.ok(!core.Curve.through(Float64Array.of(0, 0, 0, 1, 0, 0, 1, 1, 1), false).planar());
   curve.delete();
 });
+
+test('fairs boundary loops first, as the native program does', () => {
+  const path = generated('loops.obj', 'saddle', '--columns', '12', '--rows', '12', '--noise', '0.02');
+  const held = JSON.stringify({ rules: [{ nodes: [0, 6, 12, 84, 168, 162, 156, 78], position: 'fixed' }] });
+  writeFileSync(join(folder, 'loops.json'), held);
+  native('fair', path, '-o', join(folder, 'fair-loops.obj'), '--fair-boundary', '--constraints', join(folder, 'loops.json'), '--quiet');
+  const surface = opened(path, 'loops.obj');
+  surface.setRules(held);
+  surface.setFairBoundary(true);
+  assert.equal(surface.fair(null).outcome, 'converged');
+  const expected = opened(join(folder, 'fair-loops.obj'), 'fair-loops.obj');
+  assert.ok(greatestDistance(surface.positions(), expected.positions()) < 2e-4);
+  surface.setFairBoundary(false);
+  surface.fair(null);
+  assert.ok(greatestDistance(surface.positions(), expected.positions()) > 0.01, 'else the boundary is drawn in');
+  surface.delete();
+  expected.delete();
+});

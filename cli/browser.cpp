@@ -16,6 +16,7 @@
 #include <system_error>
 #include <vector>
 
+#include "find_program.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
 
@@ -111,17 +112,7 @@ class Child {
 }  // namespace
 
 std::optional<std::string> find_browser() {
-  const char* paths = std::getenv("PATH");
-  if (paths == nullptr) return std::nullopt;
-  for (const char* name : {"chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"}) {
-    for (std::string_view rest = paths; !rest.empty();) {
-      const std::size_t end = rest.find(':');
-      const std::string program = std::string(rest.substr(0, end)) + "/" + name;
-      if (access(program.c_str(), X_OK) == 0) return program;
-      rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
-    }
-  }
-  return std::nullopt;
+  return find_program({"chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"});
 }
 
 std::string loaded_document(const std::string& browser, const std::string& page, const Context& context) {

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "curve_command.hpp"
+#include "edit_command.hpp"
 #include "exit_status.hpp"
 #include "fair_command.hpp"
 #include "fit_command.hpp"
@@ -62,6 +63,7 @@ int run_program(int argc, char** argv) {
   add_fair_command(app, run);
   add_curve_command(app, run);
   add_fit_command(app, run);
+  add_edit_command(app, run);
   add_generate_command(app, run);
   add_measure_command(app, run);
   try {

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { downloaded, find, greatestDistance, native, nodesOf, root, rulesOf, Session, settled } from './support.mjs';
+import { downloaded, drag, find, greatestDistance, native, nodesOf, root, rulesOf, Session, settled } from './support.mjs';
 
 let session;
 let page;
@@ -29,14 +29,6 @@ async function saved(format) {
   return downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
 }
 
-async function dragFrom({ x, y }, across, down) {
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  for (let k = 1; k <= 8; ++k) await page.mouse.move(x + (across * k) / 8, y + (down * k) / 8);
-  await page.mouse.up();
-  await settled(page);
-}
-
 async function loadConstraints(rules) {
   const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Load…' }).click()]);
   await chooser.setFiles({ name: 'rules.json', mimeType: 'application/json', buffer: Buffer.from(rules) });
@@ -50,7 +42,7 @@ test('a node is dragged, undone and redone; the file is what the native program 
   await settled(page);
   const untouched = await rulesOf(page);
   const held = await find(page, /position fixed/, ...leftRim);
-  await dragFrom(held, -20, -60);
+  await drag(page, held, -20, -60);
   const dragged = await rulesOf(page);
   const rule = JSON.parse(dragged).rules.at(-1);
   assert.deepEqual(rule.nodes, [held.node]);
@@ -88,7 +80,7 @@ test('a node inside is picked and fixed by key, dragged, freed again; constraint
   assert.equal(await page.locator('#picked').textContent(), `Node ${free.node}`);
   await page.keyboard.press('f');
   await settled(page);
-  await dragFrom(free, 0, -12);
+  await drag(page, free, 0, -12);
   const rules = await rulesOf(page);
   assert.deepEqual(JSON.parse(rules).rules.at(-1).nodes, [free.node]);
 

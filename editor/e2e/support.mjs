@@ -8,7 +8,7 @@ import { chromium } from 'playwright-core';
 import { serve } from '../serve.mjs';
 
 export const root = new URL('../../', import.meta.url).pathname;
-const program = process.env.VSPRING ?? join(root, 'build/dev/vspring');
+export const program = process.env.VSPRING ?? join(root, 'build/dev/vspring');
 
 export function native(...options) {
   return execFileSync(program, options, { encoding: 'utf8' });
@@ -39,13 +39,15 @@ export class Session {
     return path;
   }
 
-  async open(query = '', options = {}) {
+  // address: of the page, or what comes after the session's own.
+  async open(address = '', options = {}) {
+    const whole = new URL(address, this.address);
     const page = await this.browser.newPage({ viewport: { width: 1200, height: 760 }, ...options });
     const faults = [];
     page.on('pageerror', (error) => faults.push(String(error)));
     page.on('console', (message) => { if (message.type() === 'error') faults.push(message.text()); });
-    page.on('request', (request) => { if (!/^(blob|data):/.test(request.url()) && !request.url().startsWith(this.address)) faults.push(`asks for ${request.url()}`); });
-    await page.goto(this.address + query);
+    page.on('request', (request) => { if (!/^(blob|data):/.test(request.url()) && !request.url().startsWith(whole.origin)) faults.push(`asks for ${request.url()}`); });
+    await page.goto(whole.href);
     return { page, faults };
   }
 }
@@ -54,6 +56,15 @@ export class Session {
 export async function settled(page, outcome = 'converged') {
   await page.locator('#progress').waitFor({ state: 'hidden' });
   await page.locator('#status', { hasText: outcome }).waitFor({ timeout: 60_000 });
+}
+
+// From a place on the view, with the left button down.
+export async function drag(page, { x, y }, across, down) {
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let k = 1; k <= 8; ++k) await page.mouse.move(x + (across * k) / 8, y + (down * k) / 8);
+  await page.mouse.up();
+  await settled(page);
 }
 
 // Moves the pointer across the view until the footer says what is under it. Returns where that is, and the node.

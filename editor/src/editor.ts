@@ -204,6 +204,15 @@ export class Editor {
     return (this.held.nodes[node] & holding.heldPosition) !== 0;
   }
 
+  /** The bytes of a file of that name, with what now holds. */
+  written(name: string): Promise<Uint8Array> {
+    return this.client.ask('write', { name, strength: this.strength, ...this.holds });
+  }
+
+  private get holds(): { rules: string; fairBoundary: boolean } {
+    return { rules: holding.toFile(this.constraints), fairBoundary: this.constraints.fairBoundary ?? false };
+  }
+
   undo(): void {
     this.travel(undone(this.history));
   }
@@ -252,7 +261,7 @@ export class Editor {
   private settle(): void {
     if (!this.shape) return;
     this.held = holding.heldNodes(this.constraints, this.shape.boundary);
-    this.solver.push({ rules: holding.toFile(this.constraints), fairBoundary: this.constraints.fairBoundary ?? false });
+    this.solver.push(this.holds);
     this.events.changed();
   }
 

@@ -5,11 +5,16 @@ export interface NamedBytes {
   bytes: Uint8Array;
 }
 
+/** The last part of an address. */
+export function nameOf(address: string): string {
+  const path = new URL(address, document.baseURI).pathname;
+  return decodeURIComponent(path.slice(path.lastIndexOf('/') + 1));
+}
+
 export async function fromAddress(address: string): Promise<NamedBytes> {
   const response = await fetch(new URL(address, document.baseURI)).catch(() => null);
   if (!response?.ok) throw new Error(`${address} cannot be read${response ? `: the server answers ${response.status}` : ''}`);
-  const path = new URL(response.url).pathname;
-  return { name: decodeURIComponent(path.slice(path.lastIndexOf('/') + 1)), bytes: new Uint8Array(await response.arrayBuffer()) };
+  return { name: nameOf(response.url), bytes: new Uint8Array(await response.arrayBuffer()) };
 }
 
 async function fromFile(file: File): Promise<NamedBytes> {

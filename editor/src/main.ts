@@ -13,6 +13,7 @@ import { showLegend } from './legend';
 import { looks, type Look } from './materials';
 import { pick } from './picking';
 import { selectionCommands } from './selection';
+import { ServedFile } from './served';
 import { describe } from './status';
 import { bindStrength } from './strength';
 import { startTheme, switchTheme } from './theme';
@@ -84,6 +85,7 @@ const gestures = new Gestures(canvas, {
 const view = new View(canvas, panel, () => editor.frames.drawn(performance.now()));
 
 const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
+const served = ServedFile.of(location.href, editor, format.parentElement!);
 
 const titles: Record<Look, string> = { shaded: 'Shaded', wire: 'Wire', zebra: 'Zebra', mean: 'Mean curvature', gaussian: 'Gaussian curvature', deviation: 'Deviation from the input' };
 const opened = (): boolean => editor.shape !== null;
@@ -91,7 +93,8 @@ const isCurve = (): boolean => editor.shape?.curve != null;
 const somePicked = (): boolean => editor.picked.size > 0;
 const commands: Command[] = [
   { id: 'open', title: 'Open a mesh or a curve', keys: ['o', 'ctrl+o'], run: () => choose(shapes, open) },
-  { id: 'save', title: 'Save the result', keys: ['ctrl+s'], run: () => void save(), enabled: opened,
+  ...(served ? [served.command] : []),
+  { id: 'save', title: 'Save the result', keys: served ? [] : ['ctrl+s'], run: () => void save(), enabled: opened,
     detail: () => (editor.strength < 1 ? `${Math.round(100 * editor.strength)} % of the way from the input` : undefined) },
   { id: 'load-constraints', title: 'Load constraints', keys: [], run: () => choose('.json', open), enabled: opened },
   { id: 'save-constraints', title: 'Save constraints', keys: ['ctrl+shift+s'], enabled: opened,
@@ -151,7 +154,9 @@ function open({ name, bytes }: { name: string; bytes: Uint8Array }): void {
 
 async function openAddress(address: string): Promise<void> {
   try {
-    open(await fromAddress(address));
+    const { name, bytes } = await fromAddress(address);
+    await editor.open(name, bytes);
+    if (!editor.fault) served?.opened(address);
   } catch (error) {
     editor.setFault((error as Error).message, 'file');
   }
@@ -160,7 +165,7 @@ async function openAddress(address: string): Promise<void> {
 async function save(): Promise<void> {
   const name = `${stem(editor.name)}-fair.${format.value}`;
   try {
-    download(name, await editor.client.ask('write', { name, strength: editor.strength }));
+    download(name, await editor.written(name));
   } catch (error) {
     editor.setFault((error as Error).message, 'file');
   }

@@ -77,8 +77,8 @@ export interface Requests {
   region: { ask: { rules: string; nodes: Int32Array }; answer: Region };
   solve: { ask: Job; answer: Solved };
   curvatures: { ask: { positions: Float64Array }; answer: Curvatures };
-  /** The bytes of a file of that name, with the shape that its constraints give from the input, or that share of the way to it. */
-  write: { ask: { name: string; strength: number }; answer: Uint8Array };
+  /** The bytes of a file of that name, with the shape that what holds gives from the input, or that share of the way to it. */
+  write: { ask: { name: string; strength: number; rules: string; fairBoundary: boolean }; answer: Uint8Array };
 }
 
 export type Kind = keyof Requests;

@@ -1,7 +1,7 @@
 // The worker that owns the library and the open shape. It answers one request after the other.
 
 import { describe, describeCurve, openShape, type Core, type CoreCurve, type CoreFactory, type CoreSurface } from './core';
-import type { Answer, Ask, Kind, Reply, Request, Start } from './protocol';
+import type { Answer, Ask, Job, Kind, Reply, Request, Start } from './protocol';
 import { between } from './strength';
 
 declare const vspringCore: CoreFactory;
@@ -11,8 +11,8 @@ declare function postMessage(reply: Reply, transfer?: Transferable[]): void;
 let core: Core;
 let shape: CoreSurface | CoreCurve | null = null;
 let ended: Int32Array | null = null;
-/** Whether the shape is the one that the constraints give from the input. */
-let settled = false;
+/** What holds the shape, where it is the one that this gives from the input. */
+let settled: string | null = null;
 let input: Float64Array = new Float64Array();
 
 type Progress = (fraction: number) => boolean;
@@ -27,7 +27,13 @@ function take(next: CoreSurface | CoreCurve): void {
   shape?.delete();
   shape = next;
   input = next.positions();
-  settled = false;
+  settled = null;
+}
+
+function hold(target: CoreSurface | CoreCurve, { rules, fairBoundary }: Job): void {
+  settled = null;
+  if (rules !== undefined) target.setRules(rules);
+  if (fairBoundary !== undefined && 'setFairBoundary' in target) target.setFairBoundary(fairBoundary);
 }
 
 const handlers: Handlers = {
@@ -56,31 +62,32 @@ const handlers: Handlers = {
   },
   hold({ rules }) {
     opened().setRules(rules);
-    settled = false;
+    settled = null;
     return null;
   },
   region({ rules, nodes }) {
     opened().setRules(rules);
-    settled = false;
+    settled = null;
     return opened().region(nodes);
   },
   solve({ rules, fairBoundary, drag }, progress) {
     const target = opened();
-    settled = false;
-    if (rules !== undefined) target.setRules(rules);
-    if (fairBoundary !== undefined && 'setFairBoundary' in target) target.setFairBoundary(fairBoundary);
+    hold(target, { rules, fairBoundary });
     drag?.nodes.forEach((node, k) => target.holdPosition(node, drag.places[3 * k], drag.places[3 * k + 1], drag.places[3 * k + 2]));
     const report = drag ? target.follow(progress) : target.fair(progress);
-    settled = !drag && report.outcome !== 'cancelled';
+    if (!drag && report.outcome !== 'cancelled') settled = JSON.stringify([rules, fairBoundary]);
     return { positions: target.positions(), report };
   },
   curvatures({ positions }) {
     return (opened() as CoreSurface).curvatures(positions);  // nobody asks it of curves
   },
-  write({ name, strength }) {
+  write({ name, strength, rules, fairBoundary }) {
     const target = opened();
-    if (!settled) target.fair(null);
-    settled = true;
+    if (settled !== JSON.stringify([rules, fairBoundary])) {
+      hold(target, { rules, fairBoundary });
+      target.fair(null);
+      settled = JSON.stringify([rules, fairBoundary]);
+    }
     const result = target.positions();
     target.setPositions(between(input, result, strength));
     const bytes = target.write(name);

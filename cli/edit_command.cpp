@@ -1,0 +1,177 @@
+#include "edit_command.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "editor_server.hpp"
+#include "exit_status.hpp"
+#include "find_program.hpp"
+#include "terminal.hpp"
+#include "vspring/curve_file.hpp"
+#include "vspring/error.hpp"
+#include "vspring/output_file.hpp"
+#include "vspring/surface_file.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+struct EditArguments {
+  std::string input;
+  std::string output;
+  int port = 0;
+  bool no_browser = false;
+  bool quiet = false;
+};
+
+namespace fs = std::filesystem;
+
+/// The built page: where VSPRING_EDITOR says, else where it is installed with the program or built beside it.
+std::string page_folder() {
+  const auto whole = [](const fs::path& folder) {
+    return fs::is_regular_file(folder / "index.html") && fs::is_regular_file(folder / "vspring_core.wasm");
+  };
+  if (const char* given = std::getenv("VSPRING_EDITOR"); given != nullptr && *given != '\0') {
+    if (whole(given)) return given;
+    throw Error(ErrorCode::unusable_file, fmt::format("{}, which VSPRING_EDITOR names: not the built editor", given));
+  }
+  std::error_code none;
+  const fs::path program = fs::read_symlink("/proc/self/exe", none).parent_path();
+  for (const char* place : {VSPRING_INSTALLED_EDITOR, "../editor"})
+    if (const fs::path folder = program / place; whole(folder)) return folder.lexically_normal().string();
+  throw Error(ErrorCode::unusable_file,
+              "the editor's page is not built: run ./edit in the source folder, or name its folder in VSPRING_EDITOR");
+}
+
+void check_format(const std::string& path) {
+  const std::string extension = fs::path(path).extension().string();
+  if (surface_format(extension) || curve_format(extension)) return;
+  throw Error(
+      ErrorCode::unusable_file,
+      fmt::format("{}: not a surface's or curve's file; name one that ends in .obj, .off, .ply, .stl, .csv, .dat "
+                  "or .xyz",
+                  path));
+}
+
+void check_input(const std::string& path) {
+  check_format(path);
+  const bool readable = access(path.c_str(), R_OK) == 0;
+  if (readable && fs::is_regular_file(path)) return;
+  throw Error(ErrorCode::unusable_file, fmt::format("{}: cannot be read: {}; check its name and permissions", path,
+                                                    readable ? "not a regular file" : std::strerror(errno)));
+}
+
+/// Has the desktop open an address. False where it has no program for that.
+bool open_in_browser(std::string address) {
+  std::optional<std::string> program = find_program({"xdg-open", "open"});
+  if (!program) return false;
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  for (const int stream : {0, 1, 2}) posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
+  // The browser is not ended by the Ctrl-C that ends this program, and takes signals as usual.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  sigset_t signals;
+  sigemptyset(&signals);
+  posix_spawnattr_setsigmask(&attributes, &signals);
+  sigaddset(&signals, SIGPIPE);
+  posix_spawnattr_setsigdefault(&attributes, &signals);
+  std::array<char*, 3> words = {program->data(), address.data(), nullptr};
+  pid_t process = 0;
+  const int fault = posix_spawn(&process, program->c_str(), &files, &attributes, words.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  posix_spawnattr_destroy(&attributes);
+  return fault == 0;
+}
+
+/// While it lives, Ctrl-C and SIGTERM reach nobody but wait().
+class AwaitedSignals {
+ public:
+  AwaitedSignals() {
+    sigemptyset(&signals_);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, signal);
+    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
+  }
+  ~AwaitedSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  AwaitedSignals(const AwaitedSignals&) = delete;
+  AwaitedSignals& operator=(const AwaitedSignals&) = delete;
+
+  void wait() const {
+    int signal = 0;
+    sigwait(&signals_, &signal);
+  }
+
+ private:
+  sigset_t signals_{};
+  sigset_t before_{};
+};
+
+int run_edit(const EditArguments& arguments) {
+  EditedFile file = {arguments.input, arguments.output.empty() ? arguments.input : arguments.output};
+  if (!file.input.empty()) {
+    check_input(file.input);
+    check_format(file.output);
+    check_writable(file.output);
+  }
+  const std::string page = page_folder();
+  const Terminal errors(2, Colour::automatic);
+  const auto say = [&](const std::string& line) {
+    if (!arguments.quiet) (void)errors.write(line + "\n");
+  };
+  const AwaitedSignals signals;  // before there are threads, which take it over
+  const EditorServer server(page, file, arguments.port, [&] { say("Saved " + file.output); });
+  if (!Terminal(1, Colour::automatic).write(server.address() + "\n"))
+    throw Error(ErrorCode::unusable_file, "standard output: takes no more");
+  if (!arguments.no_browser && !open_in_browser(server.address()))
+    say("There is no xdg-open: open this address in a browser.");
+  say("Ctrl-C ends it.");
+  signals.wait();
+  return exit_converged;
+}
+
+}  // namespace
+
+void add_edit_command(CLI::App& app, std::function<int()>& run) {
+  const auto arguments = std::make_shared<EditArguments>();
+  CLI::App& command = *app.add_subcommand("edit", "Pull a shape in the browser while it stays fair");
+  CLI::Option* shape = command
+                           .add_option("shape", arguments->input,
+                                       "The surface (.obj, .off, .ply, .stl) or curve (.obj with l elements and no "
+                                       "faces, .csv, .dat, .xyz) to open (default: an example)")
+                           ->type_name("SHAPE");
+  command
+      .add_option("-o,--output", arguments->output,
+                  "Where Save writes the result, format by extension (default: SHAPE itself). Nothing is written "
+                  "unless it is asked for there")
+      ->needs(shape)
+      ->type_name("OUT");
+  command.add_option("--port", arguments->port, "Port of 127.0.0.1 that the page is served on (default: a free one)")
+      ->check(CLI::Range(1, 65535))
+      ->type_name("PORT");
+  command.add_flag("--no-browser", arguments->no_browser, "Only print the address, open no browser (default: off)");
+  command.add_flag("--quiet", arguments->quiet, "Nothing on standard error but errors (default: off)");
+  command.footer(
+      "The page is served to this machine alone; its address, on standard output, has a random word without which "
+      "nothing is answered. Ctrl-C ends it.\n\n"
+      "Example:\n  vspring edit hull.obj -o fair-hull.obj\n\n"
+      "Exit status: 0 ended by Ctrl-C; 1 wrong use; 2 unusable input or output, a port that is taken, or no built "
+      "page.");
+  command.callback([arguments, &run] { run = [arguments] { return run_edit(*arguments); }; });
+}
+
+}  // namespace vspring::cli

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace vspring::cli {
+
+/// Adds `vspring edit`. The chosen command leaves what is to be run in `run`, which returns the exit status.
+void add_edit_command(CLI::App& app, std::function<int()>& run);
+
+}  // namespace vspring::cli

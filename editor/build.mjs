@@ -14,10 +14,10 @@ if (missing) {
 }
 
 rmSync(out, { recursive: true, force: true });
-mkdirSync(join(out, 'examples'), { recursive: true });
+mkdirSync(out, { recursive: true });
 const options = { absWorkingDir: join(root, 'editor'), bundle: true, minify: true, target: 'es2022', logLevel: 'warning', legalComments: 'linked' };
 await build({ ...options, entryPoints: ['src/main.ts', 'src/style.css'], outdir: out, format: 'esm' });
 // Not a module: what Emscripten makes is loaded by importScripts.
 await build({ ...options, entryPoints: ['src/worker.ts'], outdir: out, format: 'iife' });
 for (const path of [...core, join(root, 'editor/src/index.html')]) cpSync(path, join(out, path.split('/').at(-1)));
-for (const name of ['annulus.obj', 'pipe-blend.obj', 'saddle.ply']) cpSync(join(root, 'examples', name), join(out, 'examples', name));
+cpSync(join(root, 'examples'), join(out, 'examples'), { recursive: true });

@@ -199,3 +199,44 @@ test('with a tool in hand the right button turns the view; the wheel zooms, with
   await stroke(everything);
   assert.equal(await count(), 0, 'the surface has been moved out of the view, not made smaller');
 });
+
+test('two fingers zoom and move the view, whatever the tool, and pick nothing; one finger does what the tool does', async () => {
+  ({ page, faults } = await session.open('?file=examples/annulus.obj', { hasTouch: true }));
+  await settled(page);
+  const touch = await page.context().newCDPSession(page);
+  const send = (type, points) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  const fingers = async (from, to) => {
+    await send('touchStart', from.slice(0, 1));
+    if (from.length > 1) await send('touchStart', from);
+    for (let k = 1; k <= 6; ++k) await send('touchMove', from.map((start, f) => start.map((part, i) => part + ((to[f][i] - part) * k) / 6)));
+    if (from.length > 1) await send('touchEnd', from.slice(0, 1));
+    await send('touchEnd', []);
+  };
+  // All that is in the view is picked, by the mouse.
+  const inView = async () => {
+    await page.keyboard.press('w');
+    await stroke(everything);
+    const found = await count();
+    await page.keyboard.press('Escape');
+    assert.equal(await count(), 0);
+    return found;
+  };
+  const apart = [[[440, 400], [500, 400]], [[200, 400], [740, 400]]];
+  assert.equal(await inView(), 1610);
+  for (const key of ['q', 'w', 'r']) {
+    await page.keyboard.press(key);
+    await fingers(...apart);
+    assert.equal(await count(), 0, key);
+    const found = await inView();
+    assert.ok(found < 1300, `with ${key} ${found} are left in the view`);
+    await page.keyboard.press('0');
+    assert.equal(await inView(), 1610);
+  }
+  await page.keyboard.press('q');
+  await fingers([[440, 400], [500, 400]], [[440, 2400], [500, 2400]]);
+  assert.equal(await inView(), 0, 'moved away');
+  await page.keyboard.press('0');
+  await page.keyboard.press('w');
+  await fingers([[15, 60]], [[920, 700]]);
+  assert.equal(await count(), 1610, 'one finger draws the box');
+});

@@ -83,20 +83,20 @@ export class Editor {
     return this.shape?.curve ? 'tangent' : 'normal';
   }
 
-  /** A shape or a constraints file. What cannot be read leaves everything as it was. */
-  async open(name: string, bytes: Uint8Array): Promise<void> {
+  /** A shape or a constraints file. held: a constraints file for the shape. What cannot be read leaves everything as it was. */
+  async open(name: string, bytes: Uint8Array, held?: string): Promise<void> {
     try {
       if (name.toLowerCase().endsWith('.json')) await this.openConstraints(new TextDecoder().decode(bytes));
-      else await this.openShape(name, bytes);
+      else await this.openShape(name, bytes, held === undefined ? holding.initial : holding.fromFile(held));
       this.set({ fault: null });
     } catch (error) {
       this.setFault((error as Error).message, 'file');
     }
   }
 
-  private async openShape(name: string, bytes: Uint8Array): Promise<void> {
+  private async openShape(name: string, bytes: Uint8Array, constraints: Constraints): Promise<void> {
     this.solver.clear();
-    this.take(name, await this.client.ask('open', { name, bytes, rules: holding.toFile(holding.initial) }), holding.initial);
+    this.take(name, await this.client.ask('open', { name, bytes, rules: holding.toFile(constraints) }), constraints);
   }
 
   private take(name: string, opened: Opened, constraints: Constraints, drawn = false): void {

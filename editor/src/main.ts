@@ -5,12 +5,14 @@ import { heldPosition, toFile } from './constraints';
 import { CurvePanel } from './curve_panel';
 import { Drawing } from './drawing';
 import { Editor } from './editor';
+import { Examples } from './examples';
 import { acceptDrops, choose, download, fromAddress, stem } from './files';
 import { Fields, fieldNames, type Field } from './fields';
 import { Gestures } from './gestures';
 import { showFor } from './kinds';
 import { showLegend } from './legend';
 import { looks, type Look } from './materials';
+import { rim } from './neighbours';
 import { pick } from './picking';
 import { selectionCommands } from './selection';
 import { ServedFile } from './served';
@@ -25,7 +27,7 @@ const canvas = document.getElementById('canvas') as HTMLCanvasElement;
 const panel = document.querySelector('aside')!;
 const help = document.getElementById('help') as HTMLDialogElement;
 const format = document.getElementById('format') as HTMLSelectElement;
-const examples = document.getElementById('example') as HTMLSelectElement;
+const examples = new Examples(document.getElementById('example') as HTMLSelectElement, (file, constraints) => void openAddress(file, constraints));
 const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz';
 let look: Look = 'shaded';
 let coloured: Field | null = null;
@@ -36,7 +38,7 @@ const editor: Editor = new Editor({
   opened: (shape, stays) => {
     view.markers.clear();
     held = new Uint8Array();
-    examples.value = [...examples.options].find(({ value }) => value === `examples/${editor.name}`)?.value ?? '';
+    examples.opened(editor.name);
     showFor(shape, editor.name, format);
     view.open(shape, stays);
     curves.open(shape);
@@ -135,7 +137,9 @@ listShortcuts(help.querySelector('dl')!, commands);
 function changed(): void {
   if (held !== editor.held.nodes) {
     held = editor.held.nodes;
-    view.markers.set('held', [...held.keys()].filter((node) => held[node] & heldPosition));
+    const fixed = [...held.keys()].filter((node) => held[node] & heldPosition);
+    // Where most are held, as around a region, marks on all would hide it.
+    view.markers.set('held', 2 * fixed.length > held.length && !isCurve() ? [...rim(editor.shape!, fixed)] : fixed);
     view.draw();
   }
   if (marked.picked !== editor.picked || marked.hovered !== editor.hovered) {
@@ -152,10 +156,11 @@ function open({ name, bytes }: { name: string; bytes: Uint8Array }): void {
   void editor.open(name, bytes);
 }
 
-async function openAddress(address: string): Promise<void> {
+async function openAddress(address: string, constraints?: string): Promise<void> {
   try {
     const { name, bytes } = await fromAddress(address);
-    await editor.open(name, bytes);
+    const held = constraints && new TextDecoder().decode((await fromAddress(constraints)).bytes);
+    await editor.open(name, bytes, held);
     if (!editor.fault) served?.opened(address);
   } catch (error) {
     editor.setFault((error as Error).message, 'file');
@@ -193,7 +198,6 @@ function toolChanged(): void {
 
 bindStrength(document.querySelector('#strength')!, (share, settled) => editor.setStrength(share, settled));
 rove(document.querySelector('[role=toolbar]')!);
-examples.addEventListener('change', () => void openAddress(examples.value));
 acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, open);
 startTheme(() => view.restyle());
 view.restyle();

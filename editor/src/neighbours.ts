@@ -6,7 +6,7 @@ type Joined = Pick<Shape, 'edges' | 'input'>;
 type Nodes = ReadonlySet<number>;
 
 /** For every edge that has one end among the nodes: that end, and the other. */
-function forRim({ edges, input }: Joined, nodes: Nodes, call: (inside: number, outside: number) => void): void {
+function forRim({ edges, input }: Joined, nodes: Iterable<number>, call: (inside: number, outside: number) => void): void {
   const among = new Uint8Array(input.length / 3);
   for (const node of nodes) among[node] = 1;
   for (let e = 0; e < edges.count; ++e) {
@@ -27,6 +27,13 @@ export function shrunk(shape: Joined, nodes: Nodes): Set<number> {
   const fewer = new Set(nodes);
   forRim(shape, nodes, (inside) => fewer.delete(inside));
   return fewer;
+}
+
+/** Those that have a neighbour outside. */
+export function rim(shape: Joined, nodes: readonly number[]): Set<number> {
+  const found = new Set<number>();
+  forRim(shape, nodes, (inside) => found.add(inside));
+  return found;
 }
 
 /** All nodes of the connected parts on which some of those nodes lie. */

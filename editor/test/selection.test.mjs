@@ -6,7 +6,7 @@ import { compiled } from './support.mjs';
 
 const { inBox, inLoop, Squares } = await compiled('within');
 const { visibleNodes } = await compiled('visible');
-const { grown, shrunk, withParts, all, inverted } = await compiled('neighbours');
+const { grown, rim, shrunk, withParts, all, inverted } = await compiled('neighbours');
 const { restricted } = await compiled('region');
 const { shapeOf } = await compiled('shape');
 const { initial, edited, toFile } = await compiled('constraints');
@@ -53,6 +53,7 @@ test('rings, connected parts, all and the rest', () => {
   assert.deepEqual(sorted(shrunk(shape, new Set(Array(10).keys()))), [...Array(10).keys()], 'what has no outside keeps all');
   assert.deepEqual(sorted(withParts(shape, new Set([12]))), [10, 11, 12, 13, 14, 15]);
   assert.deepEqual(sorted(withParts(shape, new Set([0, 15]))), [...Array(16).keys()]);
+  assert.deepEqual(sorted(rim(shape, [0, 1, 2, 3, 10])), [2, 3, 10]);
   assert.equal(all(shape).size, 16);
   assert.deepEqual(sorted(inverted(shape, withParts(shape, new Set([0])))), [10, 11, 12, 13, 14, 15]);
 });

@@ -1,0 +1,51 @@
+// The examples: each opens and converges; those of the paper are what its commands make.
+
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { downloaded, greatestDistance, native, nodesOf, root, Session, settled } from './support.mjs';
+
+let session;
+before(async () => { session = await Session.start(); });
+after(() => session.stop());
+
+test('every example opens with what holds it, and converges', async () => {
+  const { page, faults } = await session.open();
+  await settled(page);
+  const menu = page.getByLabel('Example');
+  assert.equal(await menu.locator('option:checked').textContent(), 'Annulus');
+  const titles = await menu.locator('optgroup option').allTextContents();
+  assert.ok(titles.length >= 8);
+  for (const title of titles.reverse()) {
+    const before = await page.locator('#size').textContent();
+    await menu.selectOption({ label: title });
+    if (!title.startsWith('Fig. 8')) await page.locator('#size').filter({ hasNotText: before }).waitFor();
+    await settled(page);
+    assert.equal(await menu.locator('option:checked').textContent(), title);
+    assert.ok(await page.getByRole('button', { name: 'Undo' }).isDisabled());
+    assert.ok(await page.getByRole('alert').isHidden());
+  }
+  await page.close();
+  assert.deepEqual(faults, []);
+});
+
+test('figures of the paper: the shapes are those of its commands, and Fig. 8(C) is what the native program makes', async () => {
+  for (const [number, ...options] of [[8, 'annulus', '--nodes', '553', '--boundary-nodes', '121'],
+    [9, 'annulus', '--nodes', '553', '--boundary-nodes', '121', '--noise', '0.08', '--seed', '7'], [10, 'pipe-blend', '--pipes=+x,+z,-z', '--cells', '10']]) {
+    const [ours, theirs] = [join(root, `examples/figure-${number}.obj`), session.generated(`${number}.obj`, ...options)];
+    assert.ok(greatestDistance(...[ours, theirs].map((path) => nodesOf(readFileSync(path, 'utf8')))) < 1e-12);
+  }
+  const { page, faults } = await session.open('?file=examples/saddle.ply');
+  await settled(page);
+  await page.getByLabel('Example').selectOption({ label: 'Fig. 8(C): normals too' });
+  await page.locator('#name', { hasText: 'figure-8' }).waitFor();
+  await settled(page);
+  assert.equal(await page.getByRole('button', { name: 'Normals fixed' }).getAttribute('aria-pressed'), 'true');
+  const { path } = await downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
+  const fair = join(session.folder, 'fair.obj');
+  native('fair', join(root, 'examples/figure-8.obj'), '-o', fair, '--fix-normals', 'boundary', '--quiet');
+  assert.ok(greatestDistance(nodesOf(readFileSync(path, 'utf8')), nodesOf(readFileSync(fair, 'utf8'))) < 6e-5);
+  await page.close();
+  assert.deepEqual(faults, []);
+});

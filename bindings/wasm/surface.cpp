@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "points.hpp"
 #include "region.hpp"
 #include "values.hpp"
 
@@ -62,6 +63,20 @@ class Surface {
     if (first != options_.fair_boundary) session_.reset();
     options_.fair_boundary = first;
   }
+  /// The normals that are held, in unit length: `nodes`, ascending, and `normals`, three numbers each.
+  [[nodiscard]] val held_normals() const {
+    std::vector<Index> nodes;
+    std::vector<Vector3> normals;
+    for (Index node = 0; node < node_count(); ++node) {
+      if (!constraints_->normal_fixed(node)) continue;
+      nodes.push_back(node);
+      normals.push_back(constraints_->normal(node));
+    }
+    val result = val::object();
+    result.set("nodes", array_of("Int32Array", nodes.size(), nodes.data()));
+    result.set("normals", positions_array(normals));
+    return result;
+  }
 
   /// From the file's shape. progress(fraction): true ends it soon with the best shape so far.
   val fair(const val& progress) {
@@ -70,6 +85,20 @@ class Surface {
   }
   /// From the last shape, where that leads somewhere.
   val follow(const val& progress) { return solve(progress); }
+
+  /// From the file's shape, drawn towards points. With the report come `fit`, its figures, and `distances` of the
+  /// points from the shape, in units of the file.
+  val fit(const Points& points, const val& settings, const val& progress) {
+    return forwarding_errors([&] {
+      Context context;
+      context.threads = 1;
+      ask(context, progress);
+      FitResult result = vspring::fit(file_.mesh, *constraints_, points.points(), options_of(settings), context);
+      session_.reset();
+      positions_ = std::move(result.positions);
+      return to_val(result);
+    });
+  }
 
   /// What must hold besides for only those nodes to move: `fixed`, nodes that stay where the file has them, and `rim`
   /// with its `normals`, three numbers each.
@@ -149,8 +178,10 @@ EMSCRIPTEN_BINDINGS(vspring_surface) {
       .function("holdNormal", &Surface::hold_normal)
       .function("freeNormal", &Surface::free_normal)
       .function("setFairBoundary", &Surface::set_fair_boundary)
+      .function("heldNormals", &Surface::held_normals)
       .function("fair", &Surface::fair)
       .function("follow", &Surface::follow)
+      .function("fit", &Surface::fit)
       .function("region", &Surface::region)
       .function("curvatures", &Surface::curvatures)
       .function("write", &Surface::write)

@@ -99,3 +99,16 @@ export function greatestDistance(a, b) {
   if (a.length !== b.length) throw new Error(`${a.length} nodes and ${b.length}`);
   return Math.max(...a.map((place, n) => Math.hypot(...place.map((part, i) => part - b[n][i]))));
 }
+
+export async function dragFrom(page, { x, y }, across, down) {
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  for (let k = 1; k <= 8; ++k) await page.mouse.move(x + (across * k) / 8, y + (down * k) / 8);
+  await page.mouse.up();
+  await settled(page);
+}
+
+export async function saved(page, format = 'obj') {
+  await page.getByLabel('File format').selectOption(format);
+  return downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
+}

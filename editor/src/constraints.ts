@@ -62,10 +62,10 @@ export function edited(constraints: Constraints, nodes: Iterable<number>, change
   return { ...constraints, edits };
 }
 
-/** Holds positions at places, three numbers each. */
-export function placed(constraints: Constraints, nodes: readonly number[], places: Float64Array): Constraints {
-  const place = new Map(nodes.map((node, k) => [node, [...places.subarray(3 * k, 3 * k + 3)] as Vector]));
-  return edited(constraints, nodes, (node) => ({ position: place.get(node) }));
+/** Holds positions at places, or normals in directions, three numbers each. */
+export function placed(constraints: Constraints, nodes: readonly number[], vectors: Float64Array, part: Part = 'position'): Constraints {
+  const given = new Map(nodes.map((node, k) => [node, [...vectors.subarray(3 * k, 3 * k + 3)] as Vector]));
+  return edited(constraints, nodes, (node) => ({ [part]: given.get(node) }));
 }
 
 export function boundaryFixed({ rules }: Constraints, part: Part): boolean {

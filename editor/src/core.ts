@@ -1,6 +1,6 @@
 // The library in WebAssembly as the worker sees it: see docs/webassembly.md.
 
-import type { Curvatures, Opened, OpenedCurve, Region, Report } from './protocol';
+import type { Curvatures, HeldNormals, Opened, OpenedCurve, Region, Report } from './protocol';
 
 /** What surfaces and curves have in common. */
 export interface CoreShape {
@@ -18,6 +18,8 @@ export interface CoreShape {
 }
 
 export interface CoreSurface extends CoreShape {
+  holdNormal(node: number, x: number, y: number, z: number): void;
+  heldNormals(): HeldNormals;
   faceCount(): number;
   faceBegin(): Int32Array;
   corners(): Int32Array;

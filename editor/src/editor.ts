@@ -3,12 +3,12 @@
 import { CoreClient, Solver } from './client';
 import * as holding from './constraints';
 import type { Constraints, Edit, Held, Part, Vector } from './constraints';
+import { Drags } from './drags';
 import { FrameCounter } from './frames';
 import { begun, done, redone, undone, type History } from './history';
 import type { Job, Opened, Report, Solved } from './protocol';
-import { Pull } from './pull';
 import { restricted } from './region';
-import { nothing, shapeOf, type Shape } from './shape';
+import { normalNear, nothing, shapeOf, type Shape } from './shape';
 import { between } from './strength';
 
 export interface EditorEvents {
@@ -29,8 +29,12 @@ export class Editor {
   fileWarnings: string[] = [];
   fault: { message: string; source: FaultSource } | null = null;
   held: Held = { nodes: new Uint8Array(), unmarked: 0 };
+  /** Normals that are held, as the library takes them. */
+  normals: Map<number, Vector> = new Map();
   picked: ReadonlySet<number> = new Set();
   hovered = -1;
+  /** Whether the pointer is at the arrow of that node. */
+  atArrow = false;
   busy = false;
   fraction = 0;
   showsInput = false;
@@ -42,7 +46,6 @@ export class Editor {
   readonly frames = new FrameCounter();
   private positions: Float64Array = new Float64Array();
   seen: Float64Array = this.positions;
-  private drag: Pull | null = null;
   readonly client = new CoreClient((message) => this.setFault(message, 'file'));
   private readonly solver = new Solver(this.client, {
     solved: (solved, job) => this.solved(solved, job),
@@ -50,6 +53,8 @@ export class Editor {
     progress: (fraction) => this.set({ fraction }),
     busy: (busy) => this.set({ busy, fraction: 0 }),
   });
+
+  readonly drags = new Drags(this, this.solver);
 
   constructor(private readonly events: EditorEvents) {}
 
@@ -62,14 +67,14 @@ export class Editor {
   }
 
   get dragging(): boolean {
-    return this.drag !== null;
+    return this.drags.part !== null;
   }
 
   get canEnd(): boolean {
-    return this.busy && !this.drag && this.client.canEnd;
+    return this.busy && !this.dragging && this.client.canEnd;
   }
 
-  set(state: Partial<Pick<Editor, 'busy' | 'fraction' | 'hovered' | 'picked' | 'fault'>>): void {
+  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'hovered' | 'picked' | 'fault'>>): void {
     Object.assign(this, state);
     this.events.changed();
   }
@@ -100,7 +105,8 @@ export class Editor {
   }
 
   private take(name: string, opened: Opened, constraints: Constraints, drawn = false): void {
-    this.drag = null;
+    this.drags.drop();
+    this.normals = new Map();
     this.history = begun(constraints);
     this.shape = shapeOf(opened);
     this.positions = this.seen = opened.positions;
@@ -112,7 +118,8 @@ export class Editor {
   /** Nothing is open. */
   close(): void {
     this.solver.clear();
-    this.drag = null;
+    this.drags.drop();
+    this.normals = new Map();
     this.history = begun(holding.initial);
     this.shape = null;
     this.positions = this.seen = new Float64Array();
@@ -221,35 +228,29 @@ export class Editor {
     this.travel(redone(this.history));
   }
 
-  /** Takes the node, and with it all picked ones that are held if it is one of them. */
-  beginDrag(node: number, now: number): void {
+  dragBegun(now: number): void {
     this.show({ showsInput: false, strength: 1 }, false);
-    if (!this.picked.has(node)) this.pick(node, false);
-    const nodes = [...this.picked].filter((other) => this.isDraggable(other));
-    const start = Float64Array.from(nodes.flatMap((other) => this.placeOf(other)));
-    this.drag = new Pull(nodes, start, 1 / this.shape!.scale, !this.shape!.curve);
     this.frames.start(now);
   }
 
-  dragBy(way: Vector, time: number): void {
-    if (!this.drag) return;
-    this.drag.aim(way, time);
-    this.solver.push({ drag: this.drag.step() });
+  /** What their arrows show until the library says what is held. */
+  turnNormals(nodes: readonly number[], vectors: Float64Array): void {
+    this.normals = new Map(this.normals);
+    nodes.forEach((node, k) => this.normals.set(node, [...vectors.subarray(3 * k, 3 * k + 3)] as Vector));
+    this.events.changed();
   }
 
-  endDrag(keep: boolean): void {
-    if (!this.drag) return;
-    const { nodes, places } = this.drag;
-    this.drag = null;
-    if (!keep) this.settle();
-    else this.apply(nodes.length === 1 ? `Move node ${nodes[0]}` : `Move ${nodes.length} nodes`, holding.placed(this.constraints, nodes, places));
+  /** The one that is held, or else that of the shape now. */
+  normalOf(node: number): Vector {
+    const { normals, shape, positions } = this;
+    return normals.get(node) ?? normalNear(shape!, positions, node);
   }
 
-  private placeOf(node: number): Vector {
+  placeOf(node: number): Vector {
     return [...this.seen.subarray(3 * node, 3 * node + 3)] as Vector;
   }
 
-  private apply(label: string, constraints: Constraints): void {
+  apply(label: string, constraints: Constraints): void {
     this.travel(done(this.history, label, constraints));
   }
 
@@ -258,23 +259,22 @@ export class Editor {
     this.settle();
   }
 
-  private settle(): void {
+  settle(): void {
     if (!this.shape) return;
     this.held = holding.heldNodes(this.constraints, this.shape.boundary);
     this.solver.push(this.holds);
     this.events.changed();
   }
 
-  private solved({ positions, report }: Solved, { drag }: Job): void {
+  private solved(solved: Solved, { drag }: Job): void {
+    const { positions, report, normals } = solved;
     if (positions.length !== this.positions.length) return;
     this.positions = positions;
     this.report = report;
     if (this.fault?.source === 'solver') this.fault = null;
     if (drag) this.frames.solved(drag.time);
-    if (drag && this.drag) {
-      this.drag.solved(drag, report.iterations);
-      if (!this.drag.arrived) this.solver.push({ drag: this.drag.step() });
-    }
+    if (drag) this.drags.solved(drag, solved);
+    if (normals && this.drags.part !== 'normal') this.normals = new Map([...normals.nodes].map((node, k) => [node, [...normals.normals.subarray(3 * k, 3 * k + 3)] as Vector]));
     if (this.showsInput) this.events.changed();
     else this.show({}, !drag);
   }

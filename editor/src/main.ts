@@ -13,15 +13,18 @@ import { showFor } from './kinds';
 import { showLegend } from './legend';
 import { looks, type Look } from './materials';
 import { rim } from './neighbours';
+import { Numbers } from './numbers';
 import { pick } from './picking';
 import { selectionCommands } from './selection';
 import { ServedFile } from './served';
 import { describe } from './status';
 import { bindStrength } from './strength';
 import { startTheme, switchTheme } from './theme';
+import { Tilts } from './tilts';
 import { rove } from './toolbar';
 import { Tools } from './tools';
 import { View } from './view';
+import { Ways } from './ways';
 
 const canvas = document.getElementById('canvas') as HTMLCanvasElement;
 const panel = document.querySelector('aside')!;
@@ -32,11 +35,12 @@ const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz';
 let look: Look = 'shaded';
 let coloured: Field | null = null;
 let held: Uint8Array = new Uint8Array();
-let marked: { picked: ReadonlySet<number>; hovered: number } = { picked: new Set(), hovered: -1 };
+let marked: { normals: Editor['normals']; picked: ReadonlySet<number>; hovered: number } = { normals: new Map(), picked: new Set(), hovered: -1 };
 
 const editor: Editor = new Editor({
   opened: (shape, stays) => {
     view.markers.clear();
+    view.arrows.set(new Map(), new Set());
     held = new Uint8Array();
     examples.opened(editor.name);
     showFor(shape, editor.name, format);
@@ -67,6 +71,13 @@ const tools: Tools = new Tools(canvas, document.querySelector('#overlay')!, {
   picked: () => editor.picked,
   pick: (picked) => editor.set({ picked }),
 });
+const ways = new Ways(document.getElementById('way')!, {
+  wayOf: (across, down) => view.wayOf(across, down),
+  normal: () => editor.normalOf(editor.drags.node),
+  moved: (way, time) => editor.drags.by(way, time),
+});
+const numbers = new Numbers(document.getElementById('numbers')!, editor);
+const tilts = new Tilts(canvas, editor, () => view, () => tools.tool === 'pick');
 const gestures = new Gestures(canvas, {
   active: () => tools.tool === 'pick',
   pick: (x, y, radius) => {
@@ -75,14 +86,14 @@ const gestures = new Gestures(canvas, {
   },
   draggable: (node) => editor.isDraggable(node),
   hovered: (node) => {
-    if (node === editor.hovered) return;
-    editor.set({ hovered: node });
+    if (node === editor.hovered || (node >= 0 && editor.atArrow)) return;
+    editor.set({ hovered: node, atArrow: false });
   },
   picked: (node, add) => editor.pick(node, add),
-  dragBegun: (node) => editor.beginDrag(node, performance.now()),
-  dragged: (across, down, time) => editor.dragBy(view.wayOf(across, down), time),
-  dropped: () => editor.endDrag(true),
-  cancelled: () => editor.endDrag(false),
+  dragBegun: (node) => { editor.drags.begin('position', node, performance.now()); ways.begin(); },
+  dragged: (across, down, time) => ways.by(across, down, time),
+  dropped: () => { ways.end(); editor.drags.end(true); },
+  cancelled: () => { ways.end(); editor.drags.end(false); },
 });
 const view = new View(canvas, panel, () => editor.frames.drawn(performance.now()));
 
@@ -142,13 +153,15 @@ function changed(): void {
     view.markers.set('held', 2 * fixed.length > held.length && !isCurve() ? [...rim(editor.shape!, fixed)] : fixed);
     view.draw();
   }
-  if (marked.picked !== editor.picked || marked.hovered !== editor.hovered) {
-    marked = { picked: editor.picked, hovered: editor.hovered };
+  if (marked.normals !== editor.normals || marked.picked !== editor.picked || marked.hovered !== editor.hovered) {
+    marked = { normals: editor.normals, picked: editor.picked, hovered: editor.hovered };
+    view.arrows.set(editor.normals, new Set(editor.hovered < 0 ? editor.picked : [...editor.picked, editor.hovered]));
     view.markers.set('picked', [...editor.picked]);
     view.markers.set('hovered', editor.hovered < 0 || editor.picked.has(editor.hovered) ? [] : [editor.hovered]);
     view.draw();
   }
   describe(editor, coloured);
+  numbers.refresh();
   refresh();
 }
 
@@ -184,7 +197,7 @@ function setLook(which: Look): void {
 }
 
 function escape(): void {
-  if (gestures.cancel() || tools.cancel()) return;
+  if (tilts.cancel() || gestures.cancel() || tools.cancel()) return;
   if (editor.canEnd) editor.client.endAll();
   else if (somePicked()) editor.pick(-1, false);
   else tools.set('pick');

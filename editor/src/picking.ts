@@ -22,9 +22,8 @@ export function projected({ places, matrix: m, width, height }: Seen): Float32Ar
   return screen;
 }
 
-/** Whether a triangle that does not have the node lies before it. */
-function hidden(screen: Float32Array, triangles: Uint32Array, node: number, slack: number): boolean {
-  const [x, y, z] = screen.subarray(3 * node, 3 * node + 3);
+/** Whether a triangle that does not have the node lies before a place. */
+export function hides(screen: Float32Array, triangles: Uint32Array, [x, y, z]: Float32Array, node: number, slack: number): boolean {
   for (let t = 0; t < triangles.length; t += 3) {
     const [a, b, c] = [triangles[t], triangles[t + 1], triangles[t + 2]];
     if (a === node || b === node || c === node) continue;
@@ -51,6 +50,6 @@ export function pick(seen: Seen, x: number, y: number, radius: number, preferred
   }
   candidates.sort((a, b) => a.distance - b.distance);
   // A few of the nearest: where all of those are hidden, the rest is, or is too crowded to be meant.
-  for (const { node } of candidates.slice(0, 12)) if (!hidden(screen, seen.triangles, node, 1e-4)) return node;
+  for (const { node } of candidates.slice(0, 12)) if (!hides(screen, seen.triangles, screen.subarray(3 * node, 3 * node + 3), node, 1e-4)) return node;
   return -1;
 }

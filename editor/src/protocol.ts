@@ -1,5 +1,7 @@
 // What the page asks of the worker, and what it answers. Arrays are handed over, not copied.
 
+import type { Part, Vector } from './constraints';
+
 interface OpenedShape {
   positions: Float64Array;
   /** 1 for every node of a boundary, of a curve: for every end. */
@@ -32,10 +34,13 @@ export interface Report {
   warnings: string[];
 }
 
-/** Places of held nodes, three numbers each. */
+/** Places of held nodes, or their normals, three numbers each. */
 export interface Drag {
+  part: Part;
   nodes: Int32Array;
-  places: Float64Array;
+  vectors: Float64Array;
+  /** How far that is from where the drag began. */
+  way: Vector;
   /** When the pointer was there, in milliseconds as of performance.now(). */
   time: number;
 }
@@ -47,9 +52,17 @@ export interface Job {
   drag?: Drag;
 }
 
+/** Normals that are held, three numbers each. */
+export interface HeldNormals {
+  nodes: Int32Array;
+  normals: Float64Array;
+}
+
 export interface Solved {
   positions: Float64Array;
   report: Report;
+  /** Where rules came with the job. */
+  normals?: HeldNormals;
 }
 
 /** The principal curvatures at the nodes, in units of the file; k1 is not less than k2. */

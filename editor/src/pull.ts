@@ -1,8 +1,8 @@
-// Held nodes on their way to the pointer. A shape follows short steps quickly and long ones badly, so long ways are made in steps,
-// as long as lately took few iterations.
+// Held nodes or normals on their way to the pointer. A shape follows short steps quickly and long ones badly, so long ways are made in
+// steps, as long as lately took few iterations.
 
+import type { Part, Vector } from './constraints';
 import type { Drag } from './protocol';
-import type { Vector } from './constraints';
 
 // Beyond 30 the library fairs anew, which takes many times as long.
 const few = 8;
@@ -14,14 +14,23 @@ export class Pull {
   private time = 0;
   private longest: number;
 
-  /** start: three numbers for each node. size: of the shape, in the same units. stepwise: not for curves, where the length of a step does not matter. */
-  constructor(readonly nodes: readonly number[], private readonly start: Float64Array, private readonly size: number, private readonly stepwise = true) {
+  /**
+   * at: what is held of the nodes, three numbers each, that far on the way. size: of a way that changes all, such as that of the shape.
+   * stepwise: not for curves, where the length of a step does not matter.
+   */
+  constructor(
+    readonly part: Part,
+    readonly nodes: readonly number[],
+    private readonly at: (way: Vector) => Float64Array,
+    private readonly size: number,
+    private readonly stepwise = true,
+  ) {
     this.longest = stepwise ? 0.02 * size : Infinity;
   }
 
-  /** Where the nodes are to be at last. */
-  get places(): Float64Array {
-    return this.start.map((part, k) => part + this.target[k % 3]);
+  /** What is to be held at last. */
+  get vectors(): Float64Array {
+    return this.at(this.target);
   }
 
   get arrived(): boolean {
@@ -36,15 +45,13 @@ export class Pull {
   step(): Drag {
     const rest = this.target.map((part, i) => part - this.there[i]);
     const share = Math.min(1, this.longest / Math.hypot(...rest));
-    const next = share < 1 ? this.there.map((part, i) => part + share * rest[i]) : this.target;
-    const places = this.start.map((part, k) => part + next[k % 3]);
-    return { nodes: Int32Array.from(this.nodes), places, time: share < 1 ? -Infinity : this.time };
+    const way = share < 1 ? (this.there.map((part, i) => part + share * rest[i]) as Vector) : this.target;
+    return { part: this.part, nodes: Int32Array.from(this.nodes), vectors: this.at(way), way, time: share < 1 ? -Infinity : this.time };
   }
 
-  /** The places of a step are reached; iterations: that took. */
-  solved({ places }: Drag, iterations: number): void {
-    this.there = [0, 1, 2].map((i) => places[i] - this.start[i]) as Vector;
-    if (places.every((part, k) => part === this.start[k] + this.target[k % 3])) this.there = this.target;
+  /** A step is made; iterations: that it took. */
+  solved({ way }: Drag, iterations: number): void {
+    this.there = way;
     if (this.stepwise) this.longest = Math.min(this.size, this.longest * (iterations <= few ? 2 : iterations > many ? 0.5 : 1));
   }
 }

@@ -4,6 +4,7 @@ import { edgesOf, trianglesOf } from '../../page/mesh.js';
 import type { Vector } from './constraints';
 import { planeOf } from './curve_plane';
 import type { Opened, OpenedCurve } from './protocol';
+import { normalsAt } from './vertices';
 
 /** What only curves have. */
 export interface CurveParts {
@@ -100,4 +101,11 @@ export function placesOf({ centre, scale }: Shape, positions: Float64Array): Flo
   const places = new Float32Array(positions.length);
   for (let k = 0; k < positions.length; ++k) places[k] = (positions[k] - centre[k % 3]) * scale;
   return places;
+}
+
+/** Of the shape at a node, from its faces. */
+export function normalNear(shape: Shape, positions: Float64Array, node: number): Vector {
+  const { faces } = shape;
+  const all = { nodes: Uint32Array.from({ length: positions.length / 3 }, (_, k) => k), corners: Uint32Array.from(faces.nodes), features: new Uint32Array() };
+  return [...normalsAt(faces, all, placesOf(shape, positions)).subarray(3 * node, 3 * node + 3)] as Vector;
 }

@@ -5,6 +5,7 @@ import {
   Scene, Vector3, WebGLRenderer,
 } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { Arrows } from './arrows';
 import type { Vector } from './constraints';
 import { CurveLayer } from './curve_layer';
 import { gridOfUnits } from './grid';
@@ -22,6 +23,7 @@ ColorManagement.enabled = false;  // colours are those of the style sheet
 
 export class View {
   readonly markers = new Markers();
+  readonly arrows = new Arrows();
   readonly curve = new CurveLayer();
   private readonly sketch = new CurveLayer();
   private readonly grid = gridOfUnits();
@@ -55,7 +57,7 @@ export class View {
     this.controls.minZoom = 0.05;
     this.controls.maxZoom = 1e4;
     this.controls.addEventListener('change', () => this.draw());
-    this.scene.add(this.surface, this.lines, this.features, this.grid, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects);
+    this.scene.add(this.surface, this.lines, this.features, this.grid, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object);
     for (const object of this.scene.children) object.frustumCulled = false;
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
@@ -90,6 +92,7 @@ export class View {
     this.curve.show(this.shape.curve ? this.places : new Float32Array(), this.shape.curve ? this.shape.edges.ends : []);
     this.colour();
     this.markers.move(this.places);
+    this.arrows.move(this.places);
     this.draw();
   }
 
@@ -136,6 +139,7 @@ export class View {
     this.grid.material.color = colour('--line');
     this.colour();
     this.markers.restyle(colour);
+    this.arrows.restyle(colour);
     this.canvas.style.color = '';
     this.draw();
   }
@@ -237,6 +241,7 @@ export class View {
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
+      this.arrows.scale(this.camera.zoom);
       this.refine(false);
       this.scaleMarkers();
       this.renderer.render(this.scene, this.camera);

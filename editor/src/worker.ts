@@ -1,7 +1,7 @@
 // The worker that owns the library and the open shape. It answers one request after the other.
 
 import { describe, describeCurve, openShape, type Core, type CoreCurve, type CoreFactory, type CoreSurface } from './core';
-import type { Answer, Ask, Job, Kind, Reply, Request, Start } from './protocol';
+import type { Answer, Ask, Drag, Job, Kind, Reply, Request, Start } from './protocol';
 import { between } from './strength';
 
 declare const vspringCore: CoreFactory;
@@ -34,6 +34,14 @@ function hold(target: CoreSurface | CoreCurve, { rules, fairBoundary }: Job): vo
   settled = null;
   if (rules !== undefined) target.setRules(rules);
   if (fairBoundary !== undefined && 'setFairBoundary' in target) target.setFairBoundary(fairBoundary);
+}
+
+function holdAt(target: CoreSurface | CoreCurve, { part, nodes, vectors }: Drag): void {
+  nodes.forEach((node, k) => {
+    const [x, y, z] = vectors.subarray(3 * k, 3 * k + 3);
+    if (part === 'normal' && 'holdNormal' in target) target.holdNormal(node, x, y, z);
+    else target.holdPosition(node, x, y, z);
+  });
 }
 
 const handlers: Handlers = {
@@ -73,10 +81,11 @@ const handlers: Handlers = {
   solve({ rules, fairBoundary, drag }, progress) {
     const target = opened();
     hold(target, { rules, fairBoundary });
-    drag?.nodes.forEach((node, k) => target.holdPosition(node, drag.places[3 * k], drag.places[3 * k + 1], drag.places[3 * k + 2]));
+    const normals = rules !== undefined && 'heldNormals' in target ? target.heldNormals() : undefined;
+    if (drag) holdAt(target, drag);
     const report = drag ? target.follow(progress) : target.fair(progress);
     if (!drag && report.outcome !== 'cancelled') settled = JSON.stringify([rules, fairBoundary]);
-    return { positions: target.positions(), report };
+    return { positions: target.positions(), report, normals };
   },
   curvatures({ positions }) {
     return (opened() as CoreSurface).curvatures(positions);  // nobody asks it of curves

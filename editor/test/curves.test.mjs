@@ -52,13 +52,13 @@ test('hairs of the comb are as long as curvature is large, away from the centre'
 });
 
 test('a curve follows the pointer at once, without steps', () => {
-  const pull = new Pull([3], Float64Array.of(0, 0, 0), 1, false);
+  const pull = new Pull('position', [3], (way) => Float64Array.from(way), 1, false);
   pull.aim([5, 0, 0], 7);
   const step = pull.step();
-  assert.deepEqual([...step.places, step.time], [5, 0, 0, 7]);
+  assert.deepEqual([...step.vectors, step.time], [5, 0, 0, 7]);
   pull.solved(step, 100);
   pull.aim([9, 0, 0], 8);
-  assert.deepEqual([...pull.step().places], [9, 0, 0]);
+  assert.deepEqual([...pull.step().vectors], [9, 0, 0]);
 });
 
 test('tangents are held, marked and written as positions are', () => {

@@ -132,21 +132,21 @@ test('a boundary loop is picked from one of its nodes', () => {
 });
 
 test('a long way is made in steps, shorter ones where they take many iterations, and ends where the pointer is', () => {
-  const pull = new Pull([7], Float64Array.of(0.1, 0.2, 0.3), 1);
+  const pull = new Pull('position', [7], (way) => Float64Array.of(0.1, 0.2, 0.3).map((place, k) => place + way[k % 3]), 1);
   pull.aim([1 / 3, 0, 0], 5);
   const lengths = [];
   for (let from = 0.1, steps = 0; !pull.arrived && steps < 100; ++steps) {
     const drag = pull.step();
-    lengths.push(drag.places[0] - from);
-    from = drag.places[0];
+    lengths.push(drag.vectors[0] - from);
+    from = drag.vectors[0];
     pull.solved(drag, steps < 3 ? 20 : 5);
     assert.equal(drag.time, pull.arrived ? 5 : -Infinity);
   }
   assert.ok(Math.abs(lengths[0] - 0.02) < 1e-12);
   assert.ok(Math.abs(lengths[2] - 0.005) < 1e-12);
   assert.ok(lengths.length < 12, 'steps grow again');
-  assert.deepEqual([...pull.step().places], [0.1 + 1 / 3, 0.2, 0.3]);
-  assert.deepEqual([...pull.places], [0.1 + 1 / 3, 0.2, 0.3]);
+  assert.deepEqual([...pull.step().vectors], [0.1 + 1 / 3, 0.2, 0.3]);
+  assert.deepEqual([...pull.vectors], [0.1 + 1 / 3, 0.2, 0.3]);
 });
 
 test('a frame counts if its shape is of a place at most 100 ms old', () => {

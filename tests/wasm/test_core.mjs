@@ -142,6 +142,55 @@ test('what holds a region is what --region holds, and curvatures are those of --
   for (const one of [surface, expected]) one.delete();
 });
 
+test('says which normals are held, estimated ones too', () => {
+  const surface = opened(generated('held.obj', 'annulus', '--nodes', '400'), 'held.obj');
+  const rim = [...surface.boundary().keys()].filter((node) => surface.boundary()[node]);
+  surface.holdNormal(rim[1], 3, 0, 4);
+  const { nodes, normals } = surface.heldNormals();
+  assert.deepEqual([...nodes], rim);
+  const normal = (node) => normals.subarray(3 * nodes.indexOf(node), 3 * nodes.indexOf(node) + 3);
+  [0.6, 0, 0.8].forEach((part, i) => assert.ok(Math.abs(normal(rim[1])[i] - part) < 1e-15));
+  assert.ok(Math.abs(Math.hypot(...normal(rim[0])) - 1) < 1e-12);
+  surface.freeNormal(rim[1]);
+  assert.equal(surface.heldNormals().nodes.length, rim.length - 1);
+  surface.delete();
+});
+
+test('fits to points as the native program does', () => {
+  const path = generated('fit.obj', 'saddle', '--columns', '12', '--rows', '12');
+  const plain = opened(path, 'fit.obj');
+  const size = diagonal(plain.positions());
+  const at = plain.positions();
+  const lines = Array.from({ length: at.length / 3 }, (_, k) => `${at[3 * k]} ${at[3 * k + 1]} ${at[3 * k + 2] + 0.02 * size * (((k * 7) % 5) / 4 - 0.5)}`).join('\n');
+  const cloud = join(folder, 'cloud.xyz');
+  writeFileSync(cloud, lines);
+  const points = new core.Points(new Uint8Array(readFileSync(cloud)), 'cloud.xyz');
+  assert.deepEqual([points.positions().length, points.weighted()], [at.length, false]);
+  for (const [option, settings, value] of [
+    ['--smoothing-length', { smoothingLength: 0.1 * size }, 0.1 * size], ['--within', { within: 0.02 * size, outliers: 0.05 }, 0.02 * size],
+    ['--rms', { rms: 0.006 * size }, 0.006 * size], ['--weight', { weight: 0.05 }, 0.05],
+  ]) {
+    const fitted = join(folder, 'fitted.obj');
+    const report = join(folder, 'fit.json');
+    native('fit', path, '--points', cloud, '-o', fitted, '--constraints', join(folder, 'rules.json'), option, String(value), '--report', report, '--quiet',
+      ...(settings.outliers ? ['--outliers', String(settings.outliers)] : []));
+    const expected = JSON.parse(readFileSync(report, 'utf8'));
+    const result = plain.fit(points, settings, null);
+    assert.equal(result.outcome, 'converged');
+    const theirs = opened(fitted, 'fitted.obj');
+    assert.ok(greatestDistance(plain.positions(), theirs.positions()) < 3e-4 * size, `${option}: ${greatestDistance(plain.positions(), theirs.positions()) / size}`);
+    assert.equal(result.fit.outliers, Math.floor((settings.outliers ?? 0) * points.positions().length / 3));
+    assert.equal(result.distances.length, points.positions().length / 3);
+    if (!settings.outliers) assert.equal(Math.max(...result.distances), result.fit.greatest);
+    assert.ok(expected.outcome === 'converged');
+    theirs.delete();
+  }
+  assert.throws(() => plain.fit(points, { smoothingLength: 0 }, null), /smoothing/);
+  assert.throws(() => new core.Points(new TextEncoder().encode('0 0 0\n1 2 zero\n'), 'bad.xyz'), /bad\.xyz:2/);
+  points.delete();
+  plain.delete();
+});
+
 test('ends soon when asked to, with a shape', () => {
   const surface = opened(generated('cancel.obj', 'annulus', '--nodes', '6000', '--noise', '0.05'), 'cancel.obj');
   const report = surface.fair((fraction) => fraction > 0);

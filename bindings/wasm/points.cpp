@@ -1,0 +1,48 @@
+#include "points.hpp"
+
+#include <optional>
+
+namespace vspring {
+
+Points::Points(const val& bytes, const std::string& name) {
+  forwarding_errors([&] { points_ = read_from(bytes, name, read_points); });
+}
+
+FitOptions options_of(const val& settings) {
+  const auto number = [&](const char* key) -> std::optional<double> {
+    const val value = settings[key];
+    if (value.isNull() || value.isUndefined()) return std::nullopt;
+    return value.as<double>();
+  };
+  FitOptions options;
+  options.weight = number("weight").value_or(options.weight);
+  options.smoothing_length = number("smoothingLength");
+  options.within = number("within");
+  options.rms = number("rms");
+  options.outliers = number("outliers").value_or(0);
+  return options;
+}
+
+val to_val(const FitResult& result) {
+  const FitReport& report = result.report;
+  val figures = val::object();
+  figures.set("points", report.points);
+  figures.set("pullingPoints", report.pulling_points);
+  figures.set("outliers", report.outliers);
+  figures.set("smoothingLength", report.smoothing_length ? val(*report.smoothing_length) : val::null());
+  figures.set("greatest", report.after.all.greatest);
+  figures.set("rms", report.after.all.rms);
+  val all = to_val(report.fair);
+  all.set("fit", figures);
+  all.set("distances", array_of("Float64Array", result.distances.size(), result.distances.data()));
+  return all;
+}
+
+}  // namespace vspring
+
+EMSCRIPTEN_BINDINGS(vspring_points) {
+  emscripten::class_<vspring::Points>("Points")
+      .constructor<vspring::val, std::string>()
+      .function("positions", &vspring::Points::positions)
+      .function("weighted", &vspring::Points::weighted);
+}

@@ -35,8 +35,8 @@ function thinned(points) {
   return kept;
 }
 
-// x, y: {label, low, high, log}. series: {name, style, lines: lists of [x, y]}. size: in pixels, where the chart is not scaled to its place.
-export function addChart(parent, {id, title, x, y, series, size: {width, height} = {width: 520, height: 260}}) {
+// x, y: {label, low, high, log}. series: {name, style, lines: lists of [x, y]}. pixels: its size where it is not scaled to its place.
+export function addChart(parent, {id, title, x, y, series, pixels: {width, height} = {width: 520, height: 260}}) {
   const figure = document.createElement('figure');
   figure.id = id;
   parent.append(figure);

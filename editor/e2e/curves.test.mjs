@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { downloaded, find, greatestDistance, native, rulesOf, Session, settled } from './support.mjs';
+import { downloaded, find, greatestDistance, native, root, rulesOf, Session, settled } from './support.mjs';
 
 let session;
 let page;
@@ -263,3 +263,21 @@ test('boundary loops are faired first, then the surface, as --fair-boundary does
   assert.equal(await page.getByRole('button', { name: 'Positions fixed' }).getAttribute('aria-pressed'), 'true');
   await settled(page);
 });
+
+for (const [label, file, size] of [
+  ['Aerofoil NACA 2412', 'naca-2412.dat', '61 nodes, open curve'], ['Noisy wave', 'wave.csv', '121 nodes, open curve'], ['Noisy trefoil knot', 'trefoil.obj', '144 nodes, closed curve'],
+]) {
+  test(`the example ${label} comes with what holds it`, async () => {
+    ({ page, faults } = await session.open());
+    await settled(page);
+    await page.getByLabel('Example').selectOption({ label });
+    await page.locator('#size', { hasText: size }).waitFor();
+    await settled(page);
+    assert.ok(await page.getByRole('button', { name: 'Undo' }).isDisabled());
+    const [input, rules] = [file, file.replace(/\..*/, '.json')].map((name) => join(root, 'examples', name));
+    assert.deepEqual(JSON.parse(await rulesOf(page)), JSON.parse(readFileSync(rules, 'utf8')));
+    const out = join(session.folder, `fair-${file}`);
+    native('curve', input, '-o', out, '--constraints', rules, '--quiet');
+    assert.ok(greatestDistance(placesOf((await saved()).path), placesOf(out)) < 3e-4);
+  });
+}

@@ -86,6 +86,6 @@ export class CurvePanel {
     const shapes = [{ title: 'input', chains: this.input }, { title: 'shown', chains: this.chains }];
     plot.replaceChildren();
     if (input.length === 0) return;
-    addCurveCharts(plot, shapes, { unit: 1, leading: 1, planar: curve!.plane !== null, size: { width, height } }, {});
+    addCurveCharts(plot, shapes, { unit: 1, leading: 1, planar: curve!.plane !== null, pixels: { width, height } }, {});
   }
 }

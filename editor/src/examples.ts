@@ -14,6 +14,11 @@ const groups: { title: string; examples: Example[] }[] = [
     { title: 'Noisy saddle', file: 'saddle.ply' },
     { title: 'Spot without horns', file: 'spot.obj', constraints: 'spot-horns.json' },
   ] },
+  { title: 'Curves', examples: [
+    { title: 'Aerofoil NACA 2412', file: 'naca-2412.dat', constraints: 'naca-2412.json' },
+    { title: 'Noisy wave', file: 'wave.csv', constraints: 'wave.json' },
+    { title: 'Noisy trefoil knot', file: 'trefoil.obj', constraints: 'trefoil.json' },
+  ] },
   { title: 'Figures of the paper', examples: [
     { title: 'Fig. 8(B): positions held', file: 'figure-8.obj' },
     { title: 'Fig. 8(C): normals too', file: 'figure-8.obj', constraints: 'smooth-ends.json' },

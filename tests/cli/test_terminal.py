@@ -43,15 +43,21 @@ class Terminal(Case):
         self.assertIn(b"\x1b[32m", run(*arguments, "--color", "always").stdout)
 
     def test_progress_bar_on_long_runs(self):
-        arguments = ["fair", self.write("in.obj", grid(100)), "-o", self.folder / "out.obj", "--method", "sweep",
-                     "--step-tolerance", "1e-30", "--max-iterations", "3000"]
+        # Many times as long as the bar waits, however fast the machine is.
+        report, iterations, seconds = self.folder / "report.json", 1000, 0
+        while seconds < 1.5:
+            iterations *= 2
+            arguments = ["fair", self.write("in.obj", grid(40)), "-o", self.folder / "out.obj", "--method", "sweep",
+                         "--step-tolerance", "1e-30", "--max-iterations", iterations, "--report", report, "--threads", "1"]
+            result = run(*arguments)
+            self.assertNotIn(b"fairing", result.stdout + result.stderr)
+            self.assertEqual(self.read_json("report.json")["outcome"], "iteration-limit")
+            seconds = self.read_json("report.json")["seconds"]
         text = run_on_terminal(arguments)
         self.assertIn("fairing [", text)
         self.assertRegex(text, r"iteration \d+")
         self.assertIn("left", text)
         self.assertNotIn("fairing [", run_on_terminal([*arguments, "--quiet"]))
-        result = run(*arguments)
-        self.assertNotIn(b"fairing", result.stdout + result.stderr)
 
     def test_a_reader_that_goes_away_is_told(self):
         path = self.write("in.obj", grid(100))

@@ -5,15 +5,15 @@ import { find, root, Session, settled } from './support.mjs';
 
 const session = await Session.start();
 try {
-  for (const [colorScheme, example, key] of [['light', 'Pipe blend', '1'], ['dark', 'Annulus', '3']]) {
+  for (const [name, colorScheme, example, key] of [['light', 'light', 'Pipe blend', '4'], ['dark', 'dark', 'Annulus', '3'], ['brush', 'light', 'Spot without horns', '1']]) {
     const { page } = await session.open('', { colorScheme, viewport: { width: 1100, height: 680 } });
     await settled(page);
     await page.getByLabel('Example').selectOption({ label: example });
-    await page.locator('#name', { hasText: example.split(' ')[0].toLowerCase() }).waitFor();
+    await page.getByRole('button', { name: 'Undo' }).and(page.locator(':disabled')).waitFor();
     await settled(page);
-    await page.getByRole('button', { name: 'Normals fixed' }).click();
-    await settled(page);
-    if (example === 'Annulus') {
+    if (name === 'dark') {
+      await page.getByRole('button', { name: 'Normals fixed' }).click();
+      await settled(page);
       const { x, y } = await find(page, /position fixed/, [0.35, 0.4], [0.35, 0.7]);
       await page.mouse.click(x, y);
       await page.keyboard.press('l');
@@ -23,10 +23,17 @@ try {
       await settled(page);
     }
     await page.keyboard.press(key);
+    if (name === 'brush') {
+      await page.keyboard.press('r');
+      await page.mouse.move(430, 330);
+      await page.mouse.down();
+      for (let k = 1; k <= 20; ++k) await page.mouse.move(430 + 9 * k, 330 - 40 * Math.sin(k / 6));
+    } else {
+      await page.mouse.move(700, 5);
+    }
     await page.evaluate(() => document.activeElement.blur());
-    await page.mouse.move(700, 5);
     await page.waitForTimeout(1500);
-    await page.screenshot({ path: join(root, `docs/pictures/editor-${colorScheme}.png`) });
+    await page.screenshot({ path: join(root, `docs/pictures/editor-${name}.png`) });
     await page.close();
   }
 } finally {

@@ -1,5 +1,7 @@
 // What holds the surface, as plain data: the rules of a constraints file, then what was done by hand, node by node.
 
+import type { Fit } from './points';
+
 export type Vector = [number, number, number];
 export type Hold<Given> = 'fixed' | 'free' | Given;
 
@@ -23,6 +25,8 @@ export interface Constraints {
   readonly edits: Readonly<Record<number, Edit>>;
   /** Of surfaces, and in no file: boundary nodes whose position is free are faired first, as curves. */
   readonly fairBoundary?: boolean;
+  /** In no file either: points that the surface is drawn towards. */
+  readonly fit?: Fit;
 }
 
 const parts = ['position', 'normal', 'tangent'] as const;

@@ -24,7 +24,13 @@ export interface CoreSurface extends CoreShape {
   faceBegin(): Int32Array;
   corners(): Int32Array;
   curvatures(positions: Float64Array): Curvatures;
+  fit(points: CorePoints, settings: object, progress: (fraction: number) => boolean): Report;
   setFairBoundary(first: boolean): void;
+}
+
+export interface CorePoints {
+  positions(): Float64Array;
+  delete(): void;
 }
 
 export interface CoreCurve extends CoreShape {
@@ -36,6 +42,7 @@ export interface CoreCurve extends CoreShape {
 }
 
 export interface Core {
+  Points: new (bytes: Uint8Array, name: string) => CorePoints;
   Surface: new (bytes: Uint8Array, name: string) => CoreSurface;
   Curve: (new (bytes: Uint8Array, name: string) => CoreCurve) & { through(places: Float64Array, closed: boolean): CoreCurve };
 }

@@ -53,7 +53,8 @@ export class Drags {
 
   solved(drag: Drag, { report }: Solved): void {
     if (!this.pull) return;
-    this.pull.solved(drag, report.iterations);
+    // A fit starts from the input, however long the step.
+    this.pull.solved(drag, report.fit ? 0 : report.iterations);
     if (!this.pull.arrived) this.solver.push({ drag: this.pull.step() });
   }
 }

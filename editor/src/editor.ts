@@ -6,7 +6,9 @@ import type { Constraints, Edit, Held, Part, Vector } from './constraints';
 import { Drags } from './drags';
 import { FrameCounter } from './frames';
 import { begun, done, redone, undone, type History } from './history';
-import type { Job, Opened, Report, Solved } from './protocol';
+import type { NamedBytes } from './files';
+import type { Cloud } from './points';
+import type { FitJob, Job, Opened, Report, Solved } from './protocol';
 import { restricted } from './region';
 import { normalNear, nothing, shapeOf, type Shape } from './shape';
 import { between } from './strength';
@@ -46,6 +48,7 @@ export class Editor {
   readonly frames = new FrameCounter();
   private positions: Float64Array = new Float64Array();
   seen: Float64Array = this.positions;
+  private clouds = 0;
   readonly client = new CoreClient((message) => this.setFault(message, 'file'));
   private readonly solver = new Solver(this.client, {
     solved: (solved, job) => this.solved(solved, job),
@@ -152,7 +155,13 @@ export class Editor {
     if (!this.shape) throw new Error('Open a shape first: constraints name its nodes');
     const constraints = holding.fromFile(text);
     await this.client.ask('hold', { rules: holding.toFile(constraints) });
-    this.apply('Load constraints', constraints);
+    this.apply('Load constraints', { ...constraints, fit: this.constraints.fit });
+  }
+
+  async cloudOf({ name, bytes }: NamedBytes): Promise<Cloud> {
+    const number = ++this.clouds;
+    const { positions } = await this.client.ask('points', { number, name, bytes });
+    return { number, name, bytes, positions };
   }
 
   toggleInput(): void {
@@ -216,8 +225,10 @@ export class Editor {
     return this.client.ask('write', { name, strength: this.strength, ...this.holds });
   }
 
-  private get holds(): { rules: string; fairBoundary: boolean } {
-    return { rules: holding.toFile(this.constraints), fairBoundary: this.constraints.fairBoundary ?? false };
+  private get holds(): { rules: string; fairBoundary: boolean; fit: FitJob | null } {
+    const { fairBoundary, fit } = this.constraints;
+    const job = fit ? { kind: fit.kind, value: fit.value, outliers: fit.outliers, points: fit.cloud.number } : null;
+    return { rules: holding.toFile(this.constraints), fairBoundary: fairBoundary ?? false, fit: job };
   }
 
   undo(): void {

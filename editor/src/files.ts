@@ -31,7 +31,7 @@ export function choose(accept: string, chosen: (file: NamedBytes) => void): void
 }
 
 /** Takes files that are dropped anywhere on the page; over: whether one hangs above it. */
-export function acceptDrops(over: (hangs: boolean) => void, dropped: (file: NamedBytes) => void): void {
+export function acceptDrops(over: (hangs: boolean) => void, dropped: (file: NamedBytes, alt: boolean) => void): void {
   addEventListener('dragover', (event) => {
     event.preventDefault();
     over(true);
@@ -43,7 +43,7 @@ export function acceptDrops(over: (hangs: boolean) => void, dropped: (file: Name
     event.preventDefault();
     over(false);
     const file = event.dataTransfer?.files[0];
-    if (file) void fromFile(file).then(dropped);
+    if (file) void fromFile(file).then((named) => dropped(named, event.altKey));
   });
 }
 

@@ -15,6 +15,9 @@ import { looks, type Look } from './materials';
 import { rim } from './neighbours';
 import { Numbers } from './numbers';
 import { pick } from './picking';
+import { arePoints, PointsPanel, type Fit } from './points';
+import type { Report } from './protocol';
+import { placesOf } from './shape';
 import { selectionCommands } from './selection';
 import { ServedFile } from './served';
 import { describe } from './status';
@@ -35,6 +38,7 @@ const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz';
 let look: Look = 'shaded';
 let coloured: Field | null = null;
 let held: Uint8Array = new Uint8Array();
+let dotted: { fit: Fit | undefined; report: Report | null } = { fit: undefined, report: null };
 let marked: { normals: Editor['normals']; picked: ReadonlySet<number>; hovered: number } = { normals: new Map(), picked: new Set(), hovered: -1 };
 
 const editor: Editor = new Editor({
@@ -76,6 +80,7 @@ const ways = new Ways(document.getElementById('way')!, {
   normal: () => editor.normalOf(editor.drags.node),
   moved: (way, time) => editor.drags.by(way, time),
 });
+const points = new PointsPanel(editor);
 const numbers = new Numbers(document.getElementById('numbers')!, editor);
 const tilts = new Tilts(canvas, editor, () => view, () => tools.tool === 'pick');
 const gestures = new Gestures(canvas, {
@@ -112,6 +117,7 @@ const commands: Command[] = [
   { id: 'load-constraints', title: 'Load constraints', keys: [], run: () => choose('.json', open), enabled: opened },
   { id: 'save-constraints', title: 'Save constraints', keys: ['ctrl+shift+s'], enabled: opened,
     run: () => download(`${stem(editor.name)}-constraints.json`, toFile(editor.constraints)) },
+  ...points.commands,
   ...drawing.commands,
   { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => editor.undo(), enabled: () => editor.history.past.length > 0,
     detail: () => editor.history.now.label },
@@ -162,7 +168,18 @@ function changed(): void {
   }
   describe(editor, coloured);
   numbers.refresh();
+  points.refresh();
+  showPoints();
   refresh();
+}
+
+function showPoints(): void {
+  const { shape, constraints: { fit }, report } = editor;
+  if ((dotted.fit === fit && dotted.report === report) || (editor.dragging && !report?.distances)) return;
+  dotted = { fit, report };
+  const distances = report?.distances?.length === (fit?.cloud.positions.length ?? 0) / 3 ? report!.distances! : null;
+  view.dots.set(fit && shape ? placesOf(shape, fit.cloud.positions) : new Float32Array(), distances, fit?.kind === 'within' ? fit.value : report?.fit?.greatest || 1);
+  view.draw();
 }
 
 function open({ name, bytes }: { name: string; bytes: Uint8Array }): void {
@@ -211,7 +228,10 @@ function toolChanged(): void {
 
 bindStrength(document.querySelector('#strength')!, (share, settled) => editor.setStrength(share, settled));
 rove(document.querySelector('[role=toolbar]')!);
-acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, open);
+acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, (file, alt) => {
+  if (editor.shape && !isCurve() && arePoints(file.name, alt)) void points.load(file);
+  else open(file);
+});
 startTheme(() => view.restyle());
 view.restyle();
 changed();

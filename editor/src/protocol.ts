@@ -32,6 +32,10 @@ export interface Report {
   movingNodes: number;
   greatestMove: number;
   warnings: string[];
+  /** Of a fit: distances in units of the file, outliers left out. */
+  fit?: { points: number; outliers: number; smoothingLength: number | null; greatest: number; rms: number };
+  /** Of all points. */
+  distances?: Float64Array;
 }
 
 /** Places of held nodes, or their normals, three numbers each. */
@@ -45,10 +49,26 @@ export interface Drag {
   time: number;
 }
 
+export type FitKind = 'smoothingLength' | 'within' | 'rms' | 'weight';
+
+/** outliers: a share of the points. */
+export interface FitSettings {
+  readonly kind: FitKind;
+  readonly value: number;
+  readonly outliers: number;
+}
+
+/** points: the number that they were given. */
+export interface FitJob extends FitSettings {
+  points: number;
+}
+
 /** rules: a constraints file, where what holds has changed; with it, whether free boundary nodes are faired first. drag: held nodes under the pointer; without it the surface is faired anew from the input. */
 export interface Job {
   rules?: string;
   fairBoundary?: boolean;
+  /** Comes with rules: null where there are no points to be drawn towards. */
+  fit?: FitJob | null;
   drag?: Drag;
 }
 
@@ -87,11 +107,13 @@ export interface Requests {
   draw: { ask: { places: Float64Array; closed: boolean; nodes: number }; answer: OpenedCurve & { from: Int32Array } };
   /** Throws, and leaves what held, where the rules are refused. */
   hold: { ask: { rules: string }; answer: null };
+  /** Reads scattered points, which the jobs name by that number. Another shape has none. */
+  points: { ask: { number: number; name: string; bytes: Uint8Array }; answer: { positions: Float64Array } };
   region: { ask: { rules: string; nodes: Int32Array }; answer: Region };
   solve: { ask: Job; answer: Solved };
   curvatures: { ask: { positions: Float64Array }; answer: Curvatures };
   /** The bytes of a file of that name, with the shape that what holds gives from the input, or that share of the way to it. */
-  write: { ask: { name: string; strength: number; rules: string; fairBoundary: boolean }; answer: Uint8Array };
+  write: { ask: { name: string; strength: number; rules: string; fairBoundary: boolean; fit: FitJob | null }; answer: Uint8Array };
 }
 
 export type Kind = keyof Requests;

@@ -9,6 +9,7 @@ import { Arrows } from './arrows';
 import type { Vector } from './constraints';
 import { CurveLayer } from './curve_layer';
 import { gridOfUnits } from './grid';
+import { Dots } from './dots';
 import { Markers } from './markers';
 import type { Field } from './fields';
 import { kindOf, surfaceMaterial, type Look } from './materials';
@@ -23,6 +24,7 @@ ColorManagement.enabled = false;  // colours are those of the style sheet
 
 export class View {
   readonly markers = new Markers();
+  readonly dots = new Dots();
   readonly arrows = new Arrows();
   readonly curve = new CurveLayer();
   private readonly sketch = new CurveLayer();
@@ -57,7 +59,7 @@ export class View {
     this.controls.minZoom = 0.05;
     this.controls.maxZoom = 1e4;
     this.controls.addEventListener('change', () => this.draw());
-    this.scene.add(this.surface, this.lines, this.features, this.grid, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object);
+    this.scene.add(this.surface, this.lines, this.features, this.grid, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
     for (const object of this.scene.children) object.frustumCulled = false;
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
@@ -140,6 +142,7 @@ export class View {
     this.colour();
     this.markers.restyle(colour);
     this.arrows.restyle(colour);
+    this.dots.restyle(colour);
     this.canvas.style.color = '';
     this.draw();
   }
@@ -292,6 +295,7 @@ export class View {
     const ratio = this.renderer.getPixelRatio();
     const spacing = ((this.shape?.spacing ?? 0) * this.camera.zoom * this.canvas.clientHeight) / 2;
     this.markers.scale(ratio, spacing);
+    this.dots.scale(ratio);
     for (const layer of [this.curve, this.sketch]) layer.scale(ratio);
   }
 

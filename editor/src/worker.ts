@@ -1,6 +1,7 @@
 // The worker that owns the library and the open shape. It answers one request after the other.
 
 import { describe, describeCurve, openShape, type Core, type CoreCurve, type CoreFactory, type CoreSurface } from './core';
+import { Fits } from './fits';
 import type { Answer, Ask, Drag, Job, Kind, Reply, Request, Start } from './protocol';
 import { between } from './strength';
 
@@ -13,6 +14,7 @@ let shape: CoreSurface | CoreCurve | null = null;
 let ended: Int32Array | null = null;
 /** What holds the shape, where it is the one that this gives from the input. */
 let settled: string | null = null;
+const fits = new Fits();
 let input: Float64Array = new Float64Array();
 
 type Progress = (fraction: number) => boolean;
@@ -25,13 +27,15 @@ function opened(): CoreSurface | CoreCurve {
 
 function take(next: CoreSurface | CoreCurve): void {
   shape?.delete();
+  fits.clear();
   shape = next;
   input = next.positions();
   settled = null;
 }
 
-function hold(target: CoreSurface | CoreCurve, { rules, fairBoundary }: Job): void {
+function hold(target: CoreSurface | CoreCurve, { rules, fairBoundary, fit }: Job): void {
   settled = null;
+  if (fit !== undefined) fits.use(fit);
   if (rules !== undefined) target.setRules(rules);
   if (fairBoundary !== undefined && 'setFairBoundary' in target) target.setFairBoundary(fairBoundary);
 }
@@ -73,29 +77,33 @@ const handlers: Handlers = {
     settled = null;
     return null;
   },
+  points({ number, name, bytes }) {
+    return { positions: fits.read(core, number, name, bytes) };
+  },
   region({ rules, nodes }) {
     opened().setRules(rules);
     settled = null;
     return opened().region(nodes);
   },
-  solve({ rules, fairBoundary, drag }, progress) {
+  solve({ rules, fairBoundary, fit, drag }, progress) {
     const target = opened();
-    hold(target, { rules, fairBoundary });
+    hold(target, { rules, fairBoundary, fit });
     const normals = rules !== undefined && 'heldNormals' in target ? target.heldNormals() : undefined;
     if (drag) holdAt(target, drag);
-    const report = drag ? target.follow(progress) : target.fair(progress);
-    if (!drag && report.outcome !== 'cancelled') settled = JSON.stringify([rules, fairBoundary]);
+    const report = drag ? fits.follow(target, progress) : fits.fair(target, progress);
+    if (!drag && report.outcome !== 'cancelled') settled = JSON.stringify([rules, fairBoundary, fit]);
     return { positions: target.positions(), report, normals };
   },
   curvatures({ positions }) {
     return (opened() as CoreSurface).curvatures(positions);  // nobody asks it of curves
   },
-  write({ name, strength, rules, fairBoundary }) {
+  write({ name, strength, rules, fairBoundary, fit }) {
     const target = opened();
-    if (settled !== JSON.stringify([rules, fairBoundary])) {
-      hold(target, { rules, fairBoundary });
-      target.fair(null);
-      settled = JSON.stringify([rules, fairBoundary]);
+    const holds = JSON.stringify([rules, fairBoundary, fit]);
+    if (settled !== holds) {
+      hold(target, { rules, fairBoundary, fit });
+      fits.fair(target, () => false);
+      settled = holds;
     }
     const result = target.positions();
     target.setPositions(between(input, result, strength));

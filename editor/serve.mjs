@@ -6,8 +6,8 @@ import { extname, join, normalize } from 'node:path';
 
 const types = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.json': 'application/json' };
 
-// folders: address prefix -> folder. Returns the server, which listens on 127.0.0.1 once the promise is kept.
-export function serve(folders, port = 0) {
+// folders: address prefix -> folder. shared: whether the page may share memory with its worker. Returns the server, which listens on 127.0.0.1 once the promise is kept.
+export function serve(folders, port = 0, shared = true) {
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://x').pathname);
     const prefix = Object.keys(folders).filter((start) => path.startsWith(start)).sort((a, b) => b.length - a.length)[0];
@@ -16,11 +16,10 @@ export function serve(folders, port = 0) {
       response.writeHead(404).end('not found');
       return;
     }
-    // The two policies let page and worker share memory, which lets the page end a solution that runs.
+    // The two policies let page and worker share memory: a solution that is out of date then ends soon.
     response.writeHead(200, {
       'Content-Type': types[extname(file)] ?? 'application/octet-stream',
-      'Cross-Origin-Opener-Policy': 'same-origin',
-      'Cross-Origin-Embedder-Policy': 'require-corp',
+      ...(shared ? { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' } : {}),
     });
     createReadStream(file).pipe(response);
   });

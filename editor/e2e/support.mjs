@@ -18,10 +18,11 @@ export function native(...options) {
 const flags = ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--force-device-scale-factor=1'];
 
 export class Session {
-  static async start() {
+  // shared: whether page and worker may share memory.
+  static async start({ shared = true } = {}) {
     const session = new Session();
     session.folder = mkdtempSync(join(tmpdir(), 'vspring-editor-'));
-    session.server = await serve({ '/': join(root, 'build/editor'), '/files/': session.folder });
+    session.server = await serve({ '/': join(root, 'build/editor'), '/files/': session.folder }, 0, shared);
     session.address = `http://127.0.0.1:${session.server.address().port}/`;
     session.browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: flags });
     return session;

@@ -3,38 +3,55 @@
 import type { Answer, Ask, Job, Kind, Reply, Request, Solved, Start } from './protocol';
 
 interface Waiting {
+  request: Request;
   done: (answer: Answer<Kind>) => void;
   failed: (error: Error) => void;
   progress?: (fraction: number) => void;
 }
 
+/** A solution was given up without a shape. */
+export class Ended extends Error {}
+
+/** Milliseconds that a solution has to end by itself, with the best shape so far. */
+const patience = 40;
+
 export class CoreClient {
-  private readonly worker = new Worker(new URL('worker.js', document.baseURI));
+  private worker: Worker;
   private readonly waiting = new Map<number, Waiting>();
   private readonly ended = self.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(4)) : null;
   private last = 0;
 
+  /** What opened the shape, and what held it last: all that another worker has to know. */
+  private source: Request | null = null;
+  private holds: Job = {};
+  private anew = false;
+
   /** broken: what to do where the worker itself fails, such as for want of memory. */
-  constructor(broken: (message: string) => void) {
-    this.worker.addEventListener('message', ({ data }: MessageEvent<Reply>) => this.receive(data));
-    this.worker.addEventListener('error', (event) => {
+  constructor(private readonly broken: (message: string) => void) {
+    this.worker = this.started();
+  }
+
+  private started(): Worker {
+    const worker = new Worker(new URL('worker.js', document.baseURI));
+    worker.addEventListener('message', ({ data }: MessageEvent<Reply>) => {
+      if (worker === this.worker) this.receive(data);
+    });
+    worker.addEventListener('error', (event) => {
       const message = `The library has failed: ${event.message || 'it cannot be loaded'}`;
       for (const { failed } of this.waiting.values()) failed(new Error(message));
       this.waiting.clear();
-      broken(message);
+      this.broken(message);
     });
     const start: Start = { core: new URL('vspring_core.js', document.baseURI).href, ended: this.ended };
-    this.worker.postMessage(start);
-  }
-
-  get canEnd(): boolean {
-    return this.ended !== null;
+    worker.postMessage(start);
+    return worker;
   }
 
   ask<K extends Kind>(kind: K, ask: Ask<K>, progress?: (fraction: number) => void): Promise<Answer<K>> {
     const request: Request<K> = { number: ++this.last, kind, ask };
+    if (kind === 'solve') this.remember(request as Request<'solve'>);
     return new Promise<Answer<K>>((done, failed) => {
-      this.waiting.set(request.number, { done: done as Waiting['done'], failed, progress });
+      this.waiting.set(request.number, { request, done: done as Waiting['done'], failed, progress });
       this.worker.postMessage(request);
     });
   }
@@ -42,6 +59,37 @@ export class CoreClient {
   /** All that has been asked so far ends soon, with the best shape so far. */
   endAll(): void {
     if (this.ended) Atomics.store(this.ended, 0, this.last);
+  }
+
+  /** The same now, if need be without a shape: where memory is not shared or the library is long about it, another worker takes over. */
+  endNow(): void {
+    this.endAll();
+    const { last } = this;
+    setTimeout(() => {
+      if ([...this.waiting.values()].some(({ request }) => request.kind === 'solve' && request.number <= last)) this.restart();
+    }, this.ended ? patience : 0);
+  }
+
+  private restart(): void {
+    this.worker.terminate();
+    this.worker = this.started();
+    this.anew = true;
+    if (this.source) this.worker.postMessage(this.source);
+    for (const [number, { request, failed }] of [...this.waiting]) {
+      if (request.kind !== 'solve') {
+        this.worker.postMessage(request);
+      } else {
+        this.waiting.delete(number);
+        failed(new Ended());
+      }
+    }
+  }
+
+  /** Another worker knows what holds only once it has been told. */
+  private remember(request: Request<'solve'>): void {
+    const { drag, ...holds } = (request.ask = this.anew ? { ...this.holds, ...request.ask } : request.ask);
+    this.holds = { ...this.holds, ...holds };
+    this.anew = false;
   }
 
   private receive(reply: Reply): void {
@@ -52,6 +100,7 @@ export class CoreClient {
       return;
     }
     this.waiting.delete(reply.number);
+    if (!('error' in reply) && ['open', 'draw'].includes(waiting.request.kind)) this.source = waiting.request;
     if ('error' in reply) waiting.failed(new Error(reply.error));
     else waiting.done(reply.answer);
   }
@@ -67,6 +116,8 @@ export function merged(older: Job | null, newer: Job): Job {
 export interface SolverEvents {
   solved: (solved: Solved, job: Job) => void;
   failed: (message: string, job: Job) => void;
+  /** Given up without a shape. */
+  ended: () => void;
   progress: (fraction: number) => void;
   /** Whether something is being solved. */
   busy: (busy: boolean) => void;
@@ -105,7 +156,8 @@ export class Solver {
       const solved = await this.client.ask('solve', job, this.events.progress);
       this.events.solved(solved, job);
     } catch (error) {
-      this.events.failed((error as Error).message, job);
+      if (error instanceof Ended) this.events.ended();
+      else this.events.failed((error as Error).message, job);
     }
     this.running = null;
     const next = this.waiting;

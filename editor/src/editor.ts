@@ -22,6 +22,8 @@ export interface EditorEvents {
   changed: () => void;
 }
 
+const cancelled: Report = { outcome: 'cancelled', iterations: 0, seconds: 0, expectedError: null, movingNodes: 0, greatestMove: 0, warnings: [] };
+
 type FaultSource = 'file' | 'solver';
 
 export class Editor {
@@ -53,6 +55,7 @@ export class Editor {
   private readonly solver = new Solver(this.client, {
     solved: (solved, job) => this.solved(solved, job),
     failed: (message) => this.setFault(message, 'solver'),
+    ended: () => { this.report = cancelled; },
     progress: (fraction) => this.set({ fraction }),
     busy: (busy) => this.set({ busy, fraction: 0 }),
   });
@@ -74,7 +77,7 @@ export class Editor {
   }
 
   get canEnd(): boolean {
-    return this.busy && !this.dragging && this.client.canEnd;
+    return this.busy && !this.dragging;
   }
 
   set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'hovered' | 'picked' | 'fault'>>): void {

@@ -143,7 +143,7 @@ const commands: Command[] = [
   { id: 'zoom-in', title: 'Zoom in', keys: ['+', '='], run: () => view.zoomBy(1.25) },
   { id: 'zoom-out', title: 'Zoom out', keys: ['-'], run: () => view.zoomBy(0.8) },
   { id: 'escape', title: 'Give up what is dragged, solved or picked', keys: ['escape'], run: escape },
-  { id: 'end', title: 'End the solution that runs', keys: [], run: () => editor.client.endAll(), enabled: () => editor.canEnd },
+  { id: 'end', title: 'End the solution that runs', keys: [], run: () => editor.client.endNow(), enabled: () => editor.canEnd },
   { id: 'theme', title: 'Light or dark', keys: ['t'], run: () => { switchTheme(); view.restyle(); } },
   { id: 'help', title: 'Keyboard shortcuts', keys: ['?'], run: () => help.showModal() },
   { id: 'dismiss', title: 'Dismiss the message', keys: [], run: () => editor.set({ fault: null }) },
@@ -215,7 +215,7 @@ function setLook(which: Look): void {
 
 function escape(): void {
   if (tilts.cancel() || gestures.cancel() || tools.cancel()) return;
-  if (editor.canEnd) editor.client.endAll();
+  if (editor.canEnd) editor.client.endNow();
   else if (somePicked()) editor.pick(-1, false);
   else tools.set('pick');
   toolChanged();

@@ -1,0 +1,51 @@
+// Large meshes, and solutions that are given up: with memory that page and worker share, and without.
+
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { downloaded, find, greatestDistance, native, nodesOf, rulesOf, Session, settled } from './support.mjs';
+
+const status = (page) => page.locator('#status');
+
+for (const shared of [true, false]) {
+  test(`a mesh of 200,000 nodes opens, its solution is given up, and nodes are picked; memory is ${shared ? '' : 'not '}shared`, async () => {
+    const session = await Session.start({ shared });
+    try {
+      session.generated('large.ply', 'annulus', '--nodes', '200000', '--noise', '0.001');
+      const { page, faults } = await session.open('?file=files/large.ply');
+      assert.equal(await page.evaluate(() => crossOriginIsolated), shared);
+      await page.locator('#size', { hasText: '200,000 nodes' }).waitFor({ timeout: 120_000 });
+      await page.getByRole('button', { name: 'Cancel' }).click({ timeout: 120_000 });
+      await status(page).filter({ hasText: 'cancelled' }).waitFor();
+      await page.locator('#progress').waitFor({ state: 'hidden' });
+      const { x, y, node } = await find(page, /Node \d+/, [0.3, 0.6], [0.4, 0.6]);
+      await page.mouse.click(x, y);
+      assert.equal(await page.locator('#picked').textContent(), `Node ${node}`);
+      assert.deepEqual(faults, []);
+    } finally {
+      await session.stop();
+    }
+  });
+}
+
+test('after a solution is given up without shared memory, what is changed and saved is right', async () => {
+  const session = await Session.start({ shared: false });
+  try {
+    const input = session.generated('patch.obj', 'annulus', '--nodes', '20000', '--noise', '0.01');
+    const { page, faults } = await session.open('?file=files/patch.obj');
+    await page.getByRole('button', { name: 'Cancel' }).click({ timeout: 120_000 });
+    await status(page).filter({ hasText: 'cancelled' }).waitFor();
+    await page.getByRole('button', { name: 'Normals fixed' }).click();
+    await settled(page);
+    const { path } = await downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
+    const [rules, fair] = [join(session.folder, 'rules.json'), join(session.folder, 'fair.obj')];
+    writeFileSync(rules, await rulesOf(page));
+    native('fair', input, '-o', fair, '--constraints', rules, '--quiet');
+    const [ours, theirs] = [path, fair].map((file) => nodesOf(readFileSync(file, 'utf8')));
+    assert.ok(greatestDistance(ours, theirs) < 6e-5, `${greatestDistance(ours, theirs)}`);  // six times the tolerance of 1e-5, on a size of some 2.4
+    assert.deepEqual(faults, []);
+  } finally {
+    await session.stop();
+  }
+});

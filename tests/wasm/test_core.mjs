@@ -191,6 +191,30 @@ test('fits to points as the native program does', () => {
   plain.delete();
 });
 
+test('hundreds of shapes that are opened, faired, dragged and deleted leave no memory behind', () => {
+  const bytes = new Uint8Array(readFileSync(generated('many.obj', 'annulus', '--nodes', '400', '--noise', '0.02')));
+  const once = () => {
+    const surface = new core.Surface(bytes, 'many.obj');
+    surface.setRules(rules);
+    surface.fair(() => false);
+    const node = nodeOfBoundary(surface);
+    surface.holdPosition(node, ...surface.positions().slice(3 * node, 3 * node + 3).map((part) => part + 0.001));
+    surface.follow(null);
+    surface.write('many.ply');
+    surface.delete();
+  };
+  // Where there is room for a large block moves up with all that is left behind.
+  const room = () => {
+    const block = core._malloc(1 << 20);
+    core._free(block);
+    return [block, core.HEAPU8.length];
+  };
+  for (let k = 0; k < 20; ++k) once();
+  const before = room();
+  for (let k = 0; k < 300; ++k) once();
+  assert.deepEqual(room(), before);
+});
+
 test('ends soon when asked to, with a shape', () => {
   const surface = opened(generated('cancel.obj', 'annulus', '--nodes', '6000', '--noise', '0.05'), 'cancel.obj');
   const report = surface.fair((fraction) => fraction > 0);

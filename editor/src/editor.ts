@@ -94,20 +94,22 @@ export class Editor {
     return this.shape?.curve ? 'tangent' : 'normal';
   }
 
-  /** A shape or a constraints file. held: a constraints file for the shape. What cannot be read leaves everything as it was. */
-  async open(name: string, bytes: Uint8Array, held?: string): Promise<void> {
+  /** A shape or a constraints file. held: a constraints file for the shape. points: what it is drawn towards, with the weight of the paper's Fig. 12. What cannot be read leaves everything as it was. */
+  async open(name: string, bytes: Uint8Array, held?: string, points?: NamedBytes): Promise<void> {
     try {
       if (name.toLowerCase().endsWith('.json')) await this.openConstraints(new TextDecoder().decode(bytes));
-      else await this.openShape(name, bytes, held === undefined ? holding.initial : holding.fromFile(held));
+      else await this.openShape(name, bytes, held === undefined ? holding.initial : holding.fromFile(held), points);
       this.set({ fault: null });
     } catch (error) {
       this.setFault((error as Error).message, 'file');
     }
   }
 
-  private async openShape(name: string, bytes: Uint8Array, constraints: Constraints): Promise<void> {
+  private async openShape(name: string, bytes: Uint8Array, constraints: Constraints, points?: NamedBytes): Promise<void> {
     this.solver.clear();
-    this.take(name, await this.client.ask('open', { name, bytes, rules: holding.toFile(constraints) }), constraints);
+    const opened = await this.client.ask('open', { name, bytes, rules: holding.toFile(constraints) });
+    const fit = points && { cloud: await this.cloudOf(points), kind: 'weight' as const, value: 0.01, outliers: 0 };
+    this.take(name, opened, { ...constraints, fit });
   }
 
   private take(name: string, opened: Opened, constraints: Constraints, drawn = false): void {

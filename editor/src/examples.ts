@@ -5,6 +5,8 @@ interface Example {
   file: string;
   /** A constraints file. */
   constraints?: string;
+  /** What it is drawn towards, with the weight of the paper's figure. */
+  points?: string;
 }
 
 const groups: { title: string; examples: Example[] }[] = [
@@ -24,14 +26,15 @@ const groups: { title: string; examples: Example[] }[] = [
     { title: 'Fig. 8(C): normals too', file: 'figure-8.obj', constraints: 'smooth-ends.json' },
     { title: 'Fig. 9: from noise', file: 'figure-9.obj', constraints: 'level-ends.json' },
     { title: 'Fig. 10: three pipes', file: 'figure-10.obj', constraints: 'smooth-ends.json' },
+    { title: 'Fig. 12: to points', file: 'figure-12.obj', points: 'figure-12.xyz' },
   ] },
 ];
 
 export class Examples {
   private readonly all = groups.flatMap(({ examples }) => examples);
 
-  /** open: addresses of a shape and of its constraints. */
-  constructor(private readonly menu: HTMLSelectElement, open: (file: string, constraints?: string) => void) {
+  /** open: addresses of a shape, of its constraints and of points. */
+  constructor(private readonly menu: HTMLSelectElement, open: (file: string, constraints?: string, points?: string) => void) {
     let number = 0;
     for (const { title, examples } of groups) {
       const group = Object.assign(document.createElement('optgroup'), { label: title });
@@ -39,8 +42,8 @@ export class Examples {
       menu.append(group);
     }
     menu.addEventListener('change', () => {
-      const { file, constraints } = this.all[Number(menu.value)];
-      open(`examples/${file}`, constraints && `examples/${constraints}`);
+      const { file, constraints, points } = this.all[Number(menu.value)];
+      open(`examples/${file}`, constraints && `examples/${constraints}`, points && `examples/${points}`);
     });
   }
 

@@ -33,7 +33,7 @@ const canvas = document.getElementById('canvas') as HTMLCanvasElement;
 const panel = document.querySelector('aside')!;
 const help = document.getElementById('help') as HTMLDialogElement;
 const format = document.getElementById('format') as HTMLSelectElement;
-const examples = new Examples(document.getElementById('example') as HTMLSelectElement, (file, constraints) => void openAddress(file, constraints));
+const examples = new Examples(document.getElementById('example') as HTMLSelectElement, (...addresses) => void openAddress(...addresses));
 const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz';
 let look: Look = 'shaded';
 let coloured: Field | null = null;
@@ -186,11 +186,11 @@ function open({ name, bytes }: { name: string; bytes: Uint8Array }): void {
   void editor.open(name, bytes);
 }
 
-async function openAddress(address: string, constraints?: string): Promise<void> {
+async function openAddress(address: string, constraints?: string, points?: string): Promise<void> {
   try {
     const { name, bytes } = await fromAddress(address);
     const held = constraints && new TextDecoder().decode((await fromAddress(constraints)).bytes);
-    await editor.open(name, bytes, held);
+    await editor.open(name, bytes, held, points ? await fromAddress(points) : undefined);
     if (!editor.fault) served?.opened(address);
   } catch (error) {
     editor.setFault((error as Error).message, 'file');

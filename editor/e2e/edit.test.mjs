@@ -81,3 +81,21 @@ test('the result goes to another file and format, and another mesh that is opene
   await page.close();
   await ended(editor);
 });
+
+test('a curve is saved back as the command line fairs it', async () => {
+  const rows = Array.from({ length: 40 }, (_, k) => [k / 40, 0.3 * Math.sin(k / 6) + 0.01 * Math.sin(7 * k)].join(','));
+  const [file, input, fair] = ['arc.csv', 'input.csv', 'fair.csv'].map((name) => join(session.folder, name));
+  for (const path of [file, input]) writeFileSync(path, `x,y\n${rows.join('\n')}\n`);
+  const editor = await edited(file);
+  const { page, faults } = await session.open(editor.address);
+  await settled(page);
+  await page.getByRole('button', { name: 'Save to arc.csv' }).click();
+  await page.getByRole('button', { name: 'Saved to arc.csv' }).waitFor();
+  native('curve', input, '-o', fair, '--quiet');
+  const [saved, expected, before] = [file, fair, input].map((path) => readFileSync(path, 'utf8').trim().split('\n').slice(1).map((row) => row.split(',').map(Number)));
+  assert.ok(greatestDistance(saved, expected) < 6e-5, `${greatestDistance(saved, expected)}`);  // six times the tolerance of 1e-5, on a size of some 1
+  assert.ok(greatestDistance(saved, before) > 0.01);
+  assert.deepEqual(faults, []);
+  await page.close();
+  await ended(editor);
+});

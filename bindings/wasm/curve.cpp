@@ -77,6 +77,21 @@ class Curve {
     forwarding_errors([&] { constraints_->free_tangent(node); });
   }
 
+  /// `nodes` whose tangent is given, and their `tangents`, three numbers each.
+  [[nodiscard]] val held_tangents() const {
+    std::vector<Index> nodes;
+    std::vector<Vector3> tangents;
+    for (Index node = 0; node < node_count(); ++node) {
+      if (!constraints_->tangent_fixed(node)) continue;
+      nodes.push_back(node);
+      tangents.push_back(constraints_->tangent(node));
+    }
+    val result = val::object();
+    result.set("nodes", array_of("Int32Array", nodes.size(), nodes.data()));
+    result.set("tangents", positions_array(tangents));
+    return result;
+  }
+
   /// What must hold besides for only those nodes to move, with the `tangents` of the rim.
   [[nodiscard]] val region(const val& nodes) const {
     return region_of(*constraints_, file_.curve, nodes,
@@ -154,6 +169,7 @@ EMSCRIPTEN_BINDINGS(vspring_curve) {
       .function("freePosition", &Curve::free_position)
       .function("holdTangent", &Curve::hold_tangent)
       .function("freeTangent", &Curve::free_tangent)
+      .function("heldTangents", &Curve::held_tangents)
       .function("region", &Curve::region)
       .function("resample", &Curve::resample)
       .function("fair", &Curve::fair)

@@ -168,11 +168,11 @@ async function drawn(points, end) {
   await settled(page);
 }
 
-// The places that a constraints file holds by their own numbers, and what the program makes of a curve through them.
-function fairedThrough(rules, nodes, ...options) {
+// The places that a constraints file holds by their own numbers, and what the program makes of a curve through them. more: other rules.
+function fairedThrough(rules, nodes, more, ...options) {
   const { position } = JSON.parse(rules).rules.find((rule) => Array.isArray(rule.position));
   writeFileSync(join(session.folder, 'drawn.csv'), `x,y\n${position.map(([x, y]) => `${x},${y}`).join('\n')}\n`);
-  return faired('drawn.csv', JSON.stringify({ rules: [{ nodes: 'all', position: 'fixed' }] }), '--resample', String(nodes), ...options);
+  return faired('drawn.csv', JSON.stringify({ rules: [{ nodes: 'all', position: 'fixed' }, ...more] }), '--resample', String(nodes), ...options);
 }
 
 test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as the native program makes it', async () => {
@@ -188,7 +188,7 @@ test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as t
   assert.match(await page.locator('#size').textContent(), /61 nodes, open curve/);
   const rules = await rulesOf(page);
   assert.deepEqual(JSON.parse(rules).rules.at(-1).position.map(([, , z]) => z), [0, 0, 0, 0]);
-  assert.ok(greatestDistance(placesOf((await saved('csv')).path), fairedThrough(rules, 61)) < 1e-4);
+  assert.ok(greatestDistance(placesOf((await saved('csv')).path), fairedThrough(rules, 61, [])) < 1e-4);
 
   await leave();
   const held = await find(page, /position fixed/, [0.3, 0.3], [0.31, 0.3]);  // where it was drawn
@@ -201,12 +201,46 @@ test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as t
   await settled(page);
   assert.deepEqual(JSON.parse(await rulesOf(page)).rules.at(-1).position, JSON.parse(pulled).rules.at(-1).position);
   const ours = placesOf((await saved('xyz')).path).slice(0, 80);  // the first once more at the end
-  assert.ok(greatestDistance(ours, fairedThrough(pulled, 80, '--closed').slice(0, 80)) < 1e-4);
+  assert.ok(greatestDistance(ours, fairedThrough(pulled, 80, [], '--closed').slice(0, 80)) < 1e-4);
 
   await page.getByLabel('Nodes a span').fill('10');
   await page.keyboard.press('Tab');
   await page.locator('#size', { hasText: '40 nodes, closed curve' }).waitFor();
   await settled(page);
+});
+
+test('the tangent at an end is given by numbers, tilted by its arrow, and free again', async () => {
+  ({ page, faults } = await session.open());
+  await settled(page);
+  await drawn([[0.2, 0.6], [0.4, 0.5], [0.6, 0.6]], () => page.keyboard.press('Enter'));
+  const box = await page.locator('#canvas').boundingBox();
+  const end = { x: box.x + 0.2 * box.width, y: box.y + 0.6 * box.height };
+  await page.mouse.click(end.x, end.y);
+  assert.equal(await page.locator('#picked').textContent(), 'Node 0');
+  for (const [part, number] of [['x', '0'], ['y', '1'], ['z', '0']]) await page.getByLabel(`Tangent ${part}`).fill(number);
+  await page.keyboard.press('Enter');
+  await page.getByRole('button', { name: 'Undo' }).and(page.locator('[title*="Tilt tangent of node 0"]')).waitFor();
+  await settled(page);
+  const length = 0.09 * box.height;
+  const atHead = page.locator('#node', { hasText: 'Tangent of node 0 · 0, 1, 0' });
+  // As a hand is never quite still: an arrow may be drawn only after the pointer has come.
+  for (let k = 0; k < 200 && !(await atHead.isVisible()); ++k) {
+    await page.mouse.move(end.x + (k % 2), end.y - 0.87 * length);
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  }
+  await dragFrom({ x: end.x, y: end.y - 0.87 * length }, length, 0, () => page.locator('#status', { hasText: 'frames/s' }).waitFor());
+  const rules = await rulesOf(page);
+  const [tangent] = JSON.parse(rules).rules.find((rule) => Array.isArray(rule.tangent)).tangent;
+  for (const part of tangent.slice(0, 2)) assert.ok(Math.abs(part - Math.SQRT1_2) < 0.02, `${tangent}`);
+  assert.equal(tangent[2], 0);
+  const ours = placesOf((await saved('csv')).path);
+  assert.ok(greatestDistance(ours, fairedThrough(rules, 41, [{ nodes: [0], tangent }])) < 1e-4);
+
+  await page.mouse.click(end.x, end.y);
+  await page.keyboard.press('Shift+N');
+  await settled(page);
+  assert.equal(JSON.parse(await rulesOf(page)).rules.at(-1).tangent, 'free');
+  assert.ok(greatestDistance(placesOf((await saved('csv')).path), ours) > 0.01);
 });
 
 test('a click on the first node closes, a double click ends, Escape gives up', async () => {

@@ -38,6 +38,8 @@ export interface CoreCurve extends CoreShape {
   chainNodes(): Int32Array;
   closed(): Uint8Array;
   planar(): boolean;
+  holdTangent(node: number, x: number, y: number, z: number): void;
+  heldTangents(): { nodes: Int32Array; tangents: Float64Array };
   resample(nodes: number): Int32Array;
 }
 

@@ -1,4 +1,4 @@
-// What is held and goes with the pointer: positions of nodes, or their normals, which turn. The shape follows; on release it is faired anew.
+// What is held and goes with the pointer: positions of nodes, or their normals or tangents, which turn. The shape follows; on release it is faired anew.
 
 import type { Solver } from './client';
 import { placed, type Part, type Vector } from './constraints';
@@ -22,12 +22,12 @@ export class Drags {
   begin(part: Part, node: number, now: number): void {
     const { editor } = this;
     if (!editor.picked.has(node)) editor.pick(node, false);
-    const normal = part === 'normal';
-    const nodes = [...editor.picked].filter((other) => (normal ? editor.normals.has(other) : editor.isDraggable(other)));
-    const start = Float64Array.from(nodes.flatMap((other) => (normal ? editor.normals.get(other)! : editor.placeOf(other))));
-    const at = (way: Vector): Float64Array => (normal ? turned(start, way) : start.map((place, k) => place + way[k % 3]));
+    const turns = part !== 'position';
+    const nodes = [...editor.picked].filter((other) => (turns ? editor.normals.has(other) : editor.isDraggable(other)));
+    const start = Float64Array.from(nodes.flatMap((other) => (turns ? editor.normals.get(other)! : editor.placeOf(other))));
+    const at = (way: Vector): Float64Array => (turns ? turned(start, way) : start.map((place, k) => place + way[k % 3]));
     this.node = node;
-    this.pull = new Pull(part, nodes, at, normal ? Math.PI : 1 / editor.shape!.scale, !editor.shape!.curve);
+    this.pull = new Pull(part, nodes, at, turns ? Math.PI : 1 / editor.shape!.scale, !editor.shape!.curve);
     editor.dragBegun(now);
   }
 
@@ -35,7 +35,7 @@ export class Drags {
   by(way: Vector, time: number): void {
     if (!this.pull) return;
     this.pull.aim(way, time);
-    if (this.pull.part === 'normal') this.editor.turnNormals(this.pull.nodes, this.pull.vectors);
+    if (this.pull.part !== 'position') this.editor.turnNormals(this.pull.nodes, this.pull.vectors);
     this.solver.push({ drag: this.pull.step() });
   }
 
@@ -61,5 +61,5 @@ export class Drags {
 
 export function labelOf(part: Part, nodes: readonly number[]): string {
   const what = nodes.length === 1 ? `node ${nodes[0]}` : `${nodes.length} nodes`;
-  return part === 'position' ? `Move ${what}` : `Tilt ${nodes.length === 1 ? 'normal' : 'normals'} of ${what}`;
+  return part === 'position' ? `Move ${what}` : `Tilt ${part}${nodes.length === 1 ? '' : 's'} of ${what}`;
 }

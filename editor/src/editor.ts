@@ -33,7 +33,7 @@ export class Editor {
   fileWarnings: string[] = [];
   fault: { message: string; source: FaultSource } | null = null;
   held: Held = { nodes: new Uint8Array(), unmarked: 0 };
-  /** Normals that are held, as the library takes them. */
+  /** Normals that are held, of curves tangents, as the library takes them. */
   normals: Map<number, Vector> = new Map();
   picked: ReadonlySet<number> = new Set();
   hovered = -1;
@@ -290,7 +290,7 @@ export class Editor {
     if (this.fault?.source === 'solver') this.fault = null;
     if (drag) this.frames.solved(drag.time);
     if (drag) this.drags.solved(drag, solved);
-    if (normals && this.drags.part !== 'normal') this.normals = new Map([...normals.nodes].map((node, k) => [node, [...normals.normals.subarray(3 * k, 3 * k + 3)] as Vector]));
+    if (normals && this.drags.part !== this.direction) this.normals = new Map([...normals.nodes].map((node, k) => [node, [...normals.normals.subarray(3 * k, 3 * k + 3)] as Vector]));
     if (this.showsInput) this.events.changed();
     else this.show({}, !drag);
   }

@@ -1,4 +1,4 @@
-// Positions and normals of picked nodes as numbers; Enter applies them.
+// Positions and normals, or tangents, of picked nodes as numbers; Enter applies them.
 
 import { placed, type Part, type Vector } from './constraints';
 import { labelOf } from './drags';
@@ -55,9 +55,9 @@ export class Numbers {
   private readonly normal: Fields;
 
   constructor(private readonly section: HTMLElement, private readonly editor: Editor) {
-    const fields = (part: Part): Fields => new Fields(section.querySelector(`[data-part=${part}]`)!, (vector) => this.apply(part, vector));
-    this.position = fields('position');
-    this.normal = fields('normal');
+    const fields = (which: string, part: () => Part): Fields => new Fields(section.querySelector(`[data-part=${which}]`)!, (vector) => this.apply(part(), vector));
+    this.position = fields('position', () => 'position');
+    this.normal = fields('normal', () => editor.direction);
   }
 
   refresh(): void {
@@ -69,17 +69,18 @@ export class Numbers {
     const alike = shared && [...picked].every((node) => normals.get(node)?.every((part, i) => part === shared[i]));
     if (picked.size === 1) this.position.show('Position', this.editor.placeOf(first));
     else this.position.show('Move by', null);
-    this.normal.show(picked.size === 1 ? 'Normal' : 'Normals', alike ? shared : null);
+    const name = this.editor.shape?.curve ? 'Tangent' : 'Normal';
+    this.normal.show(picked.size === 1 ? name : `${name}s`, alike ? shared : null);
   }
 
   /** What is picked is held there. Of the one node the fields have its place, of several how far they go. */
   private apply(part: Part, vector: Vector): void {
     const nodes = [...this.editor.picked];
-    if (part === 'normal' && !vector.some(Boolean)) {
-      this.editor.setFault('A normal has a direction: not all three numbers may be 0', 'file');
+    if (part !== 'position' && !vector.some(Boolean)) {
+      this.editor.setFault('A normal or tangent has a direction: not all three numbers may be 0', 'file');
       return;
     }
-    const vectors = nodes.flatMap((node) => (part === 'normal' || nodes.length === 1 ? vector : this.editor.placeOf(node).map((place, i) => place + vector[i])));
+    const vectors = nodes.flatMap((node) => (part !== 'position' || nodes.length === 1 ? vector : this.editor.placeOf(node).map((place, i) => place + vector[i])));
     this.editor.apply(labelOf(part, nodes), placed(this.editor.constraints, nodes, Float64Array.from(vectors), part));
   }
 }

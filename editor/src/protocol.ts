@@ -72,7 +72,7 @@ export interface Job {
   drag?: Drag;
 }
 
-/** Normals that are held, three numbers each. */
+/** Normals, of curves tangents, that are held, three numbers each. */
 export interface HeldNormals {
   nodes: Int32Array;
   normals: Float64Array;

@@ -24,9 +24,9 @@ function ofSolution({ report, dragging, frames, showsInput, shape }: Editor): st
   return `${outcome} · ${count(iterations, 'iteration')}${error} · ${Math.round(1000 * seconds)} ms${rate}`;
 }
 
-function ofNode({ atArrow, hovered, held, normals }: Editor, field: Field | null): string {
+function ofNode({ atArrow, hovered, held, normals, shape }: Editor, field: Field | null): string {
   if (hovered < 0) return '';
-  if (atArrow) return `Normal of node ${hovered} · ${normals.get(hovered)?.map((part) => short(Number(part.toPrecision(3)))).join(', ') ?? ''}`;
+  if (atArrow) return `${shape?.curve ? 'Tangent' : 'Normal'} of node ${hovered} · ${normals.get(hovered)?.map((part) => short(Number(part.toPrecision(3)))).join(', ') ?? ''}`;
   const bits = held.nodes[hovered];
   const what = [bits & heldPosition && 'position fixed', bits & heldNormal && 'normal fixed', bits & heldTangent && 'tangent fixed'].filter(Boolean);
   const value = field ? ` · ${field.name} ${short(field.values[hovered])}` : '';

@@ -1,9 +1,9 @@
-// The pointer on the arrows of normals: the head of one is taken, and goes with the pointer around the node.
+// The pointer on the arrows of normals or tangents: the head of one is taken, and goes with the pointer around the node.
 
 import { Arrows } from './arrows';
 import type { Vector } from './constraints';
 import type { Editor } from './editor';
-import { cross, tilted, turnBetween } from './turning';
+import { cross, tilted, tiltedWithin, turnBetween } from './turning';
 import type { View } from './view';
 
 function unit(vector: Vector): Vector {
@@ -60,11 +60,13 @@ export class Tilts {
     if (!start.moved) {
       if (Math.hypot(across, down) <= 2) return;
       start.moved = true;
-      this.editor.drags.begin('normal', start.node, performance.now());
+      this.editor.drags.begin(this.editor.direction, start.node, performance.now());
     }
     const [right, up] = [unit(this.view().wayOf(1, 0)), unit(this.view().wayOf(0, -1))];
     const length = Arrows.lengthIn(this.canvas.clientHeight);
-    const normal = tilted(start.normal, [right, up, cross(right, up)], across / length, -down / length);
+    const plane = this.editor.shape?.curve?.plane;
+    const frame = [right, up, cross(right, up)] as const;
+    const normal = plane ? tiltedWithin(plane, start.normal, frame, across / length, -down / length) : tilted(start.normal, frame, across / length, -down / length);
     this.editor.drags.by(turnBetween(start.normal, normal), event.timeStamp);
   }
 

@@ -42,3 +42,12 @@ export function tilted(vector: ArrayLike<number>, frame: readonly Vector[], righ
   parts[2] = Math.sqrt(Math.max(0, 1 - parts[0] ** 2 - parts[1] ** 2)) * (z < 0 ? -1 : 1);
   return [0, 1, 2].map((i) => parts.reduce((sum, part, k) => sum + part * frame[k][i], 0)) as Vector;
 }
+
+/** The same of a vector that stays in a plane, whose unit normal is given. */
+export function tiltedWithin(plane: Vector, vector: ArrayLike<number>, frame: readonly Vector[], right: number, up: number): Vector {
+  const tip = [0, 1, 2].map((i) => vector[i] + right * frame[0][i] + up * frame[1][i]);
+  const out = dot(tip, plane);
+  const within = tip.map((part, i) => part - out * plane[i]);
+  const length = Math.hypot(...within);
+  return (length > 0 ? within.map((part) => part / length) : [...Array.from(vector)]) as Vector;
+}

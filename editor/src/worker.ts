@@ -2,7 +2,7 @@
 
 import { describe, describeCurve, openShape, type Core, type CoreCurve, type CoreFactory, type CoreSurface } from './core';
 import { Fits } from './fits';
-import type { Answer, Ask, Drag, Job, Kind, Reply, Request, Start } from './protocol';
+import type { Answer, Ask, Drag, HeldNormals, Job, Kind, Reply, Request, Start } from './protocol';
 import { between } from './strength';
 
 declare const vspringCore: CoreFactory;
@@ -40,10 +40,17 @@ function hold(target: CoreSurface | CoreCurve, { rules, fairBoundary, fit }: Job
   if (fairBoundary !== undefined && 'setFairBoundary' in target) target.setFairBoundary(fairBoundary);
 }
 
+function heldDirections(target: CoreSurface | CoreCurve): HeldNormals {
+  if ('heldNormals' in target) return target.heldNormals();
+  const { nodes, tangents } = target.heldTangents();
+  return { nodes, normals: tangents };
+}
+
 function holdAt(target: CoreSurface | CoreCurve, { part, nodes, vectors }: Drag): void {
   nodes.forEach((node, k) => {
     const [x, y, z] = vectors.subarray(3 * k, 3 * k + 3);
     if (part === 'normal' && 'holdNormal' in target) target.holdNormal(node, x, y, z);
+    else if (part === 'tangent' && 'holdTangent' in target) target.holdTangent(node, x, y, z);
     else target.holdPosition(node, x, y, z);
   });
 }
@@ -88,7 +95,7 @@ const handlers: Handlers = {
   solve({ rules, fairBoundary, fit, drag }, progress) {
     const target = opened();
     hold(target, { rules, fairBoundary, fit });
-    const normals = rules !== undefined && 'heldNormals' in target ? target.heldNormals() : undefined;
+    const normals = rules !== undefined ? heldDirections(target) : undefined;
     if (drag) holdAt(target, drag);
     const report = drag ? fits.follow(target, progress) : fits.fair(target, progress);
     if (!drag && report.outcome !== 'cancelled') settled = JSON.stringify([rules, fairBoundary, fit]);

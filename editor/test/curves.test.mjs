@@ -9,6 +9,7 @@ const { withParts, grown } = await compiled('neighbours');
 const { planeOf } = await compiled('curve_plane');
 const { combOf, toothOf } = await compiled('comb');
 const { Pull } = await compiled('pull');
+const { tiltedWithin } = await compiled('turning');
 const { heldNodes, toFile, edited, initial } = await compiled('constraints');
 
 // An open chain of three nodes and a closed one of four, in one file.
@@ -66,4 +67,11 @@ test('tangents are held, marked and written as positions are', () => {
   assert.deepEqual(JSON.parse(toFile(state)).rules.at(-1), { nodes: [1], tangent: [[0, 1, 0]] });
   assert.deepEqual([...heldNodes(state, Uint8Array.of(1, 0, 1)).nodes], [1, 4, 1]);
   assert.deepEqual([...heldNodes(edited(state, [1], () => ({ tangent: 'free' })), Uint8Array.of(1, 0, 1)).nodes], [1, 0, 1]);
+});
+
+test('a tangent that is tilted stays in the plane of the curve', () => {
+  const lean = [[1, 0, 0], [0, 0.8, 0.6], [0, -0.6, 0.8]];  // seen from aside
+  const [x, y, z] = tiltedWithin([0, 0, 1], [0, 1, 0], lean, 0.8, 0);
+  assert.deepEqual([x, y, z], [0.8 / Math.hypot(0.8, 1), 1 / Math.hypot(0.8, 1), 0]);
+  assert.deepEqual(tiltedWithin([0, 0, 1], [0, 1, 0], lean, 0, -1.25).map((part) => part || 0), [0, 1, 0], 'and points somewhere');
 });

@@ -265,6 +265,10 @@ test('curves: fairs and writes as the native program does, in every format', () 
   }
   assert.match(new TextDecoder().decode(curve.write('out.svg')), /<svg/);
 
+  const { nodes, tangents } = curve.heldTangents();
+  assert.deepEqual([...nodes], [0, 40]);
+  assert.ok(Math.abs(Math.hypot(...tangents.subarray(0, 3)) - 1) < 1e-12 && tangents[0] > 0);
+
   curve.freeTangent(0);
   curve.holdTangent(40, 0, 1, 0);
   curve.holdPosition(20, 2, 2, 0);

@@ -1,5 +1,6 @@
 """A headless Chromium, driven through its DevTools pipe; and pictures of what it shows."""
 import base64
+import itertools
 import json
 import os
 import select
@@ -193,20 +194,22 @@ def pixels_of(png):
     raw, stride, last, pixels = zlib.decompress(data), width * channels, bytes(width * channels), Picture(width)
     for row in range(height):
         kind, line = raw[row * (stride + 1)], bytearray(raw[row * (stride + 1) + 1:(row + 1) * (stride + 1)])
-        for i in range(stride):
-            a, b = (line[i - channels] if i >= channels else 0), last[i]
-            c = last[i - channels] if i >= channels else 0
-            if kind == 1:
-                add = a
-            elif kind == 2:
-                add = b
-            elif kind == 3:
-                add = (a + b) // 2
-            elif kind == 4:
-                add = min((a, b, c), key=lambda x: abs(a + b - c - x))
-            else:
-                break
-            line[i] = (line[i] + add) & 255
+        if kind == 1:
+            for channel in range(channels):
+                line[channel::channels] = bytes(total & 255 for total in itertools.accumulate(line[channel::channels]))
+        elif kind == 2:
+            line = bytearray((x + b) & 255 for x, b in zip(line, last))
+        elif kind == 3:
+            for i in range(stride):
+                line[i] = (line[i] + ((line[i - channels] if i >= channels else 0) + last[i]) // 2) & 255
+        elif kind == 4:
+            for i in range(channels):
+                line[i] = (line[i] + last[i]) & 255
+            for i, b, c in zip(range(channels, stride), last[channels:], last):
+                a = line[i - channels]
+                to_a, to_b, to_c = abs(b - c), abs(a - c), abs(a + b - c - c)
+                add = a if to_a <= to_b and to_a <= to_c else b if to_b <= to_c else c
+                line[i] = (line[i] + add) & 255
         last = bytes(line)
-        pixels += [tuple(last[i:i + 3]) for i in range(0, stride, channels)]
+        pixels += zip(*(last[channel::channels] for channel in range(3)))
     return pixels

@@ -21,8 +21,8 @@ export class CoreClient {
   private readonly ended = self.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(4)) : null;
   private last = 0;
 
-  /** What opened the shape, and what held it last: all that another worker has to know. */
-  private source: Request | null = null;
+  /** What opened the shape and read its points, and what held it last: all that another worker has to know. */
+  private sources: Request[] = [];
   private holds: Job = {};
   private anew = false;
 
@@ -74,7 +74,7 @@ export class CoreClient {
     this.worker.terminate();
     this.worker = this.started();
     this.anew = true;
-    if (this.source) this.worker.postMessage(this.source);
+    for (const source of this.sources) this.worker.postMessage(source);
     for (const [number, { request, failed }] of [...this.waiting]) {
       if (request.kind !== 'solve') {
         this.worker.postMessage(request);
@@ -92,6 +92,11 @@ export class CoreClient {
     this.anew = false;
   }
 
+  private keep(request: Request): void {
+    if (request.kind === 'open' || request.kind === 'draw') this.sources = [request];
+    else if (request.kind === 'points') this.sources.push(request);
+  }
+
   private receive(reply: Reply): void {
     const waiting = this.waiting.get(reply.number);
     if (!waiting) return;
@@ -100,7 +105,7 @@ export class CoreClient {
       return;
     }
     this.waiting.delete(reply.number);
-    if (!('error' in reply) && ['open', 'draw'].includes(waiting.request.kind)) this.source = waiting.request;
+    if (!('error' in reply)) this.keep(waiting.request);
     if ('error' in reply) waiting.failed(new Error(reply.error));
     else waiting.done(reply.answer);
   }

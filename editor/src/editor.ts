@@ -8,7 +8,7 @@ import { FrameCounter } from './frames';
 import { begun, done, redone, undone, type History } from './history';
 import type { NamedBytes } from './files';
 import type { Cloud } from './points';
-import type { FitJob, Job, Opened, Report, Solved } from './protocol';
+import type { Ask, FitJob, Job, Opened, Report, Solved } from './protocol';
 import { restricted } from './region';
 import { normalNear, nothing, shapeOf, type Shape } from './shape';
 import { between } from './strength';
@@ -23,6 +23,8 @@ export interface EditorEvents {
 }
 
 const cancelled: Report = { outcome: 'cancelled', iterations: 0, seconds: 0, expectedError: null, movingNodes: 0, greatestMove: 0, warnings: [] };
+/** What a shape was opened from: a file, or places that were clicked. */
+export type Source = NamedBytes | Ask<'draw'>;
 
 type FaultSource = 'file' | 'solver';
 
@@ -51,6 +53,7 @@ export class Editor {
   private positions: Float64Array = new Float64Array();
   seen: Float64Array = this.positions;
   private clouds = 0;
+  source: Source | null = null;
   readonly client = new CoreClient((message) => this.setFault(message, 'file'));
   private readonly solver = new Solver(this.client, {
     solved: (solved, job) => this.solved(solved, job),
@@ -109,13 +112,30 @@ export class Editor {
     this.solver.clear();
     const opened = await this.client.ask('open', { name, bytes, rules: holding.toFile(constraints) });
     const fit = points && { cloud: await this.cloudOf(points), kind: 'weight' as const, value: 0.01, outliers: 0 };
-    this.take(name, opened, { ...constraints, fit });
+    this.take({ name, bytes }, opened, begun({ ...constraints, fit }));
   }
 
-  private take(name: string, opened: Opened, constraints: Constraints, drawn = false): void {
+  /** As it was when the page was left. */
+  async restore(source: Source, history: History<Constraints>, strength: number): Promise<void> {
+    const file = 'bytes' in source;
+    const opened = file ? await this.client.ask('open', { ...source, rules: holding.toFile(history.now.state) }) : await this.client.ask('draw', source);
+    const clouds = new Set([...history.past, history.now, ...history.future].flatMap(({ state }) => state.fit?.cloud ?? []));
+    for (const cloud of clouds) {
+      const { number, name, bytes } = cloud;
+      await this.client.ask('points', { number, name, bytes });
+      this.clouds = Math.max(this.clouds, cloud.number);
+    }
+    this.take(source, opened, history);
+    this.show({ strength }, true);
+  }
+
+  private take(source: Source, opened: Opened, history: History<Constraints>): void {
+    const drawn = 'places' in source;
+    const name = drawn ? 'curve.csv' : source.name;
+    this.source = source;
     this.drags.drop();
     this.normals = new Map();
-    this.history = begun(constraints);
+    this.history = history;
     this.shape = shapeOf(opened);
     this.positions = this.seen = opened.positions;
     Object.assign(this, { name, drawn, report: null, fault: null, showsInput: false, strength: 1, picked: new Set(), hovered: -1, fileWarnings: opened.warnings });
@@ -125,6 +145,7 @@ export class Editor {
 
   /** Nothing is open. */
   close(): void {
+    this.source = null;
     this.solver.clear();
     this.drags.drop();
     this.normals = new Map();
@@ -142,9 +163,10 @@ export class Editor {
     this.solver.clear();
     try {
       const nodes = perSpan * (places.length - (closed ? 0 : 1)) + (closed ? 0 : 1);
-      const opened = await this.client.ask('draw', { places: Float64Array.from(places.flat()), closed, nodes });
+      const source = { places: Float64Array.from(places.flat()), closed, nodes };
+      const opened = await this.client.ask('draw', source);
       const kept = [...opened.from.keys()].filter((node) => opened.from[node] >= 0);
-      this.take('curve.csv', opened, holding.edited(holding.initial, kept, (node) => ({ ...edit(opened.from[node]), position: places[opened.from[node]] })), true);
+      this.take(source, opened, begun(holding.edited(holding.initial, kept, (node) => ({ ...edit(opened.from[node]), position: places[opened.from[node]] }))));
     } catch (error) {
       this.setFault((error as Error).message, 'file');
     }

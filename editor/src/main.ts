@@ -1,5 +1,6 @@
 // Puts the editor together.
 
+import { Autosave } from './autosave';
 import { bindCommands, listShortcuts, type Command } from './commands';
 import { heldPosition, toFile } from './constraints';
 import { CurvePanel } from './curve_panel';
@@ -34,6 +35,7 @@ const panel = document.querySelector('aside')!;
 const help = document.getElementById('help') as HTMLDialogElement;
 const format = document.getElementById('format') as HTMLSelectElement;
 const examples = new Examples(document.getElementById('example') as HTMLSelectElement, (...addresses) => void openAddress(...addresses));
+const firstExample = 'examples/annulus.obj';
 const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz';
 let look: Look = 'shaded';
 let coloured: Field | null = null;
@@ -80,6 +82,7 @@ const ways = new Ways(document.getElementById('way')!, {
   normal: () => editor.normalOf(editor.drags.node),
   moved: (way, time) => editor.drags.by(way, time),
 });
+const autosave = new Autosave(editor, document.getElementById('restored')!);
 const points = new PointsPanel(editor);
 const numbers = new Numbers(document.getElementById('numbers')!, editor);
 const tilts = new Tilts(canvas, editor, () => view, () => tools.tool === 'pick');
@@ -146,6 +149,8 @@ const commands: Command[] = [
   { id: 'end', title: 'End the solution that runs', keys: [], run: () => editor.client.endNow(), enabled: () => editor.canEnd },
   { id: 'theme', title: 'Light or dark', keys: ['t'], run: () => { switchTheme(); view.restyle(); } },
   { id: 'help', title: 'Keyboard shortcuts', keys: ['?'], run: () => help.showModal() },
+  { id: 'afresh', title: 'Forget what was restored', keys: [], run: () => void autosave.forget().then(() => openAddress(firstExample)).then(() => autosave.begin()) },
+  { id: 'dismiss-restored', title: 'Dismiss the notice', keys: [], run: () => { document.getElementById('restored')!.hidden = true; } },
   { id: 'dismiss', title: 'Dismiss the message', keys: [], run: () => editor.set({ fault: null }) },
 ];
 const refresh = bindCommands(commands);
@@ -169,6 +174,7 @@ function changed(): void {
   describe(editor, coloured);
   numbers.refresh();
   points.refresh();
+  autosave.changed();
   showPoints();
   refresh();
 }
@@ -206,6 +212,13 @@ async function save(): Promise<void> {
   }
 }
 
+/** What the address names, or else what was open last. */
+async function start(): Promise<void> {
+  const file = new URLSearchParams(location.search).get('file');
+  if (file || !(await autosave.restore())) await openAddress(file ?? firstExample);
+  autosave.begin();
+}
+
 function setLook(which: Look): void {
   look = which;
   view.setLook(which);
@@ -235,4 +248,4 @@ acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, (f
 startTheme(() => view.restyle());
 view.restyle();
 changed();
-void openAddress(new URLSearchParams(location.search).get('file') ?? 'examples/annulus.obj');
+void start();

@@ -32,7 +32,7 @@ for (const shared of [true, false]) {
 test('after a solution is given up without shared memory, what is changed and saved is right', async () => {
   const session = await Session.start({ shared: false });
   try {
-    const input = session.generated('patch.obj', 'annulus', '--nodes', '20000', '--noise', '0.01');
+    const input = session.generated('patch.obj', 'annulus', '--nodes', '40000', '--noise', '0.01');
     const { page, faults } = await session.open('?file=files/patch.obj');
     await page.getByRole('button', { name: 'Cancel' }).click({ timeout: 120_000 });
     await status(page).filter({ hasText: 'cancelled' }).waitFor();

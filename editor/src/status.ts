@@ -5,6 +5,7 @@ import { heldNormal, heldPosition, heldTangent } from './constraints';
 import type { Editor } from './editor';
 import type { Field } from './fields';
 import type { Shape } from './shape';
+import { inEditorWords } from './words';
 
 function part(id: string): HTMLElement {
   return document.getElementById(id)!;
@@ -55,10 +56,11 @@ export function describe(editor: Editor, field: Field | null): void {
   part('unmarked').hidden = held.unmarked === 0;
   part('unmarked').textContent = `${count(held.unmarked, 'rule')} about groups or regions: what they hold is not marked.`;
   part('fault').hidden = !fault;
-  if (part('fault').firstElementChild!.textContent !== fault?.message) part('fault').firstElementChild!.textContent = fault?.message ?? '';
+  const message = inEditorWords(fault?.message ?? '');
+  if (part('fault').firstElementChild!.textContent !== message) part('fault').firstElementChild!.textContent = message;
   part('progress').hidden = !busy || dragging;
   part('progress').querySelector('progress')!.value = fraction;
-  const warnings = [...fileWarnings, ...(report?.warnings ?? [])];
+  const warnings = [...fileWarnings, ...(report?.warnings ?? [])].map(inEditorWords);
   part('warnings').hidden = warnings.length === 0;
   part('warnings').querySelector('ul')!.replaceChildren(...warnings.map((textContent) =>
     Object.assign(document.createElement('li'), { textContent })));

@@ -1,4 +1,4 @@
-// Turns of normals, ways along lines, numbers in fields.
+// Turns of normals, ways along lines, numbers in fields, words of the library.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -7,6 +7,7 @@ import { compiled } from './support.mjs';
 const { tilted, turnBetween, turned } = await compiled('turning');
 const { along } = await compiled('ways');
 const { vectorOf } = await compiled('numbers');
+const { inEditorWords } = await compiled('words');
 
 const frame = [[1, 0, 0], [0, 0, 1], [0, -1, 0]];  // seen along y
 const near = (a, b) => assert.ok(a.every((part, i) => Math.abs(part - b[i]) < 1e-12), `${a} and ${b}`);
@@ -37,4 +38,10 @@ test('numbers are read as people type them', () => {
   assert.deepEqual(vectorOf(['1', '−2.5', '']), [1, -2.5, 0]);
   assert.deepEqual(vectorOf(['0,5', '1e-3', '0']), [0.5, 0.001, 0]);
   for (const wrong of [['', '', ''], ['1', 'x', '2'], ['1', '', 'Infinity']]) assert.equal(vectorOf(wrong), null);
+});
+
+test('options of the command line are said in words of the editor', () => {
+  assert.equal(inEditorWords('Hold it (--fix boundary, or a rule in --constraints), or let only a region move (--region)'),
+    'Hold it (“Positions fixed”), or let only a region move (“Fair only these nodes”)');
+  assert.equal(inEditorWords('hold it by a rule (--constraints) such as this'), 'hold it by a rule such as this');
 });

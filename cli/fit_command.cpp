@@ -28,6 +28,7 @@ struct FitArguments : FairingArguments {
   std::string points;
   PullArguments pull;
   std::optional<double> step_tolerance;
+  bool ignore_normals = false;
   bool curve = false;
   bool closed = false;
 };
@@ -72,8 +73,9 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   step_tolerance =
       arguments.step_tolerance.value_or(weight > 0 ? std::min(step_tolerance, weight / 10) : step_tolerance);
   ScatteredPoints points = read_points(arguments.points);
+  if (arguments.ignore_normals) points.normals.clear();
   FitResult result = fit(shape, constraints, points, fit_options(arguments.pull, fairing_options), fairing.context());
-  const FitAccount account(result.report, arguments.pull, arguments.points, points.weights);
+  const FitAccount account(result.report, arguments.pull, arguments.points, points);
   const PolygonMesh cloud(std::move(points.positions), {0}, {});
   for (const Repeat& repeat : repeats)
     result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
@@ -120,9 +122,13 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
   command
       .add_option("--points", arguments.points,
                   "The points: the nodes of a file of any of the formats, connectivity ignored. They may have weights: "
-                  "PLY's property or CSV's column weight or confidence, the fourth or seventh number in XYZ")
+                  "PLY's property or CSV's column weight or confidence, the fourth or seventh number in XYZ; and "
+                  "normals: nx, ny, nz, numbers four to six in XYZ, OBJ's vn")
       ->required()
       ->type_name("POINTS");
+  command.add_flag("--ignore-point-normals", arguments.ignore_normals,
+                   "Points pull whichever way they face (default: those that have normals only at nodes of a surface "
+                   "that faces the same way)");
   add_pull_options(command, arguments.pull, "How points pull: one of");
   add_choice(command, "--method", arguments.options.method, methods,
              "The accelerated solver that goes to the true equilibrium, or the paper's plain iteration (default: "

@@ -83,42 +83,58 @@ FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairin
   return options;
 }
 
-FitAccount::FitAccount(const FitReport& report, const PullArguments& arguments, std::string points,
-                       const std::vector<double>& weights)
-    : report_(report), arguments_(arguments), points_(std::move(points)) {
-  if (weights.empty()) return;
-  const auto [least, greatest] = std::minmax_element(weights.begin(), weights.end());
+FitAccount::FitAccount(const FitReport& report, const PullArguments& arguments, std::string file,
+                       const ScatteredPoints& points)
+    : report_(report),
+      arguments_(arguments),
+      file_(std::move(file)),
+      normals_(std::count_if(points.normals.begin(), points.normals.end(),
+                             [](const Vector3& normal) { return !normal.isZero(0); })) {
+  if (points.weights.empty()) return;
+  const auto [least, greatest] = std::minmax_element(points.weights.begin(), points.weights.end());
   weights_ = std::pair(*least, *greatest);
 }
 
 Json FitAccount::figures() const {
-  return {{"points",
-           {{"file", points_},
-            {"weight", optional(arguments_.weight)},
-            {"smoothing_length", optional(report_.smoothing_length)},
-            {"within", optional(arguments_.within)},
-            {"rms", optional(arguments_.rms)},
-            {"weights", weights_ ? Json{{"least", weights_->first}, {"greatest", weights_->second}} : Json()},
-            {"count", report_.points},
-            {"outliers", report_.outliers},
-            {"active", report_.active_points},
-            {"pulling", report_.pulling_points},
-            {"nodes_with_points", report_.pulled_nodes},
-            {"most_on_a_node", report_.most_points},
-            {"distance", {{"before", to_json(report_.before)}, {"after", to_json(report_.after)}}}}}};
+  return {
+      {"points",
+       {{"file", file_},
+        {"weight", optional(arguments_.weight)},
+        {"smoothing_length", optional(report_.smoothing_length)},
+        {"within", optional(arguments_.within)},
+        {"rms", optional(arguments_.rms)},
+        {"weights", weights_ ? Json{{"least", weights_->first}, {"greatest", weights_->second}} : Json()},
+        {"normals", normals_},
+        {"count", report_.points},
+        {"outliers", report_.outliers},
+        {"outside", asks_for_distance() ? Json{{"count", report_.outside_points}, {"share", outside_share()}} : Json()},
+        {"active", report_.active_points},
+        {"pulling", report_.pulling_points},
+        {"nodes_with_points", report_.pulled_nodes},
+        {"most_on_a_node", report_.most_points},
+        {"distance", {{"before", to_json(report_.before)}, {"after", to_json(report_.after)}}}}}};
+}
+
+bool FitAccount::asks_for_distance() const { return arguments_.within || arguments_.rms; }
+
+double FitAccount::outside_share() const {
+  return static_cast<double>(report_.outside_points) / static_cast<double>(report_.after.all.count);
 }
 
 std::string FitAccount::lines() const {
   std::string text =
-      fmt::format("{} points{}, of which {} pull at {} nodes\n", report_.points,
+      fmt::format("{} points{}{}, of which {} pull at {} nodes\n", report_.points,
                   weights_ ? fmt::format(" of weights {:.4g} to {:.4g}", weights_->first, weights_->second) : "",
-                  report_.pulling_points, report_.pulled_nodes);
+                  normals_ > 0 ? ", with normals" : "", report_.pulling_points, report_.pulled_nodes);
   const auto line = [&](const char* name, double before, double after) {
     text += fmt::format("{}{:.4g} → {:.4g} units\n", name, before, after);
   };
   line("rms distance     ", report_.before.all.rms, report_.after.all.rms);
   line("99 % within      ", report_.before.percentile99, report_.after.percentile99);
   line("greatest         ", report_.before.all.greatest, report_.after.all.greatest);
+  if (asks_for_distance())
+    text += fmt::format("further away     {} ({:.3g} %) than {:.4g} units\n", report_.outside_points,
+                        100 * outside_share(), arguments_.within ? *arguments_.within : *arguments_.rms);
   if (report_.smoothing_length) text += fmt::format("smoothing length {:.4g} units\n", *report_.smoothing_length);
   if (report_.outliers > 0) text += fmt::format("outliers         {} left out after\n", report_.outliers);
   return text;

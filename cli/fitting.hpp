@@ -33,18 +33,21 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
 /// What a report and people are told of points.
 class FitAccount {
  public:
-  /// points: the file they are from. weights: of the points, or none.
-  FitAccount(const FitReport& report, const PullArguments& arguments, std::string points,
-             const std::vector<double>& weights);
+  /// file: the one that the points are from. points: their weights and normals.
+  FitAccount(const FitReport& report, const PullArguments& arguments, std::string file, const ScatteredPoints& points);
 
   [[nodiscard]] nlohmann::ordered_json figures() const;
   [[nodiscard]] std::string lines() const;
 
  private:
+  [[nodiscard]] bool asks_for_distance() const;
+  [[nodiscard]] double outside_share() const;
+
   FitReport report_;
   PullArguments arguments_;
-  std::string points_;
+  std::string file_;
   std::optional<std::pair<double, double>> weights_;  ///< the least and the greatest
+  std::int64_t normals_;                              ///< points that have one
 };
 
 struct FairedOrFitted {

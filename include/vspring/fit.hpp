@@ -59,7 +59,8 @@ struct FitReport {
   Index outliers = 0;  ///< points left out; `after` does not count them
   /// The one given or, for a tolerance, found; none for the paper's k and where plain fairing is within the tolerance.
   std::optional<double> smoothing_length = std::nullopt;
-  Index active_points = 0;  ///< with `within`: those at that distance, to 1 %
+  Index active_points = 0;   ///< with `within`: those at that distance, to 1 %
+  Index outside_points = 0;  ///< with `within` or `rms`: those further away than that, of the points that count
   PointDistances before;
   PointDistances after;
 };
@@ -77,7 +78,10 @@ struct FitResult {
 /// its distance; the points of one node are averaged, near feet of their perpendiculars counting more. Every few
 /// iterations each point changes over to a nearer node among the first- and second-order neighbours of its own (nodes
 /// of the same faces, and of theirs). A point whose nearest node at the start is none of the shape's that move or are
-/// looked at in moving pulls at nothing.
+/// looked at in moving pulls at nothing. On surfaces nodes whose normal is more than 90° from the point's own, where it
+/// has one, do not count: of the two sides of a thin wall each has its own points. Where no node is left in reach the
+/// point pulls at nothing. Faces need not look outwards: if most normals of points are against them, all are taken the
+/// other way round, with a warning.
 ///
 /// Constraints hold as in fair(), whose result comes out, bit for bit, if no point has weight. A closed shape may be
 /// held by points alone, though its nodes can then slide, see docs/fit.md; boundaries and ends must be held all the
@@ -94,10 +98,11 @@ struct FitResult {
 ///
 /// Throws as fair() does; Error(invalid_argument) for options out of range, no points, a point that is not finite or
 /// further away than 1e50 times the size of the shape, weights that are not as many as points or not from 0 to 1e50,
-/// each naming the point; Error(unusable_shape) for a shape without a face (edge). Arguments are unchanged.
-/// Cancellation ends with the shape so far and outcome `cancelled`. The result is the same, bit for bit, for every
-/// number of threads. Cost: that of fair(), n log n for the nodes, linear in the points for every iteration. Memory:
-/// under 100 bytes a point, its position and weight among them.
+/// normals that are not as many as points or neither zero nor of length 1, each naming the point; Error(unusable_shape)
+/// for a shape without a face (edge). Arguments are unchanged. Cancellation ends with the shape so far and outcome
+/// `cancelled`. The result is the same, bit for bit, for every number of threads. Cost: that of fair(), n log n for the
+/// nodes, linear in the points for every iteration. Memory: under 100 bytes a point, its position and weight among
+/// them.
 [[nodiscard]] FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                             const FitOptions& options, Context& context);
 [[nodiscard]] FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,

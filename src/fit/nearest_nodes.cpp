@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+
 #include "shape/box_tree.hpp"
 #include "shape/frame.hpp"
 #include "vspring/error.hpp"
@@ -12,7 +15,7 @@ namespace {
 
 /// frame: in which squares are safe.
 std::vector<Index> nearest_in(const Frame& frame, std::span<const Vector3> points, std::span<const Vector3> nodes,
-                              std::span<const std::uint8_t> usable, ThreadTeam& team) {
+                              std::span<const std::uint8_t> usable, ThreadTeam& team, const Preference& preference) {
   constexpr std::size_t points_per_task = 512;
   std::vector<Index> number;
   std::vector<Vector3> places;
@@ -28,9 +31,18 @@ std::vector<Index> nearest_in(const Frame& frame, std::span<const Vector3> point
   parallel_ranges(team, points.size(), points_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t j = begin; j < end; ++j) {
       const Vector3 point = frame.to_local(points[j]);
-      const auto found =
-          tree.nearest(point, [&](Index k) { return (places[static_cast<std::size_t>(k)] - point).squaredNorm(); });
+      const auto square = [&](Index k) { return (places[static_cast<std::size_t>(k)] - point).squaredNorm(); };
+      const auto found = tree.nearest(point, square);
       nearest[j] = number[static_cast<std::size_t>(found.item)];
+      const auto content = [&](Index k) {
+        return preference.content(j, static_cast<std::size_t>(number[static_cast<std::size_t>(k)]));
+      };
+      if (!preference.content || content(found.item)) continue;
+      const double furthest = 2 * std::sqrt(found.square) + frame.scale() * preference.reach;
+      const auto preferred = tree.nearest(
+          point, [&](Index k) { return content(k) ? square(k) : std::numeric_limits<double>::infinity(); },
+          furthest * furthest);
+      if (preferred.item >= 0) nearest[j] = number[static_cast<std::size_t>(preferred.item)];
     }
   });
   return nearest;
@@ -39,7 +51,7 @@ std::vector<Index> nearest_in(const Frame& frame, std::span<const Vector3> point
 }  // namespace
 
 std::vector<Index> nearest_nodes(std::span<const Vector3> points, std::span<const Vector3> nodes,
-                                 std::span<const std::uint8_t> usable, ThreadTeam& team) {
+                                 std::span<const std::uint8_t> usable, ThreadTeam& team, const Preference& preference) {
   Box around;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (usable[i] != 0) around.extend(nodes[i]);
@@ -52,12 +64,13 @@ std::vector<Index> nearest_nodes(std::span<const Vector3> points, std::span<cons
                               "look at its units",
                               j, furthest_point));
   }
-  return nearest_in(frame, points, nodes, usable, team);
+  return nearest_in(frame, points, nodes, usable, team, preference);
 }
 
 std::vector<Index> nearest_places(std::span<const Vector3> points, std::span<const Vector3> nodes,
-                                  std::span<const std::uint8_t> usable, ThreadTeam& team) {
-  return nearest_in(Frame(), points, nodes, usable, team);
+                                  std::span<const std::uint8_t> usable, ThreadTeam& team,
+                                  const Preference& preference) {
+  return nearest_in(Frame(), points, nodes, usable, team, preference);
 }
 
 }  // namespace vspring

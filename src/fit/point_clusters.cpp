@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <compare>
 
 namespace vspring {
 
@@ -21,21 +21,41 @@ std::uint64_t cell_of(const Vector3& point, double cell) {
   return number;
 }
 
+/// Which of six ways a normal points; 0 where there is none.
+std::uint32_t way_of(const TiedPoints& points, std::size_t j) {
+  if (points.normals.empty() || points.normals[j].isZero(0)) return 0;
+  Eigen::Index axis = 0;
+  (void)points.normals[j].cwiseAbs().maxCoeff(&axis);
+  return static_cast<std::uint32_t>(2 * axis + (points.normals[j][axis] < 0 ? 2 : 1));
+}
+
+struct Place {
+  std::uint64_t cell;
+  std::uint32_t way;
+  std::uint32_t point;
+  auto operator<=>(const Place&) const = default;
+};
+
 }  // namespace
 
 PointClusters cluster_points(const TiedPoints& points, double cell) {
-  std::vector<std::pair<std::uint64_t, std::uint32_t>> by_cell(points.positions.size());
+  std::vector<Place> by_cell(points.positions.size());
   for (std::size_t j = 0; j < by_cell.size(); ++j)
-    by_cell[j] = {cell_of(points.positions[j], cell), static_cast<std::uint32_t>(j)};
+    by_cell[j] = {cell_of(points.positions[j], cell), way_of(points, j), static_cast<std::uint32_t>(j)};
   std::sort(by_cell.begin(), by_cell.end());
   PointClusters clusters;
   for (auto begin = by_cell.begin(); begin != by_cell.end();) {
-    const auto end = std::find_if(begin, by_cell.end(), [&](const auto& other) { return other.first != begin->first; });
+    const auto end = std::find_if(
+        begin, by_cell.end(), [&](const Place& other) { return other.cell != begin->cell || other.way != begin->way; });
     double sum = 0;
-    for (auto one = begin; one != end; ++one) sum += points.weights[one->second];
-    Vector3 mean = Vector3::Zero();
-    for (auto one = begin; one != end; ++one) mean += points.weights[one->second] / sum * points.positions[one->second];
-    clusters.points.positions.push_back(mean);
+    for (auto one = begin; one != end; ++one) sum += points.weights[one->point];
+    const auto mean_of = [&](const std::vector<Vector3>& vectors) {
+      Vector3 mean = Vector3::Zero();
+      for (auto one = begin; one != end; ++one) mean += points.weights[one->point] / sum * vectors[one->point];
+      return mean;
+    };
+    clusters.points.positions.push_back(mean_of(points.positions));
+    if (!points.normals.empty()) clusters.points.normals.push_back(mean_of(points.normals).normalized());
     clusters.points.weights.push_back(sum);
     clusters.counts.push_back(static_cast<Index>(end - begin));
     begin = end;

@@ -5,7 +5,8 @@
 namespace vspring {
 
 /// Points drawn together, for versions of a shape too coarse to tell them apart: those in one cell of a cubic grid
-/// become one in their mean place, weighted and with the sum of their weights.
+/// become one in their mean place, weighted and with the sum of their weights. Points with normals become one only with
+/// those that face the same way: up, down or to one of four sides.
 struct PointClusters {
   TiedPoints points;          ///< not tied to anything
   std::vector<Index> counts;  ///< how many points each stands for

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "fit/facing.hpp"
 #include "fit/nearest_nodes.hpp"
+#include "fit/point_clusters.hpp"
 
 namespace vspring {
 
@@ -35,7 +38,7 @@ std::vector<std::uint32_t> local_numbers(const Net& net) {
 }  // namespace
 
 PointTies::PointTies(Net& net, std::span<const Vector3> points, std::span<const double> weights,
-                     std::span<const Index> nearest, PointFactors factors)
+                     std::span<const Index> nearest, PointFactors factors, std::span<const Vector3> normals)
     : net_(&net), factors_(std::move(factors)) {
   find_same_nodes();
   join_neighbours();
@@ -55,6 +58,7 @@ PointTies::PointTies(Net& net, std::span<const Vector3> points, std::span<const 
   tied.positions.resize(place.back());
   tied.weights.resize(place.back());
   tied.numbers.resize(place.back());
+  tied.normals.resize(normals.empty() ? 0 : place.back());
   node_.resize(place.back());
   for (std::size_t j = 0; j < points.size(); ++j) {
     const std::uint32_t node = tied_to(j);
@@ -63,8 +67,10 @@ PointTies::PointTies(Net& net, std::span<const Vector3> points, std::span<const 
     tied.positions[k] = net.frame.to_local(points[j]);
     tied.weights[k] = weights[j];
     tied.numbers[k] = static_cast<std::uint32_t>(j);
+    if (!normals.empty()) tied.normals[k] = normals[j];
     node_[k] = node;
   }
+  look_for_turned();
   group();
   (void)renew_factors();
 }
@@ -86,11 +92,30 @@ void PointTies::find_same_nodes() {
 void PointTies::tie_anew(ThreadTeam& team) {
   std::vector<std::uint8_t> first(same_.size());
   for (std::size_t i = 0; i < same_.size(); ++i) first[i] = same_[i] == i ? 1 : 0;
-  const std::vector<Index> nearest = nearest_places(net_->points.positions, net_->positions, first, team);
+  const TiedPoints& tied = net_->points;
+  Preference alike;
+  if (!tied.normals.empty())
+    alike = {[&](std::size_t k, std::size_t node) { return may_pull(k, node, 0); }, reach_in_edges * mean_edge(*net_)};
+  const std::vector<Index> nearest = nearest_places(tied.positions, net_->positions, first, team, alike);
   node_.assign(nearest.begin(), nearest.end());
+  look_for_turned();
   group();
   net_->points.factors.clear();
   (void)renew_factors();
+}
+
+Vector3 PointTies::side(std::size_t node) const {
+  if (node >= net_->moving && net_->normal_given(node)) return Vector3::Zero();
+  return net_->normals[node];
+}
+
+bool PointTies::may_pull(std::size_t k, std::size_t node, double margin) const {
+  return net_->points.normals.empty() || face_alike(net_->points.normals[k], side(node), margin);
+}
+
+void PointTies::look_for_turned() {
+  turned_.assign(net_->points.normals.size(), 0);
+  for (std::size_t k = 0; k < turned_.size(); ++k) turned_[k] = may_pull(k, node_[k], 0) ? 0 : 1;
 }
 
 void PointTies::join_neighbours() {
@@ -133,20 +158,25 @@ bool PointTies::renew(ThreadTeam& team, double margin) {
   parallel_ranges(team, net_->node.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> around;
     for (std::size_t i = begin; i < end; ++i) {
-      const auto points = tied.of(i);
+      const auto points = tied.all_of(i);
       if (points.empty()) continue;
       gather_around(i, around);
       for (const std::uint32_t k : points) {
-        const double own = (net_->positions[i] - tied.positions[k]).squaredNorm();
+        const bool pulled = turned_.empty() || turned_[k] == 0;
+        const bool stays = may_pull(k, i, pulled ? -margin : margin);
+        const double own =
+            stays ? (net_->positions[i] - tied.positions[k]).squaredNorm() : std::numeric_limits<double>::infinity();
         double least = own;
         for (const std::uint32_t j : around) {
           const double square = (net_->positions[j] - tied.positions[k]).squaredNorm();
-          if (!(square < least)) continue;
+          if (!(square < least) || !may_pull(k, j, margin)) continue;
           if (!(own - square > 2 * margin * (net_->positions[j] - net_->positions[i]).squaredNorm())) continue;
           least = square;
           node_[k] = j;
         }
-        if (node_[k] != i) changed.store(true, std::memory_order_relaxed);
+        const bool pulls = stays || node_[k] != i;
+        if (!turned_.empty()) turned_[k] = pulls ? 0 : 1;
+        if (node_[k] != i || pulls != pulled) changed.store(true, std::memory_order_relaxed);
       }
     }
   });
@@ -171,7 +201,17 @@ void PointTies::group() {
   tied.begin.assign(net_->node.size() + 1, 0);
   for (const std::uint32_t node : node_) ++tied.begin[node];
   add_up(tied.begin);
-  for (std::size_t k = 0; k < node_.size(); ++k) tied.order[tied.begin[node_[k]]++] = static_cast<std::uint32_t>(k);
+  const auto put = [&](bool turned) {
+    for (std::size_t k = 0; k < node_.size(); ++k) {
+      if ((!turned_.empty() && turned_[k] != 0) == turned)
+        tied.order[tied.begin[node_[k]]++] = static_cast<std::uint32_t>(k);
+    }
+  };
+  put(false);
+  if (!turned_.empty()) {
+    tied.end.assign(tied.begin.begin(), tied.begin.end() - 1);
+    put(true);
+  }
   // Each begin has gone on to the next one's.
   std::rotate(tied.begin.begin(), tied.begin.end() - 1, tied.begin.end());
   tied.begin.front() = 0;

@@ -92,6 +92,13 @@ std::optional<std::size_t> weight_column(const Cells& header) {
   return std::nullopt;
 }
 
+std::vector<std::size_t> normal_columns(const Cells& header) {
+  std::vector<std::size_t> columns;
+  for (const std::string_view name : {"nx", "ny", "nz"}) columns.push_back(column_named(header, name));
+  if (*std::max_element(columns.begin(), columns.end()) == header.size()) return {};
+  return columns;
+}
+
 std::vector<std::size_t> number_columns(const Cells& cells) {
   std::vector<std::size_t> columns;
   for (std::size_t column = 0; column < cells.size() && columns.size() < 3; ++column) {
@@ -105,7 +112,7 @@ std::vector<std::size_t> number_columns(const Cells& cells) {
 CsvLayout find_csv_layout(const InputFile& file) {
   const std::vector<TableLine> rows = first_rows(file.bytes);
   if (rows.empty()) file.refuse("no row of two or three numbers is in it; choose another file");
-  CsvLayout layout{find_cutter(file, rows), {}, {}, {}, {}};
+  CsvLayout layout{find_cutter(file, rows), {}, {}, {}, {}, {}};
   const Cells first = layout.cutter.cut(rows.front().text);
   layout.columns = named_columns(first);
   const bool named = !layout.columns.empty();
@@ -118,6 +125,7 @@ CsvLayout find_csv_layout(const InputFile& file) {
                      "a node needs two or three numbers, this row has fewer; repair it, or choose another file");
   if (!layout.header) return layout;
   layout.weight = weight_column(first);
+  layout.normal = normal_columns(first);
   if (!named)
     layout.warning = fmt::format("{}:{}: no columns are named x and y; taken are columns {} and {}{}", file.name,
                                  file.line_of(*layout.header), layout.columns[0] + 1, layout.columns[1] + 1,

@@ -23,14 +23,37 @@ class ObjPoints : public ObjStatements {
     node_rows_.reserve(lines);
   }
 
-  std::vector<Vector3> take() {
+  ScatteredPoints take() {
     read();
     if (positions_.empty()) file_.refuse("no node (a line that begins with v) is in it; choose another file");
-    return std::move(positions_);
+    // Of normals in another order than the nodes nobody knows here which is whose.
+    if (normals_.size() != positions_.size() || mixed_) normals_.clear();
+    return {.positions = std::move(positions_), .normals = std::move(normals_)};
   }
 
  protected:
-  bool read_element(std::string_view /*keyword*/) override { return false; }
+  bool read_element(std::string_view keyword) override {
+    if (keyword == "vn") {
+      Vector3& normal = normals_.emplace_back();
+      for (double& component : normal) {
+        cursor_.skip_blanks();
+        component = cursor_.number("a component of a normal");
+      }
+      return true;
+    }
+    if (keyword != "f") return false;
+    for (cursor_.skip_blanks(); !cursor_.at_line_end() && cursor_.peek() != '#'; cursor_.skip_blanks()) {
+      const std::string_view corner = cursor_.word();
+      const std::size_t normal = corner.rfind('/');
+      if (std::count(corner.begin(), corner.end(), '/') == 2)
+        mixed_ = mixed_ || corner.substr(0, corner.find('/')) != corner.substr(normal + 1);
+    }
+    return true;
+  }
+
+ private:
+  std::vector<Vector3> normals_;
+  bool mixed_ = false;
 };
 
 ScatteredPoints read_surface_points(InputFile file, SurfaceFormat format) {
@@ -49,9 +72,14 @@ ScatteredPoints read_surface_points(InputFile file, SurfaceFormat format) {
 
 }  // namespace
 
+bool is_point_normal(const Vector3& normal) {
+  constexpr double tolerance = 0.01;
+  return normal.isZero(0) || std::abs(normal.norm() - 1) <= tolerance;
+}
+
 bool is_point_weight(double weight) { return std::isfinite(weight) && weight >= 0; }
 
-ScatteredPoints read_obj_points(const InputFile& file) { return {ObjPoints(file).take()}; }
+ScatteredPoints read_obj_points(const InputFile& file) { return ObjPoints(file).take(); }
 
 ScatteredPoints read_points(const std::string& path) {
   InputFile file = read_input(path);

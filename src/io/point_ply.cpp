@@ -25,11 +25,14 @@ class PointReader : private PlyElements<Data> {
 
  private:
   ScatteredPoints read_points(const PlyElement& element) {
-    constexpr std::size_t weight = 3;
-    // Which of x, y, z and the weight each property is.
+    constexpr std::size_t normal = 3;
+    constexpr std::size_t weight = 6;
+    // Which of these each property is.
     std::vector<std::size_t> field_of(element.properties.size(), weight + 1);
-    constexpr std::array names = {"x", "y", "z"};
-    for (std::size_t k = 0; k < names.size(); ++k)
+    constexpr std::array names = {"x", "y", "z", "nx", "ny", "nz"};
+    bool faces = true;
+    for (std::size_t k = normal; k < names.size(); ++k) faces = faces && find_number(element, names[k]) >= 0;
+    for (std::size_t k = 0; k < (faces ? names.size() : normal); ++k)
       field_of[static_cast<std::size_t>(find_number(element, names[k]))] = k;
     const int named = find_number(element, "weight");
     const int weighed = named >= 0 ? named : find_number(element, "confidence");
@@ -38,6 +41,7 @@ class PointReader : private PlyElements<Data> {
     ScatteredPoints points;
     points.positions.reserve(element.count);
     if (weighed >= 0) points.weights.reserve(element.count);
+    if (faces) points.normals.reserve(element.count);
     for (PlyPlace place{&element, 0}; place.number < element.count; ++place.number) {
       std::array<double, weight + 1> values{};
       for (std::size_t k = 0; k < element.properties.size(); ++k) {
@@ -51,6 +55,7 @@ class PointReader : private PlyElements<Data> {
       }
       points.positions.emplace_back(values[0], values[1], values[2]);
       if (weighed >= 0) points.weights.push_back(values[weight]);
+      if (faces) points.normals.emplace_back(values[normal], values[normal + 1], values[normal + 2]);
     }
     return points;
   }

@@ -14,4 +14,7 @@ ScatteredPoints read_xyz_points(const InputFile& file);
 /// Whether a point may have this weight.
 bool is_point_weight(double weight);
 
+/// Whether a point may have this normal: of length 1, to 1 %, or zero.
+bool is_point_normal(const Vector3& normal);
+
 }  // namespace vspring

@@ -57,10 +57,11 @@ class BoxTree {
   }
 
   /// The item nearest to `point`: square(item) is the square of its distance; of several the one with the smallest
-  /// number.
+  /// number. None (−1) where none is nearer than the root of `below`.
   template <typename Square>
-  [[nodiscard]] Nearest nearest(const Vector3& point, const Square& square) const {
-    Nearest best;
+  [[nodiscard]] Nearest nearest(const Vector3& point, const Square& square,
+                                double below = std::numeric_limits<double>::infinity()) const {
+    Nearest best{.square = below};
     if (boxes_.empty()) return best;
     std::array<std::pair<Place, double>, most_levels> stack;
     std::size_t height = 0;

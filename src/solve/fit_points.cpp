@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string>
 
+#include "io/point_source.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
@@ -31,6 +32,16 @@ void check_points(const ScatteredPoints& points) {
                        count));
   for (std::size_t j = 0; j < count; ++j) {
     if (!points.positions[j].allFinite()) refuse(fmt::format("point {} is not finite; leave it out", j));
+  }
+  if (!points.normals.empty() && points.normals.size() != count)
+    refuse(fmt::format("{} normals are given for {} points: one for each is needed, or none", points.normals.size(),
+                       count));
+  for (std::size_t j = 0; j < points.normals.size(); ++j) {
+    if (!is_point_normal(points.normals[j]))
+      refuse(
+          fmt::format("the normal of point {} has the length {:.4g}; it must be 1, or 0 where it is not known; "
+                      "correct it, or leave normals out",
+                      j, points.normals[j].norm()));
   }
   for (std::size_t j = 0; j < points.weights.size(); ++j) {
     if (!is_weight(points.weights[j]))

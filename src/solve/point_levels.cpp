@@ -8,8 +8,13 @@
 namespace vspring {
 
 PointLevels::PointLevels(Hierarchy& hierarchy, PointTies& ties, std::shared_ptr<const double> smoothing,
-                         ThreadTeam& team)
-    : hierarchy_(&hierarchy), team_(&team), finest_(&ties), tied_(&ties), points_(hierarchy.count() - 1) {
+                         const Model& model, ThreadTeam& team)
+    : hierarchy_(&hierarchy),
+      model_(&model),
+      team_(&team),
+      finest_(&ties),
+      tied_(&ties),
+      points_(hierarchy.count() - 1) {
   if (points_.empty()) return;
   const Net& net = hierarchy.net(points_.size());
   const double edge = mean_edge(net);
@@ -29,6 +34,8 @@ PointLevels::PointLevels(Hierarchy& hierarchy, PointTies& ties, std::shared_ptr<
 }
 
 void PointLevels::tie(std::size_t level) {
+  if (!hierarchy_->net(points_.size()).points.normals.empty())
+    update_directions(hierarchy_->net(level), *model_, *team_);
   if (level == points_.size()) {
     finest_->tie_anew(*team_);
     tied_ = finest_;

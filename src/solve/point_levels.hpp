@@ -17,7 +17,8 @@ class PointLevels {
  public:
   /// ties: of the shape itself; it must outlive this, and so must the hierarchy. smoothing: the smoothing length, where
   /// that is what points pull by; else it is Eq. 9.
-  PointLevels(Hierarchy& hierarchy, PointTies& ties, std::shared_ptr<const double> smoothing, ThreadTeam& team);
+  PointLevels(Hierarchy& hierarchy, PointTies& ties, std::shared_ptr<const double> smoothing, const Model& model,
+              ThreadTeam& team);
 
   /// Ties the points of a level to the nodes that are nearest where these are now. Cost: n log n.
   void tie(std::size_t level);
@@ -26,6 +27,7 @@ class PointLevels {
 
  private:
   Hierarchy* hierarchy_;
+  const Model* model_;
   ThreadTeam* team_;
   PointTies* finest_;
   PointTies* tied_;

@@ -41,23 +41,35 @@ struct LoosePoints {
   std::span<const Vector3> positions;
   std::vector<double> weights;
   std::vector<Index> nearest;
+  std::span<const Vector3> normals = {};
 };
+
+/// smoothing: the smoothing length in the coordinates of the net, see pull_by_smoothing(); null for Eq. 9.
+inline PointTies tie_points(Net& net, const Model& model, const LoosePoints& points,
+                            std::shared_ptr<const double> smoothing, ThreadTeam& team) {
+  if (!points.normals.empty()) update_directions(net, model, team);
+  return {net,
+          points.positions,
+          points.weights,
+          points.nearest,
+          smoothing ? pull_by_smoothing(std::move(smoothing)) : PointFactors(),
+          points.normals};
+}
 
 /// A shape at the equilibrium with points that pull at it, which is found once from its start, and then again and again
 /// from the last one. Gathered: a Net or CurveNet.
 template <typename Gathered>
 class PulledShape {
  public:
-  /// smoothing: the smoothing length in the coordinates of the net, see pull_by_smoothing(); null for Eq. 9.
+  /// smoothing: as for tie_points().
   PulledShape(Gathered gathered, const FairOptions& options, LoosePoints points,
               std::shared_ptr<const double> smoothing, ThreadTeam& team)
       : options_(options),
         team_(&team),
         model_(model_of(gathered, options)),
         hierarchy_(hierarchy_of(std::move(gathered), *model_, options.distribution, team)),
-        ties_(net(), points.positions, points.weights, points.nearest,
-              smoothing ? pull_by_smoothing(smoothing) : PointFactors()),
-        levels_(hierarchy_, ties_, std::move(smoothing), team) {}
+        ties_(tie_points(net(), *model_, points, smoothing, team)),
+        levels_(hierarchy_, ties_, std::move(smoothing), *model_, team) {}
 
   Net& net() { return hierarchy_.net(hierarchy_.count() - 1); }
 

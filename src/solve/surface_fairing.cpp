@@ -10,8 +10,8 @@
 #include "solve/equilibrium_method.hpp"
 #include "solve/fair_boundary.hpp"
 #include "solve/multigrid_method.hpp"
+#include "solve/part_of_mesh.hpp"
 #include "solve/sweep_method.hpp"
-#include "vspring/error.hpp"
 
 namespace vspring {
 
@@ -20,13 +20,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-std::vector<Vector3> vectors_of(const std::vector<Vector3>& vectors, const std::vector<Index>& nodes) {
-  std::vector<Vector3> part;
-  part.reserve(nodes.size());
-  for (const Index node : nodes) part.push_back(vectors[static_cast<std::size_t>(node)]);
-  return part;
-}
 
 bool hold_the_same(const Constraints& a, const Constraints& b) {
   if (a.node_count() != b.node_count()) return false;
@@ -75,27 +68,15 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
   return result;
 }
 
-std::vector<std::string> SurfaceFairing::check(const Constraints& constraints) const {
-  if (part_) {
-    try {
-      std::vector<std::string> warnings = check_constraints(part_->mesh, part_->constraints);
-      if (warnings.empty()) return warnings;
-    } catch (const Error&) {
-      return check_constraints(*whole_, constraints);
-    }
-  }
-  return check_constraints(*whole_, constraints);
-}
-
 Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report) {
   part_ = moving_part(*whole_, constraints);
   meter_.reset();
-  report.warnings = check(constraints);
+  report.warnings = check_part(*whole_, part_, constraints);
   report.method = options_.method.value_or(Method::equilibrium);
   ProgressReporter progress(context);
   progress.report("preparing", 0);
   report.threads = team_.size();
-  Net net = gather(constraints);
+  Net net = gather_part(*whole_, part_, constraints);
   before_ = measure(mesh(), &held(constraints), team_);
   std::optional<double> missed_by;
   if (report.method != Method::sweep) {
@@ -114,7 +95,7 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
     report.iterations = 0;
     report.method = Method::sweep;
     hierarchy_.reset();
-    net = gather(constraints);
+    net = gather_part(*whole_, part_, constraints);
   }
   distribute(net, *model_, options_.distribution, team_);
   run_sweeps(net, *model_, options_, team_, context, progress, report);
@@ -124,13 +105,6 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
                     "one): this is the plain iteration's shape; hold more nodes, or normals, or let a smaller region "
                     "move",
                     100 * *missed_by));
-  return net;
-}
-
-Net SurfaceFairing::gather(const Constraints& constraints) const {
-  if (!part_) return gather_net(*whole_, constraints);
-  Net net = gather_net(part_->mesh, part_->constraints);
-  for (Index& node : net.node) node = part_->node[static_cast<std::size_t>(node)];
   return net;
 }
 
@@ -158,7 +132,7 @@ void SurfaceFairing::finish(const Net& net, const Constraints& constraints, Fair
   measure_moves(net, whole_->positions(), result.positions, report);
   report.before = before_;
   if (!meter_) meter_.emplace(mesh(), &held(constraints), team_);
-  report.after = part_ ? meter_->measure(vectors_of(result.positions, part_->node), &part_->constraints)
+  report.after = part_ ? meter_->measure(values_of(result.positions, part_->node), &part_->constraints)
                        : meter_->measure(result.positions, &constraints);
 }
 

@@ -2,7 +2,6 @@
 
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "base/progress.hpp"
@@ -39,10 +38,6 @@ class SurfaceFairing {
   [[nodiscard]] const Constraints& held(const Constraints& constraints) const {
     return part_ ? part_->constraints : constraints;
   }
-  /// With the numbers of the whole mesh.
-  [[nodiscard]] Net gather(const Constraints& constraints) const;
-  /// Refuses what cannot be faired, and returns warnings, with the numbers of the whole mesh.
-  [[nodiscard]] std::vector<std::string> check(const Constraints& constraints) const;
 
   const PolygonMesh* whole_;
   std::optional<MovingPart> part_;

@@ -46,11 +46,11 @@ SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& tas
     still = result.residual < task.step_tolerance;
     if (still && fresh) {
       result.outcome = Outcome::converged;
-    } else if (best.lost_for() >= patience) {
+    } else if (best.lost_for() >= patience || !std::isfinite(result.residual)) {
       result.outcome = Outcome::stalled;
     }
   }
-  result.lost = best.lost_for() > 0 && task.step_tolerance > 0;
+  result.lost = best.lost_for() > 0 && (task.step_tolerance > 0 || result.outcome == Outcome::stalled);
   if (result.lost) result.residual = best.restore();
   return result;
 }

@@ -33,11 +33,11 @@ class Model {
   virtual void update_directions(Net& net, std::size_t begin, std::size_t end) const = 0;
 
   /// What every link counts in the regularisation (§4.4) so that the present place of each node is where it is sent;
-  /// aligned with the links of the net. Needs directions.
+  /// aligned with the links of the net, none negative. Needs directions.
   [[nodiscard]] virtual std::vector<double> present_shares(const Net& net) const = 0;
 
   /// Steps 2 and 3 of Fig. 3: moves the nodes of a block one after the other, each from the newest positions. Returns
-  /// the largest displacement relative to the mean length of the node's edges (§4.6).
+  /// the largest displacement relative to the mean length of the node's edges (§4.6), infinity where one is not finite.
   virtual double move(Net& net, Block block) const = 0;
 
   /// The same displacements for nodes that stay: one force for every node of the block, with what its points ask.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "spring/model.hpp"
 #include "spring/point_force.hpp"
@@ -41,7 +42,10 @@ class ModelOf final : public Model {
       // iteration ends in is the same.
       const Vector3 displacement = force.spring / (1 + force.stiffness) + force.regularisation;
       net.positions[i] += displacement;
-      if (force.mean_edge > 0) greatest = std::max(greatest, displacement.norm() / force.mean_edge);
+      if (force.mean_edge == 0) continue;
+      // std::max would pass over what is not a number.
+      const double step = displacement.norm() / force.mean_edge;
+      greatest = std::max(greatest, std::isfinite(step) ? step : std::numeric_limits<double>::infinity());
     }
     return greatest;
   }

@@ -1,4 +1,6 @@
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <algorithm>
 
 #include "spring/model_of.hpp"
 #include "spring/pseudo_normal.hpp"
@@ -25,7 +27,9 @@ struct SurfaceRules {
   }
 
   /// Of all shares of sum 1 that leave the node in its place across the normal, those nearest to even ones: share_j =
-  /// 1/m − (d_j − mean)·a.
+  /// 1/m − (d_j − mean)·a. Negative ones of a node that noise has put outside its neighbours, so that faces lie upside
+  /// down, would drive nodes apart: then all are raised to a tenth of an even one at least, and the node goes in among
+  /// its neighbours.
   void present_shares(const Net& net, std::size_t i, std::span<double> shares) const {
     const auto links = net.rings.links(i);
     const Vector3& normal = net.normals[i];
@@ -52,6 +56,39 @@ struct SurfaceRules {
     for (std::size_t k = 0; k < links.size(); ++k) {
       if (links[k].spoke()) shares[k] = 1 / spokes - (across(links[k]) - mean).dot(a);
     }
+    const double least = spokes * *std::min_element(shares.begin(), shares.end());
+    // Beside larger polygons, and with three neighbours, a node may rightly lie outside these.
+    const auto around = static_cast<double>(links.size());
+    const bool inside_if_flat = spokes > 3 && (around == spokes || around == 2 * spokes);
+    if (!(inside_if_flat && least < -tolerated_share) && !(least < 0 && has_turned_face(links, across, normal))) return;
+    double sum = 0;
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      if (links[k].spoke()) sum += shares[k] = std::max(shares[k], least_share / spokes);
+    }
+    for (double& share : shares) share /= sum;
+  }
+
+ private:
+  // Of an even share.
+  static constexpr double least_share = 0.1;
+  static constexpr double tolerated_share = 0.5;
+
+  /// Whether a face around the node lies upside down.
+  template <typename Across>
+  static bool has_turned_face(std::span<const Link> links, const Across& across, const Vector3& normal) {
+    double area = 0;
+    for (std::size_t k = 1; k <= links.size(); ++k) {
+      const Link link = links[k % links.size()];
+      if (link.start()) {
+        area = 0;
+        continue;
+      }
+      area += across(links[k - 1]).cross(across(link)).dot(normal);
+      if (!link.spoke()) continue;
+      if (area < 0) return true;
+      area = 0;
+    }
+    return false;
   }
 };
 

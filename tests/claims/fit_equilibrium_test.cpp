@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "support/curves.hpp"
-#include "support/surfaces.hpp"
+#include "support/fits.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring {
@@ -18,44 +17,8 @@ using namespace support;
 
 constexpr double pi = std::numbers::pi;
 
-FitOptions with_weight(double weight, double tolerance = 1e-5) {
-  FitOptions options;
-  options.weight = weight;
-  options.fair.method = Method::equilibrium;
-  options.fair.tolerance = tolerance;
-  return options;
-}
-
-FitOptions by_sweeps(double weight, double step_tolerance, int iterations) {
-  FitOptions options;
-  options.weight = weight;
-  options.fair.method = Method::sweep;
-  options.fair.step_tolerance = step_tolerance;
-  options.fair.max_iterations = iterations;
-  return options;
-}
-
-/// A shape, what holds it and the points.
-template <typename Shape>
-struct Specimen {
-  Shape start;
-  Constraints held;
-  ScatteredPoints points;
-
-  [[nodiscard]] FitResult fit(const FitOptions& options) const { return vspring::fit(start, held, points, options); }
-};
-
-/// A wave with noise, its nodes the points.
-Specimen<PolygonCurve> noisy_wave(int edges, double noise = 0.002) {
-  std::vector<Vector3> nodes;
-  for (const double x : places(Spacing::even, edges)) nodes.emplace_back(x, 0.1 * std::sin(2 * pi * x), 0);
-  const Constraints held = held_ends(nodes);
-  nodes = noisy(nodes, held, noise, 1, true);
-  return {PolygonCurve(nodes), held, {.positions = nodes}};
-}
-
 /// A plane with points in waves over it.
-Specimen<PolygonMesh> wavy_plane(generate::Faces faces, int cells = 12) {
+FitSpecimen<PolygonMesh> wavy_plane(generate::Faces faces, int cells = 12) {
   const PolygonMesh plane = generate::plane({.columns = cells, .rows = cells, .faces = faces});
   ScatteredPoints points;
   const PolygonMesh dense = generate::plane({.columns = 30, .rows = 30});
@@ -64,36 +27,9 @@ Specimen<PolygonMesh> wavy_plane(generate::Faces faces, int cells = 12) {
   return {plane, held_boundary(plane), points};
 }
 
-/// Points at random on the unit sphere, not further than 60° from the pole.
-ScatteredPoints on_the_sphere(int count, double noise = 0) {
-  Draw draw(5);
-  ScatteredPoints points;
-  while (static_cast<int>(points.positions.size()) < count) {
-    const Vector3 direction = draw.in_cube(1);
-    if (direction.norm() > 1 || direction.z() < 0.5 * direction.norm() || direction.norm() < 0.01) continue;
-    points.positions.push_back((1 + draw.uniform(-noise, noise)) * direction.normalized());
-  }
-  return points;
-}
-
-/// A cap of the unit sphere pressed flat, and points on the sphere.
-Specimen<PolygonMesh> flat_cap(Index nodes, const ScatteredPoints& points) {
-  const PolygonMesh flat = flattened(generate::cap({.nodes = nodes, .radius = 1, .half_angle = 60}), 60, 0);
-  return {flat, held_boundary(flat, radial), points};
-}
-
-PolygonCurve circle(int nodes, double radius, bool tilted = false) {
-  std::vector<Vector3> positions;
-  for (int i = 0; i < nodes; ++i) {
-    const double angle = 2 * pi * i / nodes;
-    positions.emplace_back(radius * heading(angle) + Vector3(0, 0, tilted ? 0.3 * std::sin(2 * angle) : 0));
-  }
-  return PolygonCurve(std::move(positions), true);
-}
-
 template <typename Shape>
-void expect_the_same_as_sweeps(const Specimen<Shape>& specimen, double weight, int sweeps) {
-  const FitResult equilibrium = specimen.fit(with_weight(weight, 1e-8));
+void expect_the_same_as_sweeps(const FitSpecimen<Shape>& specimen, double weight, int sweeps) {
+  const FitResult equilibrium = specimen.fit(to_equilibrium(weight, 1e-8));
   EXPECT_EQ(equilibrium.report.fair.outcome, Outcome::converged);
   const FitResult swept = specimen.fit(by_sweeps(weight, 1e-9, sweeps));
   EXPECT_EQ(swept.report.fair.outcome, Outcome::converged);
@@ -114,7 +50,7 @@ TEST(FitEquilibrium, IsTheDefault) {
   const auto wave = noisy_wave(40);
   const FitResult result = wave.fit({.fair = {}, .weight = 0.01});
   EXPECT_EQ(result.report.fair.method, Method::equilibrium);
-  EXPECT_EQ(result.positions, wave.fit(with_weight(0.01)).positions);
+  EXPECT_EQ(result.positions, wave.fit(to_equilibrium(0.01)).positions);
   const FitResult surface = wavy_plane(generate::Faces::quads).fit({.fair = {}, .weight = 0.01});
   EXPECT_EQ(surface.report.fair.method, Method::equilibrium);
   ASSERT_TRUE(surface.report.fair.expected_error.has_value());
@@ -132,20 +68,20 @@ TEST(FitEquilibrium, WithoutWeightIsPlainFairingToTheBit) {
 TEST(FitEquilibrium, HoldsForEveryWeight) {
   const auto wave = noisy_wave(60, 0.0005);
   auto cap = flat_cap(500, on_the_sphere(2000));
-  const FairResult fair_wave = fair(wave.start, wave.held, with_weight(0, 1e-8).fair);
+  const FairResult fair_wave = fair(wave.start, wave.held, to_equilibrium(0, 1e-8).fair);
   for (const double weight : {1e-12, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e6, 1e12, 1e50}) {
     SCOPED_TRACE(weight);
-    const FitResult on_curve = wave.fit(with_weight(weight, 1e-7));
+    const FitResult on_curve = wave.fit(to_equilibrium(weight, 1e-7));
     EXPECT_EQ(on_curve.report.fair.outcome, Outcome::converged);
     if (weight >= 1e6) {
       // What is left is how far the points lie from chords.
       EXPECT_LT(on_curve.report.after.all.greatest, 5e-4);
-      EXPECT_LT(greatest_distance(on_curve.positions, wave.fit(with_weight(1e50, 1e-7)).positions), 1e-5);
+      EXPECT_LT(greatest_distance(on_curve.positions, wave.fit(to_equilibrium(1e50, 1e-7)).positions), 1e-5);
     }
     if (weight <= 1e-12) {
       EXPECT_LT(greatest_distance(on_curve.positions, fair_wave.positions), 2e-4);
     }
-    const FitResult on_surface = cap.fit(with_weight(weight));
+    const FitResult on_surface = cap.fit(to_equilibrium(weight));
     EXPECT_EQ(on_surface.report.fair.outcome, Outcome::converged);
     EXPECT_LT(distance_from_unit_sphere(on_surface.positions), 2e-3);
   }
@@ -153,11 +89,11 @@ TEST(FitEquilibrium, HoldsForEveryWeight) {
 
 /// How far the result for a tolerance is from that for a far smaller one, and how far it is expected to be.
 template <typename Shape>
-void expect_errors_as_expected(const Specimen<Shape>& specimen, double size, double weight) {
-  const FitResult exact = specimen.fit(with_weight(weight, 1e-12));
+void expect_errors_as_expected(const FitSpecimen<Shape>& specimen, double size, double weight) {
+  const FitResult exact = specimen.fit(to_equilibrium(weight, 1e-12));
   for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
     SCOPED_TRACE(tolerance);
-    const FitResult result = specimen.fit(with_weight(weight, tolerance));
+    const FitResult result = specimen.fit(to_equilibrium(weight, tolerance));
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
     const double error = greatest_distance(result.positions, exact.positions) / size;
     const double expected = result.report.fair.expected_error.value();
@@ -177,10 +113,10 @@ TEST(FitEquilibrium, SaysHowFarItIsFromTheEquilibrium) {
 }
 
 TEST(FitEquilibrium, NeedsFewIterationsOnLargeShapes) {
-  const FitResult curve = noisy_wave(4000, 1e-5).fit(with_weight(1e-9));
+  const FitResult curve = noisy_wave(4000, 1e-5).fit(to_equilibrium(1e-9));
   EXPECT_EQ(curve.report.fair.outcome, Outcome::converged);
   EXPECT_LT(curve.report.fair.levels.back().iterations, 15);
-  const FitResult cap = flat_cap(5000, on_the_sphere(2000)).fit(with_weight(1e-3));
+  const FitResult cap = flat_cap(5000, on_the_sphere(2000)).fit(to_equilibrium(1e-3));
   EXPECT_EQ(cap.report.fair.outcome, Outcome::converged);
   EXPECT_LT(cap.report.fair.levels.back().iterations, 15);
   EXPECT_LT(distance_from_unit_sphere(cap.positions), 2e-4);
@@ -191,7 +127,7 @@ TEST(FitEquilibrium, TiesGoWithTheNodes) {
   const PolygonCurve segment(straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 40)));
   ScatteredPoints points;
   for (int j = 0; j <= 100; ++j) points.positions.emplace_back(Vector3(0.5, 0, 0) + 0.5 * heading(pi * j / 100));
-  const FitResult result = fit(segment, held_ends(segment.positions()), points, with_weight(0.05));
+  const FitResult result = fit(segment, held_ends(segment.positions()), points, to_equilibrium(0.05));
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   EXPECT_LT(result.report.after.percentile99, 0.01);
   EXPECT_GT(result.report.pulled_nodes, 35);
@@ -205,7 +141,7 @@ TEST(FitEquilibrium, EndsThoughTiesGoToAndFro) {
   for (int j = 0; j < edges; ++j)
     points.positions.emplace_back((j + 0.5) / edges, (j % 2 == 0 ? 0.3 : -0.3) / edges, 0);
   for (const double weight : {0.01, 1.0, 100.0}) {
-    const FitResult result = fit(segment, held_ends(segment.positions()), points, with_weight(weight));
+    const FitResult result = fit(segment, held_ends(segment.positions()), points, to_equilibrium(weight));
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << weight;
     EXPECT_LT(result.report.fair.iterations, 200);
   }
@@ -213,20 +149,21 @@ TEST(FitEquilibrium, EndsThoughTiesGoToAndFro) {
 
 TEST(FitEquilibrium, OnePointDrawsAllNodes) {
   const PolygonCurve segment(straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 20)));
-  const FitResult curve = fit(segment, held_ends(segment.positions()), {.positions = {{0.5, 0.1, 0}}}, with_weight(1));
+  const FitResult curve =
+      fit(segment, held_ends(segment.positions()), {.positions = {{0.5, 0.1, 0}}}, to_equilibrium(1));
   EXPECT_EQ(curve.report.fair.outcome, Outcome::converged);
   EXPECT_EQ(curve.report.pulling_points, 1);
   EXPECT_LT(curve.report.after.all.greatest, 1e-3);
   for (std::size_t i = 1; i < 20; ++i) EXPECT_GT(curve.positions[i].y(), 0);
   auto plane = wavy_plane(generate::Faces::mixed);
   plane.points = {.positions = {{0.5, 0.5, 0.1}}};
-  const FitResult surface = plane.fit(with_weight(100));
+  const FitResult surface = plane.fit(to_equilibrium(100));
   EXPECT_EQ(surface.report.fair.outcome, Outcome::converged);
   EXPECT_LT(surface.report.after.all.greatest, 5e-3);
 }
 
 TEST(FitEquilibrium, FewerPointsThanNodesLeaveItFairBetweenThem) {
-  const FitResult result = flat_cap(500, on_the_sphere(30)).fit(with_weight(0.1));
+  const FitResult result = flat_cap(500, on_the_sphere(30)).fit(to_equilibrium(0.1));
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   EXPECT_LE(result.report.pulled_nodes, 30);
   EXPECT_LT(distance_from_unit_sphere(result.positions), 2e-3);
@@ -237,9 +174,9 @@ TEST(FitEquilibrium, ThousandsOfPointsOnOneNodePullLikeTheirAverage) {
   ScatteredPoints points;
   points.positions.assign(5000, {0.5, 0.1, 0});
   const Constraints held = held_ends(segment.positions());
-  const FitResult many = fit(segment, held, points, with_weight(0.1, 1e-9));
+  const FitResult many = fit(segment, held, points, to_equilibrium(0.1, 1e-9));
   EXPECT_EQ(many.report.most_points, 5000);
-  const FitResult one = fit(segment, held, {.positions = {{0.5, 0.1, 0}}}, with_weight(0.1, 1e-9));
+  const FitResult one = fit(segment, held, {.positions = {{0.5, 0.1, 0}}}, to_equilibrium(0.1, 1e-9));
   EXPECT_LT(greatest_distance(many.positions, one.positions), 1e-8);
 }
 
@@ -248,9 +185,9 @@ TEST(FitEquilibrium, PointsMayBeFarAway) {
   for (const double away : {3.0, 100.0, 1e12, 1e40}) {
     SCOPED_TRACE(away);
     plane.points = {.positions = {{0.5, 0.5, away}}};
-    const FitResult surface = plane.fit(with_weight(0.01));
+    const FitResult surface = plane.fit(to_equilibrium(0.01));
     const auto wave = noisy_wave(100);
-    const FitResult curve = fit(wave.start, wave.held, plane.points, with_weight(1e50));
+    const FitResult curve = fit(wave.start, wave.held, plane.points, to_equilibrium(1e50));
     for (const FitResult* result : {&surface, &curve}) {
       for (const Vector3& position : result->positions) EXPECT_TRUE(position.allFinite());
       EXPECT_TRUE(std::isfinite(result->report.after.all.rms));
@@ -265,7 +202,7 @@ TEST(FitEquilibrium, AClosedCurveMayBeHeldByPointsAlone) {
       SCOPED_TRACE(nodes);
       const PolygonCurve points = circle(97, 1, tilted);
       const FitResult result =
-          fit(circle(nodes, 0.8), Constraints(nodes), {.positions = points.positions()}, with_weight(0.05));
+          fit(circle(nodes, 0.8), Constraints(nodes), {.positions = points.positions()}, to_equilibrium(0.05));
       EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
       EXPECT_LT(result.report.after.all.greatest, nodes == 40 ? 0.02 : 1e-3);
       if (!tilted) {
@@ -281,7 +218,7 @@ TEST(FitEquilibrium, AClosedSurfaceMayBeHeldByPointsAlone) {
     std::vector<Vector3> small = ball.positions();
     for (Vector3& position : small) position *= 0.9;
     const FitResult result = fit(with_positions(ball, small), Constraints(ball.node_count()),
-                                 {.positions = ball.positions()}, with_weight(0.1));
+                                 {.positions = ball.positions()}, to_equilibrium(0.1));
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << cells;
     EXPECT_LT(distance_from_unit_sphere(result.positions), 0.01);
   }
@@ -290,7 +227,7 @@ TEST(FitEquilibrium, AClosedSurfaceMayBeHeldByPointsAlone) {
 TEST(FitEquilibrium, ConstraintsHoldAtTheSameTime) {
   auto cap = flat_cap(217, on_the_sphere(2000));
   cap.held.fix_position(30, cap.start.position(30) + Vector3(0, 0, 0.1));
-  const FitResult result = cap.fit(with_weight(0.1));
+  const FitResult result = cap.fit(to_equilibrium(0.1));
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   for (Index i = 0; i < cap.start.node_count(); ++i) {
     if (!cap.held.position_fixed(i)) continue;
@@ -298,7 +235,7 @@ TEST(FitEquilibrium, ConstraintsHoldAtTheSameTime) {
   }
   const PolygonCurve segment(straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 100)));
   const Constraints held = held_ends(segment.positions(), heading(0.5), heading(-0.5));
-  const FitResult curve = fit(segment, held, {.positions = {{0.5, 0.2, 0}}}, with_weight(0.01));
+  const FitResult curve = fit(segment, held, {.positions = {{0.5, 0.2, 0}}}, to_equilibrium(0.01));
   const Vector3 start = (curve.positions[1] - curve.positions[0]).normalized();
   EXPECT_NEAR(std::atan2(start.y(), start.x()), 0.5, 0.03);
   EXPECT_LT(curve.report.after.all.greatest, 0.01);
@@ -306,13 +243,13 @@ TEST(FitEquilibrium, ConstraintsHoldAtTheSameTime) {
 
 TEST(FitEquilibrium, KeepsWorkingWithEveryRule) {
   for (const PseudoNormals kind : {PseudoNormals::average, PseudoNormals::area, PseudoNormals::angle}) {
-    FitOptions options = with_weight(0.1);
+    FitOptions options = to_equilibrium(0.1);
     options.fair.pseudo_normals = kind;
     const FitResult result = flat_cap(500, on_the_sphere(2000)).fit(options);
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
     EXPECT_LT(distance_from_unit_sphere(result.positions), 3e-3);
   }
-  FitOptions keep = with_weight(0.01);
+  FitOptions keep = to_equilibrium(0.01);
   keep.fair.distribution = Distribution::keep;
   EXPECT_EQ(noisy_wave(60, 0.0005).fit(keep).report.fair.outcome, Outcome::converged);
   EXPECT_EQ(wavy_plane(generate::Faces::quads).fit(keep).report.fair.outcome, Outcome::converged);
@@ -333,7 +270,7 @@ TEST(FitEquilibrium, GivesTheSameBitsOnAnyNumberOfThreads) {
   const auto run = [&](int threads) {
     Context context;
     context.threads = threads;
-    FitOptions options = with_weight(1e-3);
+    FitOptions options = to_equilibrium(1e-3);
     options.fair.max_iterations = 12;
     return fit(cap.start, cap.held, cap.points, options, context);
   };
@@ -345,104 +282,20 @@ TEST(FitEquilibrium, EndsWithTheShapeSoFarWhenCancelled) {
   const auto cap = flat_cap(500, on_the_sphere(1000));
   Context context;
   context.on_progress = [&](const Progress& /*progress*/) { context.cancel(); };
-  const FitResult result = fit(cap.start, cap.held, cap.points, with_weight(0.1), context);
+  const FitResult result = fit(cap.start, cap.held, cap.points, to_equilibrium(0.1), context);
   EXPECT_EQ(result.report.fair.outcome, Outcome::cancelled);
   EXPECT_EQ(result.positions, cap.start.positions());
 }
 
 TEST(FitEquilibrium, ScaleAndPlaceOfTheWholeMakeNoDifference) {
   const auto wave = noisy_wave(60, 0.0005);
-  const FitOptions options = with_weight(0.01, 1e-10);
+  const FitOptions options = to_equilibrium(0.01, 1e-10);
   const FitResult plain = wave.fit(options);
   Motion motion;
   motion.scale = 1e6;
   const std::vector<Vector3> moved = motion.points(wave.start.positions());
   const FitResult other = fit(PolygonCurve(moved), motion.constraints(wave.held), {.positions = moved}, options);
   EXPECT_LT(greatest_distance(motion.points(plain.positions), other.positions), 1e-8 * motion.scale);
-}
-
-/// Root mean square of z over the nodes inside, away from what is held.
-double inner_rms(const std::vector<Vector3>& positions) {
-  double sum = 0;
-  double count = 0;
-  for (const Vector3& p : positions) {
-    if (p.x() < 0.15 || p.x() > 0.85 || std::abs(p.y() - 0.5) > 0.35) continue;
-    sum += p.z() * p.z();
-    count += 1;
-  }
-  return std::sqrt(sum / count);
-}
-
-TEST(FitEquilibrium, NoiseIsReducedAsAveragingPredicts) {
-  Draw draw(4);
-  const auto rough = [&](std::vector<Vector3> nodes, const Constraints& held, double height) {
-    for (Index i = 0; i < held.node_count(); ++i) {
-      if (!held.position_fixed(i)) nodes[static_cast<std::size_t>(i)].z() = draw.uniform(-height, height);
-    }
-    return nodes;
-  };
-  // Waves of angular frequency ω keep 1/(1 + (λω)⁴): of the variance 0.265 ℓ/λ is left on a curve, a/(16 λ²) on a
-  // surface of a to a node.
-  const double sd = 1e-4 / std::sqrt(3.0);
-  const std::vector<Vector3> line = straight({0, 0.5, 0}, {1, 0.5, 0}, places(Spacing::even, 2000));
-  const Constraints ends = held_ends(line);
-  const PolygonCurve curve(rough(line, ends, 1e-4));
-  for (const double weight : {1e-3, 1e-6}) {
-    const FitResult result = fit(curve, ends, {.positions = curve.positions()}, with_weight(weight, 1e-8));
-    const double factor = std::sqrt(0.265 * std::pow(8 * weight, 0.25));
-    EXPECT_NEAR(inner_rms(result.positions) / (sd * factor), 1, 0.3) << weight;
-  }
-  const PolygonMesh plane = generate::plane({.columns = 50, .rows = 50, .faces = generate::Faces::quads});
-  const Constraints held = held_boundary(plane);
-  const PolygonMesh mesh = with_positions(plane, rough(plane.positions(), held, 1e-4));
-  for (const double weight : {1e-2, 1e-4}) {
-    const FitResult result = fit(mesh, held, {.positions = mesh.positions()}, with_weight(weight, 1e-7));
-    const double factor = std::sqrt(std::sqrt(16 * weight) / 16);
-    EXPECT_NEAR(inner_rms(result.positions) / (sd * factor), 1, 0.3) << weight;
-  }
-}
-
-/// The order in which points on a shape, as dense as nodes, give it back on finer meshes.
-TEST(FitEquilibrium, PointsOnACylinderGiveItBackWithTheOrderOfFairing) {
-  const auto error = [](int cells) {
-    const PolygonMesh exact = generate::cylinder_patch({.columns = cells, .rows = cells}, 1, 120, 2);
-    const PolygonMesh dense = generate::cylinder_patch({.columns = 3 * cells, .rows = 3 * cells}, 1, 120, 2);
-    const Constraints held = held_boundary(exact, [](const Vector3& p) { return Vector3(p.x(), p.y(), 0); });
-    const FitResult result =
-        fit(generate::add_noise(exact, 0.02, 3), held, {.positions = dense.positions()}, with_weight(0.01));
-    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
-    double greatest = 0;
-    for (const Vector3& p : result.positions) greatest = std::max(greatest, std::abs(p.head<2>().norm() - 1));
-    return greatest;
-  };
-  const double coarse = error(15);
-  const double fine = error(30);
-  EXPECT_LT(fine, 1e-4);
-  EXPECT_GT(order(coarse, fine), 1.7);
-}
-
-TEST(FitEquilibrium, PointsOnASphereGiveItBackWithTheOrderOfFairing) {
-  const double coarse = distance_from_unit_sphere(flat_cap(300, on_the_sphere(3000)).fit(with_weight(0.01)).positions);
-  const double fine = distance_from_unit_sphere(flat_cap(1200, on_the_sphere(12000)).fit(with_weight(0.01)).positions);
-  EXPECT_LT(fine, 5e-4);
-  EXPECT_GT(order(coarse, fine), 1.5);
-}
-
-TEST(FitEquilibrium, PointsOnAClothoidGiveItBackWithItsOrder) {
-  const reference::Clothoid clothoid = reference::hermite_clothoid({0, 0}, 0.9, {1, 0}, -0.3);
-  const auto error = [&](int edges) {
-    const std::vector<Vector3> exact = sampled(clothoid, places(Spacing::even, edges));
-    const std::vector<Vector3> dense = sampled(clothoid, places(Spacing::even, 4 * edges));
-    const Constraints held = held_ends(exact, heading(clothoid.angle), heading(clothoid.angle_at(clothoid.length)));
-    const FitResult result =
-        fit(PolygonCurve(noisy(exact, held, 0.01, 1, true)), held, {.positions = dense}, with_weight(0.01, 1e-9));
-    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
-    return distance_from(clothoid, result.positions);
-  };
-  const double coarse = error(40);
-  const double fine = error(80);
-  EXPECT_LT(fine, 1e-5);
-  EXPECT_GT(order(coarse, fine), 1.9);
 }
 
 }  // namespace

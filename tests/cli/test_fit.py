@@ -56,6 +56,42 @@ class Fit(Case):
                 outputs.add((self.folder / "out.obj").read_bytes())
         self.assertEqual(len(outputs), 1)
 
+    def test_normals_of_points(self):
+        shape = self.write("flat.obj", grid(6, lambda x, y: 0))
+        # Those that face down, of the other side of a wall, would draw the surface down.
+        cloud = self.cloud(300) + self.cloud(300, lambda x, y: -0.2)
+        normals = [(0, 0, 1)] * 300 + [(0, 0, -1)] * 300
+        rows = [(*point, *normal) for point, normal in zip(cloud, normals)]
+        files = {"points.xyz": xyz(rows), "points.csv": "x,y,z,nx,ny,nz\n" + "".join(",".join(repr(v) for v in row) + "\n" for row in rows),
+                 "points.obj": "".join("v {!r} {!r} {!r}\nvn {!r} {!r} {!r}\n".format(*row) for row in rows)}
+        for name, text in files.items():
+            with self.subTest(name=name):
+                points = self.write(name, text)
+                self.fit(shape, points, "--weight", "0.05", "--ignore-point-normals", "--report", self.folder / "r.json")
+                self.assertLess(max(heights(self.folder / "out.obj")), 0.05)
+                self.assertEqual(self.read_json("r.json")["points"]["normals"], 0)
+                result = self.fit(shape, points, "--weight", "0.05", "--report", self.folder / "r.json")
+                self.assertGreater(max(heights(self.folder / "out.obj")), 0.12)
+                self.assertEqual(self.read_json("r.json")["points"]["normals"], 600)
+                self.assertIn("with normals", result.stdout.decode())
+        long = self.write("long.csv", files["points.csv"].replace(",0,0,1\n", ",0,0,3\n"))
+        result = run("fit", shape, "--points", long, "-o", self.folder / "out.obj", "--weight", "1")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("the normal of point 0 has the length 3", result.stderr.decode())
+
+    def test_says_how_many_points_are_outside_a_tolerance(self):
+        shape = self.write("flat.obj", grid(6, lambda x, y: 0))
+        points = self.write("points.xyz", xyz(self.cloud(300)))
+        result = self.fit(shape, points, "--rms", "0.01", "--report", self.folder / "r.json")
+        outside = self.read_json("r.json")["points"]["outside"]
+        self.assertGreater(outside["count"], 0)
+        self.assertEqual(outside["share"], outside["count"] / 300)
+        self.assertIn("further away", result.stdout.decode())
+        self.fit(shape, points, "--within", "0.05", "--report", self.folder / "r.json")
+        self.assertEqual(self.read_json("r.json")["points"]["outside"], {"count": 0, "share": 0})
+        self.fit(shape, points, "--weight", "0.05", "--report", self.folder / "r.json")
+        self.assertIsNone(self.read_json("r.json")["points"]["outside"])
+
     def test_weights_of_points(self):
         shape = self.write("flat.obj", grid(6, lambda x, y: 0))
         # Those of weight 0 would draw the surface down.

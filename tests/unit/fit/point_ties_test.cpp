@@ -6,6 +6,7 @@
 
 #include "fit/nearest_nodes.hpp"
 #include "spring/curve_net.hpp"
+#include "spring/model.hpp"
 #include "support/curves.hpp"
 #include "support/surfaces.hpp"
 
@@ -146,6 +147,36 @@ TEST(PointTies, PassAHeldNode) {
   PointTies ties(plane.net, points, std::vector<double>{1}, std::vector<Index>{0});
   ties.renew(team);
   EXPECT_EQ(plane.net.node[ties_of(plane.net)[0]], 14);
+}
+
+TEST(PointTies, FaceAsTheirPointsDo) {
+  Plane plane;
+  ThreadTeam team(2);
+  const auto model = surface_model(PseudoNormals::link);
+  update_directions(plane.net, *model, team);
+  const Vector3 up = plane.net.normals[0];
+  const std::vector<Vector3> points = {{0.5, 0.5, 0.1}, {0.5, 0.5, 0.1}, {0.5, 0.5, 0.1}};
+  const std::vector<Vector3> normals = {up, -up, Vector3::Zero()};
+  PointTies ties(plane.net, points, std::vector<double>(3, 1),
+                 nearest_nodes(points, plane.mesh.positions(), plane.all, team), nullptr, normals);
+  const std::size_t none = plane.net.node.size();
+  const std::size_t nearest = ties_of(plane.net)[0];
+  EXPECT_LT(nearest, none);
+  EXPECT_EQ(ties_of(plane.net), (std::vector<std::size_t>{nearest, none, nearest}));
+  EXPECT_FALSE(ties.renew(team));
+  // Another node of the neighbourhood turns over.
+  const std::size_t other = plane.net.rings.links(nearest).front().node();
+  plane.net.normals[other] = -up;
+  EXPECT_TRUE(ties.renew(team));
+  EXPECT_EQ(ties_of(plane.net), (std::vector<std::size_t>{nearest, other, nearest}));
+  // Nothing changes over any more where that takes more than a right angle.
+  plane.net.normals[other] = up;
+  EXPECT_FALSE(ties.renew(team, 2));
+  EXPECT_TRUE(ties.renew(team));
+  EXPECT_EQ(ties_of(plane.net)[1], none);
+  plane.net.normals[other] = -up;
+  ties.tie_anew(team);
+  EXPECT_EQ(ties_of(plane.net)[1], other);
 }
 
 }  // namespace

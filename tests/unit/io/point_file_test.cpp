@@ -88,6 +88,29 @@ TEST_F(PointFile, XyzHasWeightsInRowsOfFourOrSevenNumbers) {
   EXPECT_NE(refusal("a.xyz", "# nothing\n").find("no row"), std::string::npos);
 }
 
+TEST_F(PointFile, NormalsOfEveryFormat) {
+  const std::vector<Vector3> normals = {{0, 0, 1}, {0.6, 0, -0.8}};
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 2\nproperty double nx\nproperty double x\nproperty double y\nproperty "
+      "double z\nproperty double ny\nproperty double nz\nend_header\n0 1 2 3 0 1\n0.6 4 5 6 0 -0.8\n";
+  const ScatteredPoints points = read("a.ply", ply);
+  EXPECT_EQ(points.positions, (std::vector<Vector3>{{1, 2, 3}, {4, 5, 6}}));
+  EXPECT_EQ(points.normals, normals);
+  EXPECT_TRUE(read("a.ply", replaced(ply, "double ny", "double na")).normals.empty());
+  EXPECT_EQ(read("a.xyz", "1 2 3 0 0 1\n4 5 6 0.6 0 -0.8\n").normals, normals);
+  EXPECT_EQ(read("a.xyz", "1 2 3 0 0 1 0.5\n4 5 6 0.6 0 -0.8 2\n").normals, normals);
+  EXPECT_TRUE(read("a.xyz", "1 2 3 255 0 17\n").normals.empty());  // a colour
+  EXPECT_EQ(refusal("a.xyz", "1 2 3 0 0 1\n1 2 3\n"),
+            "a.xyz:2: this row has 3 numbers, the first row has 6; correct one of them");
+  EXPECT_EQ(read("a.csv", "NX,ny,nz,x,y,z\n0,0,1,1,2,3\n0.6,0,-0.8,4,5,6\n").normals, normals);
+  EXPECT_TRUE(read("a.csv", "nx,ny,x,y,z\n0,0,1,2,3\n").normals.empty());
+  const std::string obj = "v 1 2 3\nvn 0 0 1\nv 4 5 6\nvn 0.6 0 -0.8\nf 1//1 2/7/2 -1//-1\n";
+  EXPECT_EQ(read("a.obj", obj).normals, normals);
+  // In another order, or of something else.
+  EXPECT_TRUE(read("a.obj", replaced(obj, "1//1", "1//2")).normals.empty());
+  EXPECT_TRUE(read("a.obj", obj + "vn 1 0 0\n").normals.empty());
+}
+
 TEST_F(PointFile, OfOtherKinds) {
   EXPECT_EQ(read("a.obj", "v 1 2 3 1\nl 1 1\nv 4 5 6\nvn 0 0 1\nf 1 2 77\n").positions,
             (std::vector<Vector3>{{1, 2, 3}, {4, 5, 6}}));

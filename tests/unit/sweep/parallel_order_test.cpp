@@ -99,5 +99,20 @@ TEST(Sweep, SharesAddUpToOneAndPointAtTheNode) {
   }
 }
 
+TEST(Sweep, NoNeighbourDrivesANodeAwayThatNoiseHasPutOutsideThemAll) {
+  Net net = net_of(generate::Faces::triangles, 12);
+  // Over the neighbours and beyond.
+  const std::size_t node = 30;
+  net.positions[node] = net.positions[net.rings.links(node).front().node()] * 2 - net.positions[node];
+  ThreadTeam team(1);
+  distribute(net, *surface_model(PseudoNormals::link), Distribution::keep, team);
+  double sum = 0;
+  for (const double share : net.shares_of(node)) {
+    EXPECT_GT(share, 0.01);
+    sum += share;
+  }
+  EXPECT_NEAR(sum, 1, 1e-12);
+}
+
 }  // namespace
 }  // namespace vspring

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "base/threads.hpp"
+#include "solve/account.hpp"
+#include "solve/fit_start.hpp"
+#include "solve/fit_subject.hpp"
+#include "solve/pulled_shape.hpp"
+#include "vspring/fit.hpp"
+
+namespace vspring {
+
+/// What all parts of a fit share. Subject: FitSurface or FitCurve.
+template <typename Subject>
+class FitRun {
+ public:
+  using Shape = typename Subject::Shape;
+
+  FitRun(const Shape& shape, const Constraints& constraints, const ScatteredPoints& scattered,
+         const FitOptions& fit_options, Context& outer)
+      : points(scattered),
+        options(fit_options),
+        context(outer),
+        team(outer.thread_count()),
+        subject(shape, constraints, scattered.positions, measuring, team),
+        kept(scattered.positions.size(), 1) {
+    // Distances are measured even after somebody has cancelled.
+    measuring.threads = outer.threads;
+  }
+
+  /// The report of a fit that begins.
+  void start_report(Method method) {
+    result.report = {};
+    FairReport& fair = result.report.fair;
+    fair.method = method;
+    fair.threads = team.size();
+    fair.faces = subject.faces();
+    result.report.points = static_cast<Index>(points.positions.size());
+  }
+
+  auto gather() {
+    auto gathered = subject.gather();
+    count_nodes(net_of(gathered), subject.constraints(), result.report.fair);
+    return gathered;
+  }
+
+  /// The points that count, and the nodes that are nearest to them at the start.
+  LoosePoints loose_points() {
+    std::vector<double> weights = points.weights;
+    weights.resize(points.positions.size(), 1);
+    const double weight = options.smoothing_length || options.within || options.rms ? 1 : options.weight;
+    for (std::size_t j = 0; j < weights.size(); ++j) weights[j] *= kept[j] * weight;
+    if (start_.nearest.empty()) find_start();
+    if (start_.turned)
+      result.report.fair.warnings.emplace_back(
+          "normals of points are against the sense of the faces: they are all taken the other way round");
+    return {points.positions, std::move(weights), start_.nearest, start_.normals};
+  }
+
+  /// Of the points from the result.
+  std::vector<double> distances() { return subject.distances(result.positions); }
+
+  void finish_positions(const Net& net) {
+    result.positions =
+        scatter_positions(net, subject.shape().positions(), subject.constraints(), options.fair.strength);
+  }
+
+  void finish(const Net& net) {
+    count_points(net);
+    finish_positions(net);
+    measure_moves(net, subject.shape().positions(), result.positions, result.report.fair);
+  }
+
+  const ScatteredPoints& points;
+  const FitOptions& options;
+  Context& context;
+  Context measuring;
+  ThreadTeam team;
+  Subject subject;
+  FitResult result;
+  std::vector<std::uint8_t> kept;  ///< of every point, 0 for those left out
+
+ private:
+  void find_start() {
+    const Constraints& constraints = subject.constraints();
+    std::vector<Vector3> places = subject.shape().positions();
+    std::vector<std::uint8_t> usable = subject.usable();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto node = static_cast<Index>(i);
+      if (constraints.position_fixed(node)) places[i] = constraints.position(node);
+      if (!places[i].allFinite()) usable[i] = 0;
+    }
+    start_ = fit_start(points, places, usable, points.normals.empty() ? SurfaceSides() : subject.sides(), team);
+  }
+
+  void count_points(const Net& net) {
+    FitReport& report = result.report;
+    for (std::size_t i = 0; i < net.moving; ++i) {
+      const auto count = static_cast<Index>(net.points.of(i).size());
+      report.pulling_points += count;
+      report.pulled_nodes += count > 0 ? 1 : 0;
+      report.most_points = std::max(report.most_points, count);
+    }
+  }
+
+  FitStart start_;
+};
+
+}  // namespace vspring

@@ -1,0 +1,147 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "fit/point_factors.hpp"
+#include "solve/fit_run.hpp"
+#include "solve/tolerance_fit.hpp"
+#include "vspring/error.hpp"
+
+namespace vspring {
+
+/// A fit to FitOptions::within or rms.
+template <typename Subject>
+class FitToTolerance {
+ public:
+  explicit FitToTolerance(FitRun<Subject>& run)
+      : run_(run), tolerance_(run.options.within ? *run.options.within : *run.options.rms) {}
+
+  /// smooth: by some edges, instead of to the tolerance.
+  void fit(LoosePoints points, ProgressReporter& progress, bool smooth) {
+    if (!smooth && plain_fairing_is_within()) return;
+    FitReport& report = run_.result.report;
+    Context& context = run_.context;
+    auto gathered = run_.gather();
+    const double scale = net_of(gathered).frame.scale();
+    const double edge = mean_edge(net_of(gathered));
+    const auto length = std::make_shared<double>(edge);
+    FairOptions options = run_.options.fair;
+    options.tolerance = std::min(options.tolerance, precision * tolerance_ * scale / diagonal_of(net_of(gathered)));
+    PulledShape shape(std::move(gathered), options, std::move(points), length, run_.team);
+    // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
+    const std::vector<Vector3> start = shape.net().positions;
+    for (const double first : first_lengths) {
+      *length = first * edge;
+      shape.net().positions = start;
+      shape.find(context, progress, report.fair);
+      if (report.fair.outcome == Outcome::converged || context.cancelled()) break;
+    }
+    const auto finish_with = [&](double found) {
+      run_.finish(shape.net());
+      report.smoothing_length = found / scale;
+    };
+    if (smooth || context.cancelled()) {
+      finish_with(*length);
+      return;
+    }
+    ToleranceFitTask task;
+    task.net = &shape.net();
+    task.length = length;
+    task.follow = [&] {
+      FairReport one;
+      shape.follow(context, progress, one);
+      report.fair.iterations += one.iterations;
+      report.fair.history.insert(report.fair.history.end(), one.history.begin(), one.history.end());
+      report.fair.residual = one.residual;
+      report.fair.expected_error = one.expected_error;
+      report.fair.outcome = one.outcome;
+      return one.outcome == Outcome::converged;
+    };
+    task.cancelled = [&] { return context.cancelled(); };
+    task.measure = [&] {
+      run_.finish_positions(shape.net());
+      std::vector<double> all = run_.distances();
+      for (std::size_t j = 0; j < all.size(); ++j) all[j] = run_.kept[j] != 0 ? all[j] * scale : 0;
+      return all;
+    };
+    task.energy = [&] { return run_.subject.fairness(run_.result.positions).vspring_energy; };
+    const auto figure = [&](const std::vector<double>& all) { return figure_of(all); };
+    ToleranceFitResult found = smooth_within(task, tolerance_ * scale, figure);
+    if (run_.options.within && !context.cancelled()) found = hold_within(task, tolerance_ * scale, found);
+    finish_with(found.length);
+    report.active_points = found.active;
+    conclude(found);
+  }
+
+ private:
+  // The smoothing lengths that tolerances are looked for from, in mean edges.
+  static constexpr double first_lengths[] = {3, 1, 0.3, 0.1};
+  // Of a tolerance, to which equilibria are found.
+  static constexpr double precision = 1e-3;
+
+  static double diagonal_of(const Net& net) {
+    Eigen::AlignedBox<double, 3> box;
+    for (const Vector3& position : net.positions) box.extend(position);
+    return box.isEmpty() ? 1 : box.diagonal().norm();
+  }
+
+  /// What is to be within the tolerance. distances: 0 for points left out.
+  [[nodiscard]] double figure_of(const std::vector<double>& distances) const {
+    double greatest = 0;
+    double squares = 0;
+    double count = 0;
+    for (std::size_t j = 0; j < distances.size(); ++j) {
+      greatest = std::max(greatest, distances[j]);
+      squares += distances[j] * distances[j];
+      count += run_.kept[j];
+    }
+    return run_.options.within ? greatest : std::sqrt(squares / count);
+  }
+
+  /// Then that is the fairest.
+  bool plain_fairing_is_within() {
+    FitResult& result = run_.result;
+    try {
+      (void)run_.subject.check({});
+    } catch (const Error&) {
+      // Only points hold it.
+      return false;
+    }
+    FairResult plain = vspring::fair(run_.subject.shape(), run_.subject.constraints(), run_.options.fair, run_.context);
+    if (plain.report.outcome != Outcome::converged && !run_.context.cancelled()) return false;
+    result.positions = std::move(plain.positions);
+    std::vector<double> all = run_.distances();
+    for (std::size_t j = 0; j < all.size(); ++j) all[j] *= run_.kept[j];
+    if (!run_.context.cancelled() && !(figure_of(all) <= tolerance_)) return false;
+    result.report.fair = std::move(plain.report);
+    return true;
+  }
+
+  void conclude(const ToleranceFitResult& found) {
+    FairReport& fair = run_.result.report.fair;
+    if (run_.context.cancelled()) {
+      fair.outcome = Outcome::cancelled;
+      return;
+    }
+    fair.outcome = !found.within ? Outcome::stalled : found.settled ? Outcome::converged : Outcome::iteration_limit;
+    if (!found.within)
+      fair.warnings.push_back(
+          fmt::format("no shape of this mesh was found within {:g}: this is the one that comes nearest; points may lie "
+                      "at what is held, or edges may be too long",
+                      tolerance_));
+    else if (!found.settled)
+      fair.warnings.emplace_back("the shape is within the tolerance, but may not be the fairest that is");
+  }
+
+  FitRun<Subject>& run_;
+  double tolerance_;
+};
+
+}  // namespace vspring

@@ -1,0 +1,31 @@
+#include "solve/part_of_mesh.hpp"
+
+#include "constraints/holding.hpp"
+#include "vspring/error.hpp"
+
+namespace vspring {
+
+Net gather_part(const PolygonMesh& whole, const std::optional<MovingPart>& part, const Constraints& constraints) {
+  if (!part) return gather_net(whole, constraints);
+  Net net = gather_net(part->mesh, part->constraints);
+  for (Index& node : net.node) node = part->node[static_cast<std::size_t>(node)];
+  return net;
+}
+
+std::vector<std::string> check_part(const PolygonMesh& whole, const std::optional<MovingPart>& part,
+                                    const Constraints& constraints, std::span<const std::uint8_t> pulled) {
+  if (part) {
+    std::vector<std::uint8_t> pulled_there;
+    for (std::size_t k = 0; k < part->node.size() && !pulled.empty(); ++k)
+      pulled_there.push_back(pulled[static_cast<std::size_t>(part->node[k])]);
+    try {
+      std::vector<std::string> warnings = check_constraints(part->mesh, part->constraints, pulled_there);
+      if (warnings.empty()) return warnings;
+    } catch (const Error&) {
+      return check_constraints(whole, constraints, pulled);
+    }
+  }
+  return check_constraints(whole, constraints, pulled);
+}
+
+}  // namespace vspring

@@ -1,0 +1,170 @@
+// What becomes of points: one, many, far ones, heavy ones; which are refused, and what is said of them.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "support/fits.hpp"
+#include "vspring/vspring.hpp"
+
+namespace vspring {
+namespace {
+
+using namespace support;
+
+constexpr double pi = std::numbers::pi;
+
+std::string refusal(const ScatteredPoints& points, const FitOptions& options = {}) {
+  const PolygonCurve curve = segment(10);
+  try {
+    (void)fit(curve, held_ends(curve.positions()), points, options);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::invalid_argument);
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FitPoints, OnePointDrawsTheNearestNodeAndAllOthersFollow) {
+  const PolygonCurve curve = segment(20);
+  const FitResult result =
+      fit(curve, held_ends(curve.positions()), {.positions = {{0.5, 0.1, 0}}}, by_sweeps(1, 1e-10, 100000));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.pulling_points, 1);
+  EXPECT_EQ(result.report.pulled_nodes, 1);
+  EXPECT_LT(result.report.after.all.greatest, 1e-3);
+  for (std::size_t i = 1; i < 20; ++i) EXPECT_GT(result.positions[i].y(), 0);
+}
+
+TEST(FitPoints, ThousandsOfPointsOnOneNodePullLikeTheirAverage) {
+  const PolygonCurve curve = segment(20);
+  ScatteredPoints points;
+  points.positions.assign(5000, {0.5, 0.1, 0});
+  const FitOptions options = by_sweeps(0.1, 1e-10, 100000);
+  const FitResult many = fit(curve, held_ends(curve.positions()), points, options);
+  EXPECT_EQ(many.report.most_points, 5000);
+  const FitResult one = fit(curve, held_ends(curve.positions()), {.positions = {{0.5, 0.1, 0}}}, options);
+  EXPECT_LT(greatest_distance(many.positions, one.positions), 1e-10);
+}
+
+TEST(FitPoints, APointMayBeFarAway) {
+  const PolygonCurve curve = segment(20);
+  for (const double away : {100.0, 1e12, 1e40}) {
+    SCOPED_TRACE(away);
+    const FitResult result =
+        fit(curve, held_ends(curve.positions()), {.positions = {{0.5, away, 0}}}, by_sweeps(0.01, 1e-3, 200));
+    for (const Vector3& position : result.positions) EXPECT_TRUE(position.allFinite());
+    EXPECT_TRUE(std::isfinite(result.report.after.all.rms));
+  }
+  EXPECT_NE(refusal({.positions = {{0, 0, 0}, {0, 1e60, 0}}}).find("point 1 "), std::string::npos);
+}
+
+TEST(FitPoints, NodesWithoutPointsAreFairBetweenThoseThatHaveSome) {
+  const FitResult result = flat_cap(217, on_the_sphere(30)).fit(by_sweeps(0.1, 1e-8, 50000));
+  EXPECT_LE(result.report.pulled_nodes, 30);
+  EXPECT_LT(distance_from_unit_sphere(result.positions), 0.02);
+}
+
+TEST(FitPoints, PointsNearestToWhatStaysPullAtNothing) {
+  const PolygonMesh plane = generate::plane({.columns = 20, .rows = 20});
+  Constraints held(plane.node_count());
+  const std::vector<Index> region = select_region(plane.positions(), "sphere:0.25,0.25,0,0.15");
+  restrict_to_region(held, plane, region);
+  const ScatteredPoints points{.positions = {{0.9, 0.9, 0.1}}};
+  const FitResult away = fit(plane, held, points, by_sweeps(1));
+  EXPECT_EQ(away.report.pulling_points, 0);
+  EXPECT_LT(greatest_distance(away.positions, plane.positions()), 1e-12);
+  const FitResult near = fit(plane, held, {.positions = {{0.25, 0.25, 0.05}}}, by_sweeps(1));
+  EXPECT_EQ(near.report.pulling_points, 1);
+  EXPECT_GT(near.report.fair.greatest_move, 0.03);
+}
+
+TEST(FitPoints, TiesGoWithTheNodes) {
+  // All points begin at the end node that is nearest to them, and are then passed on along the curve.
+  const PolygonCurve curve = segment(40);
+  ScatteredPoints points;
+  for (int j = 0; j <= 100; ++j) points.positions.emplace_back(Vector3(0.5, 0, 0) + 0.5 * heading(pi * j / 100));
+  const FitResult result = fit(curve, held_ends(curve.positions()), points, by_sweeps(0.05, 1e-7, 50000));
+  EXPECT_LT(result.report.after.percentile99, 0.01);
+  EXPECT_GT(result.report.pulled_nodes, 35);
+}
+
+TEST(FitPoints, HeavierPointsCountMore) {
+  const PolygonCurve curve = segment(20);
+  const auto height = [&](double upper, double lower) {
+    const ScatteredPoints points{.positions = {{0.5, 0.1, 0}, {0.5, -0.1, 0}}, .weights = {upper, lower}};
+    return fit(curve, held_ends(curve.positions()), points, by_sweeps(0.1, 1e-9, 100000)).positions[10].y();
+  };
+  EXPECT_NEAR(height(1, 1), 0, 1e-9);
+  EXPECT_GT(height(3, 1), 0.01);
+  EXPECT_NEAR(height(3, 1), -height(1, 3), 1e-6);
+}
+
+TEST(FitPoints, PointsLiftAPlanarCurveOutOfItsPlane) {
+  for (const NormalPlane plane : {NormalPlane::full, NormalPlane::principal}) {
+    const PolygonCurve curve = segment(20);
+    FitOptions options = by_sweeps(1, 1e-7);
+    options.fair.curve.normal_plane = plane;
+    const FitResult result = fit(curve, held_ends(curve.positions()), {.positions = {{0.5, 0, 0.1}}}, options);
+    EXPECT_NEAR(result.positions[10].z(), 0.1, 0.01);
+  }
+}
+
+TEST(FitPoints, SaysHowFarPointsLie) {
+  const PolygonCurve curve = segment(4);
+  ScatteredPoints points;
+  for (int j = 1; j <= 100; ++j) points.positions.emplace_back(0.5, 0.001 * j, 0);
+  const FitResult result = fit(curve, held_ends(curve.positions()), points, by_sweeps(0));
+  for (const PointDistances& distances : {result.report.before, result.report.after}) {
+    EXPECT_NEAR(distances.all.greatest, 0.1, 1e-15);
+    EXPECT_EQ(distances.all.node, 99);
+    EXPECT_EQ(distances.all.count, 100);
+    EXPECT_NEAR(distances.all.rms, 0.001 * std::sqrt(338350.0 / 100), 1e-15);
+    EXPECT_NEAR(distances.median, 0.05, 1e-15);
+    EXPECT_NEAR(distances.percentile90, 0.09, 1e-15);
+    EXPECT_NEAR(distances.percentile99, 0.099, 1e-15);
+  }
+  ASSERT_EQ(result.distances.size(), 100U);
+  EXPECT_NEAR(result.distances[16], 0.017, 1e-15);
+}
+
+TEST(FitPoints, DeviationsAtNodesAreThoseOfTheFurthestOfTheirPoints) {
+  const std::vector<Vector3> nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  const std::vector<Vector3> points = {{0.1, 0, 1}, {0.2, 0, 3}, {-5, 0, 2}, {2.2, 0, 0.5}};
+  const std::vector<double> distances = {1, 3, 2, 0.5};
+  EXPECT_EQ(node_deviations(nodes, points, distances, {}), (std::vector<double>{3, 0, 0.5}));
+  const std::vector<double> odd = {1, 3, 2, std::numeric_limits<double>::quiet_NaN()};
+  for (const auto& wrong : {std::vector<double>{1, 2, 3}, odd})
+    EXPECT_THROW((void)node_deviations(nodes, points, wrong, {}), Error);
+}
+
+TEST(FitPoints, RefusalsNameThePoint) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ScatteredPoints points;
+  EXPECT_NE(refusal(points).find("no points"), std::string::npos);
+  points.positions.assign(30, {0.5, 0, 0});
+  points.weights.assign(29, 1);
+  EXPECT_NE(refusal(points).find("29 weights"), std::string::npos);
+  points.weights.assign(30, 1);
+  points.weights[12] = -0.5;
+  EXPECT_NE(refusal(points).find("the weight of point 12"), std::string::npos);
+  points.weights[12] = nan;
+  EXPECT_NE(refusal(points).find("the weight of point 12"), std::string::npos);
+  points.weights.clear();
+  points.positions[17].y() = nan;
+  EXPECT_NE(refusal(points).find("point 17 is not finite"), std::string::npos);
+  points.positions[17].y() = 0;
+  EXPECT_NE(refusal(points, by_sweeps(-1)).find("weight"), std::string::npos);
+  FitOptions options;
+  options.fair.method = Method::multigrid;
+  EXPECT_NE(refusal(points, options).find("multigrid"), std::string::npos);
+  options = {};
+  options.fair.fair_boundary = true;
+  EXPECT_NE(refusal(points, options).find("boundary"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace vspring

@@ -32,8 +32,10 @@ struct Tally {
 struct Summary {
   Tally shapes;
   Tally regions;
-  double greatest_ratio = 0;
-  std::string at;
+  double least_ratio = 1;
+  std::string at_least;
+  double greatest_ratio = 1;
+  std::string at_greatest;
 };
 
 /// The error of a result by a run to 1e-12; none where that run does not get far enough.
@@ -68,7 +70,11 @@ void run(const Specimen& specimen, Tally& tally, Summary& summary) {
   const double ratio = error && expected > 0 ? *error / expected : 0;
   if (ratio > summary.greatest_ratio) {
     summary.greatest_ratio = ratio;
-    summary.at = specimen.name;
+    summary.at_greatest = specimen.name;
+  }
+  if (ratio > 0 && ratio < summary.least_ratio) {
+    summary.least_ratio = ratio;
+    summary.at_least = specimen.name;
   }
   std::string from_closed_form;
   if (specimen.distance) {
@@ -135,8 +141,8 @@ int main(int argc, char** argv) {
       }
     }
   }
-  fmt::print("\n{} of {} shapes and {} of {} regions converge; true / expected is {:.2f} at most ({}).\n",
+  fmt::print("\n{} of {} shapes and {} of {} regions converge; true / expected is {:.2f} ({}) to {:.2f} ({}).\n",
              summary.shapes.converged, summary.shapes.all, summary.regions.converged, summary.regions.all,
-             summary.greatest_ratio, summary.at);
+             summary.least_ratio, summary.at_least, summary.greatest_ratio, summary.at_greatest);
   return 0;
 }

@@ -1,9 +1,16 @@
 #include "solve/account.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 namespace vspring {
+
+double diagonal(const Net& net) {
+  Eigen::AlignedBox<double, 3> box;
+  for (const Vector3& position : net.positions) box.extend(position);
+  return box.isEmpty() ? 1 : box.diagonal().norm();
+}
 
 void count_nodes(const Net& net, const Constraints& constraints, FairReport& report) {
   report.nodes = constraints.node_count();

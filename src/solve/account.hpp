@@ -5,6 +5,9 @@
 
 namespace vspring {
 
+/// Of the box around the net, in its coordinates.
+double diagonal(const Net& net);
+
 /// Fills the counts of a report.
 void count_nodes(const Net& net, const Constraints& constraints, FairReport& report);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <variant>
 
 #include "solve/anderson.hpp"
@@ -19,6 +20,12 @@ constexpr std::size_t nodes_per_task = 2048;
 constexpr double greatest_turn = 0.3;
 // Iterations that do not get nearer, with steps of full length, before rounding is taken to have the last word.
 constexpr int patience = 12;
+// Of an accelerated step, what steps after it leave at most where they are on their way.
+constexpr double greatest_rate = 0.5;
+// Of the error by corrections alone, where the accelerated step says that there is less.
+constexpr double least_share = 0.5;
+// Of coordinates up to 2.
+constexpr double rounding = std::numeric_limits<double>::epsilon();
 // A share of the tolerance.
 constexpr double negligible = 0.01;
 constexpr int iterations_per_tie = 5;
@@ -43,6 +50,7 @@ class Solver {
     EquilibriumResult result;
     BestShape best(net_, 1);
     double before = 0;
+    double last_step = 0;
     int without_gain = 0;
     double expected = std::numeric_limits<double>::infinity();
     // Where points change over to other nodes, what was found before does not hold any more.
@@ -55,6 +63,7 @@ class Solver {
       forget();
       best = BestShape(net_, 1);
       before = 0;
+      last_step = 0;
       without_gain = 0;
       return true;
     };
@@ -80,17 +89,25 @@ class Solver {
       without_gain = expected < 0.7 * best.residual() ? 0 : without_gain + 1;
       best.look(expected);
       if (task.on_iteration) task.on_iteration(expected);
-      // The last correction is not taken: what it says of the shape is true of the shape before it.
-      if (expected < task.tolerance && largest_turn(net_, correction_, team_) <= greatest_turn) {
-        if (last_changes < task.most_changes && renew_ties(false)) {
-          ++last_changes;
-          continue;
+      const double turn = largest_turn(net_, correction_, team_);
+      accelerate(turn);
+      // The last step is not taken: what it says of the shape is true of the shape before it.
+      if (expected < task.tolerance && turn <= greatest_turn) {
+        const double step = largest_correction();
+        const double left = last_step > 0 ? std::min(step / last_step, greatest_rate) : greatest_rate;
+        const double error = std::max({step / (1 - left), least_share * expected, rounding});
+        if (error < task.tolerance) {
+          if (last_changes < task.most_changes && renew_ties(false)) {
+            ++last_changes;
+            continue;
+          }
+          result.outcome = Outcome::converged;
+          result.expected_error = error;
+          return result;
         }
-        result.outcome = Outcome::converged;
-        result.expected_error = expected;
-        return result;
       }
-      limited = take_step();
+      limited = take_step(turn);
+      last_step = limited ? 0 : largest_correction();
       if (limited) without_gain = 0;
       before = limited ? 0 : size;
       if (without_gain >= patience) {
@@ -100,6 +117,14 @@ class Solver {
     }
     result.expected_error = std::min(best.restore(), expected);
     return result;
+  }
+
+  std::optional<double> correct_once() {
+    find_correction(0);
+    const double size = largest_correction();
+    if (!std::isfinite(size)) return std::nullopt;
+    (void)take_step(largest_turn(net_, correction_, team_));
+    return size;
   }
 
  private:
@@ -123,15 +148,20 @@ class Solver {
     return std::sqrt(greatest_over_nodes(net_, team_, [&](std::size_t i) { return correction_[i].squaredNorm(); }));
   }
 
-  /// Moves the nodes. True where the step had to be shortened.
-  bool take_step() {
-    const double turn = largest_turn(net_, correction_, team_);
+  /// Turns the correction into the step to take, unless it is too long for what was found before to hold. turn: by it.
+  void accelerate(double turn) {
+    if (turn > greatest_turn)
+      forget();
+    else
+      std::visit([&](auto& anderson) { anderson.accelerate(correction_); }, anderson_);
+  }
+
+  /// Moves the nodes. turn: as above. True where the step had to be shortened.
+  bool take_step(double turn) {
     double share = 1;
     if (turn > greatest_turn) {
-      forget();
       share = greatest_turn / turn;
     } else {
-      std::visit([&](auto& anderson) { anderson.accelerate(correction_); }, anderson_);
       const double accelerated = largest_turn(net_, correction_, team_);
       if (accelerated > greatest_turn) {
         forget();
@@ -157,6 +187,10 @@ class Solver {
 EquilibriumResult go_to_equilibrium(Net& net, const Model& model, Preconditioner& preconditioner,
                                     const EquilibriumTask& task, ThreadTeam& team, Context& context) {
   return Solver(net, model, preconditioner, team).run(task, context);
+}
+
+std::optional<double> correct_once(Net& net, const Model& model, Preconditioner& preconditioner, ThreadTeam& team) {
+  return Solver(net, model, preconditioner, team).correct_once();
 }
 
 }  // namespace vspring

@@ -1,6 +1,5 @@
 #include "solve/equilibrium_method.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -8,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "solve/account.hpp"
 #include "solve/equilibrium.hpp"
 #include "solve/pseudo_transient.hpp"
 #include "solve/spring_energy.hpp"
@@ -38,19 +38,15 @@ constexpr std::size_t few_enough_to_follow = 10'000;
 constexpr int fewest_steps = 20;
 constexpr int most_steps = 100;
 constexpr std::size_t most_node_steps = 200'000;
+// The last resort: sweeps until hardly anything moves, as a share of the edges.
+constexpr std::size_t most_node_sweeps = 50'000'000;
+constexpr double still = 1e-9;
 // The cosine of 60°.
 constexpr double sharpest_turn = 0.5;
 constexpr double greatest_displacement_ratio = 4;
 constexpr std::size_t nodes_per_task = 2048;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-/// Of the box around the net.
-double diagonal(const Net& net) {
-  Eigen::AlignedBox<double, 3> box;
-  for (const Vector3& position : net.positions) box.extend(position);
-  return box.isEmpty() ? 1 : box.diagonal().norm();
-}
 
 /// The places of the moving nodes, as precise as a start need be.
 std::vector<Eigen::Vector3f> rounded(const Net& net) {
@@ -134,35 +130,42 @@ class Run {
 
   /// Corrections that take a surface for flat and even may lead nowhere where it has folds. The flow of the plain
   /// iteration, with all that it depends on, may lead somewhere: from the shape that was reached, from where some
-  /// sweeps take the start, from a soap film or from the start itself.
+  /// sweeps take the start, from a soap film, from the start itself or from where very many sweeps take it.
   void try_flow(const std::vector<Vector3>& start) {
-    const std::size_t last = hierarchy_.count() - 1;
-    Net& net = hierarchy_.net(last);
-    const Reached best = reached(last);
-    const auto from_start = [&](int sweeps) {
+    Net& net = hierarchy_.net(hierarchy_.count() - 1);
+    const auto sweep_from_start = [&](std::size_t sweeps) {
       net.positions = start;
       Sweep sweep(net, model_, team_);
-      for (int k = 0; k < sweeps; ++k) (void)sweep.iterate();
+      for (std::size_t k = 0; k < sweeps && !context_.cancelled(); ++k) {
+        if (sweep.iterate() < still) break;
+      }
     };
-    const std::function<void()> starts[] = {[] {}, [&] { from_start(10); }, [&] { hierarchy_.forget_shape(last); },
-                                            [&] { from_start(0); }, [&] { from_start(1000); }};
+    const std::function<void()> starts[] = {[] {}, [&] { sweep_from_start(10); },
+                                            [&] { hierarchy_.forget_shape(hierarchy_.count() - 1); },
+                                            [&] { sweep_from_start(0); }, [&] { sweep_from_start(1000); }};
     int left = static_cast<int>(most_node_steps / net.moving);
     const int at_once = std::clamp(left / 3, fewest_steps, most_steps);
     for (const auto& go_to_start : starts) {
       if (left < at_once) break;
-      go_to_start();
       const int before = report_.iterations;
-      relax(last, at_once,
-            [&](const EquilibriumTask& task) { return follow_flow(net, model_, task, team_, context_); });
+      if (follow_flow_from(go_to_start, at_once)) return;
       left -= report_.iterations - before;
-      if (report_.outcome == Outcome::converged) return;
-      const bool cancelled = report_.outcome == Outcome::cancelled;
-      go_back(last, best);
-      if (cancelled) {
-        report_.outcome = Outcome::cancelled;
-        return;
-      }
     }
+    (void)follow_flow_from([&] { sweep_from_start(most_node_sweeps / net.moving); }, at_once);
+  }
+
+  /// False, and what there was before, where that leads nowhere.
+  bool follow_flow_from(const std::function<void()>& go_to_start, int steps) {
+    const std::size_t last = hierarchy_.count() - 1;
+    Net& net = hierarchy_.net(last);
+    const Reached best = reached(last);
+    go_to_start();
+    relax(last, steps, [&](const EquilibriumTask& task) { return follow_flow(net, model_, task, team_, context_); });
+    if (report_.outcome == Outcome::converged) return true;
+    const bool cancelled = report_.outcome == Outcome::cancelled;
+    go_back(last, best);
+    if (cancelled) report_.outcome = Outcome::cancelled;
+    return cancelled;
   }
 
   /// A level too coarse for the shape to have an equilibrium, or to have the right one, hands up what is no help: then

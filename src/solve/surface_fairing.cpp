@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "solve/account.hpp"
+#include "solve/equilibrium.hpp"
 #include "solve/equilibrium_method.hpp"
 #include "solve/fair_boundary.hpp"
 #include "solve/multigrid_method.hpp"
@@ -68,6 +69,19 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
   return result;
 }
 
+std::optional<FairPreview> SurfaceFairing::preview(const Constraints& constraints) {
+  if (!last_ || !hold_the_same(*last_, constraints) || !follow(constraints)) return std::nullopt;
+  Net& net = hierarchy_->net(hierarchy_->count() - 1);
+  const std::optional<double> correction = correct_once(net, *model_, hierarchy_->kept_preconditioner(), team_);
+  if (!correction) {
+    last_.reset();
+    return std::nullopt;
+  }
+  last_ = constraints;
+  return FairPreview{scatter_positions(net, whole_->positions(), constraints, options_.strength),
+                     *correction / diagonal(net)};
+}
+
 Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report) {
   part_ = moving_part(*whole_, constraints);
   meter_.reset();
@@ -108,17 +122,22 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   return net;
 }
 
-bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, FairReport& report) {
+bool SurfaceFairing::follow(const Constraints& constraints) {
   const Net& net = hierarchy_->net(hierarchy_->count() - 1);
   for (const Index node : net.node) {
     // What is wrong there is said where all is looked at.
     if (constraints.position_fixed(node) && !constraints.position(node).allFinite()) return false;
   }
   if (part_) part_->constraints = constraints_of(constraints, part_->node);
+  hierarchy_->follow(constraints, *model_);
+  return true;
+}
+
+bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, FairReport& report) {
   report.method = Method::equilibrium;
   ProgressReporter progress(context);
   report.threads = team_.size();
-  hierarchy_->follow(constraints, *model_);
+  if (!follow(constraints)) return false;
   run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, options_, team_, context, progress,
                             report);
   return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;

@@ -18,6 +18,7 @@ export interface CoreShape {
 }
 
 export interface CoreSurface extends CoreShape {
+  preview(): number | null;
   holdNormal(node: number, x: number, y: number, z: number): void;
   heldNormals(): HeldNormals;
   faceCount(): number;

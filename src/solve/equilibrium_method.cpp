@@ -39,7 +39,7 @@ constexpr int fewest_steps = 20;
 constexpr int most_steps = 100;
 constexpr std::size_t most_node_steps = 200'000;
 // The last resort: sweeps until hardly anything moves, as a share of the edges.
-constexpr std::size_t most_node_sweeps = 50'000'000;
+constexpr std::size_t most_node_sweeps = 30'000'000;
 constexpr double still = 1e-9;
 // The cosine of 60°.
 constexpr double sharpest_turn = 0.5;

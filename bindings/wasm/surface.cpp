@@ -85,8 +85,8 @@ class Surface {
   }
   /// From the last shape, where that leads somewhere.
   val follow(const val& progress) { return solve(progress); }
-  /// The last shape after what holds it, corrected once. Returns by how much at most, as a share of the diagonal of what
-  /// moves; null where follow() would not start from that shape.
+  /// The last shape after what holds it, corrected once. Returns by how much at most, as a share of the diagonal of
+  /// what moves; null where follow() would not start from that shape.
   val preview() {
     return forwarding_errors([&] {
       std::optional<FairPreview> preview;

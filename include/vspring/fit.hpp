@@ -80,8 +80,8 @@ struct FitResult {
 /// of the same faces, and of theirs). A point whose nearest node at the start is none of the shape's that move or are
 /// looked at in moving pulls at nothing. On surfaces nodes whose normal is more than 90° from the point's own, where it
 /// has one, do not count: of the two sides of a thin wall each has its own points. Where no node is left in reach the
-/// point pulls at nothing. Faces need not look outwards: if points are clearly nearer with all normals turned round, they
-/// are, with a warning.
+/// point pulls at nothing. Faces need not look outwards: if points are clearly nearer with all normals turned round,
+/// they are, with a warning.
 ///
 /// Constraints hold as in fair(), whose result comes out, bit for bit, if no point has weight. A closed shape may be
 /// held by points alone, though its nodes can then slide, see docs/fit.md; boundaries and ends must be held all the

@@ -89,7 +89,7 @@ std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distributi
     if (!smaller || selection.moving < too_few) break;
     triangulation = Triangulation(triangulation, selection.nodes, selection.number, team);
     SurfaceLevel level{coarse_net(fine, selection, triangulation), std::move(selection.nodes), std::move(removals)};
-    distribute(level.net, model, distribution, team);
+    distribute(level.net, model, distribution, team, false);
     levels.push_back(std::move(level));
     if (levels.back().net.moving <= few_enough) break;
   }

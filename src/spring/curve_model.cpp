@@ -44,7 +44,7 @@ struct CurveRulesOf {
   }
 
   /// By the lengths of the edges, which noise does not turn round as it does the edges themselves.
-  void present_shares(const Net& net, std::size_t i, std::span<double> shares) const {
+  void present_shares(const Net& net, std::size_t i, bool /*unfold*/, std::span<double> shares) const {
     const auto links = net.rings.links(i);
     double whole = 0;
     for (std::size_t k = 0; k < links.size(); ++k) {

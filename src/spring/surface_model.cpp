@@ -28,9 +28,9 @@ struct SurfaceRules {
 
   /// Of all shares of sum 1 that leave the node in its place across the normal, those nearest to even ones: share_j =
   /// 1/m − (d_j − mean)·a. Negative ones of a node that noise has put outside its neighbours, so that faces lie upside
-  /// down, would drive nodes apart: then all are raised to a tenth of an even one at least, and the node goes in among
-  /// its neighbours.
-  void present_shares(const Net& net, std::size_t i, std::span<double> shares) const {
+  /// down, would drive nodes apart: to unfold these all are raised to a tenth of an even one at least, and the node
+  /// goes in among its neighbours.
+  void present_shares(const Net& net, std::size_t i, bool unfold, std::span<double> shares) const {
     const auto links = net.rings.links(i);
     const Vector3& normal = net.normals[i];
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -56,6 +56,7 @@ struct SurfaceRules {
     for (std::size_t k = 0; k < links.size(); ++k) {
       if (links[k].spoke()) shares[k] = 1 / spokes - (across(links[k]) - mean).dot(a);
     }
+    if (!unfold) return;
     const double least = spokes * *std::min_element(shares.begin(), shares.end());
     // Beside larger polygons, and with three neighbours, a node may rightly lie outside these.
     const auto around = static_cast<double>(links.size());

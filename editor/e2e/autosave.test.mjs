@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { dragFrom, find, rulesOf, saved, Session, settled } from './support.mjs';
+import { drag, find, rulesOf, saved, Session, settled } from './support.mjs';
 
 let session;
 let context;
@@ -55,7 +55,7 @@ test('a reload after a crash', async () => {
   await page.locator('#name', { hasText: 'mine.obj' }).waitFor();
   await settled(page);
   const held = await find(page, /position fixed/, [0.02, 0.55], [0.5, 0.55]);
-  await dragFrom(page, held, -20, -40);
+  await drag(page, held, -20, -40);
   await drop(page, 'one.csv', 'x,y,z\n0.7,0,0.2\n');
   await page.locator('#fit-figures').filter({ hasText: 'one.csv: 1 points · at most' }).waitFor();
   await settled(page);

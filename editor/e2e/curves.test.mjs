@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { downloaded, find, greatestDistance, native, root, rulesOf, Session, settled } from './support.mjs';
+import { drag, find, greatestDistance, native, root, rulesOf, saved, Session, settled } from './support.mjs';
 
 let session;
 let page;
@@ -31,24 +31,10 @@ async function opened(name) {
   await page.locator('#name', { hasText: name }).waitFor();
 }
 
-async function saved(format) {
-  if (format) await page.getByLabel('File format').selectOption(format);
-  return downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
-}
-
 // Places of a table of numbers, or of OBJ.
 function placesOf(path) {
   return readFileSync(path, 'utf8').split('\n').map((line) => line.replace(/^v /, '').split(/[\s,]+/).filter(Boolean).map(Number))
     .filter((row) => row.length >= 2 && row.every(Number.isFinite)).map(([x, y, z = 0]) => [x, y, z]);
-}
-
-async function dragFrom({ x, y }, across, down, held = async () => {}) {
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  for (let k = 1; k <= 8; ++k) await page.mouse.move(x + (across * k) / 8, y + (down * k) / 8);
-  await held();
-  await page.mouse.up();
-  await settled(page);
 }
 
 // The pointer away from the view, so that the footer names nothing that was under it before.
@@ -69,13 +55,13 @@ test('a plane curve is seen from above, dragged in its plane, and saved as the n
   await opened('wave.csv');
   await settled(page);
   assert.match(await page.locator('#size').textContent(), /61 nodes, open curve/);
-  const untouched = placesOf((await saved()).path);
+  const untouched = placesOf((await saved(page)).path);
   const free = await find(page, /free/, [0.35, 0.02], [0.35, 0.98]);
   await page.mouse.click(free.x, free.y);
   await page.keyboard.press('f');
   await settled(page);
   const still = await page.locator('#plot path.second').getAttribute('d');
-  await dragFrom(free, 30, -90, async () => {
+  await drag(page, free, 30, -90, async () => {
     await page.locator('#status', { hasText: 'frames/s' }).waitFor();
     await page.waitForFunction((d) => document.querySelector('#plot path.second').getAttribute('d') !== d, still);
   });
@@ -83,7 +69,7 @@ test('a plane curve is seen from above, dragged in its plane, and saved as the n
   const place = JSON.parse(rules).rules.at(-1).position[0];
   assert.equal(place[2], 0, 'it stays in the plane of the file');
 
-  const { name, path } = await saved();
+  const { name, path } = await saved(page);
   assert.equal(name, 'wave-fair.csv');
   assert.match(readFileSync(path, 'utf8'), /^x,y\n/);
   const ours = placesOf(path);
@@ -95,15 +81,15 @@ test('a plane curve is seen from above, dragged in its plane, and saved as the n
   await settled(page);
   await page.keyboard.press('z');
   await settled(page);
-  assert.ok(greatestDistance(placesOf((await saved()).path), untouched) < 1e-12);
+  assert.ok(greatestDistance(placesOf((await saved(page)).path), untouched) < 1e-12);
 });
 
 test('every format of curves is read and written; a closed one is held where nodes are fixed', async () => {
   await opened('wave.dat');
   await settled(page);
-  const wave = placesOf((await saved()).path);
-  for (const format of ['csv', 'obj', 'xyz']) assert.deepEqual(placesOf((await saved(format)).path), wave);
-  assert.match(readFileSync((await saved('svg')).path, 'utf8'), /<svg/);
+  const wave = placesOf((await saved(page)).path);
+  for (const format of ['csv', 'obj', 'xyz']) assert.deepEqual(placesOf((await saved(page, format)).path), wave);
+  assert.match(readFileSync((await saved(page, 'svg')).path, 'utf8'), /<svg/);
   assert.ok(greatestDistance(wave, faired('wave.dat', await rulesOf(page))) < 1e-4);
   await page.goto(`${session.address}?file=files/ring.xyz`);
   await page.locator('#name', { hasText: 'ring.xyz' }).waitFor();
@@ -127,7 +113,7 @@ test('every format of curves is read and written; a closed one is held where nod
   await settled(page);
   const rules = await rulesOf(page);
   assert.equal(JSON.parse(rules).rules.at(-1).tangent, 'fixed');
-  const { path } = await saved();
+  const { path } = await saved(page);
   assert.match(path && readFileSync(path, 'utf8'), /\nl /);
   assert.ok(greatestDistance(placesOf(path), faired('ring.obj', rules)) < 1e-4);
 });
@@ -188,11 +174,11 @@ test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as t
   assert.match(await page.locator('#size').textContent(), /61 nodes, open curve/);
   const rules = await rulesOf(page);
   assert.deepEqual(JSON.parse(rules).rules.at(-1).position.map(([, , z]) => z), [0, 0, 0, 0]);
-  assert.ok(greatestDistance(placesOf((await saved('csv')).path), fairedThrough(rules, 61, [])) < 1e-4);
+  assert.ok(greatestDistance(placesOf((await saved(page, 'csv')).path), fairedThrough(rules, 61, [])) < 1e-4);
 
   await leave();
   const held = await find(page, /position fixed/, [0.3, 0.3], [0.31, 0.3]);  // where it was drawn
-  await dragFrom(held, 10, 40);
+  await drag(page, held, 10, 40);
   const pulled = await rulesOf(page);
   assert.notEqual(pulled, rules);
 
@@ -200,7 +186,7 @@ test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as t
   await page.locator('#size', { hasText: '80 nodes, closed curve' }).waitFor();
   await settled(page);
   assert.deepEqual(JSON.parse(await rulesOf(page)).rules.at(-1).position, JSON.parse(pulled).rules.at(-1).position);
-  const ours = placesOf((await saved('xyz')).path).slice(0, 80);  // the first once more at the end
+  const ours = placesOf((await saved(page, 'xyz')).path).slice(0, 80);  // the first once more at the end
   assert.ok(greatestDistance(ours, fairedThrough(pulled, 80, [], '--closed').slice(0, 80)) < 1e-4);
 
   await page.getByLabel('Nodes a span').fill('10');
@@ -215,8 +201,10 @@ test('the tangent at an end is given by numbers, tilted by its arrow, and free a
   await drawn([[0.2, 0.6], [0.4, 0.5], [0.6, 0.6]], () => page.keyboard.press('Enter'));
   const box = await page.locator('#canvas').boundingBox();
   const end = { x: box.x + 0.2 * box.width, y: box.y + 0.6 * box.height };
+  await leave();
+  await find(page, /Node 0 /, [0.19, 0.6], [0.21, 0.6]);
   await page.mouse.click(end.x, end.y);
-  assert.equal(await page.locator('#picked').textContent(), 'Node 0');
+  await page.locator('#picked', { hasText: /^Node 0$/ }).waitFor();
   for (const [part, number] of [['x', '0'], ['y', '1'], ['z', '0']]) await page.getByLabel(`Tangent ${part}`).fill(number);
   await page.keyboard.press('Enter');
   await page.getByRole('button', { name: 'Undo' }).and(page.locator('[title*="Tilt tangent of node 0"]')).waitFor();
@@ -228,19 +216,19 @@ test('the tangent at an end is given by numbers, tilted by its arrow, and free a
     await page.mouse.move(end.x + (k % 2), end.y - 0.87 * length);
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   }
-  await dragFrom({ x: end.x, y: end.y - 0.87 * length }, length, 0, () => page.locator('#status', { hasText: 'frames/s' }).waitFor());
+  await drag(page, { x: end.x, y: end.y - 0.87 * length }, length, 0, () => page.locator('#status', { hasText: 'frames/s' }).waitFor());
   const rules = await rulesOf(page);
   const [tangent] = JSON.parse(rules).rules.find((rule) => Array.isArray(rule.tangent)).tangent;
   for (const part of tangent.slice(0, 2)) assert.ok(Math.abs(part - Math.SQRT1_2) < 0.02, `${tangent}`);
   assert.equal(tangent[2], 0);
-  const ours = placesOf((await saved('csv')).path);
+  const ours = placesOf((await saved(page, 'csv')).path);
   assert.ok(greatestDistance(ours, fairedThrough(rules, 41, [{ nodes: [0], tangent }])) < 1e-4);
 
   await page.mouse.click(end.x, end.y);
   await page.keyboard.press('Shift+N');
   await settled(page);
   assert.equal(JSON.parse(await rulesOf(page)).rules.at(-1).tangent, 'free');
-  assert.ok(greatestDistance(placesOf((await saved('csv')).path), ours) > 0.01);
+  assert.ok(greatestDistance(placesOf((await saved(page, 'csv')).path), ours) > 0.01);
 });
 
 test('a click on the first node closes, a double click ends, Escape gives up', async () => {
@@ -273,7 +261,7 @@ test('boundary loops are faired first, then the surface, as --fair-boundary does
   await chooser.setFiles({ name: 'held.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify({ rules: [{ nodes, position: 'fixed' }] })) });
   await page.locator('[title^="Undo: Load constraints"]').waitFor();
   await settled(page);
-  const drawnIn = placesOf((await saved('obj')).path);
+  const drawnIn = placesOf((await saved(page, 'obj')).path);
   const first = page.getByRole('button', { name: 'Fair its loops first' });
   await first.click();
   await settled(page);
@@ -281,7 +269,7 @@ test('boundary loops are faired first, then the surface, as --fair-boundary does
   await leave();
   let held;
   for (let y = 0.4; !held; y += 0.06) held = await find(page, /position fixed/, [0.06, y], [0.5, y]).catch(() => null);
-  await dragFrom(held, -10, -40);
+  await drag(page, held, -10, -40);
 
   const rules = await rulesOf(page);
   assert.ok(nodes.includes(JSON.parse(rules).rules.at(-1).nodes[0]));
@@ -289,7 +277,7 @@ test('boundary loops are faired first, then the surface, as --fair-boundary does
   writeFileSync(file, rules);
   native('fair', input, '-o', out, '--constraints', file, '--fair-boundary', '--quiet');
   const vertices = (path) => placesOf(path).slice(0, 169);
-  const ours = vertices((await saved('obj')).path);
+  const ours = vertices((await saved(page, 'obj')).path);
   assert.ok(greatestDistance(ours, vertices(out)) < 2e-4, `${greatestDistance(ours, vertices(out))}`);
   assert.ok(greatestDistance(ours, drawnIn.slice(0, 169)) > 0.01);
   await page.keyboard.press('k');
@@ -312,6 +300,6 @@ for (const [label, file, size] of [
     assert.deepEqual(JSON.parse(await rulesOf(page)), JSON.parse(readFileSync(rules, 'utf8')));
     const out = join(session.folder, `fair-${file}`);
     native('curve', input, '-o', out, '--constraints', rules, '--quiet');
-    assert.ok(greatestDistance(placesOf((await saved()).path), placesOf(out)) < 3e-4);
+    assert.ok(greatestDistance(placesOf((await saved(page)).path), placesOf(out)) < 3e-4);
   });
 }

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { downloaded, drag, find, greatestDistance, native, nodesOf, root, rulesOf, Session, settled } from './support.mjs';
+import { drag, find, greatestDistance, native, nodesOf, root, rulesOf, saved, Session, settled } from './support.mjs';
 
 let session;
 let page;
@@ -23,11 +23,6 @@ afterEach(async () => {
 
 const leftRim = [[0.02, 0.55], [0.5, 0.55]];
 const inside = [[0.5, 0.7], [0.5, 0.6]];
-
-async function saved(format) {
-  await page.getByLabel('File format').selectOption(format);
-  return downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
-}
 
 async function loadConstraints(rules) {
   const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Load…' }).click()]);
@@ -52,12 +47,12 @@ test('a node is dragged, undone and redone; the file is what the native program 
   await settled(page);
   assert.equal(await rulesOf(page), untouched);
   assert.ok(await page.getByRole('button', { name: 'Undo' }).isDisabled());
-  const before = nodesOf(readFileSync((await saved('obj')).path, 'utf8'));
+  const before = nodesOf(readFileSync((await saved(page, 'obj')).path, 'utf8'));
   await page.getByRole('button', { name: 'Redo' }).click();
   await settled(page);
   assert.equal(await rulesOf(page), dragged);
 
-  const { name, path } = await saved('obj');
+  const { name, path } = await saved(page, 'obj');
   assert.equal(name, 'annulus-fair.obj');
   const rules = join(session.folder, 'rules.json');
   const fair = join(session.folder, 'fair.obj');
@@ -71,7 +66,7 @@ test('a node is dragged, undone and redone; the file is what the native program 
   await page.reload();
   await settled(page);
   await loadConstraints(dragged);
-  assert.deepEqual(readFileSync((await saved('obj')).path), readFileSync(path), 'the same bits without the drag');
+  assert.deepEqual(readFileSync((await saved(page, 'obj')).path), readFileSync(path), 'the same bits without the drag');
 });
 
 test('a node inside is picked and fixed by key, dragged, freed again; constraints are loaded from a file', async () => {
@@ -132,12 +127,12 @@ test('a long solution is cancelled with the best shape so far', async () => {
 });
 
 test('boundary normals change the shape; the boundary set free is refused in the words of the library, and undone', async () => {
-  const before = nodesOf(readFileSync((await saved('obj')).path, 'utf8'));
+  const before = nodesOf(readFileSync((await saved(page, 'obj')).path, 'utf8'));
   const normals = page.getByRole('button', { name: 'Normals fixed' });
   await normals.click();
   await settled(page);
   assert.equal(await normals.getAttribute('aria-pressed'), 'true');
-  const shape = nodesOf(readFileSync((await saved('obj')).path, 'utf8'));
+  const shape = nodesOf(readFileSync((await saved(page, 'obj')).path, 'utf8'));
   assert.ok(greatestDistance(before, shape) > 0.05);
   await page.getByRole('button', { name: 'Positions fixed' }).click();
   await page.getByRole('alert').filter({ hasText: 'nothing holds the component' }).waitFor();
@@ -148,7 +143,7 @@ test('boundary normals change the shape; the boundary set free is refused in the
 
 test('files: every format comes out; a malformed one is named and leaves the surface open', async () => {
   for (const [format, begin] of [['off', /^OFF/], ['ply', /^ply/], ['stl', /./s]]) {
-    const { name, path } = await saved(format);
+    const { name, path } = await saved(page, format);
     assert.equal(name, `annulus-fair.${format}`);
     assert.match(readFileSync(path, 'latin1'), begin);
   }

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { downloaded, greatestDistance, native, nodesOf, root, Session, settled } from './support.mjs';
+import { greatestDistance, native, nodesOf, root, saved, Session, settled } from './support.mjs';
 
 let session;
 before(async () => { session = await Session.start(); });
@@ -42,7 +42,7 @@ test('figures of the paper: the shapes are those of its commands, and Figs. 8(C)
   await page.locator('#name', { hasText: 'figure-8' }).waitFor();
   await settled(page);
   assert.equal(await page.getByRole('button', { name: 'Normals fixed' }).getAttribute('aria-pressed'), 'true');
-  const { path } = await downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
+  const { path } = await saved(page);
   const fair = join(session.folder, 'fair.obj');
   native('fair', join(root, 'examples/figure-8.obj'), '-o', fair, '--fix-normals', 'boundary', '--quiet');
   const same = (ours) => assert.ok(greatestDistance(...[ours, fair].map((file) => nodesOf(readFileSync(file, 'utf8')))) < 6e-5);
@@ -52,7 +52,7 @@ test('figures of the paper: the shapes are those of its commands, and Figs. 8(C)
   await settled(page);
   const [patch, points] = ['obj', 'xyz'].map((format) => join(root, `examples/figure-12.${format}`));
   native('fit', patch, '--points', points, '-o', fair, '--weight', '0.01', '--quiet');
-  same((await downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click())).path);
+  same((await saved(page)).path);
   await page.close();
   assert.deepEqual(faults, []);
 });

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { downloaded, find, greatestDistance, native, nodesOf, rulesOf, Session, settled } from './support.mjs';
+import { find, greatestDistance, native, nodesOf, rulesOf, saved, Session, settled } from './support.mjs';
 
 const status = (page) => page.locator('#status');
 
@@ -38,7 +38,7 @@ test('after a solution is given up without shared memory, what is changed and sa
     await status(page).filter({ hasText: 'cancelled' }).waitFor();
     await page.getByRole('button', { name: 'Normals fixed' }).click();
     await settled(page);
-    const { path } = await downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
+    const { path } = await saved(page);
     const [rules, fair] = [join(session.folder, 'rules.json'), join(session.folder, 'fair.obj')];
     writeFileSync(rules, await rulesOf(page));
     native('fair', input, '-o', fair, '--constraints', rules, '--quiet');

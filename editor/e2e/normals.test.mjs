@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { dragFrom, find, greatestDistance, native, nodesOf, root, rulesOf, saved, Session, settled } from './support.mjs';
+import { drag, find, greatestDistance, native, nodesOf, root, rulesOf, saved, Session, settled } from './support.mjs';
 
 let session;
 let page;
@@ -97,7 +97,7 @@ test('picked normals tilt together; a tilt that is given up leaves nothing behin
   await settled(page);
   assert.equal(await rulesOf(page), untouched);
 
-  await dragFrom(page, await headOf(held), -15, 3);
+  await drag(page, await headOf(held), -15, 3);
   const rule = JSON.parse(await rulesOf(page)).rules.at(-1);
   assert.ok(rule.nodes.length > 10);
   const [first] = rule.normal;

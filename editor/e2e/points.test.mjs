@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { dragFrom, find, greatestDistance, native, nodesOf, rulesOf, saved, Session, settled } from './support.mjs';
+import { drag, find, greatestDistance, native, nodesOf, rulesOf, saved, Session, settled } from './support.mjs';
 
 let session;
 before(async () => { session = await Session.start(); });
@@ -64,7 +64,7 @@ test('a surface is drawn towards points, by every kind of fit, as the native pro
 
   // Held nodes are dragged along with the fit.
   const held = await find(page, /position fixed/, [0.02, 0.5], [0.6, 0.5]);
-  await dragFrom(page, held, 0, -20);
+  await drag(page, held, 0, -20);
   const pulled = await compare('--weight', '0.05');
   assert.ok(greatestDistance(pulled, weighted) > 0.005 * size);
   await page.keyboard.press('Control+z');

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { downloaded, greatestDistance, native, nodesOf, rulesOf, Session, settled } from './support.mjs';
+import { greatestDistance, native, nodesOf, rulesOf, saved, Session, settled } from './support.mjs';
 
 let session;
 let page;
@@ -149,8 +149,7 @@ test('only the picked region is faired: the saved constraints give the same with
   await page.locator(`[title^="Undo: Fair only ${picked} nodes"]`).waitFor();
   await settled(page);
   const rules = await rulesOf(page);
-  const { path: saved } = await downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
-  const ours = nodesOf(readFileSync(saved, 'utf8'));
+  const ours = nodesOf(readFileSync((await saved(page)).path, 'utf8'));
 
   const [constraints, region] = ['region-rules.json', 'region.json'].map((name) => join(session.folder, name));
   writeFileSync(constraints, rules);

@@ -59,11 +59,12 @@ export async function settled(page, outcome = 'converged') {
   await page.locator('#status', { hasText: outcome }).waitFor({ timeout: 60_000 });
 }
 
-// From a place on the view, with the left button down.
-export async function drag(page, { x, y }, across, down) {
+// From a place on the view, with the left button down. held: what happens before it is let go.
+export async function drag(page, { x, y }, across, down, held = async () => {}) {
   await page.mouse.move(x, y);
   await page.mouse.down();
   for (let k = 1; k <= 8; ++k) await page.mouse.move(x + (across * k) / 8, y + (down * k) / 8);
+  await held();
   await page.mouse.up();
   await settled(page);
 }
@@ -101,15 +102,8 @@ export function greatestDistance(a, b) {
   return Math.max(...a.map((place, n) => Math.hypot(...place.map((part, i) => part - b[n][i]))));
 }
 
-export async function dragFrom(page, { x, y }, across, down) {
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  for (let k = 1; k <= 8; ++k) await page.mouse.move(x + (across * k) / 8, y + (down * k) / 8);
-  await page.mouse.up();
-  await settled(page);
-}
-
-export async function saved(page, format = 'obj') {
-  await page.getByLabel('File format').selectOption(format);
+// format: of the file, or the one that is chosen.
+export async function saved(page, format) {
+  if (format) await page.getByLabel('File format').selectOption(format);
   return downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
 }

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { downloaded, find, greatestDistance, native, nodesOf, root, Session, settled } from './support.mjs';
+import { find, greatestDistance, native, nodesOf, root, saved, Session, settled } from './support.mjs';
 
 let session;
 let page;
@@ -21,11 +21,6 @@ afterEach(async () => {
 async function open(file) {
   ({ page, faults } = await session.open(`?file=${file}`));
   await settled(page);
-}
-
-async function saved() {
-  const { path } = await downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
-  return path;
 }
 
 function scalarsOf(path, ...options) {
@@ -81,7 +76,7 @@ test('deviation is how far nodes lie from the input along its normal', async () 
   await page.mouse.up();
   await settled(page);
   await page.locator('#legend .marks').filter({ hasText: /≥ 0\.\d/ }).waitFor();
-  const heights = nodesOf(readFileSync(await saved(), 'utf8')).map(([, , z]) => z);
+  const heights = nodesOf(readFileSync((await saved(page)).path, 'utf8')).map(([, , z]) => z);
   const { node } = await find(page, /free · deviation/, [0.38, 0.55], [0.38, 0.75]);
   const value = numberOf((await page.locator('#node').textContent()).split(' ').at(-1));
   near(Math.abs(value), Math.abs(heights[node]), 0.001, `node ${node}`);
@@ -93,20 +88,20 @@ test('between input and result: what is saved is what --strength makes; a drag s
   await open('examples/annulus.obj');
   const save = page.getByRole('button', { name: 'Save as' });
   assert.doesNotMatch(await save.getAttribute('title'), /%/);
-  const whole = nodesOf(readFileSync(await saved(), 'utf8'));
+  const whole = nodesOf(readFileSync((await saved(page)).path, 'utf8'));
   const strength = page.getByLabel('Strength');
   await strength.focus();
   await page.keyboard.press('End');
   for (let k = 0; k < 40; ++k) await page.keyboard.press('ArrowLeft');
   assert.equal(await page.locator('#share').textContent(), '60 %');
   assert.match(await save.getAttribute('title'), /60 % of the way from the input/);
-  const ours = nodesOf(readFileSync(await saved(), 'utf8'));
+  const ours = nodesOf(readFileSync((await saved(page)).path, 'utf8'));
   const path = join(session.folder, 'strength.obj');
   native('fair', join(root, 'examples/annulus.obj'), '-o', path, '--strength', '0.6', '--quiet');
   assert.ok(greatestDistance(ours, nodesOf(readFileSync(path, 'utf8'))) < 6e-5);
   assert.ok(greatestDistance(ours, whole) > 0.01);
   await strength.press('Home');
-  assert.deepEqual(nodesOf(readFileSync(await saved(), 'utf8')), nodesOf(readFileSync(join(root, 'examples/annulus.obj'), 'utf8')), 'the input itself');
+  assert.deepEqual(nodesOf(readFileSync((await saved(page)).path, 'utf8')), nodesOf(readFileSync(join(root, 'examples/annulus.obj'), 'utf8')), 'the input itself');
 
   await page.locator('#canvas').focus();
   const held = await find(page, /position fixed/, [0.02, 0.55], [0.5, 0.55]);
@@ -116,5 +111,5 @@ test('between input and result: what is saved is what --strength makes; a drag s
   await page.keyboard.press('Escape');
   await page.mouse.up();
   await settled(page);
-  assert.deepEqual(nodesOf(readFileSync(await saved(), 'utf8')), whole);
+  assert.deepEqual(nodesOf(readFileSync((await saved(page)).path, 'utf8')), whole);
 });

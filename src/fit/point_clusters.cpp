@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
+#include <tuple>
 
 namespace vspring {
 
@@ -33,8 +33,11 @@ struct Place {
   std::uint64_t cell;
   std::uint32_t way;
   std::uint32_t point;
-  auto operator<=>(const Place&) const = default;
 };
+
+bool operator<(const Place& a, const Place& b) {
+  return std::tie(a.cell, a.way, a.point) < std::tie(b.cell, b.way, b.point);
+}
 
 }  // namespace
 

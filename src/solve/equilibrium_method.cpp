@@ -55,6 +55,15 @@ std::vector<Eigen::Vector3f> rounded(const Net& net) {
   return result;
 }
 
+/// Whether so little holds it that spheres of many sizes are fair: an equilibrium is one of a family then, and nothing
+/// to be found by steps to a single one.
+bool leaves_a_family(const Net& net) {
+  constexpr std::size_t fixes_a_sphere = 4;
+  std::size_t known = net.positions.size() - net.moving;
+  for (std::size_t i = 0; i < net.positions.size() && known < fixes_a_sphere; ++i) known += net.normal_given(i) ? 2 : 0;
+  return known < fixes_a_sphere;
+}
+
 class Run {
  public:
   Run(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
@@ -97,8 +106,8 @@ class Run {
     const int limit = options_.max_iterations.value_or(default_limit);
     const std::size_t last = hierarchy_.count() - 1;
     const Net& finest = hierarchy_.net(last);
-    const bool may_follow_flow =
-        !points_ && !options_.max_iterations && finest.tangents.empty() && finest.moving <= few_enough_to_follow;
+    const bool may_follow_flow = !points_ && !options_.max_iterations && finest.tangents.empty() &&
+                                 finest.moving <= few_enough_to_follow && !leaves_a_family(finest);
     const std::vector<Vector3> start = may_follow_flow ? finest.positions : std::vector<Vector3>();
     hierarchy_.start();
     std::vector<Eigen::Vector3f> own_start;

@@ -115,7 +115,7 @@ TEST(Constraints, WhatLeavesAFamilyOfShapesIsWarnedOf) {
 }
 
 TEST(Constraints, AClosedSurfaceHeldAtOneNodeEndsInOneOfTheFamily) {
-  const PolygonMesh block = generate::genus({.holes = 0, .cells = 4});
+  const PolygonMesh block = generate::genus({.holes = 0, .cells = 6});
   Constraints constraints(block.node_count());
   constraints.fix_position(0, block.position(0));
   const FairResult result = fair(block, constraints);

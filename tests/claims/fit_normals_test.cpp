@@ -136,9 +136,9 @@ TEST(FitNormals, HoldOnAllLevelsAndForTolerances) {
 
 TEST(FitNormals, MayAllBeTheOtherWayRound) {
   const PolygonMesh plane = generate::plane({.columns = 12, .rows = 12});
+  const PolygonMesh dense = generate::plane({.columns = 30, .rows = 30});
   ScatteredPoints points;
-  for (const Vector3& p : generate::plane({.columns = 30, .rows = 30}).positions())
-    points.positions.emplace_back(p.x(), p.y(), 0.1 * bump(p));
+  for (const Vector3& p : dense.positions()) points.positions.emplace_back(p.x(), p.y(), 0.1 * bump(p));
   const FitResult plain = fit(plane, held_boundary(plane), points, weight(0.1));
   for (const double way : {1.0, -1.0}) {
     points.normals.assign(points.positions.size(), Vector3(0, 0, ThinWall::upwards(plane) ? way : -way));

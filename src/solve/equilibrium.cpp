@@ -20,7 +20,7 @@ constexpr std::size_t nodes_per_task = 2048;
 constexpr double greatest_turn = 0.3;
 // Iterations that do not get nearer, with steps of full length, before rounding is taken to have the last word.
 constexpr int patience = 12;
-// Of an accelerated step, what steps after it leave at most where they are on their way.
+// Of an accelerated step, what the next one will be at most where they are on their way.
 constexpr double greatest_rate = 0.5;
 // Of the error by corrections alone, where the accelerated step says that there is less.
 constexpr double least_share = 0.5;
@@ -95,7 +95,7 @@ class Solver {
       if (expected < task.tolerance && turn <= greatest_turn) {
         const double step = largest_correction();
         const double left = last_step > 0 ? std::min(step / last_step, greatest_rate) : greatest_rate;
-        const double error = std::max({step / (1 - left), least_share * expected, rounding});
+        const double error = std::max({step * (1 + left), least_share * expected, rounding});
         if (error < task.tolerance) {
           if (last_changes < task.most_changes && renew_ties(false)) {
             ++last_changes;

@@ -18,7 +18,6 @@ export interface CoreShape {
 }
 
 export interface CoreSurface extends CoreShape {
-  preview(): number | null;
   holdNormal(node: number, x: number, y: number, z: number): void;
   heldNormals(): HeldNormals;
   faceCount(): number;

@@ -7,12 +7,8 @@ import type { Drag, Solved } from './protocol';
 import { Pull } from './pull';
 import { turned } from './turning';
 
-// For which a pointer stays before it is taken to rest, in milliseconds.
-const pause = 150;
-
 export class Drags {
   private pull: Pull | null = null;
-  private rest: ReturnType<typeof setTimeout> | undefined;
   /** The one that the pointer has taken. */
   node = -1;
 
@@ -38,7 +34,6 @@ export class Drags {
   /** way: from where the drag began; of normals a turn. */
   by(way: Vector, time: number): void {
     if (!this.pull) return;
-    clearTimeout(this.rest);
     this.pull.aim(way, time);
     if (this.pull.part !== 'position') this.editor.turnNormals(this.pull.nodes, this.pull.vectors);
     this.solver.push({ drag: this.pull.step() });
@@ -59,13 +54,8 @@ export class Drags {
   solved(drag: Drag, { report }: Solved): void {
     if (!this.pull) return;
     // A fit starts from the input, however long the step.
-    this.pull.solved(drag, report.fit ? { ...report, iterations: 0 } : report);
+    this.pull.solved(drag, report.fit ? 0 : report.iterations);
     if (!this.pull.arrived) this.solver.push({ drag: this.pull.step() });
-    else if (report.outcome === 'preview') this.rest = setTimeout(() => this.solveExactly(), pause);
-  }
-
-  private solveExactly(): void {
-    if (this.pull) this.solver.push({ drag: { ...this.pull.step(), exact: true } });
   }
 }
 

@@ -24,7 +24,6 @@ export interface OpenedCurve extends OpenedShape {
 
 export type Opened = OpenedSurface | OpenedCurve;
 
-/** outcome: as of the command line, or 'preview': the shape has been corrected once, and by expectedError at most. */
 export interface Report {
   outcome: string;
   iterations: number;
@@ -48,8 +47,6 @@ export interface Drag {
   way: Vector;
   /** When the pointer was there, in milliseconds as of performance.now(). */
   time: number;
-  /** The equilibrium, for a pointer that rests; otherwise a look at where it will be does. */
-  exact?: boolean;
 }
 
 export type FitKind = 'smoothingLength' | 'within' | 'rms' | 'weight';

@@ -2,18 +2,11 @@
 // steps, as long as lately took few iterations.
 
 import type { Part, Vector } from './constraints';
-import type { Drag, Report } from './protocol';
+import type { Drag } from './protocol';
 
 // Beyond 30 the library fairs anew, which takes many times as long.
 const few = 8;
 const many = 15;
-
-// Of a preview, in which a step that is short enough leaves little to correct.
-const small = 1e-3;
-const large = 5e-3;
-
-/** What tells how hard a step was. */
-type Effort = Pick<Report, 'outcome' | 'iterations' | 'expectedError'>;
 
 export class Pull {
   private target: Vector = [0, 0, 0];
@@ -56,15 +49,9 @@ export class Pull {
     return { part: this.part, nodes: Int32Array.from(this.nodes), vectors: this.at(way), way, time: share < 1 ? -Infinity : this.time };
   }
 
-  /** A step is made. */
-  solved({ way }: Drag, effort: Effort): void {
+  /** A step is made; iterations: that it took. */
+  solved({ way }: Drag, iterations: number): void {
     this.there = way;
-    if (this.stepwise) this.longest = Math.min(this.size, this.longest * growth(effort));
+    if (this.stepwise) this.longest = Math.min(this.size, this.longest * (iterations <= few ? 2 : iterations > many ? 0.5 : 1));
   }
-}
-
-/** Of the longest step. */
-function growth({ outcome, iterations, expectedError }: Effort): number {
-  const [value, easy, hard] = outcome === 'preview' ? [expectedError!, small, large] : [iterations, few, many];
-  return value <= easy ? 2 : value > hard ? 0.5 : 1;
 }

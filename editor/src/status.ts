@@ -20,11 +20,9 @@ function ofSolution({ report, dragging, frames, showsInput, shape }: Editor): st
   if (showsInput) return 'The input';
   if (!report) return '';
   const { outcome, iterations, expectedError, seconds } = report;
-  const share = expectedError === null ? '' : `${short(Number((100 * expectedError).toPrecision(2)))} %`;
-  const time = `${Math.round(1000 * seconds)} ms`;
+  const error = expectedError === null ? '' : ` · expected error ${short(Number((100 * expectedError).toPrecision(2)))} %`;
   const rate = dragging ? ` · ${Math.round(frames.perSecond(performance.now()))} frames/s` : '';
-  if (outcome === 'preview') return `following · corrected by ${share} · ${time}${rate}`;
-  return `${outcome} · ${count(iterations, 'iteration')}${share && ` · expected error ${share}`} · ${time}${rate}`;
+  return `${outcome} · ${count(iterations, 'iteration')}${error} · ${Math.round(1000 * seconds)} ms${rate}`;
 }
 
 function ofNode({ atArrow, hovered, held, normals, shape }: Editor, field: Field | null): string {
@@ -47,7 +45,7 @@ export function describe(editor: Editor, field: Field | null): void {
   const { shape, fault, held, picked, fileWarnings, report, busy, fraction, dragging } = editor;
   part('name').textContent = editor.name;
   part('status').textContent = ofSolution(editor);
-  part('status').classList.toggle('doubtful', !editor.showsInput && report !== null && !['converged', 'preview'].includes(report.outcome));
+  part('status').classList.toggle('doubtful', !editor.showsInput && report !== null && report.outcome !== 'converged');
   part('node').textContent = ofNode(editor, field);
   const strength = part('strength') as HTMLInputElement;
   strength.disabled = !shape;

@@ -97,7 +97,7 @@ const handlers: Handlers = {
     hold(target, { rules, fairBoundary, fit });
     const normals = rules !== undefined ? heldDirections(target) : undefined;
     if (drag) holdAt(target, drag);
-    const report = drag ? fits.follow(target, drag.exact ?? false, progress) : fits.fair(target, progress);
+    const report = drag ? fits.follow(target, progress) : fits.fair(target, progress);
     if (!drag && report.outcome !== 'cancelled') settled = JSON.stringify([rules, fairBoundary, fit]);
     return { positions: target.positions(), report, normals };
   },

@@ -40,7 +40,8 @@ class FairingSession {
   /// A look at the shape of these constraints between two calls of fair(), for the frames of a drag: the last shape
   /// follows the held nodes and is corrected once, nothing is measured, and the next call starts from there. Each look
   /// corrects what the one before left, so that a slow drag stays near the equilibrium. Takes half the time of fair()
-  /// where that starts from the last shape; nothing where that would fair anew. Nodes and normals must be finite.
+  /// where that starts from the last shape. Nothing where that would fair anew, and where a node was to be corrected by
+  /// 0.05 % of the diagonal or more: then fair() is due. Nodes and normals must be finite.
   [[nodiscard]] std::optional<FairPreview> preview(const Constraints& constraints);
 
  private:

@@ -20,6 +20,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Of a preview, as a share of the diagonal. One correction after the other, without what fair() makes of several, may
+// lead away from the equilibrium.
+constexpr double small_correction = 5e-4;
+
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 bool hold_the_same(const Constraints& a, const Constraints& b) {
@@ -78,8 +82,9 @@ std::optional<FairPreview> SurfaceFairing::preview(const Constraints& constraint
     return std::nullopt;
   }
   last_ = constraints;
-  return FairPreview{scatter_positions(net, whole_->positions(), constraints, options_.strength),
-                     *correction / diagonal(net)};
+  const double share = *correction / diagonal(net);
+  if (!(share < small_correction)) return std::nullopt;
+  return FairPreview{scatter_positions(net, whole_->positions(), constraints, options_.strength), share};
 }
 
 Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report) {

@@ -66,7 +66,7 @@ TEST(FairingSession, PreviewsStayNearWhatIsDragged) {
   const double size = diagonal(one.mesh);
   std::vector<Vector3> last = first.positions;
   for (int step = 0; step < 10; ++step) {
-    one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0.002, 0.001, 0.004));
+    one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0.0004, 0.0002, 0.0008));
     const std::optional<FairPreview> preview = session.preview(one.constraints);
     ASSERT_TRUE(preview);
     EXPECT_EQ(preview->positions[static_cast<std::size_t>(one.node)], one.constraints.position(one.node));
@@ -81,6 +81,9 @@ TEST(FairingSession, PreviewsStayNearWhatIsDragged) {
   const FairResult anew = fair(one.mesh, one.constraints, options);
   const double error = *result.report.expected_error + *anew.report.expected_error;
   EXPECT_LT(greatest_distance(result.positions, anew.positions), 3 * error * size);
+  one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0, 0, 0.05));
+  EXPECT_FALSE(session.preview(one.constraints)) << "too far";
+  EXPECT_EQ(session.fair(one.constraints).report.outcome, Outcome::converged);
   one.constraints.free_position(one.node);
   EXPECT_FALSE(session.preview(one.constraints)) << "other nodes are held";
 }

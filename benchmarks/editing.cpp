@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
-#include <optional>
 #include <vector>
 
 #include "flat_cap.hpp"
@@ -23,26 +21,6 @@ constexpr int steps = 20;
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
   return values[values.size() / 2];
-}
-
-/// Previews of as many steps, and how far the last ones stay behind, as a share of a step.
-struct Previews {
-  double seconds;
-  double behind;
-};
-
-Previews time_previews(FairingSession& session, Constraints constraints, Index node, double step) {
-  std::vector<double> seconds;
-  double behind = 0;
-  for (int k = 0; k < steps; ++k) {
-    constraints.fix_position(node, constraints.position(node) + Vector3(0, 0, k % 10 < 5 ? step : -step));
-    const auto begin = std::chrono::steady_clock::now();
-    const std::optional<FairPreview> preview = session.preview(constraints);
-    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-    if (preview && k == steps / 4 - 1)
-      behind = greatest_distance(preview->positions, session.fair(constraints).positions) / step;
-  }
-  return {median(seconds), behind};
 }
 
 /// Of 20 steps there and back, of a share of the diagonal each.
@@ -65,12 +43,10 @@ void drag(const char* what, const PolygonMesh& mesh, Constraints constraints, In
     seconds.push_back(result.report.seconds);
     iterations += result.report.iterations;
   }
-  const Previews previews = time_previews(session, constraints, node, share * size);
   std::vector<double> anew;
   for (int k = 0; k < 5; ++k) anew.push_back(fair(mesh, constraints, {}, context).report.seconds);
-  fmt::print("| {} | {:.1f} % | {} | {:.1f} | {:.1f} | {:.1f} | {:.3f} | {:.1f} |\n", what, 100 * share, threads,
-             1000 * median(seconds), 1.0 * iterations / steps, 1000 * previews.seconds, previews.behind,
-             1000 * median(anew));
+  fmt::print("| {} | {:.1f} % | {} | {:.1f} | {:.1f} | {:.1f} |\n", what, 100 * share, threads, 1000 * median(seconds),
+             1.0 * iterations / steps, 1000 * median(anew));
 }
 
 struct Timed {
@@ -110,9 +86,8 @@ int main(int argc, char** argv) {
     if ((annulus.position(i) - middle).norm() < (annulus.position(inside) - middle).norm()) inside = i;
   }
   fmt::print(
-      "| dragged, of 14,962 nodes | step, of the diagonal | threads | ms | iterations | preview, ms | behind by, of a "
-      "step | anew, ms "
-      "|\n|---|---|---|---|---|---|---|---|\n");
+      "| dragged, of 14,962 nodes | step, of the diagonal | threads | ms | iterations | anew, ms "
+      "|\n|---|---|---|---|---|---|\n");
   for (const int threads : {1, 2}) {
     drag("a node of the rim", annulus, clamped, rim, 0.001, threads);
     drag("a node inside", annulus, clamped, inside, 0.001, threads);

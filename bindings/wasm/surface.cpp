@@ -85,17 +85,6 @@ class Surface {
   }
   /// From the last shape, where that leads somewhere.
   val follow(const val& progress) { return solve(progress); }
-  /// The last shape after what holds it, corrected once. Returns by how much at most, as a share of the diagonal of
-  /// what moves; null where follow() would not start from that shape.
-  val preview() {
-    return forwarding_errors([&] {
-      std::optional<FairPreview> preview;
-      if (session_) preview = session_->preview(*constraints_);
-      if (!preview) return val::null();
-      positions_ = std::move(preview->positions);
-      return val(preview->correction);
-    });
-  }
 
   /// From the file's shape, drawn towards points. With the report come `fit`, its figures, and `distances` of the
   /// points from the shape, in units of the file.
@@ -192,7 +181,6 @@ EMSCRIPTEN_BINDINGS(vspring_surface) {
       .function("heldNormals", &Surface::held_normals)
       .function("fair", &Surface::fair)
       .function("follow", &Surface::follow)
-      .function("preview", &Surface::preview)
       .function("fit", &Surface::fit)
       .function("region", &Surface::region)
       .function("curvatures", &Surface::curvatures)

@@ -1,19 +1,10 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <vector>
 
 #include "vspring/fair.hpp"
 
 namespace vspring {
-
-/// A shape on its way.
-struct FairPreview {
-  std::vector<Vector3> positions;
-  double correction =
-      0;  ///< the largest distance that a node was corrected by, as a share of the diagonal of what moves
-};
 
 /// Fairs one mesh again and again while somebody moves its constraints: levels, equations and their factors are kept,
 /// and each shape starts from the one before.
@@ -36,13 +27,6 @@ class FairingSession {
   /// of the mesh.
   [[nodiscard]] FairResult fair(const Constraints& constraints, Context& context);
   [[nodiscard]] FairResult fair(const Constraints& constraints);
-
-  /// A look at the shape of these constraints between two calls of fair(), for the frames of a drag: the last shape
-  /// follows the held nodes and is corrected once, nothing is measured, and the next call starts from there. Each look
-  /// corrects what the one before left, so that a slow drag stays near the equilibrium. Takes half the time of fair()
-  /// where that starts from the last shape. Nothing where that would fair anew, and where a node was to be corrected by
-  /// 0.05 % of the diagonal or more: then fair() is due. Nodes and normals must be finite.
-  [[nodiscard]] std::optional<FairPreview> preview(const Constraints& constraints);
 
  private:
   struct State;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <variant>
 
 #include "solve/anderson.hpp"
@@ -91,9 +90,9 @@ class Solver {
       if (task.on_iteration) task.on_iteration(expected);
       const double turn = largest_turn(net_, correction_, team_);
       accelerate(turn);
+      const double step = largest_correction();
       // The last step is not taken: what it says of the shape is true of the shape before it.
       if (expected < task.tolerance && turn <= greatest_turn) {
-        const double step = largest_correction();
         const double left = last_step > 0 ? std::min(step / last_step, greatest_rate) : greatest_rate;
         const double error = std::max({step * (1 + left), least_share * expected, rounding});
         if (error < task.tolerance) {
@@ -107,7 +106,7 @@ class Solver {
         }
       }
       limited = take_step(turn);
-      last_step = limited ? 0 : largest_correction();
+      last_step = limited ? 0 : step;
       if (limited) without_gain = 0;
       before = limited ? 0 : size;
       if (without_gain >= patience) {
@@ -117,14 +116,6 @@ class Solver {
     }
     result.expected_error = std::min(best.restore(), expected);
     return result;
-  }
-
-  std::optional<double> correct_once() {
-    find_correction(0);
-    const double size = largest_correction();
-    if (!std::isfinite(size)) return std::nullopt;
-    (void)take_step(largest_turn(net_, correction_, team_));
-    return size;
   }
 
  private:
@@ -187,10 +178,6 @@ class Solver {
 EquilibriumResult go_to_equilibrium(Net& net, const Model& model, Preconditioner& preconditioner,
                                     const EquilibriumTask& task, ThreadTeam& team, Context& context) {
   return Solver(net, model, preconditioner, team).run(task, context);
-}
-
-std::optional<double> correct_once(Net& net, const Model& model, Preconditioner& preconditioner, ThreadTeam& team) {
-  return Solver(net, model, preconditioner, team).correct_once();
 }
 
 }  // namespace vspring

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
@@ -34,9 +33,5 @@ struct EquilibriumResult {
 /// do not change any more. See docs/solver.md.
 EquilibriumResult go_to_equilibrium(Net& net, const Model& model, Preconditioner& preconditioner,
                                     const EquilibriumTask& task, ThreadTeam& team, Context& context);
-
-/// One correction, made so short that no edge turns much. Returns the largest distance that a node was to go, in the
-/// net's coordinates; nothing, and leaves the shape, where that is not finite.
-std::optional<double> correct_once(Net& net, const Model& model, Preconditioner& preconditioner, ThreadTeam& team);
 
 }  // namespace vspring

@@ -46,9 +46,4 @@ FairResult FairingSession::fair(const Constraints& constraints) {
   return fair(constraints, context);
 }
 
-std::optional<FairPreview> FairingSession::preview(const Constraints& constraints) {
-  if (state_->options.fair_boundary) return std::nullopt;
-  return state_->fairing.preview(constraints);
-}
-
 }  // namespace vspring

@@ -56,10 +56,10 @@ std::vector<std::string> FitSurface::check(std::span<const std::uint8_t> pulled)
 
 Net FitSurface::gather() const { return gather_part(*whole_, part_, *constraints_); }
 
-Fairness FitSurface::fairness(const std::vector<Vector3>& positions) const {
-  PolygonMesh mesh = part_ ? part_->mesh : *whole_;
-  mesh.set_positions(part_ ? values_of(positions, part_->node) : positions);
-  return measure(mesh, part_ ? &part_->constraints : constraints_, *team_);
+Fairness FitSurface::fairness(const std::vector<Vector3>& positions) {
+  const Constraints* held = part_ ? &part_->constraints : constraints_;
+  if (!meter_) meter_.emplace(part_ ? part_->mesh : *whole_, held, *team_);
+  return part_ ? meter_->measure(values_of(positions, part_->node), held) : meter_->measure(positions, held);
 }
 
 std::vector<double> FitSurface::distances(const std::vector<Vector3>& positions) {

@@ -7,6 +7,7 @@
 
 #include "base/threads.hpp"
 #include "constraints/moving_part.hpp"
+#include "fairness/measure.hpp"
 #include "solve/fit_start.hpp"
 #include "spring/curve_net.hpp"
 #include "vspring/distance.hpp"
@@ -29,7 +30,7 @@ class FitSurface {
   [[nodiscard]] Index faces() const { return whole_->face_count(); }
   [[nodiscard]] std::vector<std::string> check(std::span<const std::uint8_t> pulled) const;
   [[nodiscard]] Net gather() const;
-  [[nodiscard]] Fairness fairness(const std::vector<Vector3>& positions) const;
+  [[nodiscard]] Fairness fairness(const std::vector<Vector3>& positions);
   /// Of the points. Held nodes must be where they are held.
   [[nodiscard]] std::vector<double> distances(const std::vector<Vector3>& positions);
   [[nodiscard]] std::vector<double> distances_before();
@@ -44,6 +45,8 @@ class FitSurface {
   const Context* measuring_;
   ThreadTeam* team_;
   std::optional<MovingPart> part_;
+  // From the first figure on.
+  std::optional<FairnessMeter> meter_;
   // From the faces of which no node moves, where only a part does.
   std::vector<double> from_rest_;
 };

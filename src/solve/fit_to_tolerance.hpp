@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "fit/point_factors.hpp"
+#include "solve/account.hpp"
 #include "solve/fit_run.hpp"
 #include "solve/tolerance_fit.hpp"
 #include "vspring/error.hpp"
@@ -33,7 +33,7 @@ class FitToTolerance {
     const double edge = mean_edge(net_of(gathered));
     const auto length = std::make_shared<double>(edge);
     FairOptions options = run_.options.fair;
-    options.tolerance = std::min(options.tolerance, precision * tolerance_ * scale / diagonal_of(net_of(gathered)));
+    options.tolerance = std::min(options.tolerance, precision * tolerance_ * scale / diagonal(net_of(gathered)));
     PulledShape shape(std::move(gathered), options, std::move(points), length, run_.team);
     // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
     const std::vector<Vector3> start = shape.net().positions;
@@ -85,12 +85,6 @@ class FitToTolerance {
   static constexpr double first_lengths[] = {3, 1, 0.3, 0.1};
   // Of a tolerance, to which equilibria are found.
   static constexpr double precision = 1e-3;
-
-  static double diagonal_of(const Net& net) {
-    Eigen::AlignedBox<double, 3> box;
-    for (const Vector3& position : net.positions) box.extend(position);
-    return box.isEmpty() ? 1 : box.diagonal().norm();
-  }
 
   /// What is to be within the tolerance. distances: 0 for points left out.
   [[nodiscard]] double figure_of(const std::vector<double>& distances) const {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "solve/account.hpp"
-#include "solve/equilibrium.hpp"
 #include "solve/equilibrium_method.hpp"
 #include "solve/fair_boundary.hpp"
 #include "solve/multigrid_method.hpp"
@@ -19,10 +18,6 @@ namespace vspring {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// Of a preview, as a share of the diagonal. One correction after the other, without what fair() makes of several, may
-// lead away from the equilibrium.
-constexpr double small_correction = 5e-4;
 
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
@@ -73,20 +68,6 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
   return result;
 }
 
-std::optional<FairPreview> SurfaceFairing::preview(const Constraints& constraints) {
-  if (!last_ || !hold_the_same(*last_, constraints) || !follow(constraints)) return std::nullopt;
-  Net& net = hierarchy_->net(hierarchy_->count() - 1);
-  const std::optional<double> correction = correct_once(net, *model_, hierarchy_->kept_preconditioner(), team_);
-  if (!correction) {
-    last_.reset();
-    return std::nullopt;
-  }
-  last_ = constraints;
-  const double share = *correction / diagonal(net);
-  if (!(share < small_correction)) return std::nullopt;
-  return FairPreview{scatter_positions(net, whole_->positions(), constraints, options_.strength), share};
-}
-
 Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report) {
   part_ = moving_part(*whole_, constraints);
   meter_.reset();
@@ -127,22 +108,17 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   return net;
 }
 
-bool SurfaceFairing::follow(const Constraints& constraints) {
+bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, FairReport& report) {
   const Net& net = hierarchy_->net(hierarchy_->count() - 1);
   for (const Index node : net.node) {
     // What is wrong there is said where all is looked at.
     if (constraints.position_fixed(node) && !constraints.position(node).allFinite()) return false;
   }
   if (part_) part_->constraints = constraints_of(constraints, part_->node);
-  hierarchy_->follow(constraints, *model_);
-  return true;
-}
-
-bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, FairReport& report) {
   report.method = Method::equilibrium;
   ProgressReporter progress(context);
   report.threads = team_.size();
-  if (!follow(constraints)) return false;
+  hierarchy_->follow(constraints, *model_);
   run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, options_, team_, context, progress,
                             report);
   return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;

@@ -11,7 +11,6 @@
 #include "solve/surface_hierarchy.hpp"
 #include "spring/model.hpp"
 #include "vspring/fair.hpp"
-#include "vspring/fairing_session.hpp"
 
 namespace vspring {
 
@@ -28,16 +27,11 @@ class SurfaceFairing {
   /// before and an equilibrium was found then, it starts from there, with what it has.
   FairResult fair_again(const Constraints& constraints, Context& context);
 
-  /// The last shape after the held nodes, corrected once. Nothing where fair_again() would not start from there.
-  std::optional<FairPreview> preview(const Constraints& constraints);
-
  private:
   /// Leaves the shape in the net that it returns, or in hierarchy_.
   Net run(const Constraints& constraints, Context& context, FairReport& report);
   /// From the last shape. False where that leads nowhere.
   bool go_on(const Constraints& constraints, Context& context, FairReport& report);
-  /// Takes the last shape after the held nodes. False where their places cannot be meant.
-  bool follow(const Constraints& constraints);
   void finish(const Net& net, const Constraints& constraints, FairResult& result);
   /// What is worked on: the part that moves, or the whole.
   [[nodiscard]] const PolygonMesh& mesh() const { return part_ ? part_->mesh : *whole_; }

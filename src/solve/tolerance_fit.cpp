@@ -2,7 +2,7 @@
 
 #include "solve/tolerance_fit.hpp"
 
-#include <Eigen/Geometry>
+#include "solve/account.hpp"
 
 namespace vspring {
 
@@ -30,18 +30,12 @@ constexpr double pace_of_all = 2;
 constexpr double least_weight = 1e-9;
 constexpr double most_weight = 1e9;
 
-double size_of(const Net& net) {
-  Eigen::AlignedBox<double, 3> box;
-  for (const Vector3& position : net.positions) box.extend(position);
-  return box.diagonal().norm();
-}
-
 }  // namespace
 
 ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
                                  const std::function<double(const std::vector<double>&)>& tolerated) {
   Net& net = *task.net;
-  const double longest = longest_length * size_of(net);
+  const double longest = longest_length * diagonal(net);
   const double shortest = shortest_length * mean_edge(net);
   ToleranceFitResult result;
   std::vector<Vector3> best = net.positions;

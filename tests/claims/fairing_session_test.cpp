@@ -57,37 +57,6 @@ TEST(FairingSession, FollowsWhatIsDragged) {
   }
 }
 
-TEST(FairingSession, PreviewsStayNearWhatIsDragged) {
-  Dragged one = dragged(3000);
-  const FairOptions options = to(1e-6);
-  FairingSession session(one.mesh, options);
-  EXPECT_FALSE(session.preview(one.constraints)) << "there is no shape to start from";
-  const FairResult first = session.fair(one.constraints);
-  const double size = diagonal(one.mesh);
-  std::vector<Vector3> last = first.positions;
-  for (int step = 0; step < 10; ++step) {
-    one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0.0004, 0.0002, 0.0008));
-    const std::optional<FairPreview> preview = session.preview(one.constraints);
-    ASSERT_TRUE(preview);
-    EXPECT_EQ(preview->positions[static_cast<std::size_t>(one.node)], one.constraints.position(one.node));
-    const FairResult anew = fair(one.mesh, one.constraints, options);
-    const double error = greatest_distance(preview->positions, anew.positions);
-    EXPECT_LT(error, greatest_distance(last, anew.positions) / 10) << "nearer than the shape before";
-    EXPECT_LT(error, 2 * preview->correction * size);
-    last = preview->positions;
-  }
-  const FairResult result = session.fair(one.constraints);
-  EXPECT_EQ(result.report.levels.size(), 1U) << "from the last preview";
-  const FairResult anew = fair(one.mesh, one.constraints, options);
-  const double error = *result.report.expected_error + *anew.report.expected_error;
-  EXPECT_LT(greatest_distance(result.positions, anew.positions), 3 * error * size);
-  one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0, 0, 0.05));
-  EXPECT_FALSE(session.preview(one.constraints)) << "too far";
-  EXPECT_EQ(session.fair(one.constraints).report.outcome, Outcome::converged);
-  one.constraints.free_position(one.node);
-  EXPECT_FALSE(session.preview(one.constraints)) << "other nodes are held";
-}
-
 TEST(FairingSession, FollowsNormalsThatTurn) {
   Dragged one = dragged(3000);
   const FairOptions options = to(1e-6);

@@ -114,25 +114,6 @@ test('follows a node that is dragged, and memory does not grow', () => {
   surface.delete();
 });
 
-test('previews of a drag stay near what is dragged', () => {
-  const surface = opened(generated('preview.obj', 'annulus', '--nodes', '2000'), 'preview.obj');
-  assert.equal(surface.preview(), null, 'there is no shape to start from');
-  surface.fair(null);
-  const node = nodeOfBoundary(surface);
-  const [x, y, z] = surface.positions().slice(3 * node, 3 * node + 3);
-  const before = surface.positions();
-  for (let step = 1; step <= 5; ++step) {
-    surface.holdPosition(node, x, y, z + 0.002 * step);
-    assert.ok(surface.preview() < 1e-3);
-    assert.equal(surface.positions()[3 * node + 2], z + 0.002 * step);
-  }
-  const seen = surface.positions();
-  surface.follow(null);
-  const left = greatestDistance(seen, surface.positions());
-  assert.ok(left < greatestDistance(before, surface.positions()) / 20, `${left}`);
-  surface.delete();
-});
-
 test('what holds a region is what --region holds, and curvatures are those of --scalars', () => {
   const path = generated('saddle.ply', 'saddle', '--columns', '14', '--rows', '14', '--noise', '0.01');
   const surface = opened(path, 'saddle.ply');

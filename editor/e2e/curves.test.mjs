@@ -3,15 +3,10 @@
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { drag, find, greatestDistance, native, root, rulesOf, saved, Session, settled } from './support.mjs';
+import { test } from 'node:test';
+import { choose, drag, find, greatestDistance, native, open, page, placesOf, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
-let session;
-let page;
-let faults;
-
-before(async () => {
-  session = await Session.start();
+useSession(() => {
   const wave = Array.from({ length: 61 }, (_, k) => [k / 10, Math.sin(k / 9) + 0.02 * ((k * 7) % 5)]);
   const ring = Array.from({ length: 48 }, (_, k) => (Math.PI * k) / 24).map((a) => [2 * Math.cos(a), Math.sin(a), 0.4 * Math.sin(2 * a) + 0.02 * Math.cos(11 * a)]);
   const rows = (points, between) => points.map((point) => point.join(between)).join('\n') + '\n';
@@ -20,21 +15,10 @@ before(async () => {
   writeFileSync(join(session.folder, 'ring.xyz'), rows(ring, ' '));
   writeFileSync(join(session.folder, 'ring.obj'), `${ring.map((point) => `v ${point.join(' ')}\n`).join('')}l ${ring.map((_, k) => k + 1).join(' ')} 1\n`);
 });
-after(() => session.stop());
-afterEach(async () => {
-  await page.close();
-  assert.deepEqual(faults, []);
-});
 
 async function opened(name) {
-  ({ page, faults } = await session.open(`?file=files/${name}`));
+  await open(`?file=files/${name}`, { wait: false });
   await page.locator('#name', { hasText: name }).waitFor();
-}
-
-// Places of a table of numbers, or of OBJ.
-function placesOf(path) {
-  return readFileSync(path, 'utf8').split('\n').map((line) => line.replace(/^v /, '').split(/[\s,]+/).filter(Boolean).map(Number))
-    .filter((row) => row.length >= 2 && row.every(Number.isFinite)).map(([x, y, z = 0]) => [x, y, z]);
 }
 
 // The pointer away from the view, so that the footer names nothing that was under it before.
@@ -162,8 +146,7 @@ function fairedThrough(rules, nodes, more, ...options) {
 }
 
 test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as the native program makes it', async () => {
-  ({ page, faults } = await session.open('?file=files/wave.csv'));
-  await page.locator('#name', { hasText: 'wave.csv' }).waitFor();
+  await opened('wave.csv');
   await settled(page);
   await drawn([[0.15, 0.6], [0.3, 0.3], [0.45, 0.9], [0.45, 0.65], [0.6, 0.4]], async () => {
     for (let k = 0; k < 3; ++k) await page.keyboard.press('Backspace');
@@ -196,8 +179,7 @@ test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as t
 });
 
 test('the tangent at an end is given by numbers, tilted by its arrow, and free again', async () => {
-  ({ page, faults } = await session.open());
-  await settled(page);
+  await open();
   await drawn([[0.2, 0.6], [0.4, 0.5], [0.6, 0.6]], () => page.keyboard.press('Enter'));
   const box = await page.locator('#canvas').boundingBox();
   const end = { x: box.x + 0.2 * box.width, y: box.y + 0.6 * box.height };
@@ -232,8 +214,7 @@ test('the tangent at an end is given by numbers, tilted by its arrow, and free a
 });
 
 test('a click on the first node closes, a double click ends, Escape gives up', async () => {
-  ({ page, faults } = await session.open());
-  await settled(page);
+  await open();
   await drawn([[0.2, 0.3], [0.5, 0.25], [0.4, 0.7], [0.2, 0.3]], async () => {});
   assert.match(await page.locator('#size').textContent(), /60 nodes, closed curve/);
   await drawn([[0.2, 0.3], [0.5, 0.25]], async (box) => page.mouse.dblclick(box.x + 0.4 * box.width, box.y + 0.7 * box.height));
@@ -257,8 +238,7 @@ test('boundary loops are faired first, then the surface, as --fair-boundary does
     const [row, column] = [Math.floor(node / 13), node % 13];
     return (row % 12 === 0 || column % 12 === 0) && (row + column) % 4 !== 2;
   });
-  const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Load…' }).click()]);
-  await chooser.setFiles({ name: 'held.json', mimeType: 'application/json', buffer: Buffer.from(JSON.stringify({ rules: [{ nodes, position: 'fixed' }] })) });
+  await choose(page, 'Load…', { name: 'held.json', text: JSON.stringify({ rules: [{ nodes, position: 'fixed' }] }) });
   await page.locator('[title^="Undo: Load constraints"]').waitFor();
   await settled(page);
   const drawnIn = placesOf((await saved(page, 'obj')).path);
@@ -290,8 +270,7 @@ for (const [label, file, size] of [
   ['Aerofoil NACA 2412', 'naca-2412.dat', '61 nodes, open curve'], ['Noisy wave', 'wave.csv', '121 nodes, open curve'], ['Noisy trefoil knot', 'trefoil.obj', '144 nodes, closed curve'],
 ]) {
   test(`the example ${label} comes with what holds it`, async () => {
-    ({ page, faults } = await session.open());
-    await settled(page);
+    await open();
     await page.getByLabel('Example').selectOption({ label });
     await page.locator('#size', { hasText: size }).waitFor();
     await settled(page);

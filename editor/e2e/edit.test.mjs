@@ -6,13 +6,10 @@ import { once } from 'node:events';
 import { copyFileSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
-import { after, before, test } from 'node:test';
-import { drag, find, greatestDistance, native, nodesOf, program, root, rulesOf, Session, settled } from './support.mjs';
+import { test } from 'node:test';
+import { drag, faults, find, greatestDistance, native, nodesOf, open, page, program, root, rulesOf, session, settled, useSession } from './support.mjs';
 
-let session;
-
-before(async () => { session = await Session.start(); });
-after(() => session.stop());
+useSession();
 
 // The program, and the address that it prints.
 async function edited(...options) {
@@ -33,8 +30,7 @@ test('a node is dragged and the file saved back: it is what the command line mak
   const file = join(session.folder, 'my annulus & more.obj');
   copyFileSync(original, file);
   const editor = await edited(file);
-  const { page, faults } = await session.open(editor.address);
-  await settled(page);
+  await open(editor.address);
   assert.equal(await page.locator('#name').textContent(), 'my annulus & more.obj');
   assert.ok(await page.evaluate(() => crossOriginIsolated));
 
@@ -60,14 +56,12 @@ test('a node is dragged and the file saved back: it is what the command line mak
   await again.click();
   await page.getByRole('alert').filter({ hasText: 'is not saved: vspring edit does not answer' }).waitFor();
   faults.length = 0;  // the console says so too
-  await page.close();
 });
 
 test('the result goes to another file and format, and another mesh that is opened does not', async () => {
   const output = join(session.folder, 'out.ply');
   const editor = await edited(session.generated('patch.obj', 'saddle', '--columns', '8', '--rows', '8'), '-o', output);
-  const { page, faults } = await session.open(editor.address);
-  await settled(page);
+  await open(editor.address);
   const save = page.getByRole('button', { name: 'Save to out.ply' });
   await save.click();
   await page.getByRole('button', { name: 'Saved to out.ply' }).waitFor();
@@ -77,8 +71,6 @@ test('the result goes to another file and format, and another mesh that is opene
   await page.locator('#name', { hasText: 'annulus.obj' }).waitFor();
   await settled(page);
   await save.and(page.locator(':disabled')).waitFor();
-  assert.deepEqual(faults, []);
-  await page.close();
   await ended(editor);
 });
 
@@ -87,15 +79,12 @@ test('a curve is saved back as the command line fairs it', async () => {
   const [file, input, fair] = ['arc.csv', 'input.csv', 'fair.csv'].map((name) => join(session.folder, name));
   for (const path of [file, input]) writeFileSync(path, `x,y\n${rows.join('\n')}\n`);
   const editor = await edited(file);
-  const { page, faults } = await session.open(editor.address);
-  await settled(page);
+  await open(editor.address);
   await page.getByRole('button', { name: 'Save to arc.csv' }).click();
   await page.getByRole('button', { name: 'Saved to arc.csv' }).waitFor();
   native('curve', input, '-o', fair, '--quiet');
   const [saved, expected, before] = [file, fair, input].map((path) => readFileSync(path, 'utf8').trim().split('\n').slice(1).map((row) => row.split(',').map(Number)));
   assert.ok(greatestDistance(saved, expected) < 6e-5, `${greatestDistance(saved, expected)}`);  // six times the tolerance of 1e-5, on a size of some 1
   assert.ok(greatestDistance(saved, before) > 0.01);
-  assert.deepEqual(faults, []);
-  await page.close();
   await ended(editor);
 });

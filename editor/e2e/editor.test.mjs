@@ -3,30 +3,17 @@
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { drag, find, greatestDistance, native, nodesOf, root, rulesOf, saved, Session, settled } from './support.mjs';
+import { beforeEach, test } from 'node:test';
+import { choose, drag, drop, faults, find, greatestDistance, native, nodesOf, open, page, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
-let session;
-let page;
-let faults;
-
-before(async () => { session = await Session.start(); });
-after(() => session.stop());
-beforeEach(async () => {
-  ({ page, faults } = await session.open());
-  await settled(page);
-});
-afterEach(async () => {
-  await page.close();
-  assert.deepEqual(faults, []);
-});
+useSession();
+beforeEach(() => open());
 
 const leftRim = [[0.02, 0.55], [0.5, 0.55]];
 const inside = [[0.5, 0.7], [0.5, 0.6]];
 
 async function loadConstraints(rules) {
-  const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Load…' }).click()]);
-  await chooser.setFiles({ name: 'rules.json', mimeType: 'application/json', buffer: Buffer.from(rules) });
+  await choose(page, 'Load…', { name: 'rules.json', text: rules });
   // The file is read, and then what it says is held: undo is for that.
   await page.locator('[title^="Undo: Load constraints"]').waitFor();
   await settled(page);
@@ -147,11 +134,7 @@ test('files: every format comes out; a malformed one is named and leaves the sur
     assert.equal(name, `annulus-fair.${format}`);
     assert.match(readFileSync(path, 'latin1'), begin);
   }
-  const send = async (name, text) => {
-    const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: 'Open…' }).click()]);
-    await chooser.setFiles({ name, mimeType: 'model/obj', buffer: Buffer.from(text) });
-  };
-  await send('bad.obj', 'v 0 0 0\nv 1 0 zero\n');
+  await choose(page, 'Open…', { name: 'bad.obj', text: 'v 0 0 0\nv 1 0 zero\n' });
   const alert = page.getByRole('alert');
   await alert.filter({ hasText: /bad\.obj:2: .*zero/ }).waitFor();
   assert.match(await page.locator('#name').textContent(), /annulus/);
@@ -170,12 +153,7 @@ test('opens a file that an address names, and one that is dropped', async () => 
   await page.goto(`${session.address}?file=files/patch.ply`);
   await settled(page);
   assert.equal(await page.locator('#name').textContent(), 'patch.ply');
-  const data = await page.evaluateHandle(() => {
-    const transfer = new DataTransfer();
-    transfer.items.add(new File(['v 0 0 0\nv 2 0 0\nv 0 2 0\nv 1 1 1\nf 1 2 4\nf 2 3 4\nf 3 1 4\n'], 'tent.obj'));
-    return transfer;
-  });
-  await page.dispatchEvent('body', 'drop', { dataTransfer: data });
+  await drop(page, 'tent.obj', 'v 0 0 0\nv 2 0 0\nv 0 2 0\nv 1 1 1\nf 1 2 4\nf 2 3 4\nf 3 1 4\n');
   await page.locator('#name', { hasText: 'tent.obj' }).waitFor();
   await settled(page);
   assert.match(await page.locator('#size').textContent(), /4 nodes, 3 faces/);

@@ -3,16 +3,13 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { greatestDistance, native, nodesOf, root, saved, Session, settled } from './support.mjs';
+import { test } from 'node:test';
+import { greatestDistance, native, nodesOf, open, page, root, saved, session, settled, useSession } from './support.mjs';
 
-let session;
-before(async () => { session = await Session.start(); });
-after(() => session.stop());
+useSession();
 
 test('every example opens with what holds it, and converges', async () => {
-  const { page, faults } = await session.open();
-  await settled(page);
+  await open();
   const menu = page.getByLabel('Example');
   assert.equal(await menu.locator('option:checked').textContent(), 'Annulus');
   const titles = await menu.locator('optgroup option').allTextContents();
@@ -26,8 +23,6 @@ test('every example opens with what holds it, and converges', async () => {
     assert.ok(await page.getByRole('button', { name: 'Undo' }).isDisabled());
     assert.ok(await page.getByRole('alert').isHidden());
   }
-  await page.close();
-  assert.deepEqual(faults, []);
 });
 
 test('figures of the paper: the shapes are those of its commands, and Figs. 8(C) and 12 are what the native program makes', async () => {
@@ -36,8 +31,7 @@ test('figures of the paper: the shapes are those of its commands, and Figs. 8(C)
     const [ours, theirs] = [join(root, `examples/figure-${number}.obj`), session.generated(`${number}.obj`, ...options)];
     assert.ok(greatestDistance(...[ours, theirs].map((path) => nodesOf(readFileSync(path, 'utf8')))) < 1e-12);
   }
-  const { page, faults } = await session.open('?file=examples/saddle.ply');
-  await settled(page);
+  await open('?file=examples/saddle.ply');
   await page.getByLabel('Example').selectOption({ label: 'Fig. 8(C): normals too' });
   await page.locator('#name', { hasText: 'figure-8' }).waitFor();
   await settled(page);
@@ -53,6 +47,4 @@ test('figures of the paper: the shapes are those of its commands, and Figs. 8(C)
   const [patch, points] = ['obj', 'xyz'].map((format) => join(root, `examples/figure-12.${format}`));
   native('fit', patch, '--points', points, '-o', fair, '--weight', '0.01', '--quiet');
   same((await saved(page)).path);
-  await page.close();
-  assert.deepEqual(faults, []);
 });

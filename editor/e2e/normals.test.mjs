@@ -3,23 +3,11 @@
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { drag, find, greatestDistance, native, nodesOf, root, rulesOf, saved, Session, settled } from './support.mjs';
+import { beforeEach, test } from 'node:test';
+import { drag, find, greatestDistance, native, nodesOf, open, page, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
-let session;
-let page;
-let faults;
-
-before(async () => { session = await Session.start(); });
-after(() => session.stop());
-beforeEach(async () => {
-  ({ page, faults } = await session.open());
-  await settled(page);
-});
-afterEach(async () => {
-  await page.close();
-  assert.deepEqual(faults, []);
-});
+useSession();
+beforeEach(() => open());
 
 const leftRim = [[0.02, 0.55], [0.5, 0.55]];
 

@@ -3,25 +3,10 @@
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { greatestDistance, native, nodesOf, rulesOf, saved, Session, settled } from './support.mjs';
+import { test } from 'node:test';
+import { greatestDistance, native, nodesOf, open, page, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
-let session;
-let page;
-let faults;
-
-before(async () => { session = await Session.start(); });
-after(() => session.stop());
-beforeEach(() => { page = faults = null; });
-afterEach(async () => {
-  await page.close();
-  assert.deepEqual(faults, []);
-});
-
-async function open(file) {
-  ({ page, faults } = await session.open(`?file=${file}`));
-  await settled(page);
-}
+useSession();
 
 const tool = (name) => page.getByRole('toolbar', { name: 'Tools' }).getByRole('button', { name });
 const count = async () => {
@@ -44,7 +29,7 @@ const leftHalf = [[0.01, 0.01], [0.5, 0.99]];
 const rightHalf = [[0.5, 0.01], [0.99, 0.99]];
 
 test('box and lasso: alone, with Shift more, with Alt fewer; clicks and Escape pick nothing', async () => {
-  await open('examples/annulus.obj');
+  await open('?file=examples/annulus.obj');
   await page.keyboard.press('w');
   assert.equal(await tool('Pick in a box').getAttribute('aria-pressed'), 'true');
   await stroke(everything);
@@ -77,7 +62,7 @@ test('box and lasso: alone, with Shift more, with Alt fewer; clicks and Escape p
 
 test('the switch leaves out what is hidden; the brush never paints that, and its size changes', async () => {
   session.generated('ball.ply', 'torus', '--columns', '60', '--rows', '40');
-  ({ page, faults } = await session.open('?file=files/ball.ply'));
+  await open('?file=files/ball.ply', { wait: false });
   await page.getByRole('alert').filter({ hasText: 'nothing holds' }).waitFor();
   await page.keyboard.press('w');
   await stroke(everything);
@@ -110,7 +95,7 @@ test('the switch leaves out what is hidden; the brush never paints that, and its
 test('all, the rest, rings, parts; the toolbar goes by arrow keys', async () => {
   writeFileSync(join(session.folder, 'two.obj'), [0, 3].flatMap((x) => [0, 1, 2, 3].map((y) => `v ${x} ${y} 0\nv ${x + 1} ${y} 0.1\n`)).join('')
     + [0, 8].flatMap((o) => [1, 3, 5].map((n) => `f ${o + n} ${o + n + 1} ${o + n + 3} ${o + n + 2}\n`)).join(''));
-  await open('files/two.obj');
+  await open('?file=files/two.obj');
   await page.keyboard.press('w');
   await stroke(leftHalf);
   const half = await count();
@@ -140,7 +125,7 @@ test('all, the rest, rings, parts; the toolbar goes by arrow keys', async () => 
 
 test('only the picked region is faired: the saved constraints give the same with the native program, as its --region does', async () => {
   const path = session.generated('saddle.obj', 'saddle', '--columns', '24', '--rows', '24', '--noise', '0.01');
-  await open('files/saddle.obj');
+  await open('?file=files/saddle.obj');
   await page.keyboard.press('w');
   await stroke([[0.42, 0.42], [0.58, 0.58]]);
   const picked = await count();
@@ -169,7 +154,7 @@ test('only the picked region is faired: the saved constraints give the same with
 });
 
 test('with a tool in hand the right button turns the view; the wheel zooms, with Shift it moves', async () => {
-  await open('examples/annulus.obj');
+  await open('?file=examples/annulus.obj');
   const picture = async () => (await page.locator('#canvas').screenshot()).toString('base64');
   const changes = async (act) => {
     const before = await picture();
@@ -200,8 +185,7 @@ test('with a tool in hand the right button turns the view; the wheel zooms, with
 });
 
 test('two fingers zoom and move the view, whatever the tool, and pick nothing; one finger does what the tool does', async () => {
-  ({ page, faults } = await session.open('?file=examples/annulus.obj', { hasTouch: true }));
-  await settled(page);
+  await open('?file=examples/annulus.obj', { hasTouch: true });
   const touch = await page.context().newCDPSession(page);
   const send = (type, points) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
   const fingers = async (from, to) => {

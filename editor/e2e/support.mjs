@@ -1,9 +1,11 @@
 // The editor in a real Chromium, served as anyone would serve it; and the native program beside it.
 
+import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { after, afterEach, before, beforeEach } from 'node:test';
 import { chromium } from 'playwright-core';
 import { serve } from '../serve.mjs';
 
@@ -53,6 +55,48 @@ export class Session {
   }
 }
 
+// What the tests of a file have: one session, and the page that a test has opened, with what went wrong in it.
+export let session;
+export let page;
+export let faults;
+
+// To be called once by a file of tests. A page is closed after its test, and nothing may have gone wrong.
+export function useSession(prepare = () => {}) {
+  before(async () => {
+    session = await Session.start();
+    prepare();
+  });
+  after(() => session.stop());
+  beforeEach(() => {
+    page = null;
+    faults = [];
+  });
+  afterEach(async () => {
+    await page?.close();
+    assert.deepEqual(faults, []);
+  });
+}
+
+// address: as Session.open takes it. wait: until what it names is faired.
+export async function open(address, { wait = true, ...options } = {}) {
+  ({ page, faults } = await session.open(address, options));
+  if (wait) await settled(page);
+}
+
+export async function drop(page, name, text, alt = false) {
+  await page.evaluate(([file, content, altKey]) => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([content], file));
+    document.body.dispatchEvent(new DragEvent('drop', { dataTransfer, altKey, bubbles: true, cancelable: true }));
+  }, [name, text, alt]);
+}
+
+// file: a path, or a name and its text.
+export async function choose(page, button, file) {
+  const [chooser] = await Promise.all([page.waitForEvent('filechooser'), page.getByRole('button', { name: button }).click()]);
+  await chooser.setFiles(typeof file === 'string' ? file : { name: file.name, mimeType: 'text/plain', buffer: Buffer.from(file.text) });
+}
+
 // Until nothing is being solved and the last outcome is that.
 export async function settled(page, outcome = 'converged') {
   await page.locator('#progress').waitFor({ state: 'hidden' });
@@ -95,6 +139,12 @@ export async function rulesOf(page) {
 
 export function nodesOf(text) {
   return text.split('\n').filter((line) => line.startsWith('v ')).map((line) => line.split(/\s+/).slice(1, 4).map(Number));
+}
+
+// Places of a file with a table of numbers, or of OBJ.
+export function placesOf(path) {
+  return readFileSync(path, 'utf8').split('\n').map((line) => line.replace(/^v /, '').split(/[\s,]+/).filter(Boolean).map(Number))
+    .filter((row) => row.length >= 2 && row.every(Number.isFinite)).map(([x, y, z = 0]) => [x, y, z]);
 }
 
 export function greatestDistance(a, b) {

@@ -3,25 +3,10 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { after, afterEach, before, beforeEach, test } from 'node:test';
-import { find, greatestDistance, native, nodesOf, root, saved, Session, settled } from './support.mjs';
+import { test } from 'node:test';
+import { find, greatestDistance, native, nodesOf, open, page, root, saved, session, settled, useSession } from './support.mjs';
 
-let session;
-let page;
-let faults;
-
-before(async () => { session = await Session.start(); });
-after(() => session.stop());
-beforeEach(() => { page = faults = null; });
-afterEach(async () => {
-  await page.close();
-  assert.deepEqual(faults, []);
-});
-
-async function open(file) {
-  ({ page, faults } = await session.open(`?file=${file}`));
-  await settled(page);
-}
+useSession();
 
 function scalarsOf(path, ...options) {
   const file = join(session.folder, 'scalars.vtp');
@@ -36,7 +21,7 @@ const quantile = (values, share) => values.slice().sort((a, b) => a - b)[Math.ro
 const near = (a, b, share, what) => assert.ok(Math.abs(a - b) <= share * Math.max(Math.abs(a), Math.abs(b)) + 1e-9, `${what}: ${a}, ${b}`);
 
 test('curvatures have the values of --scalars, at nodes and in the legend; their colours are those of the result', async () => {
-  await open('examples/pipe-blend.obj');
+  await open('?file=examples/pipe-blend.obj');
   const path = join(session.folder, 'fair.obj');
   native('fair', join(root, 'examples/pipe-blend.obj'), '-o', path, '--quiet');
   const scalars = scalarsOf(path);
@@ -67,7 +52,7 @@ test('curvatures have the values of --scalars, at nodes and in the legend; their
 
 test('deviation is how far nodes lie from the input along its normal', async () => {
   session.generated('plane.obj', 'plane', '--columns', '16', '--rows', '16');
-  await open('files/plane.obj');
+  await open('?file=files/plane.obj');
   await page.keyboard.press('6');
   await page.locator('#legend').waitFor();
   const held = await find(page, /position fixed/, [0.38, 0.5], [0.38, 1]);
@@ -85,7 +70,7 @@ test('deviation is how far nodes lie from the input along its normal', async () 
 });
 
 test('between input and result: what is saved is what --strength makes; a drag shows the result again', async () => {
-  await open('examples/annulus.obj');
+  await open('?file=examples/annulus.obj');
   const save = page.getByRole('button', { name: 'Save as' });
   assert.doesNotMatch(await save.getAttribute('title'), /%/);
   const whole = nodesOf(readFileSync((await saved(page)).path, 'utf8'));

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "points.hpp"
 #include "region.hpp"
 #include "values.hpp"
 
@@ -125,6 +126,11 @@ class Curve {
     });
   }
 
+  /// From the file's shape, drawn towards points.
+  val fit(const Points& points, const val& settings, const val& progress) {
+    return fit_to(points, settings, progress, file_.curve, *constraints_, positions_);
+  }
+
   /// The bytes of a file of that name, with the last shape; a picture has the first one behind.
   [[nodiscard]] val write(const std::string& name) const {
     return forwarding_errors([&] {
@@ -174,6 +180,7 @@ EMSCRIPTEN_BINDINGS(vspring_curve) {
       .function("resample", &Curve::resample)
       .function("fair", &Curve::fair)
       .function("follow", &Curve::fair)
+      .function("fit", &Curve::fit)
       .function("write", &Curve::write)
       .function("setPositions", &Curve::set_positions);
 }

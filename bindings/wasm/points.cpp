@@ -8,6 +8,8 @@ Points::Points(const val& bytes, const std::string& name) {
   forwarding_errors([&] { points_ = read_from(bytes, name, read_points); });
 }
 
+Points Points::at(const val& positions) { return Points(ScatteredPoints{.positions = vectors_of(positions)}); }
+
 FitOptions options_of(const val& settings) {
   const auto number = [&](const char* key) -> std::optional<double> {
     const val value = settings[key];
@@ -43,6 +45,7 @@ val to_val(const FitResult& result) {
 EMSCRIPTEN_BINDINGS(vspring_points) {
   emscripten::class_<vspring::Points>("Points")
       .constructor<vspring::val, std::string>()
+      .class_function("at", &vspring::Points::at)
       .function("positions", &vspring::Points::positions)
       .function("weighted", &vspring::Points::weighted);
 }

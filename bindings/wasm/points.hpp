@@ -3,22 +3,28 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "values.hpp"
 
 namespace vspring {
 
-/// The points of a file.
+/// The points of a file, or given ones.
 class Points {
  public:
   /// bytes: a Uint8Array. name: of the file, for its format and for messages.
   Points(const val& bytes, const std::string& name);
+  /// Three numbers each.
+  static Points at(const val& positions);
 
   [[nodiscard]] const ScatteredPoints& points() const { return points_; }
   [[nodiscard]] val positions() const { return positions_array(points_.positions); }
   [[nodiscard]] bool weighted() const { return !points_.weights.empty(); }
 
  private:
+  explicit Points(ScatteredPoints points) : points_(std::move(points)) {}
+
   ScatteredPoints points_;
 };
 
@@ -27,5 +33,20 @@ FitOptions options_of(const val& settings);
 
 /// The report of fairing with `fit`, figures of the points, and `distances`.
 val to_val(const FitResult& result);
+
+/// From the file's shape, drawn towards points: the new positions. With the report come `fit`, its figures, and
+/// `distances` of the points from the shape, in units of the file.
+template <typename Shape>
+val fit_to(const Points& points, const val& settings, const val& progress, const Shape& shape,
+           const Constraints& constraints, std::vector<Vector3>& positions) {
+  return forwarding_errors([&] {
+    Context context;
+    context.threads = 1;
+    ask(context, progress);
+    FitResult result = fit(shape, constraints, points.points(), options_of(settings), context);
+    positions = std::move(result.positions);
+    return to_val(result);
+  });
+}
 
 }  // namespace vspring

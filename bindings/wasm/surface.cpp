@@ -86,18 +86,11 @@ class Surface {
   /// From the last shape, where that leads somewhere.
   val follow(const val& progress) { return solve(progress); }
 
-  /// From the file's shape, drawn towards points. With the report come `fit`, its figures, and `distances` of the
-  /// points from the shape, in units of the file.
+  /// From the file's shape, drawn towards points.
   val fit(const Points& points, const val& settings, const val& progress) {
-    return forwarding_errors([&] {
-      Context context;
-      context.threads = 1;
-      ask(context, progress);
-      FitResult result = vspring::fit(file_.mesh, *constraints_, points.points(), options_of(settings), context);
-      session_.reset();
-      positions_ = std::move(result.positions);
-      return to_val(result);
-    });
+    val report = fit_to(points, settings, progress, file_.mesh, *constraints_, positions_);
+    session_.reset();
+    return report;
   }
 
   /// What must hold besides for only those nodes to move: `fixed`, nodes that stay where the file has them, and `rim`

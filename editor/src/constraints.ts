@@ -25,7 +25,7 @@ export interface Constraints {
   readonly edits: Readonly<Record<number, Edit>>;
   /** Of surfaces, and in no file: boundary nodes whose position is free are faired first, as curves. */
   readonly fairBoundary?: boolean;
-  /** In no file either: points that the surface is drawn towards. */
+  /** In no file either: points that the shape is drawn towards. */
   readonly fit?: Fit;
 }
 

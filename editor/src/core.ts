@@ -11,6 +11,7 @@ export interface CoreShape {
   holdPosition(node: number, x: number, y: number, z: number): void;
   fair(progress: ((fraction: number) => boolean) | null): Report;
   follow(progress: ((fraction: number) => boolean) | null): Report;
+  fit(points: CorePoints, settings: object, progress: (fraction: number) => boolean): Report;
   region(nodes: Int32Array): Region;
   setPositions(positions: Float64Array): void;
   write(name: string): Uint8Array;
@@ -24,7 +25,6 @@ export interface CoreSurface extends CoreShape {
   faceBegin(): Int32Array;
   corners(): Int32Array;
   curvatures(positions: Float64Array): Curvatures;
-  fit(points: CorePoints, settings: object, progress: (fraction: number) => boolean): Report;
   setFairBoundary(first: boolean): void;
 }
 
@@ -44,7 +44,7 @@ export interface CoreCurve extends CoreShape {
 }
 
 export interface Core {
-  Points: new (bytes: Uint8Array, name: string) => CorePoints;
+  Points: (new (bytes: Uint8Array, name: string) => CorePoints) & { at(positions: Float64Array): CorePoints };
   Surface: new (bytes: Uint8Array, name: string) => CoreSurface;
   Curve: (new (bytes: Uint8Array, name: string) => CoreCurve) & { through(places: Float64Array, closed: boolean): CoreCurve };
 }

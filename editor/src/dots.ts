@@ -1,4 +1,4 @@
-// Scattered points, coloured by their distance from the surface.
+// Scattered points, coloured by their distance from the shape.
 
 import { BufferAttribute, BufferGeometry, type Color, Points, PointsMaterial } from 'three';
 import { sequential } from '../../page/colours.js';
@@ -6,7 +6,7 @@ import { sequential } from '../../page/colours.js';
 const most = 200_000;
 
 export class Dots {
-  readonly object = new Points(new BufferGeometry(), new PointsMaterial({ size: 4, sizeAttenuation: false, vertexColors: true }));
+  readonly object = new Points(new BufferGeometry(), new PointsMaterial({ size: 5, sizeAttenuation: false, vertexColors: true }));
   private plain: number[] = [0.5, 0.5, 0.5];
   private outside: number[] = [1, 0, 0];
   private shown: { places: Float32Array; distances: Float64Array | null; limit: number } | null = null;
@@ -30,10 +30,6 @@ export class Dots {
     this.plain = colour('--quiet').toArray();
     this.outside = colour('--alert').toArray();
     if (this.shown) this.set(this.shown.places, this.shown.distances, this.shown.limit);
-  }
-
-  scale(ratio: number): void {
-    this.object.material.size = 4 * ratio;
   }
 
   private colourOf(share: number): number[] {

@@ -7,7 +7,7 @@ import { Drags } from './drags';
 import { FrameCounter } from './frames';
 import { begun, done, redone, undone, type History } from './history';
 import type { NamedBytes } from './files';
-import type { Cloud } from './points';
+import type { Cloud, PointSource } from './points';
 import type { Ask, FitJob, Job, Opened, Report, Solved } from './protocol';
 import { restricted } from './region';
 import { normalNear, nothing, shapeOf, type Shape } from './shape';
@@ -185,7 +185,7 @@ export class Editor {
     this.apply('Load constraints', { ...constraints, fit: this.constraints.fit });
   }
 
-  async cloudOf({ name, bytes }: NamedBytes): Promise<Cloud> {
+  async cloudOf({ name, bytes }: PointSource): Promise<Cloud> {
     const number = ++this.clouds;
     const { positions } = await this.client.ask('points', { number, name, bytes });
     return { number, name, bytes, positions };

@@ -1,6 +1,6 @@
 // What the worker knows of scattered points, and how the shape follows with them.
 
-import type { Core, CoreCurve, CorePoints, CoreSurface } from './core';
+import type { CorePoints, CoreShape } from './core';
 import type { FitJob, Report } from './protocol';
 
 type Progress = (fraction: number) => boolean;
@@ -13,8 +13,7 @@ export class Fits {
   private found: number | null = null;
   private follows = true;
 
-  read(core: Core, number: number, name: string, bytes: Uint8Array): Float64Array {
-    const points = new core.Points(bytes, name);
+  add(number: number, points: CorePoints): Float64Array {
     this.clouds.set(number, points);
     return points.positions();
   }
@@ -30,9 +29,9 @@ export class Fits {
   }
 
   /** From the input, drawn towards the points if there are some. */
-  fair(shape: CoreSurface | CoreCurve, progress: Progress): Report {
+  fair(shape: CoreShape, progress: Progress): Report {
     this.follows = true;
-    if (!this.now || !('fit' in shape)) return shape.fair(progress);
+    if (!this.now) return shape.fair(progress);
     const { kind, value, outliers, points } = this.now;
     const report = shape.fit(this.clouds.get(points)!, { [kind]: value, outliers }, progress);
     this.found = report.fit!.smoothingLength;
@@ -40,10 +39,10 @@ export class Fits {
   }
 
   /** In a drag: a tolerance by the smoothing length that it came to, and without points where that is slow. */
-  follow(shape: CoreSurface | CoreCurve, progress: Progress): Report {
+  follow(shape: CoreShape, progress: Progress): Report {
     const { now, found } = this;
     const settings = now && (now.kind === 'weight' ? { weight: now.value } : found !== null && { smoothingLength: found });
-    if (!now || !settings || !this.follows || !('fit' in shape)) return shape.follow(progress);
+    if (!now || !settings || !this.follows) return shape.follow(progress);
     const report = shape.fit(this.clouds.get(now.points)!, settings, progress);
     this.follows = report.seconds < quick;
     return report;

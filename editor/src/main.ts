@@ -242,7 +242,7 @@ function toolChanged(): void {
 bindStrength(document.querySelector('#strength')!, (share, settled) => editor.setStrength(share, settled));
 rove(document.querySelector('[role=toolbar]')!);
 acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, (file, alt) => {
-  if (editor.shape && !isCurve() && arePoints(file.name, alt)) void points.load(file);
+  if (editor.shape && arePoints(file.name, alt, isCurve())) void points.load(file);
   else open(file);
 });
 startTheme(() => view.restyle());

@@ -1,13 +1,19 @@
-// Scattered points that the surface is drawn towards: how, in the panel, and how far they are from it.
+// Scattered points that the shape is drawn towards: how, in the panel, and how far they are from it.
 
 import { short } from '../../page/numbers.js';
 import type { Command } from './commands';
 import type { Editor } from './editor';
-import { choose, type NamedBytes } from './files';
+import { choose } from './files';
 import type { FitKind, FitSettings, Report } from './protocol';
 
-/** The points of a file, as the worker knows them by their number. */
-export interface Cloud extends NamedBytes {
+/** Of a file; without bytes the nodes of the input. */
+export interface PointSource {
+  name: string;
+  bytes: Uint8Array | null;
+}
+
+/** Points as the worker knows them by their number. */
+export interface Cloud extends PointSource {
   number: number;
   positions: Float64Array;
 }
@@ -18,14 +24,14 @@ export interface Fit extends FitSettings {
 }
 
 const formats = '.xyz,.csv,.ply,.obj,.off,.stl,.dat';
-/** Least and most of the slider; lengths in diagonals of the surface. */
+/** Least and most of the slider; lengths in diagonals of the shape. */
 const ranges: Record<FitKind, [number, number]> = { smoothingLength: [1e-3, 1], within: [1e-4, 0.3], rms: [1e-4, 0.3], weight: [1e-8, 10] };
 const usual: Record<FitKind, number> = { smoothingLength: 0.05, within: 0.02, rms: 0.01, weight: 0.01 };
 const titles: Record<FitKind, string> = { smoothingLength: 'Smoothing length', within: 'Tolerance', rms: 'Root mean square', weight: 'Weight' };
 
-/** Points of a file that is dropped on a surface, and not another shape. */
-export function arePoints(name: string, alt: boolean): boolean {
-  return alt || /\.(xyz|csv)$/i.test(name);
+/** A file that is dropped on a shape has points, and not another shape. */
+export function arePoints(name: string, alt: boolean, onCurve: boolean): boolean {
+  return alt || (!onCurve && /\.(xyz|csv)$/i.test(name));
 }
 
 export class PointsPanel {
@@ -45,17 +51,20 @@ export class PointsPanel {
   get commands(): Command[] {
     const { editor } = this;
     return [
-      { id: 'load-points', title: 'Load scattered points', keys: [], run: () => choose(formats, (file) => void this.load(file)), enabled: () => editor.shape !== null && !editor.shape.curve },
+      { id: 'load-points', title: 'Load scattered points', keys: [], run: () => choose(formats, (file) => void this.load(file)), enabled: () => editor.shape !== null },
+      { id: 'own-nodes', title: 'Fit to its own nodes', keys: [], run: () => void this.load({ name: '', bytes: null }), enabled: () => editor.shape !== null && this.fit?.cloud.bytes !== null },
       { id: 'remove-points', title: 'Remove the points', keys: [], run: () => editor.apply('Remove points', { ...editor.constraints, fit: undefined }), enabled: () => this.fit !== undefined },
     ];
   }
 
-  async load({ name, bytes }: NamedBytes): Promise<void> {
+  async load(source: PointSource): Promise<void> {
     const { editor } = this;
+    const { shape } = editor;
     try {
-      const cloud = await editor.cloudOf({ name, bytes });
+      const cloud = await editor.cloudOf(source);
+      if (shape !== editor.shape) return;
       const { kind, value, outliers } = this.fit ?? { kind: 'smoothingLength' as const, value: this.start('smoothingLength'), outliers: 0 };
-      editor.apply(`Load points ${name}`, { ...editor.constraints, fit: { cloud, kind, value, outliers } });
+      editor.apply(source.bytes ? `Load points ${source.name}` : 'Fit to its own nodes', { ...editor.constraints, fit: { cloud, kind, value, outliers } });
       editor.set({ fault: null });
     } catch (error) {
       editor.setFault((error as Error).message, 'file');
@@ -116,9 +125,9 @@ export class PointsPanel {
   }
 }
 
-function figures({ name, positions }: Cloud, report: Report | null, { kind, value, outliers }: Fit): string {
+function figures({ name, bytes, positions }: Cloud, report: Report | null, { kind, value, outliers }: Fit): string {
   const count = positions.length / 3;
-  const said = [`${name}: ${count.toLocaleString('en')} points`];
+  const said = [bytes ? `${name}: ${count.toLocaleString('en')} points` : `Its own ${count.toLocaleString('en')} nodes`];
   if (report?.fit) said.push(`at most ${short(report.fit.greatest)} away, root mean square ${short(report.fit.rms)}`);
   if (report?.fit?.smoothingLength && kind !== 'smoothingLength') said.push(`smoothing length ${short(report.fit.smoothingLength)}`);
   if (report?.distances && kind === 'within') said.push(`${short((100 * report.distances.filter((distance) => distance > value).length) / count)} % outside`);

@@ -107,8 +107,8 @@ export interface Requests {
   draw: { ask: { places: Float64Array; closed: boolean; nodes: number }; answer: OpenedCurve & { from: Int32Array } };
   /** Throws, and leaves what held, where the rules are refused. */
   hold: { ask: { rules: string }; answer: null };
-  /** Reads scattered points, which the jobs name by that number. Another shape has none. */
-  points: { ask: { number: number; name: string; bytes: Uint8Array }; answer: { positions: Float64Array } };
+  /** Reads scattered points, which the jobs name by that number; without bytes they are the nodes of the input. Another shape has none. */
+  points: { ask: { number: number; name: string; bytes: Uint8Array | null }; answer: { positions: Float64Array } };
   region: { ask: { rules: string; nodes: Int32Array }; answer: Region };
   solve: { ask: Job; answer: Solved };
   curvatures: { ask: { positions: Float64Array }; answer: Curvatures };

@@ -85,7 +85,7 @@ const handlers: Handlers = {
     return null;
   },
   points({ number, name, bytes }) {
-    return { positions: fits.read(core, number, name, bytes) };
+    return { positions: fits.add(number, bytes ? new core.Points(bytes, name) : core.Points.at(input)) };
   },
   region({ rules, nodes }) {
     opened().setRules(rules);

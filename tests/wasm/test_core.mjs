@@ -283,6 +283,55 @@ test('curves: fairs and writes as the native program does, in every format', () 
   expected.delete();
 });
 
+test('curves: fits to points and to its own nodes as the native program does', () => {
+  const [path, cloud, fitted, report] = ['noisy.csv', 'cloud.csv', 'fitted.csv', 'fitted.json'].map((name) => join(folder, name));
+  const rows = (count, at) => `x,y\n${Array.from({ length: count }, (_, k) => at(k).join(',')).join('\n')}\n`;
+  writeFileSync(path, rows(61, (k) => [k / 10, Math.sin(k / 9) + 0.03 * (((k * 7) % 5) / 4 - 0.5)]));
+  writeFileSync(cloud, rows(200, (k) => [0.2 + 0.028 * k, 0.2 + Math.sin((0.2 + 0.028 * k) / 0.9) + 0.05 * (((k * 13) % 7) / 6 - 0.5)]));
+  const curve = new core.Curve(new Uint8Array(readFileSync(path)), 'noisy.csv');
+  curve.setRules(rules.replaceAll('normal', 'tangent'));
+  writeFileSync(join(folder, 'ends.json'), rules.replaceAll('normal', 'tangent'));
+  const size = diagonal(curve.positions());
+  const points = new core.Points(new Uint8Array(readFileSync(cloud)), 'cloud.csv');
+  const own = core.Points.at(curve.positions());
+  assert.deepEqual(own.positions(), curve.positions());
+  for (const [pull, settings, command] of [
+    [points, { smoothingLength: 0.3 }, ['fit', path, '--points', cloud, '--smoothing-length', '0.3']],
+    [points, { within: 0.1, outliers: 0.02 }, ['fit', path, '--points', cloud, '--within', '0.1', '--outliers', '0.02']],
+    [points, { rms: 0.03 }, ['fit', path, '--points', cloud, '--rms', '0.03']],
+    [points, { weight: 0.05 }, ['fit', path, '--points', cloud, '--weight', '0.05']],
+    [own, { within: 0.02 }, ['curve', path, '--within', '0.02']],
+    [own, { smoothingLength: 0.2 }, ['curve', path, '--smoothing-length', '0.2']],
+  ]) {
+    native(...command, '-o', fitted, '--constraints', join(folder, 'ends.json'), '--report', report, '--quiet');
+    const result = curve.fit(pull, settings, null);
+    const expected = JSON.parse(readFileSync(report, 'utf8'));
+    assert.deepEqual([result.outcome, expected.outcome], ['converged', 'converged'], command.join(' '));
+    const theirs = new core.Curve(new Uint8Array(readFileSync(fitted)), 'fitted.csv');
+    const error = greatestDistance(curve.positions(), theirs.positions()) / size;
+    assert.ok(error < 3e-4, `${command}: ${error}`);
+    assert.equal(result.distances.length, pull.positions().length / 3);
+    assert.equal(result.fit.outliers, settings.outliers ? 4 : 0);
+    theirs.delete();
+  }
+  assert.equal(curve.fit(points, { within: 0.1 }, (fraction) => fraction >= 0).outcome, 'cancelled');
+  assert.throws(() => curve.fit(points, { within: 0 }, null), /within/);
+  for (const one of [curve, points, own]) one.delete();
+});
+
+test('surfaces: fits to its own nodes as the native program does', () => {
+  const path = generated('own.obj', 'saddle', '--columns', '12', '--rows', '12', '--noise', '0.02');
+  const fitted = join(folder, 'own-fitted.obj');
+  native('fair', path, '-o', fitted, '--constraints', join(folder, 'rules.json'), '--smoothing-length', '0.2', '--quiet');
+  const [surface, theirs] = [opened(path, 'own.obj'), opened(fitted, 'own.obj')];
+  const [own, size] = [core.Points.at(surface.positions()), diagonal(surface.positions())];
+  const plain = surface.fair(null) && surface.positions();
+  surface.fit(own, { smoothingLength: 0.2 }, null);
+  assert.ok(greatestDistance(surface.positions(), theirs.positions()) < 3e-4 * size);
+  assert.ok(greatestDistance(surface.positions(), plain) > 3e-3 * size);
+  for (const one of [surface, theirs, own]) one.delete();
+});
+
 test('curves: through places that were drawn, with even nodes in between', () => {
   const curve = core.Curve.through(Float64Array.of(0, 0, 0, 4, 0, 0, 4, 4, 0), true);
   assert.ok(curve.planar());

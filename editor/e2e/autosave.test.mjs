@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { after, before, test } from 'node:test';
-import { drag, find, rulesOf, saved, Session, settled } from './support.mjs';
+import { drag, drop, find, rulesOf, saved, Session, settled } from './support.mjs';
 
 let session;
 let context;
@@ -36,15 +36,6 @@ async function crash(page) {
   (await context.newCDPSession(page)).send('Page.crash').catch(() => {});
   await crashed;
 }
-
-const drop = async (page, name, text) => {
-  const data = await page.evaluateHandle(([file, content]) => {
-    const transfer = new DataTransfer();
-    transfer.items.add(new File([content], file));
-    return transfer;
-  }, [name, text]);
-  await page.dispatchEvent('body', 'drop', { dataTransfer: data });
-};
 
 test('a reload after a crash', async () => {
   context = await session.browser.newContext();
@@ -96,7 +87,7 @@ test('a reload after a crash', async () => {
   await context.close();
 });
 
-test('a drawn curve comes back too', async () => {
+test('a drawn curve comes back too, with its own nodes as points', async () => {
   context = await session.browser.newContext();
   let page = await visit();
   await page.getByRole('button', { name: 'New curve' }).click();
@@ -104,18 +95,15 @@ test('a drawn curve comes back too', async () => {
   await page.keyboard.press('Enter');
   await page.locator('#name', { hasText: 'curve.csv' }).waitFor();
   await settled(page);
-  const rules = await rulesOf(page);
-  await page.waitForFunction(() => new Promise((done) => {
-    indexedDB.open('vspring-editor').onsuccess = ({ target: { result: database } }) => {
-      database.transaction('kept').objectStore('kept').get('source').onsuccess = ({ target: { result } }) => {
-        database.close();
-        done(result?.places?.length === 9);
-      };
-    };
-  }));
+  await page.getByRole('button', { name: 'Its own nodes' }).click();
+  await settled(page);
+  await kept(page, 'Fit to its own nodes');
+  const [rules, shape] = [await rulesOf(page), readFileSync((await saved(page)).path)];
   await crash(page);
   page = await visit();
   await page.locator('#restored', { hasText: 'Restored curve.csv' }).waitFor();
+  await page.locator('#fit-figures').filter({ hasText: 'Its own 41 nodes · at most' }).waitFor();
+  assert.deepEqual(readFileSync((await saved(page)).path), shape);
   assert.equal(await rulesOf(page), rules);
   await context.close();
 });

@@ -1,9 +1,9 @@
 // What is open, and all that was done to it, outlives the page: a reload or a crash loses nothing.
 
+import { createStore, delMany, getMany, setMany } from 'idb-keyval';
 import type { Constraints } from './constraints';
 import type { Editor, Source } from './editor';
 import type { History } from './history';
-import { store, stored } from './storage';
 
 interface State {
   /** Of this form; another one is not read. */
@@ -11,6 +11,8 @@ interface State {
   history: History<Constraints>;
   strength: number;
 }
+
+const storage = createStore('vspring-editor', 'kept');
 
 export class Autosave {
   /** What opened the shape that the page began with, which is kept only once something is done to it. */
@@ -26,7 +28,7 @@ export class Autosave {
   async restore(): Promise<boolean> {
     const { editor } = this;
     try {
-      const [source, state] = (await stored('source', 'state')) as [Source | undefined, State | undefined];
+      const [source, state] = (await getMany(['source', 'state'], storage)) as [Source | undefined, State | undefined];
       if (!source || state?.form !== 1) return false;
       await editor.restore(source, state.history, state.strength);
       this.kept = { source, history: editor.history, strength: editor.strength };
@@ -49,7 +51,11 @@ export class Autosave {
     this.notice.hidden = true;
     this.begun = false;
     this.kept = { source: null, history: null, strength: 1 };
-    await store({ source: undefined, state: undefined }).catch((error: unknown) => this.complain(error));
+    try {
+      await delMany(['source', 'state'], storage);
+    } catch (error) {
+      this.complain(error);
+    }
   }
 
   changed(): void {
@@ -67,7 +73,7 @@ export class Autosave {
     this.writing = true;
     try {
       // The bytes of a large file are written once.
-      await store(source === this.kept.source ? { state } : { source, state });
+      await setMany(Object.entries(source === this.kept.source ? { state } : { source, state }), storage);
     } catch (error) {
       this.complain(error);
     }

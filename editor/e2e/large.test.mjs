@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { find, greatestDistance, native, nodesOf, rulesOf, saved, Session, settled } from './support.mjs';
+import { downloaded, find, greatestDistance, native, nodesOf, placesOf, rulesOf, saved, Session, settled } from './support.mjs';
 
 const status = (page) => page.locator('#status');
 
@@ -22,6 +22,46 @@ for (const shared of [true, false]) {
       const { x, y, node } = await find(page, /Node \d+/, [0.3, 0.6], [0.4, 0.6]);
       await page.mouse.click(x, y);
       assert.equal(await page.locator('#picked').textContent(), `Node ${node}`);
+      assert.deepEqual(faults, []);
+    } finally {
+      await session.stop();
+    }
+  });
+}
+
+for (const shared of [true, false]) {
+  test(`a file that waits for its shape is given up or written, after a solution was given up; memory is ${shared ? '' : 'not '}shared`, async () => {
+    const session = await Session.start({ shared });
+    try {
+      const input = session.generated('patch.obj', 'annulus', '--nodes', '40000', '--noise', '0.01');
+      const { page, faults } = await session.open('?file=files/patch.obj');
+      const [cancel, save, alert] = [page.getByRole('button', { name: 'Cancel' }), page.getByRole('button', { name: 'Save as' }), page.getByRole('alert')];
+      let files = 0;
+      page.on('download', () => ++files);
+      await cancel.click({ timeout: 120_000 });
+      await status(page).filter({ hasText: 'cancelled' }).waitFor();
+      for (const end of [() => cancel.click(), () => page.keyboard.press('Escape')]) {
+        await page.locator('#progress').waitFor({ state: 'hidden' });
+        await save.click();
+        await page.getByRole('progressbar', { name: 'Solving' }).waitFor({ timeout: 120_000 });
+        await end();
+        await alert.filter({ hasText: 'patch-fair.obj is not saved, as its solution was cancelled' }).waitFor();
+        await page.getByRole('button', { name: 'Dismiss' }).click();
+      }
+      assert.equal(files, 0);
+
+      // What is changed meanwhile is out of date at once, but the file is not.
+      const { path } = await downloaded(page, async () => {
+        await save.click();
+        await page.getByRole('progressbar', { name: 'Solving' }).waitFor({ timeout: 120_000 });
+        for (let k = 0; k < 3; ++k) await page.keyboard.press('Shift+B');
+      });
+      const fair = join(session.folder, 'fair.obj');
+      native('fair', input, '-o', fair, '--quiet');
+      const [ours, theirs] = [path, fair].map(placesOf);
+      assert.ok(greatestDistance(ours, theirs) < 6e-5, `${greatestDistance(ours, theirs)}`);  // six times the tolerance of 1e-5, on a size of some 2.4
+      await settled(page);
+      assert.ok(await alert.isHidden());
       assert.deepEqual(faults, []);
     } finally {
       await session.stop();

@@ -1,6 +1,6 @@
 // The worker as promises, and the one place where what is to be solved waits.
 
-import type { Answer, Ask, Job, Kind, Reply, Request, Solved, Start } from './protocol';
+import { endedAll, endedSolution, type Answer, type Ask, type Job, type Kind, type Reply, type Request, type Solved, type Start } from './protocol';
 
 interface Waiting {
   request: Request;
@@ -9,16 +9,18 @@ interface Waiting {
   progress?: (fraction: number) => void;
 }
 
-/** A solution was given up without a shape. */
+/** A request was given up without an answer. */
 export class Ended extends Error {}
 
+/** What may be given up. */
+const endable: readonly Kind[] = ['solve', 'write'];
 /** Milliseconds that a solution has to end by itself, with the best shape so far. */
 const patience = 40;
 
 export class CoreClient {
   private worker: Worker;
   private readonly waiting = new Map<number, Waiting>();
-  private readonly ended = self.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(4)) : null;
+  private readonly ended = self.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(8)) : null;
   private last = 0;
 
   /** What opened the shape and read its points, and what held it last: all that another worker has to know. */
@@ -56,31 +58,33 @@ export class CoreClient {
     });
   }
 
-  /** All that has been asked so far ends soon, with the best shape so far. */
-  endAll(): void {
-    if (this.ended) Atomics.store(this.ended, 0, this.last);
+  /** All solutions that have been asked for so far end soon, with the best shape so far. */
+  endSolutions(): void {
+    if (this.ended) Atomics.store(this.ended, endedSolution, this.last);
   }
 
-  /** The same now, if need be without a shape: where memory is not shared or the library is long about it, another worker takes over. */
+  /** The same now, if need be without a shape, and files that wait for one: where memory is not shared or the library is long about it, another worker takes over. */
   endNow(): void {
-    this.endAll();
     const { last } = this;
+    if (this.ended) Atomics.store(this.ended, endedAll, last);
     setTimeout(() => {
-      if ([...this.waiting.values()].some(({ request }) => request.kind === 'solve' && request.number <= last)) this.restart();
+      if ([...this.waiting.values()].some(({ request }) => endable.includes(request.kind) && request.number <= last)) this.restart(last);
     }, this.ended ? patience : 0);
   }
 
-  private restart(): void {
+  /** last: the number of the last request that is given up. */
+  private restart(last: number): void {
     this.worker.terminate();
     this.worker = this.started();
     this.anew = true;
     for (const source of this.sources) this.worker.postMessage(source);
     for (const [number, { request, failed }] of [...this.waiting]) {
-      if (request.kind !== 'solve') {
-        this.worker.postMessage(request);
-      } else {
+      if (endable.includes(request.kind) && number <= last) {
         this.waiting.delete(number);
         failed(new Ended());
+      } else {
+        if (request.kind === 'solve') this.remember(request as Request<'solve'>);
+        this.worker.postMessage(request);
       }
     }
   }
@@ -134,7 +138,7 @@ export class Solver {
   private waiting: Job | null = null;
 
   constructor(
-    private readonly client: Pick<CoreClient, 'ask' | 'endAll'>,
+    private readonly client: Pick<CoreClient, 'ask' | 'endSolutions'>,
     private readonly events: SolverEvents,
   ) {}
 
@@ -142,7 +146,7 @@ export class Solver {
     if (this.running) {
       this.waiting = merged(this.waiting, job);
       // What comes from the input takes long, and is out of date already.
-      if (!this.running.drag) this.client.endAll();
+      if (!this.running.drag) this.client.endSolutions();
     } else {
       void this.run(job);
     }
@@ -151,7 +155,7 @@ export class Solver {
   /** Forgets what waits, as another file is opened. */
   clear(): void {
     this.waiting = null;
-    if (this.running) this.client.endAll();
+    if (this.running) this.client.endSolutions();
   }
 
   private async run(job: Job): Promise<void> {

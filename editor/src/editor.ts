@@ -1,6 +1,6 @@
 // The state of the editor, and all that changes it.
 
-import { CoreClient, Solver } from './client';
+import { CoreClient, Ended, Solver } from './client';
 import * as holding from './constraints';
 import type { Constraints, Edit, Held, Part, Vector } from './constraints';
 import { Drags } from './drags';
@@ -42,6 +42,8 @@ export class Editor {
   /** Whether the pointer is at the arrow of that node. */
   atArrow = false;
   busy = false;
+  /** A file waits for its shape. */
+  saving = false;
   fraction = 0;
   showsInput = false;
   /** Whether the curve was drawn here. */
@@ -80,10 +82,10 @@ export class Editor {
   }
 
   get canEnd(): boolean {
-    return this.busy && !this.dragging;
+    return this.saving || (this.busy && !this.dragging);
   }
 
-  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'hovered' | 'picked' | 'fault'>>): void {
+  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'hovered' | 'picked' | 'fault'>>): void {
     Object.assign(this, state);
     this.events.changed();
   }
@@ -248,8 +250,14 @@ export class Editor {
   }
 
   /** The bytes of a file of that name, with what now holds. */
-  written(name: string): Promise<Uint8Array> {
-    return this.client.ask('write', { name, strength: this.strength, ...this.holds });
+  async written(name: string): Promise<Uint8Array> {
+    const ask = { name, strength: this.strength, ...this.holds };
+    const bytes = await this.client.ask('write', ask, (fraction) => this.set({ saving: true, fraction })).catch((error: unknown) => {
+      if (error instanceof Ended) return null;
+      throw error;
+    }).finally(() => this.set({ saving: false }));
+    if (!bytes) throw new Error(`${name} is not saved, as its solution was cancelled`);
+    return bytes;
   }
 
   private get holds(): { rules: string; fairBoundary: boolean; fit: FitJob | null } {

@@ -112,8 +112,8 @@ export interface Requests {
   region: { ask: { rules: string; nodes: Int32Array }; answer: Region };
   solve: { ask: Job; answer: Solved };
   curvatures: { ask: { positions: Float64Array }; answer: Curvatures };
-  /** The bytes of a file of that name, with the shape that what holds gives from the input, or that share of the way to it. */
-  write: { ask: { name: string; strength: number; rules: string; fairBoundary: boolean; fit: FitJob | null }; answer: Uint8Array };
+  /** The bytes of a file of that name, with the shape that what holds gives from the input, or that share of the way to it. Null where that shape was given up. */
+  write: { ask: { name: string; strength: number; rules: string; fairBoundary: boolean; fit: FitJob | null }; answer: Uint8Array | null };
 }
 
 export type Kind = keyof Requests;
@@ -126,7 +126,11 @@ export interface Request<K extends Kind = Kind> {
   ask: Ask<K>;
 }
 
-/** Shared memory where the page may write the number of the last request that is to end soon; null where it may not be shared. */
+/** Where in shared memory the page writes the number of the last request that is to end soon: of solutions that are out of date, and of all. */
+export const endedSolution = 0;
+export const endedAll = 1;
+
+/** ended: that memory; null where it may not be shared. */
 export interface Start {
   core: string;
   ended: Int32Array | null;

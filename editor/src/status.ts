@@ -42,7 +42,7 @@ function ofParts({ faces, curve }: Shape): string {
 
 /** field: what colours show. */
 export function describe(editor: Editor, field: Field | null): void {
-  const { shape, fault, held, picked, fileWarnings, report, busy, fraction, dragging } = editor;
+  const { shape, fault, held, picked, fileWarnings, report, canEnd, fraction } = editor;
   part('name').textContent = editor.name;
   part('status').textContent = ofSolution(editor);
   part('status').classList.toggle('doubtful', !editor.showsInput && report !== null && report.outcome !== 'converged');
@@ -58,7 +58,7 @@ export function describe(editor: Editor, field: Field | null): void {
   part('fault').hidden = !fault;
   const message = inEditorWords(fault?.message ?? '');
   if (part('fault').firstElementChild!.textContent !== message) part('fault').firstElementChild!.textContent = message;
-  part('progress').hidden = !busy || dragging;
+  part('progress').hidden = !canEnd;
   part('progress').querySelector('progress')!.value = fraction;
   const warnings = [...fileWarnings, ...(report?.warnings ?? [])].map(inEditorWords);
   part('warnings').hidden = warnings.length === 0;

@@ -2,7 +2,7 @@
 
 import { describe, describeCurve, openShape, type Core, type CoreCurve, type CoreFactory, type CoreSurface } from './core';
 import { Fits } from './fits';
-import type { Answer, Ask, Drag, HeldNormals, Job, Kind, Reply, Request, Start } from './protocol';
+import { endedAll, endedSolution, type Answer, type Ask, type Drag, type HeldNormals, type Job, type Kind, type Reply, type Request, type Start } from './protocol';
 import { between } from './strength';
 
 declare const vspringCore: CoreFactory;
@@ -104,12 +104,13 @@ const handlers: Handlers = {
   curvatures({ positions }) {
     return (opened() as CoreSurface).curvatures(positions);  // nobody asks it of curves
   },
-  write({ name, strength, rules, fairBoundary, fit }) {
+  write({ name, strength, rules, fairBoundary, fit }, progress) {
     const target = opened();
     const holds = JSON.stringify([rules, fairBoundary, fit]);
     if (settled !== holds) {
       hold(target, { rules, fairBoundary, fit });
-      fits.fair(target, () => false);
+      progress(0);
+      if (fits.fair(target, progress).outcome === 'cancelled') return null;
       settled = holds;
     }
     const result = target.positions();
@@ -128,7 +129,7 @@ function transferables(answer: Answer<Kind>): Transferable[] {
 function handle<K extends Kind>({ number, kind, ask }: Request<K>): void {
   const progress: Progress = (fraction) => {
     postMessage({ number, fraction });
-    return ended !== null && Atomics.load(ended, 0) >= number;
+    return ended !== null && (Atomics.load(ended, endedAll) >= number || (kind === 'solve' && Atomics.load(ended, endedSolution) >= number));
   };
   try {
     const answer = handlers[kind](ask, progress);

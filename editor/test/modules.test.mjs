@@ -61,7 +61,7 @@ test('newer jobs stand for those that wait, and constraints are not lost', async
   const asked = [];
   const ends = [];
   const busy = [];
-  const client = { ask: (_, job) => new Promise((done) => asked.push({ job, done })), endAll: () => ends.push(asked.length) };
+  const client = { ask: (_, job) => new Promise((done) => asked.push({ job, done })), endSolutions: () => ends.push(asked.length) };
   const solver = new Solver(client, { solved() {}, failed() {}, progress() {}, busy: (on) => busy.push(on) });
   for (let time = 0; time < 50; ++time) solver.push(drag(time));
   assert.equal(asked.length, 1);

@@ -159,16 +159,7 @@ test('opens a file that an address names, and one that is dropped', async () => 
   assert.match(await page.locator('#size').textContent(), /4 nodes, 3 faces/);
 });
 
-test('every control has a name, shortcuts are listed, both themes draw, and reflection lines move with the view', async () => {
-  for (const control of await page.locator('button, select, canvas').all()) {
-    const name = await control.evaluate((e) => e.getAttribute('aria-label') || e.labels?.[0]?.textContent || e.textContent);
-    assert.ok(name.trim(), await control.evaluate((e) => e.outerHTML));
-  }
-  await page.keyboard.press('?');
-  await page.getByRole('dialog').getByText('Undo').waitFor();
-  await page.keyboard.press('Escape');
-  await page.getByRole('dialog').waitFor({ state: 'hidden' });
-
+test('both themes draw, and reflection lines move with the view', async () => {
   const picture = async () => (await page.locator('#canvas').screenshot()).toString('base64');
   const light = await picture();
   await page.keyboard.press('t');

@@ -60,7 +60,7 @@ export function bindCommands(commands: Command[]): () => void {
 }
 
 /** Into a list of terms and their keys. */
-export function listShortcuts(list: HTMLElement, commands: Command[]): void {
+export function listShortcuts(list: HTMLElement, commands: Pick<Command, 'title' | 'keys'>[]): void {
   for (const { title, keys } of commands.filter((command) => command.keys.length > 0)) {
     const row = document.createElement('div');
     const name = Object.assign(document.createElement('dt'), { textContent: title });

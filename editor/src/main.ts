@@ -154,7 +154,10 @@ const commands: Command[] = [
   { id: 'dismiss', title: 'Dismiss the message', keys: [], run: () => editor.set({ fault: null }) },
 ];
 const refresh = bindCommands(commands);
-listShortcuts(help.querySelector('dl')!, commands);
+listShortcuts(help.querySelector('dl')!, [...commands,
+  { title: 'While a node is dragged: along an axis, its normal', keys: ['x', 'y', 'z', 'n'] },
+  { title: 'While a curve is drawn: end it, take its last node away', keys: ['enter', 'backspace'] },
+]);
 
 function changed(): void {
   if (held !== editor.held.nodes) {

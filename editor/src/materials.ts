@@ -42,29 +42,37 @@ export function surfaceMaterial(): ShaderMaterial {
   });
 }
 
-/** size: in pixels. rim: a ring of the second colour around the disc, as a share of its radius. */
-export function markerMaterial(): ShaderMaterial {
+/** size: in pixels. rim: a ring of the second colour around the disc, as a share of its radius. coloured: discs have colours of their own. */
+export function markerMaterial(coloured = false): ShaderMaterial {
   return new ShaderMaterial({
     glslVersion: GLSL3,
+    vertexColors: coloured,
     transparent: true,
     depthWrite: false,
     uniforms: { size: { value: 8 }, inside: { value: new Color() }, rim: { value: new Color() }, rimWidth: { value: 0.25 }, lift: { value: 0.004 } },
     vertexShader: `
 uniform float size;
 uniform float lift;
+uniform vec3 inside;
+out vec3 disc;
 void main() {
+#ifdef USE_COLOR
+  disc = color;
+#else
+  disc = inside;
+#endif
   gl_Position = projectionMatrix * (modelViewMatrix * vec4(position, 1.0) + vec4(0.0, 0.0, lift, 0.0));
   gl_PointSize = size;
 }`,
     fragmentShader: `
-uniform vec3 inside;
+in vec3 disc;
 uniform vec3 rim;
 uniform float rimWidth;
 out vec4 result;
 void main() {
   float radius = 2.0 * length(gl_PointCoord - 0.5);
   float soft = fwidth(radius);
-  result = vec4(mix(inside, rim, smoothstep(-soft, soft, radius - 1.0 + rimWidth)), 1.0 - smoothstep(1.0 - 2.0 * soft, 1.0, radius));
+  result = vec4(mix(disc, rim, smoothstep(-soft, soft, radius - 1.0 + rimWidth)), 1.0 - smoothstep(1.0 - 2.0 * soft, 1.0, radius));
 }`,
   });
 }

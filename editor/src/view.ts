@@ -295,6 +295,7 @@ export class View {
     const ratio = this.renderer.getPixelRatio();
     const spacing = ((this.shape?.spacing ?? 0) * this.camera.zoom * this.canvas.clientHeight) / 2;
     this.markers.scale(ratio, spacing);
+    this.dots.scale(ratio);
     for (const layer of [this.curve, this.sketch]) layer.scale(ratio);
   }
 

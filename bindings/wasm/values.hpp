@@ -54,7 +54,8 @@ auto forwarding_errors(const Call& call) {
 /// A file in memory for as long as something is read from it or written to it.
 class MemoryFile {
  public:
-  explicit MemoryFile(const std::string& name) : path_("/" + name) {}
+  // As messages are to name it; - would be the standard streams.
+  explicit MemoryFile(const std::string& name) : path_(name == "-" ? "/-" : name) {}
   ~MemoryFile() { (void)std::remove(path_.c_str()); }
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;

@@ -226,7 +226,7 @@ test('ends soon when asked to, with a shape', () => {
 
 test('refuses what the native program refuses, in its words', () => {
   const bytes = new TextEncoder().encode('v 0 0 0\nv 1 0 zero\n');
-  assert.throws(() => new core.Surface(bytes, 'bad.obj'), /bad\.obj:2: .*zero/);
+  assert.throws(() => new core.Surface(bytes, 'bad.obj'), /^Error: bad\.obj:2: .*zero/);
   const surface = opened(generated('open.obj', 'annulus', '--nodes', '300'), 'open.obj');
   assert.throws(() => surface.setRules('{"rules": [{"nodes": [5000], "position": "fixed"}]}'), /rule 1.*5000/);
   assert.throws(() => surface.holdPosition(-1, 0, 0, 0), /node -1 does not exist/);

@@ -1,7 +1,7 @@
-// Puts the editor into build/editor: the page, its two bundles, the library in WebAssembly and the examples. Any static server can serve it.
+// Puts the editor into build/editor: the page, its two bundles, the library in WebAssembly, the examples, and licences of what is bundled. Any static server can serve it.
 
 import { cpSync, existsSync, mkdirSync, rmSync } from 'node:fs';
-import { join } from 'node:path';
+import { dirname, join } from 'node:path';
 import { build } from 'esbuild';
 
 const root = new URL('../', import.meta.url).pathname;
@@ -20,4 +20,5 @@ await build({ ...options, entryPoints: ['src/main.ts', 'src/style.css'], outdir:
 // Not a module: what Emscripten makes is loaded by importScripts.
 await build({ ...options, entryPoints: ['src/worker.ts'], outdir: out, format: 'iife' });
 for (const path of [...core, join(root, 'editor/src/index.html')]) cpSync(path, join(out, path.split('/').at(-1)));
+for (const licence of ['three/LICENSE', 'idb-keyval/LICENCE']) cpSync(join(root, 'editor/node_modules', licence), join(out, 'licences', `${dirname(licence)}.txt`));
 cpSync(join(root, 'examples'), join(out, 'examples'), { recursive: true });

@@ -10,17 +10,21 @@ useSession();
 
 const controls = 'button, input, select, textarea, canvas, [tabindex], [role=toolbar], [role=group], dialog[open], progress';
 
-// All controls have names, as Chromium tells them to a screen reader. Returns these.
+// All controls have names, as Chromium tells them to a screen reader, and no two of them the same with the same description. Returns the names.
 async function names() {
   const cdp = await page.context().newCDPSession(page);
   const { root: { nodeId } } = await cdp.send('DOM.getDocument');
   const { nodeIds } = await cdp.send('DOM.querySelectorAll', { nodeId, selector: controls });
   const found = [];
+  const told = new Set();
   for (const one of nodeIds) {
-    const { nodes: [{ ignored, name }] } = await cdp.send('Accessibility.getPartialAXTree', { nodeId: one, fetchRelatives: false });
+    const { nodes: [{ ignored, role, name, description }] } = await cdp.send('Accessibility.getPartialAXTree', { nodeId: one, fetchRelatives: false });
     if (ignored) continue;
     const { outerHTML } = await cdp.send('DOM.getOuterHTML', { nodeId: one });
     assert.ok(name?.value.trim(), `no name: ${outerHTML}`);
+    const words = JSON.stringify([role.value, name.value, description?.value]);
+    assert.ok(!told.has(words), `twice: ${words}`);
+    told.add(words);
     found.push(name.value);
   }
   await cdp.detach();

@@ -2,13 +2,12 @@
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { after, before, test } from 'node:test';
-import { drag, drop, find, rulesOf, saved, Session, settled } from './support.mjs';
+import { test } from 'node:test';
+import { drag, drop, find, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
-let session;
+useSession();
+
 let context;
-before(async () => { session = await Session.start(); });
-after(() => session.stop());
 
 async function visit(query = '') {
   const page = await context.newPage();

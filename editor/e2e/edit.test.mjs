@@ -7,7 +7,7 @@ import { copyFileSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { test } from 'node:test';
-import { drag, faults, find, greatestDistance, native, nodesOf, open, page, program, root, rulesOf, session, settled, useSession } from './support.mjs';
+import { drag, faults, find, greatestDistance, native, open, page, placesOf, program, root, rulesOf, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -45,7 +45,7 @@ test('a node is dragged and the file saved back: it is what the command line mak
   const [rules, fair] = [join(session.folder, 'rules.json'), join(session.folder, 'fair.obj')];
   writeFileSync(rules, await rulesOf(page));
   native('fair', original, '-o', fair, '--constraints', rules, '--quiet');
-  const [saved, expected, before] = [file, fair, original].map((path) => nodesOf(readFileSync(path, 'utf8')));
+  const [saved, expected, before] = [file, fair, original].map(placesOf);
   assert.ok(greatestDistance(saved, expected) < 6e-5, `${greatestDistance(saved, expected)}`);  // six times the tolerance of 1e-5, on a size of some 2.4
   assert.ok(greatestDistance(saved, before) > 0.05);
 
@@ -83,7 +83,7 @@ test('a curve is saved back as the command line fairs it', async () => {
   await page.getByRole('button', { name: 'Save to arc.csv' }).click();
   await page.getByRole('button', { name: 'Saved to arc.csv' }).waitFor();
   native('curve', input, '-o', fair, '--quiet');
-  const [saved, expected, before] = [file, fair, input].map((path) => readFileSync(path, 'utf8').trim().split('\n').slice(1).map((row) => row.split(',').map(Number)));
+  const [saved, expected, before] = [file, fair, input].map(placesOf);
   assert.ok(greatestDistance(saved, expected) < 6e-5, `${greatestDistance(saved, expected)}`);  // six times the tolerance of 1e-5, on a size of some 1
   assert.ok(greatestDistance(saved, before) > 0.01);
   await ended(editor);

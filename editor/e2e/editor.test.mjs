@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { beforeEach, test } from 'node:test';
-import { choose, drag, drop, faults, find, greatestDistance, native, nodesOf, open, page, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { choose, drag, drop, faults, find, greatestDistance, native, open, page, placesOf, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 beforeEach(() => open());
@@ -34,7 +34,7 @@ test('a node is dragged, undone and redone; the file is what the native program 
   await settled(page);
   assert.equal(await rulesOf(page), untouched);
   assert.ok(await page.getByRole('button', { name: 'Undo' }).isDisabled());
-  const before = nodesOf(readFileSync((await saved(page, 'obj')).path, 'utf8'));
+  const before = placesOf((await saved(page, 'obj')).path);
   await page.getByRole('button', { name: 'Redo' }).click();
   await settled(page);
   assert.equal(await rulesOf(page), dragged);
@@ -45,7 +45,7 @@ test('a node is dragged, undone and redone; the file is what the native program 
   const fair = join(session.folder, 'fair.obj');
   writeFileSync(rules, dragged);
   native('fair', join(root, 'examples/annulus.obj'), '-o', fair, '--constraints', rules, '--quiet');
-  const [ours, theirs] = [path, fair].map((file) => nodesOf(readFileSync(file, 'utf8')));
+  const [ours, theirs] = [path, fair].map(placesOf);
   assert.ok(greatestDistance(ours, theirs) < 6e-5, `${greatestDistance(ours, theirs)}`);  // six times the tolerance of 1e-5, on a size of some 2.4
   assert.deepEqual(ours[held.node], rule.position[0]);
   assert.ok(greatestDistance(ours, before) > 0.05, 'the surface has followed');
@@ -114,12 +114,12 @@ test('a long solution is cancelled with the best shape so far', async () => {
 });
 
 test('boundary normals change the shape; the boundary set free is refused in the words of the library, and undone', async () => {
-  const before = nodesOf(readFileSync((await saved(page, 'obj')).path, 'utf8'));
+  const before = placesOf((await saved(page, 'obj')).path);
   const normals = page.getByRole('button', { name: 'Normals fixed' });
   await normals.click();
   await settled(page);
   assert.equal(await normals.getAttribute('aria-pressed'), 'true');
-  const shape = nodesOf(readFileSync((await saved(page, 'obj')).path, 'utf8'));
+  const shape = placesOf((await saved(page, 'obj')).path);
   assert.ok(greatestDistance(before, shape) > 0.05);
   await page.getByRole('button', { name: 'Positions fixed' }).click();
   await page.getByRole('alert').filter({ hasText: 'nothing holds the component' }).waitFor();

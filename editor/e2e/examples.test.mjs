@@ -1,10 +1,9 @@
 // The examples: each opens and converges; those of the paper are what its commands make.
 
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { greatestDistance, native, nodesOf, open, page, root, saved, session, settled, useSession } from './support.mjs';
+import { greatestDistance, native, open, page, placesOf, root, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -29,7 +28,7 @@ test('figures of the paper: the shapes are those of its commands, and Figs. 8(C)
   for (const [number, ...options] of [[8, 'annulus', '--nodes', '553', '--boundary-nodes', '121'],
     [9, 'annulus', '--nodes', '553', '--boundary-nodes', '121', '--noise', '0.08', '--seed', '7'], [10, 'pipe-blend', '--pipes=+x,+z,-z', '--cells', '10'], [12, 'polygon-patch', '--sides', '5', '--rings', '10']]) {
     const [ours, theirs] = [join(root, `examples/figure-${number}.obj`), session.generated(`${number}.obj`, ...options)];
-    assert.ok(greatestDistance(...[ours, theirs].map((path) => nodesOf(readFileSync(path, 'utf8')))) < 1e-12);
+    assert.ok(greatestDistance(...[ours, theirs].map(placesOf)) < 1e-12);
   }
   await open('?file=examples/saddle.ply');
   await page.getByLabel('Example').selectOption({ label: 'Fig. 8(C): normals too' });
@@ -39,7 +38,7 @@ test('figures of the paper: the shapes are those of its commands, and Figs. 8(C)
   const { path } = await saved(page);
   const fair = join(session.folder, 'fair.obj');
   native('fair', join(root, 'examples/figure-8.obj'), '-o', fair, '--fix-normals', 'boundary', '--quiet');
-  const same = (ours) => assert.ok(greatestDistance(...[ours, fair].map((file) => nodesOf(readFileSync(file, 'utf8')))) < 6e-5);
+  const same = (ours) => assert.ok(greatestDistance(...[ours, fair].map(placesOf)) < 6e-5);
   same(path);
   await page.getByLabel('Example').selectOption({ label: 'Fig. 12: to points' });
   await page.locator('#name', { hasText: 'figure-12' }).waitFor();

@@ -1,10 +1,10 @@
 // Normals as arrows that turn, ways of dragging, and numbers: with the pointer and keys, against the native program.
 
 import assert from 'node:assert/strict';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { beforeEach, test } from 'node:test';
-import { drag, find, greatestDistance, native, nodesOf, open, page, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { drag, find, greatestDistance, native, open, page, placesOf, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 beforeEach(() => open());
@@ -33,7 +33,7 @@ async function sameAsNative(rules, tolerance = 6e-5) {
   const [file, fair] = ['rules.json', 'fair.obj'].map((name) => join(session.folder, name));
   writeFileSync(file, rules);
   native('fair', join(root, 'examples/annulus.obj'), '-o', fair, '--constraints', file, '--quiet');
-  const [ours, theirs] = [(await saved(page)).path, fair].map((path) => nodesOf(readFileSync(path, 'utf8')));
+  const [ours, theirs] = [(await saved(page)).path, fair].map(placesOf);
   assert.ok(greatestDistance(ours, theirs) < tolerance, `${greatestDistance(ours, theirs)}`);
   return ours;
 }
@@ -128,7 +128,7 @@ test('a normal and a position are given by numbers', async () => {
 
 test('a node is dragged along an axis or its normal, as a key says', async () => {
   const held = await pickedHeld();
-  const start = nodesOf(readFileSync((await saved(page)).path, 'utf8'))[held.node];
+  const start = placesOf((await saved(page)).path)[held.node];
   const way = page.locator('#way');
   const dragged = async (...keys) => {
     await page.mouse.move(held.x, held.y);

@@ -1,10 +1,10 @@
 // Picking many nodes with real pointer and keys, and a region that is faired as the native program does.
 
 import assert from 'node:assert/strict';
-import { readFileSync, writeFileSync } from 'node:fs';
+import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { greatestDistance, native, nodesOf, open, page, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { greatestDistance, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -134,11 +134,11 @@ test('only the picked region is faired: the saved constraints give the same with
   await page.locator(`[title^="Undo: Fair only ${picked} nodes"]`).waitFor();
   await settled(page);
   const rules = await rulesOf(page);
-  const ours = nodesOf(readFileSync((await saved(page)).path, 'utf8'));
+  const ours = placesOf((await saved(page)).path);
 
   const [constraints, region] = ['region-rules.json', 'region.json'].map((name) => join(session.folder, name));
   writeFileSync(constraints, rules);
-  const input = nodesOf(readFileSync(path, 'utf8'));
+  const input = placesOf(path);
   const fixed = new Set(JSON.parse(rules).rules.filter((rule) => rule.position === 'fixed' && Array.isArray(rule.nodes)).flatMap((rule) => rule.nodes));
   const inner = (n) => Math.min(n % 25, Math.floor(n / 25)) > 0 && Math.max(n % 25, Math.floor(n / 25)) < 24;
   const inside = input.map((_, n) => n).filter((n) => inner(n) && !fixed.has(n));
@@ -147,7 +147,7 @@ test('only the picked region is faired: the saved constraints give the same with
   for (const options of [['--constraints', constraints], ['--region', region]]) {
     const fair = join(session.folder, 'fair.obj');
     native('fair', path, '-o', fair, ...options, '--quiet');
-    assert.ok(greatestDistance(ours, nodesOf(readFileSync(fair, 'utf8'))) < 2e-5, `${options[0]}`);
+    assert.ok(greatestDistance(ours, placesOf(fair)) < 2e-5, `${options[0]}`);
   }
   assert.ok(greatestDistance(inside.map((n) => ours[n]), inside.map((n) => input[n])) > 1e-3);
   ours.forEach((place, n) => { if (fixed.has(n)) assert.deepEqual(place, input[n]); });

@@ -137,10 +137,6 @@ export async function rulesOf(page) {
   return readFileSync(path, 'utf8');
 }
 
-export function nodesOf(text) {
-  return text.split('\n').filter((line) => line.startsWith('v ')).map((line) => line.split(/\s+/).slice(1, 4).map(Number));
-}
-
 // Places of a file with a table of numbers, or of OBJ.
 export function placesOf(path) {
   return readFileSync(path, 'utf8').split('\n').map((line) => line.replace(/^v /, '').split(/[\s,]+/).filter(Boolean).map(Number))

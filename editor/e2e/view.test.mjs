@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { find, greatestDistance, native, nodesOf, open, page, root, saved, session, settled, useSession } from './support.mjs';
+import { find, greatestDistance, native, open, page, placesOf, root, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -61,7 +61,7 @@ test('deviation is how far nodes lie from the input along its normal', async () 
   await page.mouse.up();
   await settled(page);
   await page.locator('#legend .marks').filter({ hasText: /≥ 0\.\d/ }).waitFor();
-  const heights = nodesOf(readFileSync((await saved(page)).path, 'utf8')).map(([, , z]) => z);
+  const heights = placesOf((await saved(page)).path).map(([, , z]) => z);
   const { node } = await find(page, /free · deviation/, [0.38, 0.55], [0.38, 0.75]);
   const value = numberOf((await page.locator('#node').textContent()).split(' ').at(-1));
   near(Math.abs(value), Math.abs(heights[node]), 0.001, `node ${node}`);
@@ -73,20 +73,20 @@ test('between input and result: what is saved is what --strength makes; a drag s
   await open('?file=examples/annulus.obj');
   const save = page.getByRole('button', { name: 'Save as' });
   assert.doesNotMatch(await save.getAttribute('title'), /%/);
-  const whole = nodesOf(readFileSync((await saved(page)).path, 'utf8'));
+  const whole = placesOf((await saved(page)).path);
   const strength = page.getByLabel('Strength');
   await strength.focus();
   await page.keyboard.press('End');
   for (let k = 0; k < 40; ++k) await page.keyboard.press('ArrowLeft');
   assert.equal(await page.locator('#share').textContent(), '60 %');
   assert.match(await save.getAttribute('title'), /60 % of the way from the input/);
-  const ours = nodesOf(readFileSync((await saved(page)).path, 'utf8'));
+  const ours = placesOf((await saved(page)).path);
   const path = join(session.folder, 'strength.obj');
   native('fair', join(root, 'examples/annulus.obj'), '-o', path, '--strength', '0.6', '--quiet');
-  assert.ok(greatestDistance(ours, nodesOf(readFileSync(path, 'utf8'))) < 6e-5);
+  assert.ok(greatestDistance(ours, placesOf(path)) < 6e-5);
   assert.ok(greatestDistance(ours, whole) > 0.01);
   await strength.press('Home');
-  assert.deepEqual(nodesOf(readFileSync((await saved(page)).path, 'utf8')), nodesOf(readFileSync(join(root, 'examples/annulus.obj'), 'utf8')), 'the input itself');
+  assert.deepEqual(placesOf((await saved(page)).path), placesOf(join(root, 'examples/annulus.obj')), 'the input itself');
 
   await page.locator('#canvas').focus();
   const held = await find(page, /position fixed/, [0.02, 0.55], [0.5, 0.55]);
@@ -96,5 +96,5 @@ test('between input and result: what is saved is what --strength makes; a drag s
   await page.keyboard.press('Escape');
   await page.mouse.up();
   await settled(page);
-  assert.deepEqual(nodesOf(readFileSync((await saved(page)).path, 'utf8')), whole);
+  assert.deepEqual(placesOf((await saved(page)).path), whole);
 });

@@ -20,13 +20,19 @@ class FairingSession {
   FairingSession& operator=(const FairingSession&) = delete;
 
   /// As fair(), with the constraints as they are now. Where they hold the same nodes as at the last call, only
-  /// elsewhere or with other normals, and that one found an equilibrium, this one starts from there: then it costs a
-  /// few iterations. The shape is the same within the expected error, not to the bit. Where there is none to be
-  /// found the best shape stays, and the outcome says so. Otherwise, and always with other
-  /// methods than the equilibrium's and with options.fair_boundary, it costs what fair() costs. report.before is that
-  /// of the mesh.
+  /// elsewhere or with other normals, and that one found an equilibrium, this one starts from there, and where they go
+  /// on much as before from where that leads: then it costs a few iterations. The shape is the same within the expected
+  /// error, not to the bit. Where there is none to be found the best shape stays, and the outcome says so. Otherwise,
+  /// and always with other methods than the equilibrium's and with options.fair_boundary, it costs what fair() costs.
+  /// report.before is that of the mesh.
   [[nodiscard]] FairResult fair(const Constraints& constraints, Context& context);
   [[nodiscard]] FairResult fair(const Constraints& constraints);
+
+  /// The same for pictures of a drag: no node is expected to be further from its final place than `tolerance`, in place
+  /// of that of the options, and nothing is measured: `before`, `after`, moves and counts of what is held are left out
+  /// of the report. Costs one or two iterations, each linear in the moving nodes, where constraints go on much as at
+  /// the last calls. Throws as fair() does, and for a tolerance out of range.
+  [[nodiscard]] FairResult follow(const Constraints& constraints, double tolerance, Context& context);
 
  private:
   struct State;

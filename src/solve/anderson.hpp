@@ -9,6 +9,9 @@
 
 namespace vspring {
 
+/// Earlier iterates that are worth looking at.
+constexpr std::size_t acceleration_depth = 6;
+
 /// Anderson acceleration (D. G. Anderson, "Iterative procedures for nonlinear integral equations", J. ACM 12(4), 1965;
 /// H. Walker, P. Ni, SIAM J. Numer. Anal. 49(4), 2011): of an iteration x ← x + c(x) it takes the combination of the
 /// last iterates whose c is smallest, so that for nearly linear c it converges as conjugate-residual methods do.
@@ -22,6 +25,10 @@ class Anderson {
   /// Turns correction, that is c(x), into the step to take from x; remembers both. The same bits for every team.
   /// Cost: linear in size and depth.
   void accelerate(std::vector<Vector3>& correction);
+
+  /// The next correction is not of the last step: another place, or another c that is nearly the same but for a
+  /// constant.
+  void begin_anew() { last_step_.clear(); }
 
   /// The step was not taken as it was given, but this share of the correction: what was remembered does not fit any
   /// more.

@@ -13,7 +13,6 @@ namespace vspring {
 
 namespace {
 
-constexpr std::size_t depth = 6;
 constexpr std::size_t nodes_per_task = 2048;
 // No edge may turn or stretch by more than about this in one step: the equations are near to linear up to there.
 constexpr double greatest_turn = 0.3;
@@ -40,8 +39,13 @@ double margin_after(int changes) {
 
 class Solver {
  public:
-  Solver(Net& net, const Model& model, Preconditioner& preconditioner, ThreadTeam& team)
-      : net_(net), model_(model), preconditioner_(preconditioner), team_(team), anderson_(history(net, team)) {
+  Solver(Net& net, const Model& model, Preconditioner& preconditioner, ThreadTeam& team, Anderson<float>* memory)
+      : net_(net),
+        model_(model),
+        preconditioner_(preconditioner),
+        team_(team),
+        anderson_(history(net, team)),
+        memory_(memory) {
     model.prepare(net);
   }
 
@@ -96,6 +100,7 @@ class Solver {
         const double left = last_step > 0 ? std::min(step / last_step, greatest_rate) : greatest_rate;
         const double error = std::max({step * (1 + left), least_share * expected, rounding});
         if (error < task.tolerance) {
+          if (task.take_last) (void)take_step(turn);
           if (last_changes < task.most_changes && renew_ties(false)) {
             ++last_changes;
             continue;
@@ -121,11 +126,12 @@ class Solver {
  private:
   /// Curves are taken nearer to where rounding has the last word; surfaces may be large.
   static std::variant<Anderson<float>, Anderson<double>> history(const Net& net, ThreadTeam& team) {
-    if (net.tangents.empty()) return Anderson<float>(depth, net.moving, team);
-    return Anderson<double>(depth, net.moving, team);
+    if (net.tangents.empty()) return Anderson<float>(acceleration_depth, net.moving, team);
+    return Anderson<double>(acceleration_depth, net.moving, team);
   }
 
   void forget() {
+    if (memory_) return memory_->forget();
     std::visit([](auto& anderson) { anderson.forget(); }, anderson_);
   }
 
@@ -143,6 +149,8 @@ class Solver {
   void accelerate(double turn) {
     if (turn > greatest_turn)
       forget();
+    else if (memory_)
+      memory_->accelerate(correction_);
     else
       std::visit([&](auto& anderson) { anderson.accelerate(correction_); }, anderson_);
   }
@@ -170,6 +178,7 @@ class Solver {
   Preconditioner& preconditioner_;
   ThreadTeam& team_;
   std::variant<Anderson<float>, Anderson<double>> anderson_;
+  Anderson<float>* memory_;
   std::vector<Vector3> correction_;
 };
 
@@ -177,7 +186,7 @@ class Solver {
 
 EquilibriumResult go_to_equilibrium(Net& net, const Model& model, Preconditioner& preconditioner,
                                     const EquilibriumTask& task, ThreadTeam& team, Context& context) {
-  return Solver(net, model, preconditioner, team).run(task, context);
+  return Solver(net, model, preconditioner, team, task.memory).run(task, context);
 }
 
 }  // namespace vspring

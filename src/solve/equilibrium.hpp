@@ -4,6 +4,7 @@
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
+#include "solve/anderson.hpp"
 #include "solve/preconditioner.hpp"
 #include "spring/model.hpp"
 #include "vspring/fair.hpp"
@@ -20,6 +21,10 @@ struct EquilibriumTask {
   std::function<bool(double)> renew_ties = nullptr;
   /// After how many changes of ties at the end it may end all the same.
   int most_changes = 20;
+  /// Of an earlier run of much the same equations; kept. Else there is none.
+  Anderson<float>* memory = nullptr;
+  /// Where the shape is found to be near enough, it takes the last step, too, which leads nearer.
+  bool take_last = false;
 };
 
 struct EquilibriumResult {

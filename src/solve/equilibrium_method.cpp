@@ -79,7 +79,9 @@ class Run {
         points_(points) {}
 
   /// Without a look at coarser levels.
-  void run_on_shape_itself(Preconditioner& preconditioner) {
+  void run_on_shape_itself(Preconditioner& preconditioner, Anderson<float>* memory, bool take_last) {
+    memory_ = memory;
+    take_last_ = take_last;
     relax(hierarchy_.count() - 1, std::min(options_.max_iterations.value_or(near_limit), near_limit), preconditioner);
   }
 
@@ -269,6 +271,8 @@ class Run {
     task.max_iterations = max_iterations;
     if (points_) task.renew_ties = [&](double margin) { return points_->renew(margin); };
     if (level != last) task.most_changes = coarse_changes;
+    task.memory = memory_;
+    task.take_last = take_last_;
     task.on_iteration = [&](double expected) {
       report_.history.push_back(expected / size_);
       progress_.report("fairing", share / 2, static_cast<int>(report_.history.size()), expected / size_);
@@ -292,6 +296,8 @@ class Run {
   ProgressReporter& progress_;
   FairReport& report_;
   PointLevels* points_;
+  Anderson<float>* memory_ = nullptr;
+  bool take_last_ = false;
 };
 
 }  // namespace
@@ -303,8 +309,10 @@ void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions
 
 void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,
                                const FairOptions& options, ThreadTeam& team, Context& context,
-                               ProgressReporter& progress, FairReport& report, PointLevels* points) {
-  Run(hierarchy, model, options, team, context, progress, report, points).run_on_shape_itself(preconditioner);
+                               ProgressReporter& progress, FairReport& report, PointLevels* points,
+                               Anderson<float>* memory, bool take_last) {
+  Run(hierarchy, model, options, team, context, progress, report, points)
+      .run_on_shape_itself(preconditioner, memory, take_last);
 }
 
 }  // namespace vspring

@@ -2,6 +2,7 @@
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
+#include "solve/anderson.hpp"
 #include "solve/hierarchy.hpp"
 #include "solve/point_levels.hpp"
 #include "spring/model.hpp"
@@ -19,6 +20,7 @@ void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions
 /// the shape itself. Ends short of it where the shape is not near enough.
 void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,
                                const FairOptions& options, ThreadTeam& team, Context& context,
-                               ProgressReporter& progress, FairReport& report, PointLevels* points = nullptr);
+                               ProgressReporter& progress, FairReport& report, PointLevels* points = nullptr,
+                               Anderson<float>* memory = nullptr, bool take_last = false);
 
 }  // namespace vspring

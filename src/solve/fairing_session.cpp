@@ -41,6 +41,14 @@ FairResult FairingSession::fair(const Constraints& constraints, Context& context
   return vspring::fair(state_->mesh, constraints, state_->options, context);
 }
 
+FairResult FairingSession::follow(const Constraints& constraints, double tolerance, Context& context) {
+  FairOptions options = state_->options;
+  options.tolerance = tolerance;
+  options.validate();
+  if (!options.fair_boundary) return state_->fairing.fair_again(constraints, context, tolerance);
+  return vspring::fair(state_->mesh, constraints, options, context);
+}
+
 FairResult FairingSession::fair(const Constraints& constraints) {
   Context context;
   return fair(constraints, context);

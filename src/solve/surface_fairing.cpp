@@ -47,10 +47,11 @@ FairResult SurfaceFairing::fair_once(const Constraints& constraints, Context& co
   return result;
 }
 
-FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& context) {
+FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& context,
+                                      std::optional<double> tolerance) {
   const auto begin = Clock::now();
   FairResult result;
-  if (!last_ || !hold_the_same(*last_, constraints) || !go_on(constraints, context, result.report)) {
+  if (!last_ || !hold_the_same(*last_, constraints) || !go_on(constraints, context, tolerance, result.report)) {
     result = {};
     last_.reset();
     hierarchy_.reset();
@@ -61,7 +62,13 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
       return result;
     }
   }
-  finish(hierarchy_->net(hierarchy_->count() - 1), constraints, result);
+  const Net& net = hierarchy_->net(hierarchy_->count() - 1);
+  if (tolerance) {
+    result.report.moving_nodes = static_cast<Index>(net.moving);
+    result.positions = scatter_positions(net, whole_->positions(), constraints, options_.strength);
+  } else {
+    finish(net, constraints, result);
+  }
   last_.reset();
   if (result.report.outcome == Outcome::converged && result.report.method == Method::equilibrium) last_ = constraints;
   result.report.seconds = seconds_since(begin);
@@ -108,7 +115,8 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   return net;
 }
 
-bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, FairReport& report) {
+bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance,
+                           FairReport& report) {
   const Net& net = hierarchy_->net(hierarchy_->count() - 1);
   for (const Index node : net.node) {
     // What is wrong there is said where all is looked at.
@@ -118,9 +126,12 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, Fai
   report.method = Method::equilibrium;
   ProgressReporter progress(context);
   report.threads = team_.size();
-  hierarchy_->follow(constraints, *model_);
-  run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, options_, team_, context, progress,
-                            report);
+  FairOptions options = options_;
+  options.tolerance = tolerance.value_or(options_.tolerance);
+  hierarchy_->follow(constraints, *model_, options.tolerance * diagonal(net));
+  run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, options, team_, context, progress,
+                            report, nullptr, &hierarchy_->memory(), tolerance.has_value());
+  if (report.outcome == Outcome::converged) hierarchy_->arrived();
   return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
 }
 

@@ -25,13 +25,14 @@ class SurfaceFairing {
 
   /// The same, and remembers the shape and how it was found. Where the constraints hold the same nodes as the time
   /// before and an equilibrium was found then, it starts from there, with what it has.
-  FairResult fair_again(const Constraints& constraints, Context& context);
+  /// tolerance: in place of the options' one, where the report is to have no figures of the shape.
+  FairResult fair_again(const Constraints& constraints, Context& context, std::optional<double> tolerance = {});
 
  private:
   /// Leaves the shape in the net that it returns, or in hierarchy_.
   Net run(const Constraints& constraints, Context& context, FairReport& report);
   /// From the last shape. False where that leads nowhere.
-  bool go_on(const Constraints& constraints, Context& context, FairReport& report);
+  bool go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance, FairReport& report);
   void finish(const Net& net, const Constraints& constraints, FairResult& result);
   /// What is worked on: the part that moves, or the whole.
   [[nodiscard]] const PolygonMesh& mesh() const { return part_ ? part_->mesh : *whole_; }

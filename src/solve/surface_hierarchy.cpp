@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -21,8 +22,17 @@ constexpr double worth_sliding = 0.5;
 constexpr double negligible_slide = 0.05;
 constexpr double slide_share = 0.15;
 constexpr std::size_t nodes_per_task = 2048;
+// Moves of what holds, as shares of the tolerance: those that nobody need follow, and those that say where nodes go.
+constexpr double negligible_move = 0.25;
+constexpr double telling_move = 2;
 // Moving nodes up to which Cholesky factors are faster than multigrid.
 constexpr std::size_t few_enough_to_factor = 3000;
+
+double longest(std::span<const Vector3> vectors) {
+  double square = 0;
+  for (const Vector3& vector : vectors) square = std::max(square, vector.squaredNorm());
+  return std::sqrt(square);
+}
 
 /// The mean of a node's neighbours.
 Vector3 mean_place(const Net& net, std::size_t i) {
@@ -94,29 +104,46 @@ void SurfaceHierarchy::prolong_from(std::size_t level) {
   spread_along(level + 1);
 }
 
-void SurfaceHierarchy::follow(const Constraints& constraints, const Model& model) {
+void SurfaceHierarchy::follow(const Constraints& constraints, const Model& model, double tolerance) {
   Net& net = levels_.back().net;
-  std::vector<Vector3> moves(net.positions.size() - net.moving);
-  for (std::size_t k = 0; k < moves.size(); ++k) {
+  const std::size_t held = net.positions.size() - net.moving;
+  held_step_.assign(held, Vector3::Zero());
+  for (std::size_t k = 0; k < held; ++k) {
     const Index node = net.node[net.moving + k];
     if (constraints.position_fixed(node))
-      moves[k] = net.frame.to_local(constraints.position(node)) - net.positions[net.moving + k];
-    else
-      moves[k].setZero();
-  }
-  const bool any_moved = std::any_of(moves.begin(), moves.end(), [](const Vector3& move) { return !move.isZero(0); });
-  if (any_moved) {
-    (void)kept_preconditioner().refresh(model);
-    std::vector<Vector3> correction;
-    preconditioner_->follow(moves, correction);
-    for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += correction[i];
-    for (std::size_t k = 0; k < moves.size(); ++k) net.positions[net.moving + k] += moves[k];
+      held_step_[k] = net.frame.to_local(constraints.position(node)) - net.positions[net.moving + k];
   }
   for (std::size_t i = 0; i < net.positions.size(); ++i) {
     if (!net.normal_given(i)) continue;
     const Vector3& normal = constraints.normal(net.node[i]);
-    net.normals[i] = normal.dot(net.normals[i]) < 0 ? Vector3(-normal) : normal;
+    const Vector3 before = net.normals[i];
+    net.normals[i] = normal.dot(before) < 0 ? Vector3(-normal) : normal;
+    held_step_.push_back(net.normals[i] - before);
   }
+  began_.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
+  std::vector<Vector3> rest = held_step_;
+  std::vector<Vector3> way(net.moving, Vector3::Zero());
+  secants_.predict(rest, way);
+  rest.resize(held);
+  if (longest(rest) > negligible_move * tolerance) {
+    (void)kept_preconditioner().refresh(model);
+    std::vector<Vector3> correction;
+    preconditioner_->follow(rest, correction);
+    for (std::size_t i = 0; i < net.moving; ++i) way[i] += correction[i];
+  }
+  for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += way[i];
+  for (std::size_t k = 0; k < held; ++k) net.positions[net.moving + k] += held_step_[k];
+  if (longest(held_step_) < telling_move * tolerance) held_step_.clear();
+  if (!memory_) memory_.emplace(acceleration_depth, net.moving, *team_);
+  memory_->begin_anew();
+}
+
+void SurfaceHierarchy::arrived() {
+  if (held_step_.empty()) return;
+  const Net& net = levels_.back().net;
+  std::vector<Eigen::Vector3f> way(net.moving);
+  for (std::size_t i = 0; i < net.moving; ++i) way[i] = (net.positions[i] - began_[i]).cast<float>();
+  secants_.remember(std::move(held_step_), std::move(way));
 }
 
 void SurfaceHierarchy::spread_along(std::size_t level) {

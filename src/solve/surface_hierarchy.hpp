@@ -7,8 +7,10 @@
 
 #include "levels/surface_levels.hpp"
 #include "solve/anchor.hpp"
+#include "solve/anderson.hpp"
 #include "solve/hierarchy.hpp"
 #include "solve/linear_solver.hpp"
+#include "solve/secants.hpp"
 #include "solve/surface_preconditioner.hpp"
 #include "solve/surface_systems.hpp"
 
@@ -36,8 +38,15 @@ class SurfaceHierarchy final : public Hierarchy {
   Preconditioner& kept_preconditioner();
 
   /// Held nodes of the shape itself go to their new places, and have their new normals; its moving nodes follow as they
-  /// would if slopes were small. Coarser levels stay as they are.
-  void follow(const Constraints& constraints, const Model& model);
+  /// did the last times, and with what those times do not make up for as they would if slopes were small. Coarser
+  /// levels stay as they are. tolerance: of the shapes from which and to which it goes, in the net's coordinates.
+  void follow(const Constraints& constraints, const Model& model, double tolerance);
+
+  /// From the shape that follow() began with it has come to an equilibrium.
+  void arrived();
+
+  /// Of the iteration on the shape itself, from one follow() to the next.
+  Anderson<float>& memory() { return *memory_; }
 
   Net take() && { return std::move(levels_.back().net); }
 
@@ -53,6 +62,11 @@ class SurfaceHierarchy final : public Hierarchy {
   std::optional<Anchor> anchor_;
   std::unique_ptr<LinearSolver> spreading_;
   std::optional<SurfacePreconditioner> preconditioner_;
+  Secants secants_;
+  /// Of the last follow(): moves of held nodes, then of the ends of given normals; none where it tells nothing.
+  std::vector<Vector3> held_step_;
+  std::vector<Vector3> began_;  ///< where moving nodes were before it
+  std::optional<Anderson<float>> memory_;
   ThreadTeam* team_;
 };
 

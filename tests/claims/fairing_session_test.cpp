@@ -76,6 +76,78 @@ TEST(FairingSession, FollowsNormalsThatTurn) {
   }
 }
 
+/// Where the inner rim has been dragged to after so many steps of 0.3 % of the size: to and fro, and round.
+Vector3 way_of(int step) {
+  const double turn = 0.15 * step;
+  return {0.04 * std::sin(turn), 0.03 * std::sin(0.7 * turn), 0.04 * (1 - std::cos(turn))};
+}
+
+TEST(FairingSession, PicturesOfADragStayWithinTheirTolerance) {
+  const PolygonMesh mesh = generate::annulus({.nodes = 3000});
+  const double tolerance = 2e-4;
+  for (const bool normals_held : {false, true}) {
+    Constraints constraints(mesh.node_count());
+    fix_boundary_positions(constraints, mesh);
+    if (normals_held) fix_boundary_normals(constraints, mesh);
+    FairingSession session(mesh, {.method = Method::equilibrium});
+    (void)session.fair(constraints);
+    Context context;
+    int iterations = 0;
+    for (int step = 1; step <= 100; ++step) {
+      for (Index i = 0; i < mesh.node_count(); ++i) {
+        if (constraints.position_fixed(i) && mesh.position(i).head<2>().norm() < 0.5)
+          constraints.fix_position(i, mesh.position(i) + way_of(step));
+      }
+      const FairResult seen = session.follow(constraints, tolerance, context);
+      ASSERT_EQ(seen.report.outcome, Outcome::converged) << step;
+      ASSERT_EQ(seen.report.levels.size(), 1U) << step;
+      EXPECT_LT(*seen.report.expected_error, tolerance);
+      iterations += seen.report.iterations;
+      if (step % 10 != 0) continue;
+      const FairResult anew = fair(mesh, constraints, {.method = Method::equilibrium});
+      EXPECT_LT(greatest_distance(seen.positions, anew.positions), 3 * tolerance * diagonal(mesh)) << step;
+    }
+    EXPECT_LT(iterations, 200) << "hardly more than one a picture";
+  }
+}
+
+TEST(FairingSession, PicturesOfNormalsThatTurnStayWithinTheirTolerance) {
+  Dragged one = dragged(1500);
+  FairingSession session(one.mesh, to(1e-5));
+  (void)session.fair(one.constraints);
+  Context context;
+  const double tolerance = 2e-4;
+  for (int step = 1; step <= 20; ++step) {
+    const double tilt = 0.01 * step;
+    for (Index i = 0; i < one.mesh.node_count(); ++i) {
+      if (one.constraints.normal_fixed(i) && one.mesh.position(i).head<2>().norm() > 0.9)
+        one.constraints.fix_normal(i, Vector3(tilt * one.mesh.position(i).x(), tilt * one.mesh.position(i).y(), 1));
+    }
+    const FairResult seen = session.follow(one.constraints, tolerance, context);
+    ASSERT_EQ(seen.report.levels.size(), 1U);
+    if (step % 5 != 0) continue;
+    const FairResult anew = fair(one.mesh, one.constraints, to(1e-5));
+    EXPECT_LT(greatest_distance(seen.positions, anew.positions), 3 * tolerance * diagonal(one.mesh)) << step;
+  }
+}
+
+TEST(FairingSession, PausesOfADragDoNotMisleadIt) {
+  Dragged one = dragged(1500);
+  FairingSession session(one.mesh, to(1e-5));
+  (void)session.fair(one.constraints);
+  Context context;
+  const double tolerance = 2e-4;
+  const Vector3 start = one.constraints.position(one.node);
+  // Hardly a move, and then a far one: what the small ones left unfinished says nothing of that.
+  for (int step = 0; step < 6; ++step) {
+    const double height = step % 2 == 0 ? 0.01 * step + 1e-6 : 0.01 * (step + 1);
+    one.constraints.fix_position(one.node, start + Vector3(0, 0, height));
+    const FairResult seen = session.follow(one.constraints, tolerance, context);
+    EXPECT_EQ(seen.report.levels.size(), 1U);
+    EXPECT_LT(seen.report.iterations, 7);
+  }
+}
+
 TEST(FairingSession, OtherNodesHeldAreFairedAnew) {
   Dragged one = dragged(800);
   const FairOptions options = to(1e-6);
@@ -152,7 +224,14 @@ TEST(FairingSession, ThreadsGiveTheSameBits) {
     FairingSession session(one.mesh, to(1e-6), threads);
     (void)session.fair(one.constraints);
     one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0, 0, 0.005));
-    shapes.push_back(session.fair(one.constraints).positions);
+    std::vector<Vector3> shape = session.fair(one.constraints).positions;
+    for (int step = 1; step < 4; ++step) {
+      one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0, 0.001, 0.003));
+      Context context;
+      const FairResult seen = session.follow(one.constraints, 2e-4, context);
+      shape.insert(shape.end(), seen.positions.begin(), seen.positions.end());
+    }
+    shapes.push_back(std::move(shape));
   }
   EXPECT_EQ(shapes[0], shapes[1]);
 }

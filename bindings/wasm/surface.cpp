@@ -10,6 +10,9 @@ namespace vspring {
 
 namespace {
 
+// Of the size: a fifth of a pixel where that is a thousand of them.
+constexpr double picture_tolerance = 2e-4;
+
 /// One surface that is open.
 class Surface {
  public:
@@ -81,10 +84,14 @@ class Surface {
   /// From the file's shape. progress(fraction): true ends it soon with the best shape so far.
   val fair(const val& progress) {
     session_.reset();
-    return solve(progress);
+    return solve(progress, [&](Context& context) { return to_val(take(session_->fair(*constraints_, context))); });
   }
-  /// From the last shape, where that leads somewhere.
-  val follow(const val& progress) { return solve(progress); }
+  /// From the last shape, where that leads somewhere, as near as a picture can tell.
+  val follow(const val& progress) {
+    return solve(progress, [&](Context& context) {
+      return outcome_of(take(session_->follow(*constraints_, picture_tolerance, context)));
+    });
+  }
 
   /// From the file's shape, drawn towards points.
   val fit(const Points& points, const val& settings, const val& progress) {
@@ -134,16 +141,19 @@ class Surface {
   }
 
  private:
-  val solve(const val& progress) {
+  template <typename Solve>
+  val solve(const val& progress, const Solve& with) {
     return forwarding_errors([&] {
       if (!session_) session_.emplace(file_.mesh, options_, 1);
       Context context;
       context.threads = 1;
       ask(context, progress);
-      FairResult result = session_->fair(*constraints_, context);
-      positions_ = std::move(result.positions);
-      return to_val(result.report);
+      return with(context);
     });
+  }
+  FairReport take(FairResult result) {
+    positions_ = std::move(result.positions);
+    return std::move(result.report);
   }
 
   SurfaceFile file_;

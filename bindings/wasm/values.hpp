@@ -98,18 +98,25 @@ inline void ask(Context& context, const val& progress) {
   };
 }
 
-inline val to_val(const FairReport& report) {
+/// How a run ended.
+inline val outcome_of(const FairReport& report) {
   val result = val::object();
   result.set("outcome", std::string(name(report.outcome)));
   result.set("iterations", report.iterations);
   result.set("seconds", report.seconds);
   result.set("expectedError", report.expected_error ? val(*report.expected_error) : val::null());
   result.set("movingNodes", report.moving_nodes);
+  result.set("warnings", list_of(report.warnings));
+  return result;
+}
+
+/// That, and what was measured.
+inline val to_val(const FairReport& report) {
+  val result = outcome_of(report);
   result.set("energyBefore", report.before.vspring_energy);
   result.set("energyAfter", report.after.vspring_energy);
   result.set("greatestTurnAfter", report.after.greatest_turn);
   result.set("greatestMove", report.greatest_move);
-  result.set("warnings", list_of(report.warnings));
   return result;
 }
 

@@ -30,7 +30,6 @@ export interface Report {
   seconds: number;
   expectedError: number | null;
   movingNodes: number;
-  greatestMove: number;
   warnings: string[];
   /** Of a fit: distances in units of the file, outliers left out. */
   fit?: { points: number; outliers: number; smoothingLength: number | null; greatest: number; rms: number };

@@ -20,6 +20,10 @@ import { drawsInSoftware } from './software';
 import { nothing, placesOf, type Shape } from './shape';
 import { normalsAt, verticesOf, type Vertices } from './vertices';
 
+/** Milliseconds between pictures of a drag beyond which they have fewer pixels, and beyond which nobody drags. */
+const slow = 45;
+const still = 300;
+
 ColorManagement.enabled = false;  // colours are those of the style sheet
 
 export class View {
@@ -44,12 +48,18 @@ export class View {
   private asked = false;
   /** Smooth edges come from the card; without one, from a finer picture when all has been still for a while. */
   private readonly software = drawsInSoftware();
-  private fine = false;
+  /** Pixels of the picture to one of the page, along each side. */
+  private resolution = 1;
+  /** That of pictures that follow the pointer. */
+  private moving = 1;
+  private drawnAt = 0;
   private rest = 0;
 
   /** panel: what may lie above the right end of the view. drawn: called after each picture. Throws where the browser has no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly panel: HTMLElement, private readonly drawn: () => void) {
-    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software });
+    // Nothing is behind it: opaque, it costs the browser less.
+    const context = canvas.getContext('webgl2', { alpha: false, antialias: !this.software }) ?? undefined;
+    this.renderer = new WebGLRenderer({ canvas, context });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
@@ -81,6 +91,9 @@ export class View {
   show(positions: Float64Array, settled: boolean): void {
     if (!this.shape) return;
     this.places = placesOf(this.shape, positions);
+    const gap = performance.now() - this.drawnAt;
+    if (settled) this.moving = 1;
+    else if (this.software && gap > slow && gap < still) this.moving = 0.5;
     if (settled || !this.vertices) this.split(this.shape);
     const { nodes } = this.vertices!;
     const at = this.surface.geometry.getAttribute('position').array as Float32Array;
@@ -245,12 +258,13 @@ export class View {
     requestAnimationFrame(() => {
       this.asked = false;
       this.arrows.scale(this.camera.zoom);
-      this.refine(false);
+      this.setResolution(this.moving);
       this.scaleMarkers();
       this.renderer.render(this.scene, this.camera);
       this.drawn();
+      this.drawnAt = performance.now();
       clearTimeout(this.rest);
-      if (this.software) this.rest = window.setTimeout(() => this.refine(true), 300);
+      if (this.software) this.rest = window.setTimeout(() => this.refine(), still);
     });
   }
 
@@ -277,15 +291,19 @@ export class View {
     this.features.geometry = geometry(this.places.length / 3, vertices.features, ['position']);
   }
 
-  private refine(fine: boolean): void {
-    if (fine === this.fine) return;
-    this.fine = fine;
+  private refine(): void {
+    this.setResolution(2);
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  private setResolution(resolution: number): void {
+    if (resolution === this.resolution) return;
+    this.resolution = resolution;
     this.resizePicture();
-    if (fine) this.renderer.render(this.scene, this.camera);
   }
 
   private resizePicture(): void {
-    const ratio = window.devicePixelRatio * (this.fine ? 2 : 1);
+    const ratio = window.devicePixelRatio * this.resolution;
     this.renderer.setPixelRatio(ratio);
     this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
     this.scaleMarkers();

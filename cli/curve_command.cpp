@@ -30,6 +30,7 @@ int run_curve(CurveArguments arguments) {
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
   (void)asks_to_fit(arguments.pull);
+  arguments.options.distribution = arguments.distribution.value_or(Distribution::even);
   check_outputs(arguments);
   refuse_views(arguments, true);
   Fairing fairing(arguments);

@@ -27,7 +27,8 @@ int run_fair(FairArguments arguments) {
     arguments.options.pseudo_normals = PseudoNormals::average;
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
-  (void)asks_to_fit(arguments.pull);
+  const bool fits = asks_to_fit(arguments.pull);
+  arguments.options.distribution = arguments.distribution.value_or(fits ? Distribution::keep : Distribution::even);
   check_outputs(arguments);
   refuse_views(arguments, false);
   Fairing fairing(arguments);

@@ -99,10 +99,12 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments) {
 
 void add_shaping_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words) {
   FairOptions& options = arguments.options;
-  add_choice(command, "--distribution", options.distribution, distributions,
-             fmt::format("Along the {}, nodes go to the mean of their neighbours, or keep their share between them "
-                         "(default: even)",
-                         words.shape))
+  add_choice(
+      command, "--distribution", arguments.distribution, distributions,
+      fmt::format("Along the {}, nodes go to the mean of their neighbours, or keep their share between them and, "
+                  "where points draw a surface, their place (default: even; keep for a surface drawn towards "
+                  "its own nodes)",
+                  words.shape))
       ->group(fairing_group);
   command
       .add_option("--strength", options.strength,

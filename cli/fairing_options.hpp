@@ -20,6 +20,7 @@ struct FairingArguments {
   Hold fix_directions = Hold::none;
   std::string region;
   FairOptions options;
+  std::optional<Distribution> distribution;  ///< else what the command takes by itself
   bool paper = false;
   int threads = 0;
   std::string report;

@@ -102,7 +102,8 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
                                 .lines = account.lines()});
 }
 
-int run_fit(const FitArguments& arguments) {
+int run_fit(FitArguments arguments) {
+  arguments.options.distribution = arguments.distribution.value_or(Distribution::even);
   check_outputs(arguments, {{"--points", arguments.points}});
   if (!arguments.deviation.empty() &&
       scalar_format(std::filesystem::path(arguments.deviation).extension().string()) != ScalarFormat::ply)

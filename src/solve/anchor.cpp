@@ -6,6 +6,7 @@
 namespace vspring {
 
 Anchor::Anchor(const Net& net) : net_(&net) {
+  if (!net.homes.empty()) return;
   constexpr auto unseen = static_cast<std::uint32_t>(-1);
   std::vector<std::uint32_t> component(net.moving, unseen);
   std::vector<std::uint8_t> held;

@@ -274,6 +274,7 @@ SparseRows spreading_form(const Net& net, ThreadTeam& team, double shift) {
       double sum = 0;
       for (const Link link : net.rings.links(i)) {
         if (!link.spoke()) continue;
+        if (!net.homes.empty()) sum += 1;
         const std::size_t j = link.node();
         const double weight = j < net.moving ? 0.5 * (one_way(i, j) + one_way(j, i)) : one_way(i, j);
         sum += weight;

@@ -2,10 +2,13 @@
 
 #include "vspring/fit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "fit/point_factors.hpp"
@@ -25,6 +28,8 @@ using Clock = std::chrono::steady_clock;
 constexpr double step_share = 0.1;
 // Of outliers and shape.
 constexpr int most_turns = 12;
+// Where nodes have homes, waves are short and decay soon.
+constexpr int most_sweeps_of_homes = 2000;
 
 template <typename Subject>
 class Fitting {
@@ -106,10 +111,12 @@ class Fitting {
       FitToTolerance<Subject>(run_).fit(std::move(points), progress, smooth);
       return;
     }
-    go_to_equilibrium(std::move(points), progress);
+    const bool has_homes = go_to_equilibrium(std::move(points), progress);
     const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
     if (found || options_.fair.method || options_.fair.max_iterations) return;
     // Nobody asked for this method: the paper's iteration ends where points crumple a shape, too.
+    std::optional<FitResult> nearest;
+    if (has_homes) nearest = run_.result;
     std::vector<std::string> said = std::move(report.warnings);
     said.emplace_back(
         "no equilibrium was found: this is the plain iteration's shape; the points may be too noisy for their weight "
@@ -119,17 +126,27 @@ class Fitting {
     FairOptions options = options_.fair;
     if (!options_.smoothing_length)
       options.step_tolerance = std::min(options.step_tolerance, step_share * options_.weight);
+    if (nearest) options.max_iterations = most_sweeps_of_homes;
     points = run_.loose_points();
     report.warnings = std::move(said);
     sweep(std::move(points), options, progress);
+    if (!nearest || report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
+    // Nodes that stay about where they are do not crumple the shape.
+    nearest->report.fair.warnings.push_back(fmt::format(
+        "no equilibrium was found: this is the nearest shape, expected to be {:.2g} % of the size away from "
+        "one; noise may have folded faces",
+        100 * nearest->report.fair.expected_error.value_or(0)));
+    run_.result = std::move(*nearest);
   }
 
-  void go_to_equilibrium(LoosePoints points, ProgressReporter& progress) {
+  /// Returns whether nodes have homes.
+  bool go_to_equilibrium(LoosePoints points, ProgressReporter& progress) {
     auto gathered = run_.gather();
     const auto smoothing = smoothing_in(net_of(gathered));
     PulledShape shape(std::move(gathered), options_.fair, std::move(points), smoothing, run_.team);
     shape.find(run_.context, progress, run_.result.report.fair);
     run_.finish(shape.net());
+    return !shape.net().homes.empty();
   }
 
   void sweep(LoosePoints points, FairOptions options, ProgressReporter& progress) {

@@ -45,7 +45,11 @@ class FitRun {
 
   auto gather() {
     auto gathered = subject.gather();
-    count_nodes(net_of(gathered), subject.constraints(), result.report.fair);
+    Net& net = net_of(gathered);
+    // Else the nodes slide along a shape that noise has crumpled until it comes apart.
+    if (options.fair.distribution == Distribution::keep && net.tangents.empty())
+      net.homes.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
+    count_nodes(net, subject.constraints(), result.report.fair);
     return gathered;
   }
 

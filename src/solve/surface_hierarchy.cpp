@@ -9,6 +9,7 @@
 #include "levels/surface_slide.hpp"
 #include "solve/interpolation.hpp"
 #include "solve/surface_preconditioner.hpp"
+#include "spring/surface_force.hpp"
 
 namespace vspring {
 
@@ -154,10 +155,10 @@ void SurfaceHierarchy::spread_along(std::size_t level) {
   for (int pass = 0; pass < slide_passes; ++pass) {
     parallel_ranges(*team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        forces[i] = node_force(i, net.rings.links(i), net.positions, net.normals, net.shares_of(i), net.tiny);
+        forces[i] = surface_force(net, i);
         const auto links = net.rings.links(i);
         const auto spokes = std::count_if(links.begin(), links.end(), [](Link link) { return link.spoke(); });
-        steps[i] = static_cast<double>(spokes) * forces[i].regularisation;
+        steps[i] = regularisation_divisor(net) * static_cast<double>(spokes) * forces[i].regularisation;
       }
     });
     double least_edge = forces.front().mean_edge;

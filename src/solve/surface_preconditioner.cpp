@@ -6,6 +6,7 @@
 
 #include "solve/bending_form.hpp"
 #include "spring/bending_factor.hpp"
+#include "spring/surface_force.hpp"
 
 namespace vspring {
 
@@ -158,7 +159,7 @@ Vector3 SurfacePreconditioner::asked_across(std::size_t i, const Vector3& regula
   }
   if (shares.empty() && spokes > 0) mean /= spokes;
   const Vector3& normal = net_->normals[i];
-  const Vector3 asked = regularisation + mean - along_[i] * normal;
+  const Vector3 asked = regularisation_divisor(*net_) * regularisation + mean - along_[i] * normal;
   return spokes * (asked - asked.dot(normal) * normal);
 }
 

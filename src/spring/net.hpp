@@ -32,6 +32,7 @@ struct Net {
   std::vector<std::uint8_t> given;  ///< which directions constraints give, for every node
   Rings rings;
   std::vector<double> shares;  ///< what links count in the regularisation; empty: all the same
+  std::vector<Vector3> homes;  ///< of a surface, to where the regularisation draws moving nodes too; empty: nowhere
   TiedPoints points;           ///< scattered points that pull at nodes; empty where there are none
   std::vector<Index> node;     ///< number in the shape of every local node
   Frame frame;

@@ -4,6 +4,7 @@
 
 #include "spring/model_of.hpp"
 #include "spring/pseudo_normal.hpp"
+#include "spring/surface_force.hpp"
 
 namespace vspring {
 
@@ -18,9 +19,7 @@ struct SurfaceRules {
     if (!net.normal_given(i)) net.normals[i] = Normal()(net.positions[i], net.rings.links(i), net.positions);
   }
 
-  [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const {
-    return node_force(i, net.rings.links(i), net.positions, net.normals, net.shares_of(i), net.tiny);
-  }
+  [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const { return surface_force(net, i); }
 
   [[nodiscard]] Vector3 sprung(const Net& net, std::size_t i, const Vector3& d) const {
     return d.dot(net.normals[i]) * net.normals[i];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/fits.hpp"
@@ -28,10 +29,15 @@ FitSpecimen<PolygonMesh> wavy_plane(generate::Faces faces, int cells = 12) {
 }
 
 template <typename Shape>
-void expect_the_same_as_sweeps(const FitSpecimen<Shape>& specimen, double weight, int sweeps) {
-  const FitResult equilibrium = specimen.fit(to_equilibrium(weight, 1e-8));
+void expect_the_same_as_sweeps(const FitSpecimen<Shape>& specimen, double weight, int sweeps,
+                               Distribution distribution = Distribution::even) {
+  FitOptions options = to_equilibrium(weight, 1e-8);
+  options.fair.distribution = distribution;
+  const FitResult equilibrium = specimen.fit(options);
   EXPECT_EQ(equilibrium.report.fair.outcome, Outcome::converged);
-  const FitResult swept = specimen.fit(by_sweeps(weight, 1e-9, sweeps));
+  options = by_sweeps(weight, 1e-9, sweeps);
+  options.fair.distribution = distribution;
+  const FitResult swept = specimen.fit(options);
   EXPECT_EQ(swept.report.fair.outcome, Outcome::converged);
   EXPECT_LT(greatest_distance(equilibrium.positions, swept.positions), 1e-6);
   EXPECT_EQ(equilibrium.report.pulling_points, swept.report.pulling_points);
@@ -43,6 +49,8 @@ TEST(FitEquilibrium, IsWhereSweepsEnd) {
   for (const auto faces : every_kind) {
     SCOPED_TRACE(static_cast<int>(faces));
     expect_the_same_as_sweeps(wavy_plane(faces), 0.05, 20000);
+    if (faces != generate::Faces::hexagons)
+      expect_the_same_as_sweeps(wavy_plane(faces), 0.05, 20000, Distribution::keep);
   }
 }
 
@@ -255,6 +263,35 @@ TEST(FitEquilibrium, KeepsWorkingWithEveryRule) {
   EXPECT_EQ(wavy_plane(generate::Faces::quads).fit(keep).report.fair.outcome, Outcome::converged);
 }
 
+/// Noise of so many edges taken off a closed cube of 8 × 8 quads a side by a fit to its own nodes, which keep their
+/// distribution. Returns the result, and how far nodes are from the cube as a share of how far they were.
+std::pair<FitResult, double> cleaned_cube(double noise, double smoothing_length) {
+  const double edge = 0.125;
+  const PolygonMesh cube = generate::genus({.holes = 0, .cells = 8});
+  const PolygonMesh noisy = generate::add_noise(cube, noise * edge, 1);
+  FitOptions options;
+  options.smoothing_length = smoothing_length * edge;
+  options.fair.distribution = Distribution::keep;
+  FitResult result = fit(noisy, Constraints(cube.node_count()), {.positions = noisy.positions()}, options);
+  const double share = distance(result.positions, cube).rms / distance(noisy.positions(), cube).rms;
+  return {std::move(result), share};
+}
+
+TEST(FitEquilibrium, NodesThatKeepTheirDistributionDoNotSlideOffWhatIsSharp) {
+  const auto [result, share] = cleaned_cube(0.3, 0.5);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_LT(share, 0.8);
+}
+
+TEST(FitEquilibrium, TakesTheNearestShapeWhereNoiseHasFoldedFacesThatKeepTheirPlace) {
+  const auto [result, share] = cleaned_cube(1, 0.3);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::iteration_limit);
+  EXPECT_EQ(result.report.fair.method, Method::equilibrium);
+  ASSERT_FALSE(result.report.fair.warnings.empty());
+  EXPECT_NE(result.report.fair.warnings.back().find("no equilibrium"), std::string::npos);
+  EXPECT_LT(share, 1);
+}
+
 TEST(FitEquilibrium, WhereItFindsNothingThePlainIterationDoes) {
   // Points that crumple the curve: neighbours are drawn apart by more than an edge.
   const auto crumpled = noisy_wave(200, 0.004);
@@ -263,6 +300,14 @@ TEST(FitEquilibrium, WhereItFindsNothingThePlainIterationDoes) {
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   ASSERT_FALSE(result.report.fair.warnings.empty());
   EXPECT_NE(result.report.fair.warnings.back().find("no equilibrium"), std::string::npos);
+}
+
+TEST(FitEquilibrium, WhereItFindsNothingForBricksThatKeepTheirPlaceThePlainIterationDoes) {
+  FitOptions options{.fair = {}, .weight = 0.05};
+  options.fair.distribution = Distribution::keep;
+  const FitResult result = wavy_plane(generate::Faces::hexagons).fit(options);
+  EXPECT_EQ(result.report.fair.method, Method::sweep);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
 }
 
 TEST(FitEquilibrium, GivesTheSameBitsOnAnyNumberOfThreads) {

@@ -163,7 +163,7 @@ class Fit(Case):
                     self.assertEqual(result.returncode, 0, result.stderr.decode())
                     own = (self.folder / output).read_bytes()
                     points = self.read_json("r.json")["points"]
-                    self.fit(shape, shape, option, value, output=output)
+                    self.fit(shape, shape, option, value, "--distribution", "keep" if command == "fair" else "even", output=output)
                     self.assertEqual((self.folder / output).read_bytes(), own)
                     self.assertEqual(points["file"], str(shape))
                     if option in ("--within", "--rms"):

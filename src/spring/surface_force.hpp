@@ -1,0 +1,22 @@
+#pragma once
+
+#include "spring/net.hpp"
+#include "spring/v_spring.hpp"
+
+namespace vspring {
+
+/// How many times what neighbours ask across the normal the regularisation is divided by: a home counts as much as all
+/// of them together.
+inline double regularisation_divisor(const Net& net) { return net.homes.empty() ? 1 : 2; }
+
+/// What its neighbours, and its home where nodes have one, ask of a node of a surface.
+inline NodeForce surface_force(const Net& net, std::size_t i) {
+  NodeForce force = node_force(i, net.rings.links(i), net.positions, net.normals, net.shares_of(i), net.tiny);
+  if (net.homes.empty()) return force;
+  const Vector3 home = net.homes[i] - net.positions[i];
+  const Vector3 across = home - home.dot(net.normals[i]) * net.normals[i];
+  force.regularisation = (force.regularisation + across) / regularisation_divisor(net);
+  return force;
+}
+
+}  // namespace vspring

@@ -22,6 +22,7 @@ FitOptions options_of(const val& settings) {
   options.within = number("within");
   options.rms = number("rms");
   options.outliers = number("outliers").value_or(0);
+  if (const val keep = settings["keep"]; keep.isTrue()) options.fair.distribution = Distribution::keep;
   return options;
 }
 

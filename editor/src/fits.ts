@@ -8,18 +8,19 @@ type Progress = (fraction: number) => boolean;
 const quick = 0.12;
 
 export class Fits {
-  private readonly clouds = new Map<number, CorePoints>();
+  private readonly clouds = new Map<number, { points: CorePoints; keep: boolean }>();
   private now: FitJob | null = null;
   private found: number | null = null;
   private follows = true;
 
-  add(number: number, points: CorePoints): Float64Array {
-    this.clouds.set(number, points);
+  /** keep: whether nodes that these draw keep their distribution. */
+  add(number: number, points: CorePoints, keep: boolean): Float64Array {
+    this.clouds.set(number, { points, keep });
     return points.positions();
   }
 
   clear(): void {
-    for (const points of this.clouds.values()) points.delete();
+    for (const { points } of this.clouds.values()) points.delete();
     this.clouds.clear();
     this.now = null;
   }
@@ -33,7 +34,7 @@ export class Fits {
     this.follows = true;
     if (!this.now) return shape.fair(progress);
     const { kind, value, outliers, points } = this.now;
-    const report = shape.fit(this.clouds.get(points)!, { [kind]: value, outliers }, progress);
+    const report = this.drawn(shape, points, { [kind]: value, outliers }, progress);
     this.found = report.fit!.smoothingLength;
     return report;
   }
@@ -43,8 +44,13 @@ export class Fits {
     const { now, found } = this;
     const settings = now && (now.kind === 'weight' ? { weight: now.value } : found !== null && { smoothingLength: found });
     if (!now || !settings || !this.follows) return shape.follow(progress);
-    const report = shape.fit(this.clouds.get(now.points)!, settings, progress);
+    const report = this.drawn(shape, now.points, settings, progress);
     this.follows = report.seconds < quick;
     return report;
+  }
+
+  private drawn(shape: CoreShape, number: number, settings: object, progress: Progress): Report {
+    const { points, keep } = this.clouds.get(number)!;
+    return shape.fit(points, { ...settings, keep }, progress);
   }
 }

@@ -1,6 +1,9 @@
 #include "base/threads.hpp"
 
 #include <algorithm>
+#include <system_error>
+#include <thread>
+#include <vector>
 
 #include "vspring/context.hpp"
 
@@ -9,7 +12,11 @@ namespace vspring {
 namespace {
 
 // Some 30 microseconds: waking a thread takes longer than many a loop over some thousand nodes.
+#if defined(__x86_64__)
 constexpr int looks_before_sleep = 2000;
+#else
+constexpr int looks_before_sleep = 16000;  // without pauses
+#endif
 
 /// Not a yield: that would hand the core to other programs for milliseconds.
 void pause() {
@@ -18,55 +25,104 @@ void pause() {
 #endif
 }
 
+/// Looks whether that holds for as long as the pauses between loops last.
+template <typename Holds>
+bool soon(const Holds& holds) {
+  for (int look = 0; look < looks_before_sleep; ++look) {
+    if (holds()) return true;
+    pause();
+  }
+  return holds();
+}
+
 }  // namespace
 
 int Context::thread_count() const noexcept {
   return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-ThreadTeam::ThreadTeam(int threads) {
-  for (int k = 1; k < threads; ++k) workers_.emplace_back([this] { work(); });
-}
+/// The threads that help teams: started when one calls and none is idle, and asleep here between teams. They are never
+/// ended, and neither is this, so nothing has to be waited for at the end of the program.
+class Helpers {
+ public:
+  static Helpers& of_program() {
+    static Helpers& helpers = *new Helpers;
+    return helpers;
+  }
+
+  void call(ThreadTeam& team, int count) {
+    const std::lock_guard lock(mutex_);
+    calls_.insert(calls_.end(), count, &team);
+    try {
+      for (; idle_ < calls_.size(); ++idle_) std::thread([this] { live(); }).detach();
+    } catch (const std::system_error&) {
+      // There are no more: whoever becomes idle will come.
+    }
+    for (; count > 0; --count) called_.notify_one();
+  }
+
+  /// How many calls of that team nobody has answered; nobody will.
+  int withdraw(const ThreadTeam& team) {
+    const std::lock_guard lock(mutex_);
+    return static_cast<int>(std::erase(calls_, &team));
+  }
+
+ private:
+  [[noreturn]] void live() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      called_.wait(lock, [this] { return !calls_.empty(); });
+      ThreadTeam& team = *calls_.back();
+      calls_.pop_back();
+      --idle_;
+      lock.unlock();
+      team.help();
+      lock.lock();
+      ++idle_;
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable called_;
+  std::vector<ThreadTeam*> calls_;
+  std::size_t idle_ = 0;
+};
 
 ThreadTeam::~ThreadTeam() {
-  {
-    const std::lock_guard lock(mutex_);
-    ending_ = true;
-  }
-  started_.notify_all();
-  for (auto& worker : workers_) worker.join();
+  if (round_ == 0) return;
+  ending_ = true;
+  const int unanswered = Helpers::of_program().withdraw(*this);
+  std::unique_lock lock(mutex_);
+  helpers_ -= unanswered;
+  finished_.wait(lock, [this] { return helpers_ == 0; });
 }
 
 void ThreadTeam::run(std::size_t count, const std::function<void(std::size_t)>& task) {
-  if (workers_.empty() || count < 2) {
+  if (size_ < 2 || count < 2) {
     for (std::size_t k = 0; k < count; ++k) task(k);
     return;
   }
+  int missing = 0;
   {
     const std::lock_guard lock(mutex_);
     task_ = &task;
     count_ = count;
     next_.store(0, std::memory_order_relaxed);
     ++round_;
+    missing = size_ - 1 - helpers_;
+    helpers_ += missing;
   }
-  started_.notify_all();
+  if (missing > 0) Helpers::of_program().call(*this, missing);
   take_tasks(task, count);
   {
     // Whoever has not come by now is not waited for: another program may have its core.
     const std::lock_guard lock(mutex_);
     task_ = nullptr;
   }
-  wait(finished_, [this] { return busy_ == 0; });
-}
-
-template <typename Holds>
-void ThreadTeam::wait(std::condition_variable& signal, const Holds& holds) {
-  for (int look = 0; look < looks_before_sleep; ++look) {
-    if (holds()) return;
-    pause();
-  }
+  const auto done = [this] { return busy_ == 0; };
+  if (soon(done)) return;
   std::unique_lock lock(mutex_);
-  signal.wait(lock, holds);
+  finished_.wait(lock, done);
 }
 
 void ThreadTeam::take_tasks(const std::function<void(std::size_t)>& task, std::size_t count) {
@@ -77,15 +133,19 @@ void ThreadTeam::take_tasks(const std::function<void(std::size_t)>& task, std::s
   }
 }
 
-void ThreadTeam::work() {
+void ThreadTeam::help() {
   std::uint64_t seen = 0;
   for (;;) {
-    wait(started_, [&] { return ending_ || round_ != seen; });
-    if (ending_) return;
+    (void)soon([&] { return ending_ || round_ != seen; });
     const std::function<void(std::size_t)>* task = nullptr;
     std::size_t count = 0;
     {
       const std::lock_guard lock(mutex_);
+      if (ending_ || round_ == seen) {
+        // The last that is done here: the team may end now.
+        if (--helpers_ == 0) finished_.notify_one();
+        return;
+      }
       seen = round_;
       if (task_ == nullptr) continue;
       ++busy_;

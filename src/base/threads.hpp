@@ -3,40 +3,40 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <mutex>
-#include <thread>
-#include <vector>
 
 namespace vspring {
 
 /// A team of threads that works off numbered tasks. Which thread takes which task is left open, so tasks must not
 /// depend on each other, and what they compute must not depend on who computes it: then results are the same bits for
-/// every size of team.
+/// every size of team. Besides the caller they are threads that live as long as the program and help one team after the
+/// other; where no more can be had those that there are do the work.
 class ThreadTeam {
  public:
   /// threads: at least 1, the caller among them.
-  explicit ThreadTeam(int threads);
+  explicit ThreadTeam(int threads) : size_(threads) {}
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
-  [[nodiscard]] int size() const noexcept { return static_cast<int>(workers_.size()) + 1; }
+  [[nodiscard]] int size() const noexcept { return size_; }
 
   /// Calls task(k) for k from 0 to count − 1 and returns when all are done. Tasks must not throw.
   void run(std::size_t count, const std::function<void(std::size_t)>& task);
 
  private:
-  void work();
-  void take_tasks(const std::function<void(std::size_t)>& task, std::size_t count);
-  /// Until what is asked for holds: awake for as long as the pauses between loops last, then asleep.
-  template <typename Holds>
-  void wait(std::condition_variable& signal, const Holds& holds);
+  friend class Helpers;
 
-  std::vector<std::thread> workers_;
+  /// What another thread does here until there has been nothing to do for a while.
+  void help();
+  void take_tasks(const std::function<void(std::size_t)>& task, std::size_t count);
+
+  int size_;
   std::mutex mutex_;
-  std::condition_variable started_;
   std::condition_variable finished_;
+  int helpers_ = 0;  // here or called
   std::atomic<std::uint64_t> round_ = 0;
   std::atomic<bool> ending_ = false;
   std::atomic<std::size_t> busy_ = 0;

@@ -1,8 +1,14 @@
 #include "base/threads.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <chrono>
+#include <mutex>
 #include <numeric>
+#include <set>
+#include <thread>
+#include <vector>
 
 namespace vspring {
 namespace {
@@ -27,6 +33,39 @@ TEST(Threads, ManyShortRunsFollowEachOther) {
     team.run(values.size(), [&](std::size_t k) { values[k] += static_cast<long>(k); });
   }
   for (std::size_t k = 0; k < values.size(); ++k) EXPECT_EQ(values[k], static_cast<long>(2000 * k));
+}
+
+TEST(Threads, TeamsSideBySideHelpNobodyElse) {
+  std::vector<std::thread> callers;
+  std::vector<std::vector<int>> done(4);
+  for (auto& mine : done) {
+    callers.emplace_back([&mine] {
+      for (int k = 0; k < 200; ++k) {
+        ThreadTeam outer(3);
+        ThreadTeam inner(2);
+        mine.resize(mine.size() + 20);
+        outer.run(10, [&](std::size_t i) { mine[mine.size() - 20 + i] = 1; });
+        inner.run(10, [&](std::size_t i) { mine[mine.size() - 10 + i] = 1; });
+      }
+    });
+  }
+  for (auto& caller : callers) caller.join();
+  for (const auto& mine : done) EXPECT_EQ(std::accumulate(mine.begin(), mine.end(), 0), 200 * 20);
+}
+
+TEST(Threads, ServeOneTeamAfterTheOther) {
+  std::set<pid_t> seen;
+  std::mutex mutex;
+  for (int k = 0; k < 200; ++k) {
+    ThreadTeam team(2);
+    team.run(4, [&](std::size_t) {
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+      const std::lock_guard lock(mutex);
+      seen.insert(gettid());
+    });
+  }
+  EXPECT_GT(seen.size(), 1U);
+  EXPECT_LT(seen.size(), 20U);
 }
 
 TEST(Threads, RangesCoverEverythingWithoutOverlap) {

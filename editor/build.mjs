@@ -6,7 +6,7 @@ import { build } from 'esbuild';
 
 const root = new URL('../', import.meta.url).pathname;
 const out = join(root, 'build/editor');
-const core = ['vspring_core.js', 'vspring_core.wasm'].map((name) => join(root, 'build/wasm', name));
+const core = ['vspring_core.js', 'vspring_core.wasm', 'vspring_core_threads.js', 'vspring_core_threads.worker.js', 'vspring_core_threads.wasm'].map((name) => join(root, 'build/wasm', name));
 const missing = core.find((path) => !existsSync(path));
 if (missing) {
   console.error(`${missing} does not exist: run bindings/wasm/build first`);

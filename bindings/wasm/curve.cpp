@@ -118,7 +118,7 @@ class Curve {
   val fair(const val& progress) {
     return forwarding_errors([&] {
       Context context;
-      context.threads = 1;
+      context.threads = threads();
       ask(context, progress);
       FairResult result = vspring::fair(file_.curve, *constraints_, {}, context);
       positions_ = std::move(result.positions);

@@ -42,7 +42,7 @@ val fit_to(const Points& points, const val& settings, const val& progress, const
            const Constraints& constraints, std::vector<Vector3>& positions) {
   return forwarding_errors([&] {
     Context context;
-    context.threads = 1;
+    context.threads = threads();
     ask(context, progress);
     FitResult result = fit(shape, constraints, points.points(), options_of(settings), context);
     positions = std::move(result.positions);

@@ -111,7 +111,7 @@ class Surface {
       PolygonMesh mesh = file_.mesh;
       mesh.set_positions(vectors_of(positions));
       Context context;
-      context.threads = 1;
+      context.threads = threads();
       std::vector<double> k1;
       std::vector<double> k2;
       for (const NodeCurvature& at : vspring::curvatures(mesh, context)) {
@@ -144,9 +144,9 @@ class Surface {
   template <typename Solve>
   val solve(const val& progress, const Solve& with) {
     return forwarding_errors([&] {
-      if (!session_) session_.emplace(file_.mesh, options_, 1);
+      if (!session_) session_.emplace(file_.mesh, options_, threads());
       Context context;
-      context.threads = 1;
+      context.threads = threads();
       ask(context, progress);
       return with(context);
     });

@@ -90,6 +90,12 @@ auto read_from(const val& bytes, const std::string& name, const Read& read) {
   return read(memory.path());
 }
 
+/// As many as whoever loads the library gives as `threads`; one where none are given, and where it is linked without.
+inline int threads() {
+  const val given = val::module_property("threads");
+  return given.isUndefined() || val::module_property("PThread").isUndefined() ? 1 : given.as<int>();
+}
+
 /// Asks progress(fraction), which may be null; true from it ends the solution soon.
 inline void ask(Context& context, const val& progress) {
   if (progress.isNull() || progress.isUndefined()) return;
@@ -104,6 +110,7 @@ inline val outcome_of(const FairReport& report) {
   result.set("outcome", std::string(name(report.outcome)));
   result.set("iterations", report.iterations);
   result.set("seconds", report.seconds);
+  result.set("threads", report.threads);
   result.set("expectedError", report.expected_error ? val(*report.expected_error) : val::null());
   result.set("movingNodes", report.moving_nodes);
   result.set("warnings", list_of(report.warnings));

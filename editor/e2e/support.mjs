@@ -20,11 +20,11 @@ export function native(...options) {
 const flags = ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--force-device-scale-factor=1'];
 
 export class Session {
-  // shared: whether page and worker may share memory.
-  static async start({ shared = true } = {}) {
+  // shared: whether page and worker may share memory. without: a file of the editor that the server does not have.
+  static async start({ shared = true, without } = {}) {
     const session = new Session();
     session.folder = mkdtempSync(join(tmpdir(), 'vspring-editor-'));
-    session.server = await serve({ '/': join(root, 'build/editor'), '/files/': session.folder }, 0, shared);
+    session.server = await serve({ '/': join(root, 'build/editor'), '/files/': session.folder, ...(without && { [`/${without}`]: '/' }) }, 0, shared);
     session.address = `http://127.0.0.1:${session.server.address().port}/`;
     session.browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: flags });
     return session;

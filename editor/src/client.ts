@@ -44,7 +44,7 @@ export class CoreClient {
       this.waiting.clear();
       this.broken(message);
     });
-    const start: Start = { core: new URL('vspring_core.js', document.baseURI).href, ended: this.ended };
+    const start: Start = { folder: document.baseURI, ended: this.ended };
     worker.postMessage(start);
     return worker;
   }

@@ -69,4 +69,46 @@ export function describe(shape: CoreSurface | CoreCurve): Opened {
   return 'faceBegin' in shape ? { ...common(shape), faceBegin: shape.faceBegin(), corners: shape.corners() } : describeCurve(shape);
 }
 
-export type CoreFactory = (options: { locateFile: (name: string) => string }) => Promise<Core>;
+declare const vspringCore: (options: { locateFile: (name: string) => string; mainScriptUrlOrBlob: string; threads: number }) => Promise<Core>;
+declare function importScripts(address: string): void;
+
+/** The library from the folder of that address. One thread has memory of its own, more of them share theirs. */
+async function loadCore(folder: string, threads: number): Promise<Core> {
+  const script = new URL(threads > 1 ? 'vspring_core_threads.js' : 'vspring_core.js', folder).href;
+  importScripts(script);
+  return vspringCore({ locateFile: (name) => new URL(name, folder).href, mainScriptUrlOrBlob: script, threads });
+}
+
+/** More of them gain little, and each loads the library. */
+const mostThreads = 8;
+
+/** With a thread for each core where the page may share memory with them and they can be had, else with one. */
+export async function loadFastest(folder: string): Promise<Core> {
+  const threads = self.crossOriginIsolated ? Math.min(navigator.hardwareConcurrency, mostThreads) : 1;
+  if (threads > 1) {
+    const { Worker } = self;
+    const loading = new AbortController();
+    const failure = new Promise<never>((_, failed) => {
+      // The library itself listens too late to hear of threads that cannot be loaded at all, and waits for them.
+      self.Worker = class extends Worker {
+        constructor(address: string | URL) {
+          super(address);
+          this.addEventListener('error', (event) => {
+            event.stopImmediatePropagation();
+            event.preventDefault();
+            failed(event);
+          }, loading);
+        }
+      };
+    });
+    try {
+      return await Promise.race([loadCore(folder, threads), failure]);
+    } catch (error) {
+      console.warn('Threads cannot be loaded:', error);
+    } finally {
+      loading.abort();
+      self.Worker = Worker;
+    }
+  }
+  return loadCore(folder, 1);
+}

@@ -28,6 +28,7 @@ export interface Report {
   outcome: string;
   iterations: number;
   seconds: number;
+  threads: number;
   expectedError: number | null;
   movingNodes: number;
   warnings: string[];
@@ -129,9 +130,9 @@ export interface Request<K extends Kind = Kind> {
 export const endedSolution = 0;
 export const endedAll = 1;
 
-/** ended: that memory; null where it may not be shared. */
+/** folder: an address in the one that the library is loaded from. ended: that memory; null where it may not be shared. */
 export interface Start {
-  core: string;
+  folder: string;
   ended: Int32Array | null;
 }
 

@@ -19,10 +19,10 @@ function ofSolution({ report, dragging, frames, showsInput, shape }: Editor): st
   if (!shape) return 'Open a mesh or a curve, or drop one here';
   if (showsInput) return 'The input';
   if (!report) return '';
-  const { outcome, iterations, expectedError, seconds } = report;
+  const { outcome, iterations, expectedError, seconds, threads } = report;
   const error = expectedError === null ? '' : ` · expected error ${short(Number((100 * expectedError).toPrecision(2)))} %`;
   const rate = dragging ? ` · ${Math.round(frames.perSecond(performance.now()))} frames/s` : '';
-  return `${outcome} · ${count(iterations, 'iteration')}${error} · ${Math.round(1000 * seconds)} ms${rate}`;
+  return `${outcome} · ${count(iterations, 'iteration')}${error} · ${Math.round(1000 * seconds)} ms${threads > 1 ? ` on ${threads} threads` : ''}${rate}`;
 }
 
 function ofNode({ atArrow, hovered, held, normals, shape }: Editor, field: Field | null): string {

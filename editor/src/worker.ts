@@ -1,12 +1,10 @@
 // The worker that owns the library and the open shape. It answers one request after the other.
 
-import { describe, describeCurve, openShape, type Core, type CoreCurve, type CoreFactory, type CoreSurface } from './core';
+import { describe, describeCurve, loadFastest, openShape, type Core, type CoreCurve, type CoreSurface } from './core';
 import { Fits } from './fits';
 import { endedAll, endedSolution, type Answer, type Ask, type Drag, type HeldNormals, type Job, type Kind, type Reply, type Request, type Start } from './protocol';
 import { between } from './strength';
 
-declare const vspringCore: CoreFactory;
-declare function importScripts(address: string): void;
 declare function postMessage(reply: Reply, transfer?: Transferable[]): void;
 
 let core: Core;
@@ -144,8 +142,7 @@ function handle<K extends Kind>({ number, kind, ask }: Request<K>): void {
 const ready = new Promise<void>((done, failed) => {
   self.addEventListener('message', ({ data }: MessageEvent<Start>) => {
     ended = data.ended;
-    importScripts(data.core);
-    vspringCore({ locateFile: (name) => new URL(name, data.core).href }).then((loaded) => {
+    loadFastest(data.folder).then((loaded) => {
       core = loaded;
       done();
     }, failed);

@@ -1,31 +1,22 @@
 // The library in WebAssembly against the native program: the same files, constraints and results.
 
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
+import { load, native, rules } from './support.mjs';
 
-const root = new URL('../../', import.meta.url).pathname;
-const program = process.env.VSPRING ?? join(root, 'build/dev/vspring');
-const rules = JSON.stringify({ rules: [{ nodes: 'boundary', position: 'fixed', normal: 'fixed' }] });
 let core;
 let folder;
 
 before(async () => {
-  const load = createRequire(import.meta.url)(join(root, 'build/wasm/vspring_core.js'));
-  core = await load({ wasmBinary: readFileSync(join(root, 'build/wasm/vspring_core.wasm')) });
+  core = await load('vspring_core');
   folder = mkdtempSync(join(tmpdir(), 'vspring-'));
   writeFileSync(join(folder, 'rules.json'), rules);
 });
 
 after(() => rmSync(folder, { recursive: true }));
-
-function native(...options) {
-  return execFileSync(program, options, { encoding: 'utf8' });
-}
 
 function generated(name, ...options) {
   const path = join(folder, name);

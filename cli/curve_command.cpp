@@ -29,8 +29,7 @@ int run_curve(CurveArguments arguments) {
     arguments.options.curve = CurveRules::paper();
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
-  (void)asks_to_fit(arguments.pull);
-  arguments.options.distribution = arguments.distribution.value_or(Distribution::even);
+  arguments.options.distribution = distribution_of(arguments, asks_to_fit(arguments.pull));
   check_outputs(arguments);
   refuse_views(arguments, true);
   Fairing fairing(arguments);

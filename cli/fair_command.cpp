@@ -27,8 +27,7 @@ int run_fair(FairArguments arguments) {
     arguments.options.pseudo_normals = PseudoNormals::average;
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
-  const bool fits = asks_to_fit(arguments.pull);
-  arguments.options.distribution = arguments.distribution.value_or(fits ? Distribution::keep : Distribution::even);
+  arguments.options.distribution = distribution_of(arguments, asks_to_fit(arguments.pull));
   check_outputs(arguments);
   refuse_views(arguments, false);
   Fairing fairing(arguments);

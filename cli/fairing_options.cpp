@@ -101,10 +101,10 @@ void add_shaping_options(CLI::App& command, FairingArguments& arguments, const F
   FairOptions& options = arguments.options;
   add_choice(
       command, "--distribution", arguments.distribution, distributions,
-      fmt::format("Along the {}, nodes go to the mean of their neighbours, or keep their share between them and, "
-                  "where points draw a surface, their place (default: even; keep for a surface drawn towards "
-                  "its own nodes)",
-                  words.shape))
+      fmt::format(
+          "Along the {}, nodes go to the mean of their neighbours, or keep their share between them and, "
+          "where points draw a surface, their place (default: even; keep where the nodes of the input are the points)",
+          words.shape))
       ->group(fairing_group);
   command
       .add_option("--strength", options.strength,

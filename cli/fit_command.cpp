@@ -103,7 +103,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
 }
 
 int run_fit(FitArguments arguments) {
-  arguments.options.distribution = arguments.distribution.value_or(Distribution::even);
+  arguments.options.distribution = distribution_of(arguments, false);
   check_outputs(arguments, {{"--points", arguments.points}});
   if (!arguments.deviation.empty() &&
       scalar_format(std::filesystem::path(arguments.deviation).extension().string()) != ScalarFormat::ply)

@@ -28,6 +28,11 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
 /// Throws Error(invalid_argument) where more than one of the four is given, or --outliers without any.
 [[nodiscard]] bool asks_to_fit(const PullArguments& arguments);
 
+/// Nodes that are the points stay about where they are, unless the command says otherwise.
+[[nodiscard]] inline Distribution distribution_of(const FairingArguments& arguments, bool own_nodes_pull) {
+  return arguments.distribution.value_or(own_nodes_pull ? Distribution::keep : Distribution::even);
+}
+
 [[nodiscard]] FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing);
 
 /// What a report and people are told of points.

@@ -83,9 +83,8 @@ const handlers: Handlers = {
     return null;
   },
   points({ number, name, bytes }) {
-    // As the program does: a surface that is drawn to its own nodes leaves them about where they are.
-    if (!bytes) return { positions: fits.add(number, core.Points.at(input), 'faceCount' in opened()) };
-    return { positions: fits.add(number, new core.Points(bytes, name), false) };
+    // As the program does: a shape that is drawn to its own nodes leaves them about where they are.
+    return { positions: fits.add(number, bytes ? new core.Points(bytes, name) : core.Points.at(input), !bytes) };
   },
   region({ rules, nodes }) {
     opened().setRules(rules);

@@ -10,6 +10,7 @@ import tempfile
 import unittest
 
 PROGRAM = os.environ["VSPRING"]
+EXAMPLES = pathlib.Path(__file__).parents[2] / "examples"
 
 
 def run(*arguments, stdin=None, environment=None, timeout=120):

@@ -3,7 +3,7 @@ import math
 import random
 import struct
 
-from support import OCTAHEDRON, Case, grid, run, sphere, vertex_lines
+from support import EXAMPLES, OCTAHEDRON, Case, grid, run, sphere, vertex_lines
 
 
 def xyz(points):
@@ -163,7 +163,7 @@ class Fit(Case):
                     self.assertEqual(result.returncode, 0, result.stderr.decode())
                     own = (self.folder / output).read_bytes()
                     points = self.read_json("r.json")["points"]
-                    self.fit(shape, shape, option, value, "--distribution", "keep" if command == "fair" else "even", output=output)
+                    self.fit(shape, shape, option, value, "--distribution", "keep", output=output)
                     self.assertEqual((self.folder / output).read_bytes(), own)
                     self.assertEqual(points["file"], str(shape))
                     if option in ("--within", "--rms"):
@@ -173,6 +173,14 @@ class Fit(Case):
         self.assertEqual(result.returncode, 1)
         self.assertIn("only one of --weight", result.stderr.decode())
         self.assertEqual(run("curve", curve, "-o", self.folder / "out.csv", "--outliers", "0.1").returncode, 1)
+
+    def test_an_aerofoil_within_a_tolerance_of_its_own_nodes(self):
+        result = run("curve", EXAMPLES / "naca-2412.dat", "-o", self.folder / "out.dat", "--within", "0.0005", "--report", self.folder / "r.json")
+        self.assertEqual(result.returncode, 0, result.stderr.decode())
+        report = self.read_json("r.json")
+        self.assertLessEqual(report["points"]["distance"]["after"]["greatest"], 0.0005)
+        before, after = (report["fairness"][when]["vspring_energy"] for when in ("before", "after"))
+        self.assertLess(after, 0.9 * before)
 
     def test_resampled_curves_stay_within_a_tolerance_of_what_they_were(self):
         curve = self.write("wave.csv", "".join(f"{k / 30!r},{0.1 * math.sin(k / 5) + 0.001 * (-1) ** k!r}\n" for k in range(31)))

@@ -291,8 +291,8 @@ test('curves: fits to points and to its own nodes as the native program does', (
     [points, { within: 0.1, outliers: 0.02 }, ['fit', path, '--points', cloud, '--within', '0.1', '--outliers', '0.02']],
     [points, { rms: 0.03 }, ['fit', path, '--points', cloud, '--rms', '0.03']],
     [points, { weight: 0.05 }, ['fit', path, '--points', cloud, '--weight', '0.05']],
-    [own, { within: 0.02 }, ['curve', path, '--within', '0.02']],
-    [own, { smoothingLength: 0.2 }, ['curve', path, '--smoothing-length', '0.2']],
+    [own, { within: 0.02, keep: true }, ['curve', path, '--within', '0.02']],
+    [own, { smoothingLength: 0.2, keep: true }, ['curve', path, '--smoothing-length', '0.2']],
   ]) {
     native(...command, '-o', fitted, '--constraints', join(folder, 'ends.json'), '--report', report, '--quiet');
     const result = curve.fit(pull, settings, null);

@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 
+#include "seconds.hpp"
 #include "spring/net.hpp"
 #include "sweep/sweep.hpp"
 #include "vspring/generate.hpp"
@@ -17,13 +17,7 @@
 namespace {
 
 using namespace vspring;
-
-template <typename Call>
-double seconds(const Call& call) {
-  const auto begin = std::chrono::steady_clock::now();
-  call();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
+using bench::seconds;
 
 template <typename Call>
 double best_of(int times, const Call& call) {

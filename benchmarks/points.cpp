@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
@@ -13,22 +12,17 @@
 #include "fit/point_ties.hpp"
 #include "flat_cap.hpp"
 #include "memory.hpp"
+#include "seconds.hpp"
 #include "support/fits.hpp"
 
 namespace {
 
 using namespace vspring;
+using bench::seconds;
 
 constexpr int points_a_node = 10;
 constexpr int updates = 5;
 constexpr double smoothing_length = 0.05;
-
-template <typename Call>
-double seconds(const Call& call) {
-  const auto begin = std::chrono::steady_clock::now();
-  call();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 /// Mebibytes at the peak of a call above what there was before.
 template <typename Call>

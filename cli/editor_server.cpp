@@ -133,7 +133,7 @@ class EditorServer::Running {
 
   EditedFile file_;
   std::function<void()> saved_;
-  std::string root_ = "/" + random_word();
+  std::string root_ = fmt::format("/{}", random_word());
   std::string input_;
   std::string output_;
   std::string address_;

@@ -1,10 +1,9 @@
 // Large meshes, and solutions that are given up: with memory that page and worker share, and without.
 
 import assert from 'node:assert/strict';
-import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { downloaded, find, greatestDistance, native, placesOf, rulesOf, saved, Session, settled } from './support.mjs';
+import { downloaded, expectSameAsNative, find, greatestDistance, native, placesOf, Session, settled } from './support.mjs';
 
 const status = (page) => page.locator('#status');
 
@@ -78,12 +77,7 @@ test('after a solution is given up without shared memory, what is changed and sa
     await status(page).filter({ hasText: 'cancelled' }).waitFor();
     await page.getByRole('button', { name: 'Normals fixed' }).click();
     await settled(page);
-    const { path } = await saved(page);
-    const [rules, fair] = [join(session.folder, 'rules.json'), join(session.folder, 'fair.obj')];
-    writeFileSync(rules, await rulesOf(page));
-    native('fair', input, '-o', fair, '--constraints', rules, '--quiet');
-    const [ours, theirs] = [path, fair].map(placesOf);
-    assert.ok(greatestDistance(ours, theirs) < 6e-5, `${greatestDistance(ours, theirs)}`);  // six times the tolerance of 1e-5, on a size of some 2.4
+    await expectSameAsNative(session, page, input);
     assert.deepEqual(faults, []);
   } finally {
     await session.stop();

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, afterEach, before, beforeEach } from 'node:test';
@@ -152,4 +152,14 @@ export function greatestDistance(a, b) {
 export async function saved(page, format) {
   if (format) await page.getByLabel('File format').selectOption(format);
   return downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click());
+}
+
+// That what is saved is what the program makes of the same file and constraints. Of sizes of some 2.4, to six times the tolerance of 1e-5.
+export async function expectSameAsNative(session, page, input) {
+  const { path } = await saved(page);
+  const [rules, fair] = [join(session.folder, 'rules.json'), join(session.folder, 'fair.obj')];
+  writeFileSync(rules, await rulesOf(page));
+  native('fair', input, '-o', fair, '--constraints', rules, '--quiet');
+  const [ours, theirs] = [path, fair].map(placesOf);
+  assert.ok(greatestDistance(ours, theirs) < 6e-5, `${greatestDistance(ours, theirs)}`);
 }

@@ -1,10 +1,8 @@
 // Threads, where page and worker may share memory, and one thread where they may not or where threads cannot be loaded.
 
 import assert from 'node:assert/strict';
-import { writeFileSync } from 'node:fs';
-import { join } from 'node:path';
 import { test } from 'node:test';
-import { greatestDistance, native, placesOf, rulesOf, saved, Session, settled } from './support.mjs';
+import { expectSameAsNative, Session, settled } from './support.mjs';
 
 for (const [what, options, many] of [
   ['a page that may share memory solves with a thread for each core', {}, true],
@@ -20,12 +18,7 @@ for (const [what, options, many] of [
       const cores = Math.min(8, await page.evaluate(() => navigator.hardwareConcurrency));
       const status = await page.locator('#status').textContent();
       assert.equal(Number(status.match(/ on (\d+) threads/)?.[1] ?? 1), many ? cores : 1, status);
-      const { path } = await saved(page);
-      const [rules, fair] = [join(session.folder, 'rules.json'), join(session.folder, 'fair.obj')];
-      writeFileSync(rules, await rulesOf(page));
-      native('fair', input, '-o', fair, '--constraints', rules, '--quiet');
-      const [ours, theirs] = [path, fair].map(placesOf);
-      assert.ok(greatestDistance(ours, theirs) < 6e-5, `${greatestDistance(ours, theirs)}`);  // six times the tolerance of 1e-5, on a size of some 2.4
+      await expectSameAsNative(session, page, input);
       assert.deepEqual(faults.filter((fault) => !options.without || !/worker/.test(fault)), []);
     } finally {
       await session.stop();

@@ -51,7 +51,9 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
                                       std::optional<double> tolerance) {
   const auto begin = Clock::now();
   FairResult result;
-  if (!last_ || !hold_the_same(*last_, constraints) || !go_on(constraints, context, tolerance, result.report)) {
+  const bool went_on =
+      last_ && hold_the_same(*last_, constraints) && go_on(constraints, context, tolerance, result.report);
+  if (!went_on) {
     result = {};
     last_.reset();
     hierarchy_.reset();
@@ -69,8 +71,10 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
   } else {
     finish(net, constraints, result);
   }
-  last_.reset();
-  if (result.report.outcome == Outcome::converged && result.report.method == Method::equilibrium) last_ = constraints;
+  if (went_on && result.report.outcome == Outcome::cancelled)
+    hierarchy_->go_back();
+  else if (result.report.outcome == Outcome::converged && result.report.method == Method::equilibrium)
+    last_ = constraints;
   result.report.seconds = seconds_since(begin);
   return result;
 }

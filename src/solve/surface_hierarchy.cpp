@@ -107,6 +107,8 @@ void SurfaceHierarchy::prolong_from(std::size_t level) {
 
 void SurfaceHierarchy::follow(const Constraints& constraints, const Model& model, double tolerance) {
   Net& net = levels_.back().net;
+  began_ = net.positions;
+  normals_began_ = net.normals;
   const std::size_t held = net.positions.size() - net.moving;
   held_step_.assign(held, Vector3::Zero());
   for (std::size_t k = 0; k < held; ++k) {
@@ -121,7 +123,6 @@ void SurfaceHierarchy::follow(const Constraints& constraints, const Model& model
     net.normals[i] = normal.dot(before) < 0 ? Vector3(-normal) : normal;
     held_step_.push_back(net.normals[i] - before);
   }
-  began_.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
   std::vector<Vector3> rest = held_step_;
   std::vector<Vector3> way(net.moving, Vector3::Zero());
   secants_.predict(rest, way);
@@ -145,6 +146,11 @@ void SurfaceHierarchy::arrived() {
   std::vector<Eigen::Vector3f> way(net.moving);
   for (std::size_t i = 0; i < net.moving; ++i) way[i] = (net.positions[i] - began_[i]).cast<float>();
   secants_.remember(std::move(held_step_), std::move(way));
+}
+
+void SurfaceHierarchy::go_back() {
+  levels_.back().net.positions = began_;
+  levels_.back().net.normals = normals_began_;
 }
 
 void SurfaceHierarchy::spread_along(std::size_t level) {

@@ -44,6 +44,8 @@ class SurfaceHierarchy final : public Hierarchy {
 
   /// From the shape that follow() began with it has come to an equilibrium.
   void arrived();
+  /// Back to the shape that follow() began with, and to what held it.
+  void go_back();
 
   /// Of the iteration on the shape itself, from one follow() to the next.
   Anderson<float>& memory() { return *memory_; }
@@ -65,7 +67,8 @@ class SurfaceHierarchy final : public Hierarchy {
   Secants secants_;
   /// Of the last follow(): moves of held nodes, then of the ends of given normals; none where it tells nothing.
   std::vector<Vector3> held_step_;
-  std::vector<Vector3> began_;  ///< where moving nodes were before it
+  std::vector<Vector3> began_;          ///< where all nodes were before it
+  std::vector<Vector3> normals_began_;  ///< and their normals
   std::optional<Anderson<float>> memory_;
   ThreadTeam* team_;
 };

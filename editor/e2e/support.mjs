@@ -16,8 +16,8 @@ export function native(...options) {
   return execFileSync(program, options, { encoding: 'utf8' });
 }
 
-// Software drawing, the same on every machine. The sandbox needs rights that containers lack; the pages are our own.
-const flags = ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--force-device-scale-factor=1'];
+// Software drawing, as where there is no graphics card, the same on every machine. The sandbox needs rights that containers lack; the pages are our own.
+const flags = ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--force-device-scale-factor=1'];
 
 export class Session {
   // shared: whether page and worker may share memory. without: a file of the editor that the server does not have.

@@ -4,7 +4,7 @@ import { edgesOf, trianglesOf } from '../../page/mesh.js';
 import type { Vector } from './constraints';
 import { planeOf } from './curve_plane';
 import type { Opened, OpenedCurve } from './protocol';
-import { normalsAt } from './vertices';
+import { setNormals, sidesOf, type Sides } from './vertices';
 
 /** What only curves have. */
 export interface CurveParts {
@@ -21,6 +21,7 @@ export interface Shape {
   /** Null for a surface; of a curve there are no faces. */
   curve: CurveParts | null;
   faces: { begin: Int32Array; nodes: Int32Array };
+  sides: Sides;
   boundary: Uint8Array;
   edges: { count: number; ends: Uint32Array; faces: Int32Array; against: Uint8Array };
   /** Nodes of triangles, for picking; and the corners of faces they stand for, for drawing. */
@@ -70,6 +71,7 @@ export function shapeOf(opened: Opened): Shape {
   return {
     curve,
     faces,
+    sides: sidesOf(faces),
     boundary,
     edges,
     triangles: triangleCorners.map((corner) => corners[corner]),
@@ -105,7 +107,10 @@ export function placesOf({ centre, scale }: Shape, positions: Float64Array): Flo
 
 /** Of the shape at a node, from its faces. */
 export function normalNear(shape: Shape, positions: Float64Array, node: number): Vector {
-  const { faces } = shape;
-  const all = { nodes: Uint32Array.from({ length: positions.length / 3 }, (_, k) => k), corners: Uint32Array.from(faces.nodes), features: new Uint32Array() };
-  return [...normalsAt(faces, all, placesOf(shape, positions)).subarray(3 * node, 3 * node + 3)] as Vector;
+  const { nodes } = shape.faces;
+  const normals = new Float32Array(positions.length);
+  const corners = Uint32Array.from(nodes.keys()).filter((corner) => nodes[corner] === node);
+  const all = { nodes: new Uint32Array(), corners: Uint32Array.from(nodes), features: new Uint32Array() };
+  setNormals(normals, nodes, shape.sides, all, placesOf(shape, positions), { vertices: Uint32Array.of(node), corners });
+  return [...normals.subarray(3 * node, 3 * node + 3)] as Vector;
 }

@@ -5,6 +5,12 @@ interface Faces {
   nodes: Int32Array;
 }
 
+/** Of every corner of a face the nodes before and after it. */
+export interface Sides {
+  before: Uint32Array;
+  after: Uint32Array;
+}
+
 interface Edges {
   count: number;
   ends: Uint32Array;
@@ -91,27 +97,53 @@ export function verticesOf(faces: Faces, positions: Float32Array, edges: Edges, 
   return { nodes: Uint32Array.from(vertexNodes), corners, features: Uint32Array.from(features) };
 }
 
-/** Normals of vertices with Max's weights (1999), exact on spheres. */
-export function normalsAt({ begin, nodes }: Faces, { nodes: vertexNodes, corners }: Vertices, positions: Float32Array): Float32Array {
-  const normals = new Float32Array(3 * vertexNodes.length);
+export function sidesOf({ begin, nodes }: Faces): Sides {
+  const [before, after] = [new Uint32Array(nodes.length), new Uint32Array(nodes.length)];
   for (let f = 0; f + 1 < begin.length; ++f) {
     for (let c = begin[f]; c < begin[f + 1]; ++c) {
-      const centre = 3 * nodes[c];
-      const a = 3 * nodes[c + 1 < begin[f + 1] ? c + 1 : begin[f]];
-      const b = 3 * nodes[c > begin[f] ? c - 1 : begin[f + 1] - 1];
-      const [ax, ay, az] = [positions[a] - positions[centre], positions[a + 1] - positions[centre + 1], positions[a + 2] - positions[centre + 2]];
-      const [bx, by, bz] = [positions[b] - positions[centre], positions[b + 1] - positions[centre + 1], positions[b + 2] - positions[centre + 2]];
-      const weight = 1 / ((ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz));
-      if (!Number.isFinite(weight)) continue;  // an edge without length
-      const vertex = 3 * corners[c];
-      normals[vertex] += weight * (ay * bz - az * by);
-      normals[vertex + 1] += weight * (az * bx - ax * bz);
-      normals[vertex + 2] += weight * (ax * by - ay * bx);
+      after[c] = nodes[c + 1 < begin[f + 1] ? c + 1 : begin[f]];
+      before[c] = nodes[c > begin[f] ? c - 1 : begin[f + 1] - 1];
     }
   }
-  for (let k = 0; k < normals.length; k += 3) {
-    const length = Math.hypot(normals[k], normals[k + 1], normals[k + 2]) || 1;
-    for (let i = k; i < k + 3; ++i) normals[i] /= length;
+  return { before, after };
+}
+
+/** Some vertices, and the corners of faces that they stand for. */
+export interface Part {
+  vertices: Uint32Array;
+  corners: Uint32Array;
+}
+
+/** The vertices of triangles. */
+export function partOf(triangles: Uint32Array, { nodes, corners }: Vertices): Part {
+  const used = new Uint8Array(nodes.length);
+  for (const vertex of triangles) used[vertex] = 1;
+  return { vertices: Uint32Array.from(nodes.keys()).filter((vertex) => used[vertex]), corners: Uint32Array.from(corners.keys()).filter((corner) => used[corners[corner]]) };
+}
+
+/** Normals of vertices, or of the part, with Max's weights (1999), exact on spheres; written into normals. */
+export function setNormals(normals: Float32Array, nodes: Int32Array, { before, after }: Sides, { corners }: Vertices, positions: Float32Array, part?: Part): void {
+  const count = part ? part.corners.length : nodes.length;
+  const vertexCount = part ? part.vertices.length : normals.length / 3;
+  for (let k = 0; k < vertexCount; ++k) {
+    const vertex = 3 * (part ? part.vertices[k] : k);
+    normals[vertex] = normals[vertex + 1] = normals[vertex + 2] = 0;
   }
-  return normals;
+  for (let k = 0; k < count; ++k) {
+    const c = part ? part.corners[k] : k;
+    const [centre, a, b] = [3 * nodes[c], 3 * after[c], 3 * before[c]];
+    const [ax, ay, az] = [positions[a] - positions[centre], positions[a + 1] - positions[centre + 1], positions[a + 2] - positions[centre + 2]];
+    const [bx, by, bz] = [positions[b] - positions[centre], positions[b + 1] - positions[centre + 1], positions[b + 2] - positions[centre + 2]];
+    const weight = 1 / ((ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz));
+    if (!Number.isFinite(weight)) continue;  // an edge without length
+    const vertex = 3 * corners[c];
+    normals[vertex] += weight * (ay * bz - az * by);
+    normals[vertex + 1] += weight * (az * bx - ax * bz);
+    normals[vertex + 2] += weight * (ax * by - ay * bx);
+  }
+  for (let k = 0; k < vertexCount; ++k) {
+    const vertex = 3 * (part ? part.vertices[k] : k);
+    const length = Math.hypot(normals[vertex], normals[vertex + 1], normals[vertex + 2]) || 1;
+    for (let i = vertex; i < vertex + 3; ++i) normals[i] /= length;
+  }
 }

@@ -1,9 +1,6 @@
 // The view: the surface, its lines and markers, drawn when something has changed.
 
-import {
-  BufferAttribute, BufferGeometry, Color, ColorManagement, LineBasicMaterial, LinearSRGBColorSpace, LineSegments, Matrix4, Mesh, OrthographicCamera,
-  Scene, Vector3, WebGLRenderer,
-} from 'three';
+import { Color, ColorManagement, LinearSRGBColorSpace, Matrix4, OrthographicCamera, Scene, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Arrows } from './arrows';
 import type { Vector } from './constraints';
@@ -12,13 +9,13 @@ import { gridOfUnits } from './grid';
 import { Dots } from './dots';
 import { Markers } from './markers';
 import type { Field } from './fields';
-import { kindOf, surfaceMaterial, type Look } from './materials';
+import type { Look } from './materials';
 import { assignButtons, moveByWheel } from './navigation';
 import type { Seen } from './picking';
 import { pixelOf, placeAt, towards } from './projection';
 import { drawsInSoftware } from './software';
 import { nothing, placesOf, type Shape } from './shape';
-import { normalsAt, verticesOf, type Vertices } from './vertices';
+import { SurfaceLayer } from './surface_layer';
 
 /** Milliseconds between pictures of a drag beyond which they have fewer pixels, and beyond which nobody drags. */
 const slow = 45;
@@ -37,17 +34,12 @@ export class View {
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, -50, 50);
   private readonly renderer: WebGLRenderer;
   private readonly controls: OrbitControls;
-  private readonly surface = new Mesh(new BufferGeometry(), surfaceMaterial());
-  private readonly lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
-  private readonly features = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
   private shape: Shape | null = null;
-  private vertices: Vertices | null = null;
   private places: Float32Array = new Float32Array();
-  private look: Look = 'shaded';
-  private field: Field | null = null;
   private asked = false;
   /** Smooth edges come from the card; without one, from a finer picture when all has been still for a while. */
   private readonly software = drawsInSoftware();
+  private readonly surface = new SurfaceLayer(this.software);
   /** Pixels of the picture to one of the page, along each side. */
   private resolution = 1;
   /** That of pictures that follow the pointer. */
@@ -69,7 +61,7 @@ export class View {
     this.controls.minZoom = 0.05;
     this.controls.maxZoom = 1e4;
     this.controls.addEventListener('change', () => this.draw());
-    this.scene.add(this.surface, this.lines, this.features, this.grid, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
+    this.scene.add(...this.surface.objects, this.grid, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
     for (const object of this.scene.children) object.frustumCulled = false;
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
@@ -78,34 +70,23 @@ export class View {
   open(shape: Shape, stays: boolean): void {
     const before = this.shape ?? nothing;
     this.shape = shape;
-    this.features.visible = !shape.curve;
+    this.surface.open(shape);
     this.grid.visible = shape === nothing;
     this.curve.setComb(new Float32Array(), new Float32Array());
-    this.field = null;
     this.show(shape.input, true);
     if (stays) this.reframe(before, shape);
     else this.fit(true);
   }
 
-  /** settled: what is sharp is looked for anew, which a shape that changes many times a second does without. */
+  /** settled: it is not one of many a second. */
   show(positions: Float64Array, settled: boolean): void {
     if (!this.shape) return;
     this.places = placesOf(this.shape, positions);
     const gap = performance.now() - this.drawnAt;
     if (settled) this.moving = 1;
     else if (this.software && gap > slow && gap < still) this.moving = 0.5;
-    if (settled || !this.vertices) this.split(this.shape);
-    const { nodes } = this.vertices!;
-    const at = this.surface.geometry.getAttribute('position').array as Float32Array;
-    for (let v = 0; v < nodes.length; ++v) for (let i = 0; i < 3; ++i) at[3 * v + i] = this.places[3 * nodes[v] + i];
-    (this.surface.geometry.getAttribute('normal').array as Float32Array).set(normalsAt(this.shape.faces, this.vertices!, this.places));
-    for (const name of ['position', 'normal']) this.surface.geometry.getAttribute(name).needsUpdate = true;
-    for (const { geometry } of [this.lines, this.features]) {
-      (geometry.getAttribute('position').array as Float32Array).set(this.places);
-      geometry.getAttribute('position').needsUpdate = true;
-    }
+    this.surface.show(this.shape, this.places, settled);
     this.curve.show(this.shape.curve ? this.places : new Float32Array(), this.shape.curve ? this.shape.edges.ends : []);
-    this.colour();
     this.markers.move(this.places);
     this.arrows.move(this.places);
     this.draw();
@@ -113,24 +94,12 @@ export class View {
 
   /** What the colours show, of the nodes as they were seen when it was asked for. */
   setField(field: Field | null): void {
-    this.field = field;
+    this.surface.setField(field);
     this.restyle();
   }
 
-  private colour(): void {
-    if (!this.field || !this.vertices) return;
-    const { range, map, values } = this.field;
-    const { uniforms } = this.surface.material;
-    uniforms.range.value.set(...range);
-    map.forEach((colour, k) => uniforms.stops.value[k].set(...colour));
-    const heights = this.surface.geometry.getAttribute('value');
-    const { nodes } = this.vertices;
-    for (let v = 0; v < nodes.length; ++v) heights.setX(v, values[nodes[v]]);
-    heights.needsUpdate = true;
-  }
-
   setLook(look: Look): void {
-    this.look = look;
+    this.surface.setLook(look);
     this.restyle();
   }
 
@@ -142,17 +111,10 @@ export class View {
       return new Color().setStyle(style.color);
     };
     this.renderer.setClearColor(colour('--stage'));
-    const { kind, colour: fill } = this.surface.material.uniforms;
-    // Until its values are there, a surface is shaded.
-    kind.value = kindOf(kindOf(this.look) === 3 && !this.field ? 'shaded' : this.look);
-    fill.value = colour(this.look === 'wire' ? '--stage' : '--surface');
-    this.lines.material.color = colour('--wire');
-    this.features.material.color = colour('--feature');
-    this.lines.visible = this.look === 'wire';
+    this.surface.restyle(colour);
     this.curve.restyle(colour);
     this.sketch.restyle(colour);
     this.grid.material.color = colour('--line');
-    this.colour();
     this.markers.restyle(colour);
     this.arrows.restyle(colour);
     this.dots.restyle(colour);
@@ -275,20 +237,6 @@ export class View {
     controls.target.copy(moved);
     this.zoomBy(from.scale / to.scale);
     controls.update();
-  }
-
-  private split(shape: Shape): void {
-    const vertices = (this.vertices = verticesOf(shape.faces, this.places, shape.edges));
-    const geometry = (count: number, index: Uint32Array, names: string[]): BufferGeometry => {
-      const made = new BufferGeometry().setIndex(new BufferAttribute(index, 1));
-      for (const name of names) made.setAttribute(name, new BufferAttribute(new Float32Array(3 * count), 3));
-      return made;
-    };
-    for (const object of [this.surface, this.lines, this.features]) object.geometry.dispose();
-    this.surface.geometry = geometry(vertices.nodes.length, shape.triangleCorners.map((c) => vertices.corners[c]), ['position', 'normal']);
-    this.surface.geometry.setAttribute('value', new BufferAttribute(new Float32Array(vertices.nodes.length), 1));
-    this.lines.geometry = geometry(this.places.length / 3, shape.edges.ends, ['position']);
-    this.features.geometry = geometry(this.places.length / 3, vertices.features, ['position']);
   }
 
   private refine(): void {

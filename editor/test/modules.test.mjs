@@ -8,7 +8,7 @@ const constraints = await compiled('constraints');
 const history = await compiled('history');
 const { merged, Solver } = await compiled('client');
 const { pick } = await compiled('picking');
-const { verticesOf, normalsAt } = await compiled('vertices');
+const { verticesOf, setNormals, partOf } = await compiled('vertices');
 const { shapeOf, placesOf } = await compiled('shape');
 const { withLoops } = await compiled('loops');
 const { Pull } = await compiled('pull');
@@ -95,7 +95,8 @@ test('a cube is drawn with a vertex for each of its 24 corners, and with true no
   assert.equal(shape.triangles.length, 36);
   assert.equal(vertices.nodes.length, 24);
   assert.equal(vertices.features.length, 24);
-  const normals = normalsAt(shape.faces, vertices, places);
+  const normals = new Float32Array(72);
+  setNormals(normals, shape.faces.nodes, shape.sides, vertices, places);
   for (let v = 0; v < 24; ++v) {
     const normal = [...normals.subarray(3 * v, 3 * v + 3)];
     assert.equal(normal.filter((part) => part !== 0).length, 1);
@@ -160,4 +161,43 @@ test('a frame counts if its shape is of a place at most 100 ms old', () => {
   frames.solved(1400);
   frames.drawn(1500);
   assert.equal(frames.perSecond(1500), 4);
+});
+
+// A grid of so many squares along each side, in the plane, as two triangles each.
+function grid(side) {
+  const node = (i, j) => i * (side + 1) + j;
+  const positions = new Float64Array(3 * (side + 1) ** 2);
+  const corners = [];
+  for (let i = 0; i <= side; ++i) for (let j = 0; j <= side; ++j) positions.set([i / side, j / side, 0], 3 * node(i, j));
+  for (let i = 0; i < side; ++i) for (let j = 0; j < side; ++j) corners.push(node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j), node(i + 1, j + 1), node(i, j + 1));
+  const faceBegin = Int32Array.from({ length: corners.length / 3 + 1 }, (_, f) => 3 * f);
+  return shapeOf({ positions, corners: Int32Array.from(corners), faceBegin, boundary: new Uint8Array(positions.length / 3), warnings: [] });
+}
+
+test('a picture of a drag has fewer triangles, even ones though the surface is flat, the same boundary and the same normals', async () => {
+  const { loadSimplifier, simplified } = await compiled('simplify');
+  const shape = grid(60);
+  const places = placesOf(shape, shape.input);
+  const vertices = verticesOf(shape.faces, places, shape.edges);
+  const triangles = shape.triangleCorners.map((corner) => vertices.corners[corner]);
+  assert.equal(simplified(triangles, places, 1800), null, 'not loaded yet');
+  await loadSimplifier();
+  const fewer = simplified(triangles, places, 1800);
+  assert.ok(fewer.length <= 3 * 1800 && fewer.length > 3 * 1500, `${fewer.length / 3} triangles`);
+  let area = 0;
+  for (let t = 0; t < fewer.length; t += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => [...places.subarray(3 * fewer[t + k], 3 * fewer[t + k] + 2)]);
+    const twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    assert.ok(twice > 0, 'none is turned over');
+    assert.ok(Math.hypot(a[0] - b[0], a[1] - b[1]) < 0.15, 'none is long');
+    area += twice / 2;
+  }
+  assert.ok(Math.abs(area - 0.5) < 1e-5, 'of a square whose diagonal is one');
+  const part = partOf(fewer, vertices);
+  assert.ok(part.vertices.length < vertices.nodes.length / 2);
+  for (let k = 2; k < places.length; k += 3) places[k] = 0.2 * Math.sin(7 * places[k - 1]);
+  const [all, some] = [new Float32Array(places.length), new Float32Array(places.length).fill(9)];
+  setNormals(all, shape.faces.nodes, shape.sides, vertices, places);
+  setNormals(some, shape.faces.nodes, shape.sides, vertices, places, part);
+  for (const vertex of part.vertices) assert.deepEqual(some.subarray(3 * vertex, 3 * vertex + 3), all.subarray(3 * vertex, 3 * vertex + 3));
 });

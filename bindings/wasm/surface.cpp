@@ -93,6 +93,15 @@ class Surface {
     });
   }
 
+  /// About where that would lead, in less time; null where there is no last shape to go from. Nothing else changes.
+  [[nodiscard]] val foresee() {
+    return forwarding_errors([&] {
+      if (!session_) return val::null();
+      const auto positions = session_->foresee(*constraints_, picture_tolerance);
+      return positions ? positions_array(*positions) : val::null();
+    });
+  }
+
   /// From the file's shape, drawn towards points.
   val fit(const Points& points, const val& settings, const val& progress) {
     val report = fit_to(points, settings, progress, file_.mesh, *constraints_, positions_);
@@ -184,6 +193,7 @@ EMSCRIPTEN_BINDINGS(vspring_surface) {
       .function("heldNormals", &Surface::held_normals)
       .function("fair", &Surface::fair)
       .function("follow", &Surface::follow)
+      .function("foresee", &Surface::foresee)
       .function("fit", &Surface::fit)
       .function("region", &Surface::region)
       .function("curvatures", &Surface::curvatures)

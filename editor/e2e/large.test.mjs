@@ -83,3 +83,28 @@ test('after a solution is given up without shared memory, what is changed and sa
     await session.stop();
   }
 });
+
+test('the picture of a large mesh keeps up with the pointer before the library does, and what comes out is solved', async () => {
+  const session = await Session.start();
+  try {
+    const input = session.generated('annulus.obj', 'annulus', '--nodes', '50000');
+    const { page, faults } = await session.open('?file=files/annulus.obj');
+    await page.locator('#size', { hasText: '50,000 nodes' }).waitFor({ timeout: 120_000 });
+    await settled(page);
+    const { x, y } = await find(page, /position fixed/, [0.4, 0.4], [0.4, 0.7]);
+    await page.mouse.click(x, y);
+    await page.keyboard.press('l');
+    const picture = () => page.locator('canvas').screenshot();
+    const before = await picture();
+    await page.mouse.down();
+    for (let step = 1; step <= 10; ++step) await page.mouse.move(x, y - 3 * step);
+    await status(page).filter({ hasText: /[1-9]\d* frames\/s, \d+ solved$/ }).waitFor();
+    assert.notDeepEqual(await picture(), before);
+    await page.mouse.up();
+    await settled(page);
+    await expectSameAsNative(session, page, input);
+    assert.deepEqual(faults, []);
+  } finally {
+    await session.stop();
+  }
+});

@@ -19,6 +19,7 @@ export interface CoreShape {
 }
 
 export interface CoreSurface extends CoreShape {
+  foresee(): Float64Array | null;
   holdNormal(node: number, x: number, y: number, z: number): void;
   heldNormals(): HeldNormals;
   faceCount(): number;

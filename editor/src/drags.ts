@@ -1,5 +1,6 @@
 // What is held and goes with the pointer: positions of nodes, or their normals or tangents, which turn. The shape follows; on release it is faired anew.
 
+import { Ahead } from './ahead';
 import type { Solver } from './client';
 import { placed, type Part, type Vector } from './constraints';
 import type { Editor } from './editor';
@@ -7,8 +8,23 @@ import type { Drag, Solved } from './protocol';
 import { Pull } from './pull';
 import { turned } from './turning';
 
+/** Moving nodes from which on the library is taken to be slower than the pointer; and seconds in which it is not. */
+const many = 30_000;
+const quick = 0.1;
+/** Of the size, the first step: of many nodes a short one, as what is known of the way is soon to be better. */
+const firstStep = 0.02;
+const firstOfMany = 0.005;
+/** Milliseconds between pictures of what is ahead: drawing takes from the library's time. */
+const pause = 70;
+
 export class Drags {
   private pull: Pull | null = null;
+  private ahead: Ahead | null = null;
+  /** Whether pictures show what is ahead of the library. */
+  slow = false;
+  private foresees = false;
+  private shown = true;
+  private asked = false;
   /** The one that the pointer has taken. */
   node = -1;
 
@@ -27,8 +43,18 @@ export class Drags {
     const start = Float64Array.from(nodes.flatMap((other) => (turns ? editor.normals.get(other)! : editor.placeOf(other))));
     const at = (way: Vector): Float64Array => (turns ? turned(start, way) : start.map((place, k) => place + way[k % 3]));
     this.node = node;
-    this.pull = new Pull(part, nodes, at, turns ? Math.PI : 1 / editor.shape!.scale, !editor.shape!.curve);
+    const { report, shape } = editor;
+    this.ahead = shape!.curve ? null : new Ahead(editor.busy ? null : editor.result);
+    this.slow = this.ahead !== null && (report?.movingNodes ?? 0) > many;
+    const first = shape!.curve ? Infinity : this.slow ? firstOfMany : firstStep;
+    this.pull = new Pull(part, nodes, at, turns ? Math.PI : 1 / shape!.scale, first);
     editor.dragBegun(now);
+    this.foresees = this.slow;
+  }
+
+  /** The shape where the pointer is, as far as that is known before it is solved; null where it is soon enough solved. */
+  get shape(): Float64Array | null {
+    return this.pull && this.slow ? this.ahead!.at(this.pull.way) : null;
   }
 
   /** way: from where the drag began; of normals a turn. */
@@ -36,7 +62,22 @@ export class Drags {
     if (!this.pull) return;
     this.pull.aim(way, time);
     if (this.pull.part !== 'position') this.editor.turnNormals(this.pull.nodes, this.pull.vectors);
+    if (this.foresees) this.solver.push({ drag: { ...this.pull.whole(), rough: true } });
+    this.foresees = false;
     this.solver.push({ drag: this.pull.step() });
+    if (this.slow) this.show();
+  }
+
+  /** At most once for each picture. */
+  private show(): void {
+    this.shown = false;
+    if (this.asked) return;
+    this.asked = this.shown = true;
+    this.editor.showDrag();
+    setTimeout(() => {
+      this.asked = false;
+      if (this.pull && !this.shown) this.show();
+    }, pause);
   }
 
   end(keep: boolean): void {
@@ -51,8 +92,15 @@ export class Drags {
     this.pull = null;
   }
 
-  solved(drag: Drag, { report }: Solved): void {
+  solved(drag: Drag, { positions, report }: Solved): void {
     if (!this.pull) return;
+    const rough = report.outcome === 'foreseen';
+    this.ahead?.add(drag.way, positions, rough);
+    if (rough) {
+      this.show();
+      return;
+    }
+    this.slow = this.ahead !== null && report.seconds > quick;
     // A fit starts from the input, however long the step.
     this.pull.solved(drag, report.fit ? 0 : report.iterations);
     if (!this.pull.arrived) this.solver.push({ drag: this.pull.step() });

@@ -202,9 +202,14 @@ export class Editor {
     this.show({ strength, showsInput: false }, settled);
   }
 
+  /** As what is dragged has moved on. */
+  showDrag(): void {
+    this.show({}, false);
+  }
+
   private show(state: Partial<Pick<Editor, 'showsInput' | 'strength'>>, settled: boolean): void {
     Object.assign(this, state);
-    this.seen = between(this.shape!.input, this.positions, this.showsInput ? 0 : this.strength);
+    this.seen = this.drags.shape ?? between(this.shape!.input, this.positions, this.showsInput ? 0 : this.strength);
     this.events.shape(this.seen, settled);
     this.events.changed();
   }
@@ -315,6 +320,10 @@ export class Editor {
   private solved(solved: Solved, { drag }: Job): void {
     const { positions, report, normals } = solved;
     if (positions.length !== this.positions.length) return;
+    if (drag && report.outcome === 'foreseen') {
+      this.drags.solved(drag, solved);
+      return;
+    }
     this.positions = positions;
     this.report = report;
     if (this.fault?.source === 'solver') this.fault = null;

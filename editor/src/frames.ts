@@ -3,10 +3,11 @@
 export class FrameCounter {
   private begin = 0;
   private count = 0;
+  private pictures = 0;
   private shown: number | null = null;
 
   start(now: number): void {
-    Object.assign(this, { begin: now, count: 0, shown: null });
+    Object.assign(this, { begin: now, count: 0, pictures: 0, shown: null });
   }
 
   /** A shape for the pointer's place at that time will be drawn next. */
@@ -17,9 +18,12 @@ export class FrameCounter {
   drawn(now: number): void {
     if (this.shown !== null && now - this.shown <= 100) ++this.count;
     this.shown = null;
+    ++this.pictures;
   }
 
-  perSecond(now: number): number {
-    return now > this.begin ? (1000 * this.count) / (now - this.begin) : 0;
+  /** Those that count, and all pictures. */
+  perSecond(now: number): [number, number] {
+    const rate = now > this.begin ? 1000 / (now - this.begin) : 0;
+    return [rate * this.count, rate * this.pictures];
   }
 }

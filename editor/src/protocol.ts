@@ -47,6 +47,8 @@ export interface Drag {
   way: Vector;
   /** When the pointer was there, in milliseconds as of performance.now(). */
   time: number;
+  /** Only about where that leads, in less time; nothing is solved. */
+  rough?: boolean;
 }
 
 export type FitKind = 'smoothingLength' | 'within' | 'rms' | 'weight';

@@ -16,21 +16,26 @@ export class Pull {
 
   /**
    * at: what is held of the nodes, three numbers each, that far on the way. size: of a way that changes all, such as that of the shape.
-   * stepwise: not for curves, where the length of a step does not matter.
+   * first: step, as a share of it; Infinity for curves, where the length of a step does not matter.
    */
   constructor(
     readonly part: Part,
     readonly nodes: readonly number[],
     private readonly at: (way: Vector) => Float64Array,
     private readonly size: number,
-    private readonly stepwise = true,
+    first = 0.02,
   ) {
-    this.longest = stepwise ? 0.02 * size : Infinity;
+    this.longest = first * size;
   }
 
   /** What is to be held at last. */
   get vectors(): Float64Array {
     return this.at(this.target);
+  }
+
+  /** How far it is to go. */
+  get way(): Vector {
+    return this.target;
   }
 
   get arrived(): boolean {
@@ -41,17 +46,23 @@ export class Pull {
     Object.assign(this, { target: way, time });
   }
 
+  /** All the way at once. */
+  whole(): Drag {
+    return { part: this.part, nodes: Int32Array.from(this.nodes), vectors: this.vectors, way: this.target, time: this.time };
+  }
+
   /** What to solve next. On the way its time is so long ago that its frame does not count. */
   step(): Drag {
     const rest = this.target.map((part, i) => part - this.there[i]);
     const share = Math.min(1, this.longest / Math.hypot(...rest));
-    const way = share < 1 ? (this.there.map((part, i) => part + share * rest[i]) as Vector) : this.target;
-    return { part: this.part, nodes: Int32Array.from(this.nodes), vectors: this.at(way), way, time: share < 1 ? -Infinity : this.time };
+    if (!(share < 1)) return this.whole();
+    const way = this.there.map((part, i) => part + share * rest[i]) as Vector;
+    return { ...this.whole(), vectors: this.at(way), way, time: -Infinity };
   }
 
   /** A step is made; iterations: that it took. */
   solved({ way }: Drag, iterations: number): void {
     this.there = way;
-    if (this.stepwise) this.longest = Math.min(this.size, this.longest * (iterations <= few ? 2 : iterations > many ? 0.5 : 1));
+    if (Number.isFinite(this.longest)) this.longest = Math.min(this.size, this.longest * (iterations <= few ? 2 : iterations > many ? 0.5 : 1));
   }
 }

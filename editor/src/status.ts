@@ -15,13 +15,14 @@ function count(number: number, one: string, many = `${one}s`): string {
   return `${number.toLocaleString('en')} ${number === 1 ? one : many}`;
 }
 
-function ofSolution({ report, dragging, frames, showsInput, shape }: Editor): string {
+function ofSolution({ report, dragging, drags, frames, showsInput, shape }: Editor): string {
   if (!shape) return 'Open a mesh or a curve, or drop one here';
   if (showsInput) return 'The input';
   if (!report) return '';
   const { outcome, iterations, expectedError, seconds, threads } = report;
   const error = expectedError === null ? '' : ` · expected error ${short(Number((100 * expectedError).toPrecision(2)))} %`;
-  const rate = dragging ? ` · ${Math.round(frames.perSecond(performance.now()))} frames/s` : '';
+  const [solved, all] = frames.perSecond(performance.now()).map(Math.round);
+  const rate = !dragging ? '' : drags.slow ? ` · ${all} frames/s, ${solved} solved` : ` · ${solved} frames/s`;
   return `${outcome} · ${count(iterations, 'iteration')}${error} · ${Math.round(1000 * seconds)} ms${threads > 1 ? ` on ${threads} threads` : ''}${rate}`;
 }
 

@@ -2,7 +2,7 @@
 
 import { describe, describeCurve, loadFastest, openShape, type Core, type CoreCurve, type CoreSurface } from './core';
 import { Fits } from './fits';
-import { endedAll, endedSolution, type Answer, type Ask, type Drag, type HeldNormals, type Job, type Kind, type Reply, type Request, type Start } from './protocol';
+import { endedAll, endedSolution, type Answer, type Ask, type Drag, type HeldNormals, type Job, type Kind, type Reply, type Report, type Request, type Start } from './protocol';
 import { between } from './strength';
 
 declare function postMessage(reply: Reply, transfer?: Transferable[]): void;
@@ -14,6 +14,9 @@ let ended: Int32Array | null = null;
 let settled: string | null = null;
 const fits = new Fits();
 let input: Float64Array = new Float64Array();
+
+/** Of a shape that nobody has looked at. */
+const rough: Report = { outcome: 'foreseen', iterations: 0, seconds: 0, threads: 1, expectedError: null, movingNodes: 0, warnings: [] };
 
 type Progress = (fraction: number) => boolean;
 type Handlers = { [K in Kind]: (ask: Ask<K>, progress: Progress) => Answer<K> };
@@ -96,6 +99,8 @@ const handlers: Handlers = {
     hold(target, { rules, fairBoundary, fit });
     const normals = rules !== undefined ? heldDirections(target) : undefined;
     if (drag) holdAt(target, drag);
+    const foreseen = drag?.rough ? (target as CoreSurface).foresee() : null;
+    if (foreseen) return { positions: foreseen, report: rough };
     const report = drag ? fits.follow(target, progress) : fits.fair(target, progress);
     if (!drag && report.outcome !== 'cancelled') settled = JSON.stringify([rules, fairBoundary, fit]);
     return { positions: target.positions(), report, normals };

@@ -53,7 +53,7 @@ test('hairs of the comb are as long as curvature is large, away from the centre'
 });
 
 test('a curve follows the pointer at once, without steps', () => {
-  const pull = new Pull('position', [3], (way) => Float64Array.from(way), 1, false);
+  const pull = new Pull('position', [3], (way) => Float64Array.from(way), 1, Infinity);
   pull.aim([5, 0, 0], 7);
   const step = pull.step();
   assert.deepEqual([...step.vectors, step.time], [5, 0, 0, 7]);

@@ -150,6 +150,25 @@ test('a long way is made in steps, shorter ones where they take many iterations,
   assert.deepEqual([...pull.vectors], [0.1 + 1 / 3, 0.2, 0.3]);
 });
 
+test('a picture is ahead of the library as its last shapes went, and not too far', async () => {
+  const { Ahead } = await compiled('ahead');
+  // Two nodes: one is dragged, the other goes half as far, turned by a right angle, and a little up.
+  const shape = ([x, y, z]) => Float64Array.of(x, y, z, -y / 2, x / 2, z + 0.1 * (x * x + y * y));
+  const near = (a, b, within) => a.forEach((part, k) => assert.ok(Math.abs(part - b[k]) < within, `${[...a]} is not ${[...b]}`));
+  assert.equal(new Ahead(null).at([1, 0, 0]), null);
+  const ahead = new Ahead(shape([0, 0, 0]));
+  near(ahead.at([0.1, 0, 0]), shape([0, 0, 0]), 1e-12);
+  ahead.add([0.1, 0, 0], Float64Array.of(0.1, 0, 0, 0, 0, 0), true);
+  near(ahead.at([0.2, 0, 0]), [0.2, 0, 0, 0, 0, 0], 1e-12);
+  ahead.add([0.1, 0, 0], shape([0.1, 0, 0]), false);
+  near(ahead.at([0.2, 0, 0]), shape([0.2, 0, 0]), 0.003);
+  near(ahead.at([0.1, 0.1, 0]), shape([0.1, 0, 0]), 1e-12);  // nothing is known of that direction
+  ahead.add([0.2, 0.1, 0], shape([0.2, 0.1, 0]), false);
+  near(ahead.at([0.25, 0.2, 0]), shape([0.25, 0.2, 0]), 0.01);
+  const far = ahead.at([100, 50, 0]);
+  assert.ok(Math.hypot(far[0], far[1]) < 3, 'no further than what is known allows');
+});
+
 test('a frame counts if its shape is of a place at most 100 ms old', () => {
   const frames = new FrameCounter();
   frames.start(1000);
@@ -160,7 +179,7 @@ test('a frame counts if its shape is of a place at most 100 ms old', () => {
   frames.drawn(1200);
   frames.solved(1400);
   frames.drawn(1500);
-  assert.equal(frames.perSecond(1500), 4);
+  assert.deepEqual(frames.perSecond(1500), [4, 8]);
 });
 
 // A grid of so many squares along each side, in the plane, as two triangles each.

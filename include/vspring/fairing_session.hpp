@@ -1,6 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "vspring/fair.hpp"
 
@@ -33,6 +35,11 @@ class FairingSession {
   /// of the report. Costs one or two iterations, each linear in the moving nodes, where constraints go on much as at
   /// the last calls. Throws as fair() does, and for a tolerance out of range.
   [[nodiscard]] FairResult follow(const Constraints& constraints, double tolerance, Context& context);
+
+  /// About where follow() would lead, for a first picture of a large shape: as the last steps went, and for what these
+  /// do not tell as if slopes were small, when two tenths of the way may be missing. The session stays as it is. None
+  /// where follow() would not start from the last shape. Costs at most about one iteration.
+  [[nodiscard]] std::optional<std::vector<Vector3>> foresee(const Constraints& constraints, double tolerance);
 
  private:
   struct State;

@@ -216,14 +216,11 @@ FactoredMatrix factored_bending_form(const Net& net, ThreadTeam& team, std::span
   return {net, std::move(rows), team};
 }
 
-std::vector<double> pull_of_held(const Net& net, std::span<const Vector3> moves) {
+std::vector<double> pull_of_ways(const Net& net, std::span<const Vector3> ways) {
   std::vector<double> pull(net.moving, 0);
   const auto add = [&](std::size_t centre, std::span<const SparseRows::Entry> row) {
     double bend = 0;
-    for (const SparseRows::Entry& entry : row) {
-      if (entry.column >= net.moving) bend += entry.value * moves[entry.column - net.moving].dot(net.normals[centre]);
-    }
-    if (bend == 0) return;
+    for (const SparseRows::Entry& entry : row) bend += entry.value * ways[entry.column].dot(net.normals[centre]);
     for (const SparseRows::Entry& entry : row) {
       if (entry.column >= net.moving) continue;
       // Held nodes may have a normal of the other sense.
@@ -235,10 +232,6 @@ std::vector<double> pull_of_held(const Net& net, std::span<const Vector3> moves)
   SparseRows::Row row;
   for (std::size_t i = 0; i < net.moving; ++i) {
     const auto links = net.rings.links(i);
-    const auto moved = [&](Link link) {
-      return link.spoke() && link.node() >= net.moving && !moves[link.node() - net.moving].isZero(0);
-    };
-    if (std::none_of(links.begin(), links.end(), moved)) continue;
     row.clear();
     for_bending_row(
         net, i, room,

@@ -24,9 +24,9 @@ SparseRows bending_form(const Net& net, ThreadTeam& team, std::span<const double
 /// B as the product that it is. The net must outlive it.
 FactoredMatrix factored_bending_form(const Net& net, ThreadTeam& team, std::span<const double> pull = {});
 
-/// What the form asks of the moving nodes, along their normals, where held ones move: moves has a vector for every node
-/// from net.moving on. B h = that has the h that the held nodes pull along. Cost: linear.
-std::vector<double> pull_of_held(const Net& net, std::span<const Vector3> moves);
+/// What the form asks of the moving nodes, along their normals, where all nodes have gone such ways, a vector each: to
+/// go on by h with B h = that undoes the bending. Cost: linear.
+std::vector<double> pull_of_ways(const Net& net, std::span<const Vector3> ways);
 
 /// D, the sum of 1/ℓ over the edges of every moving node, by the lengths that they have now.
 void weigh_edges(const Net& net, ThreadTeam& team, std::vector<float>& sums);

@@ -49,6 +49,14 @@ FairResult FairingSession::follow(const Constraints& constraints, double toleran
   return vspring::fair(state_->mesh, constraints, options, context);
 }
 
+std::optional<std::vector<Vector3>> FairingSession::foresee(const Constraints& constraints, double tolerance) {
+  FairOptions options = state_->options;
+  options.tolerance = tolerance;
+  options.validate();
+  if (options.fair_boundary) return std::nullopt;
+  return state_->fairing.foresee(constraints, tolerance);
+}
+
 FairResult FairingSession::fair(const Constraints& constraints) {
   Context context;
   return fair(constraints, context);

@@ -51,8 +51,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
                                       std::optional<double> tolerance) {
   const auto begin = Clock::now();
   FairResult result;
-  const bool went_on =
-      last_ && hold_the_same(*last_, constraints) && go_on(constraints, context, tolerance, result.report);
+  const bool went_on = fits_last(constraints) && go_on(constraints, context, tolerance, result.report);
   if (!went_on) {
     result = {};
     last_.reset();
@@ -77,6 +76,22 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
     last_ = constraints;
   result.report.seconds = seconds_since(begin);
   return result;
+}
+
+std::optional<std::vector<Vector3>> SurfaceFairing::foresee(const Constraints& constraints, double tolerance) {
+  if (!fits_last(constraints)) return std::nullopt;
+  const Net& net = hierarchy_->net(hierarchy_->count() - 1);
+  const std::vector<Vector3> places = hierarchy_->foresee(constraints, *model_, tolerance * diagonal(net));
+  return scatter_places(net, places, whole_->positions(), constraints, options_.strength);
+}
+
+bool SurfaceFairing::fits_last(const Constraints& constraints) const {
+  if (!last_ || !hold_the_same(*last_, constraints)) return false;
+  // What is wrong there is said where all is looked at.
+  for (Index node = 0; node < constraints.node_count(); ++node) {
+    if (constraints.position_fixed(node) && !constraints.position(node).allFinite()) return false;
+  }
+  return true;
 }
 
 Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report) {
@@ -122,10 +137,6 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
 bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance,
                            FairReport& report) {
   const Net& net = hierarchy_->net(hierarchy_->count() - 1);
-  for (const Index node : net.node) {
-    // What is wrong there is said where all is looked at.
-    if (constraints.position_fixed(node) && !constraints.position(node).allFinite()) return false;
-  }
   if (part_) part_->constraints = constraints_of(constraints, part_->node);
   report.method = Method::equilibrium;
   ProgressReporter progress(context);

@@ -28,7 +28,13 @@ class SurfaceFairing {
   /// tolerance: in place of the options' one, where the report is to have no figures of the shape.
   FairResult fair_again(const Constraints& constraints, Context& context, std::optional<double> tolerance = {});
 
+  /// About where fair_again() would lead from the last shape, which stays as it is. None where there is none to go
+  /// from.
+  std::optional<std::vector<Vector3>> foresee(const Constraints& constraints, double tolerance);
+
  private:
+  /// Whether it can go on from the last shape.
+  [[nodiscard]] bool fits_last(const Constraints& constraints) const;
   /// Leaves the shape in the net that it returns, or in hierarchy_.
   Net run(const Constraints& constraints, Context& context, FairReport& report);
   /// From the last shape. False where that leads nowhere.

@@ -105,36 +105,57 @@ void SurfaceHierarchy::prolong_from(std::size_t level) {
   spread_along(level + 1);
 }
 
-void SurfaceHierarchy::follow(const Constraints& constraints, const Model& model, double tolerance) {
-  Net& net = levels_.back().net;
-  began_ = net.positions;
-  normals_began_ = net.normals;
-  const std::size_t held = net.positions.size() - net.moving;
-  held_step_.assign(held, Vector3::Zero());
-  for (std::size_t k = 0; k < held; ++k) {
+std::vector<Vector3> SurfaceHierarchy::step_of_held(const Constraints& constraints) const {
+  const Net& net = levels_.back().net;
+  std::vector<Vector3> step(net.positions.size() - net.moving, Vector3::Zero());
+  for (std::size_t k = 0; k < step.size(); ++k) {
     const Index node = net.node[net.moving + k];
     if (constraints.position_fixed(node))
-      held_step_[k] = net.frame.to_local(constraints.position(node)) - net.positions[net.moving + k];
+      step[k] = net.frame.to_local(constraints.position(node)) - net.positions[net.moving + k];
   }
   for (std::size_t i = 0; i < net.positions.size(); ++i) {
     if (!net.normal_given(i)) continue;
     const Vector3& normal = constraints.normal(net.node[i]);
-    const Vector3 before = net.normals[i];
-    net.normals[i] = normal.dot(before) < 0 ? Vector3(-normal) : normal;
-    held_step_.push_back(net.normals[i] - before);
+    const Vector3& before = net.normals[i];
+    step.emplace_back((normal.dot(before) < 0 ? Vector3(-normal) : normal) - before);
   }
-  std::vector<Vector3> rest = held_step_;
-  std::vector<Vector3> way(net.moving, Vector3::Zero());
-  secants_.predict(rest, way);
-  rest.resize(held);
+  return step;
+}
+
+std::vector<Vector3> SurfaceHierarchy::ways_with(const std::vector<Vector3>& held_step, const Model& model,
+                                                 double tolerance) {
+  const Net& net = levels_.back().net;
+  std::vector<Vector3> rest = held_step;
+  std::vector<Vector3> ways(net.moving, Vector3::Zero());
+  secants_.predict(rest, ways);
+  rest.resize(net.positions.size() - net.moving);
   if (longest(rest) > negligible_move * tolerance) {
     (void)kept_preconditioner().refresh(model);
     std::vector<Vector3> correction;
-    preconditioner_->follow(rest, correction);
-    for (std::size_t i = 0; i < net.moving; ++i) way[i] += correction[i];
+    preconditioner_->follow(rest, negligible_move * tolerance, correction);
+    for (std::size_t i = 0; i < net.moving; ++i) ways[i] += correction[i];
   }
-  for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += way[i];
-  for (std::size_t k = 0; k < held; ++k) net.positions[net.moving + k] += held_step_[k];
+  return ways;
+}
+
+std::vector<Vector3> SurfaceHierarchy::foresee(const Constraints& constraints, const Model& model, double tolerance) {
+  std::vector<Vector3> places = ways_with(step_of_held(constraints), model, tolerance);
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] += levels_.back().net.positions[i];
+  return places;
+}
+
+void SurfaceHierarchy::follow(const Constraints& constraints, const Model& model, double tolerance) {
+  Net& net = levels_.back().net;
+  began_ = net.positions;
+  normals_began_ = net.normals;
+  held_step_ = step_of_held(constraints);
+  const std::vector<Vector3> ways = ways_with(held_step_, model, tolerance);
+  for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += ways[i];
+  auto step = held_step_.begin();
+  for (std::size_t i = net.moving; i < net.positions.size(); ++i) net.positions[i] += *step++;
+  for (std::size_t i = 0; i < net.positions.size(); ++i) {
+    if (net.normal_given(i)) net.normals[i] += *step++;
+  }
   if (longest(held_step_) < telling_move * tolerance) held_step_.clear();
   if (!memory_) memory_.emplace(acceleration_depth, net.moving, *team_);
   memory_->begin_anew();

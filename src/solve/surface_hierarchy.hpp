@@ -41,6 +41,8 @@ class SurfaceHierarchy final : public Hierarchy {
   /// did the last times, and with what those times do not make up for as they would if slopes were small. Coarser
   /// levels stay as they are. tolerance: of the shapes from which and to which it goes, in the net's coordinates.
   void follow(const Constraints& constraints, const Model& model, double tolerance);
+  /// Where the moving nodes would be then.
+  [[nodiscard]] std::vector<Vector3> foresee(const Constraints& constraints, const Model& model, double tolerance);
 
   /// From the shape that follow() began with it has come to an equilibrium.
   void arrived();
@@ -55,6 +57,11 @@ class SurfaceHierarchy final : public Hierarchy {
  private:
   /// Moves the nodes of a level along their surface to where the regularisation (§4.4) wants them.
   void spread_along(std::size_t level);
+  /// The moves of held nodes of the shape itself, then of the ends of given normals.
+  [[nodiscard]] std::vector<Vector3> step_of_held(const Constraints& constraints) const;
+  /// The ways of the moving nodes with it.
+  [[nodiscard]] std::vector<Vector3> ways_with(const std::vector<Vector3>& held_step, const Model& model,
+                                               double tolerance);
   /// Makes the systems of a level ready: hands its shape down as far as they need it.
   void make_systems(std::size_t level);
 
@@ -65,7 +72,7 @@ class SurfaceHierarchy final : public Hierarchy {
   std::unique_ptr<LinearSolver> spreading_;
   std::optional<SurfacePreconditioner> preconditioner_;
   Secants secants_;
-  /// Of the last follow(): moves of held nodes, then of the ends of given normals; none where it tells nothing.
+  /// Of the last follow(); none where it tells nothing.
   std::vector<Vector3> held_step_;
   std::vector<Vector3> began_;          ///< where all nodes were before it
   std::vector<Vector3> normals_began_;  ///< and their normals

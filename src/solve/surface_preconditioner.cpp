@@ -16,6 +16,7 @@ constexpr std::size_t nodes_per_task = 2048;
 // See Accuracy; the iteration around the solvers does the rest.
 constexpr double bending_share = 0.15;
 constexpr double spreading_share = 1;
+constexpr double following_share = 0.01;
 // Of the weights 1/ℓ.
 constexpr float greatest_change = 1.15F;
 // Nodes that points hold by more than this many times the springs' stiffness go to the point all the same; single
@@ -111,9 +112,9 @@ void SurfacePreconditioner::correct(const Model& model, double enough, std::vect
   solve(enough, correction);
 }
 
-void SurfacePreconditioner::follow(std::span<const Vector3> moves, std::vector<Vector3>& correction) {
+void SurfacePreconditioner::follow(std::span<const Vector3> moves, double enough, std::vector<Vector3>& correction) {
   const Net& net = *net_;
-  along_ = pull_of_held(net, moves);
+  // All go along first, as evenly as the regularisation asks: what is moved as a whole then goes as a whole.
   correction.assign(net.moving, Vector3::Zero());
   for (std::size_t i = 0; i < net.moving; ++i) {
     const auto links = net.rings.links(i);
@@ -125,9 +126,15 @@ void SurfacePreconditioner::follow(std::span<const Vector3> moves, std::vector<V
       const std::size_t j = links[k].node();
       if (j >= net.moving) correction[i] += (shares.empty() ? 1 : shares[k]) * moves[j - net.moving];
     }
-    if (shares.empty() && spokes > 0) correction[i] /= spokes;
+    if (!shares.empty()) correction[i] *= spokes;
   }
-  solve(0, correction);
+  anchor_->hold(correction);
+  spreading_->solve(correction, {.enough = enough, .share = following_share});
+  std::vector<Vector3> ways = correction;
+  ways.insert(ways.end(), moves.begin(), moves.end());
+  along_ = pull_of_ways(net, ways);
+  bending_.solve(along_, {.enough = enough, .share = following_share});
+  for (std::size_t i = 0; i < net.moving; ++i) correction[i] += along_[i] * net.normals[i];
 }
 
 void SurfacePreconditioner::solve(double enough, std::vector<Vector3>& correction) {

@@ -27,7 +27,7 @@ class SurfacePreconditioner final : public Preconditioner {
 
   /// The correction of every moving node that brings back equilibrium, if slopes are small, where held nodes move:
   /// moves has a vector for every node from net.moving on. Needs a form that was built.
-  void follow(std::span<const Vector3> moves, std::vector<Vector3>& correction);
+  void follow(std::span<const Vector3> moves, double enough, std::vector<Vector3>& correction);
 
  private:
   /// Solves for the correction: from what is asked along the normals, in along_, and by the regularisation.

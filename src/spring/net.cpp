@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "spring/node_order.hpp"
 #include "spring/pseudo_normal.hpp"
@@ -179,13 +180,18 @@ void place_net(Net& net, const std::vector<Vector3>& positions, const Constraint
 
 std::vector<Vector3> scatter_positions(const Net& net, std::vector<Vector3> positions, const Constraints& constraints,
                                        double strength) {
+  return scatter_places(net, net.positions, std::move(positions), constraints, strength);
+}
+
+std::vector<Vector3> scatter_places(const Net& net, std::span<const Vector3> places, std::vector<Vector3> positions,
+                                    const Constraints& constraints, double strength) {
   for (Index i = 0; i < constraints.node_count(); ++i) {
     if (constraints.position_fixed(i)) positions[static_cast<std::size_t>(i)] = constraints.position(i);
   }
   const double share = strength / net.frame.scale();
   for (std::size_t i = 0; i < net.moving; ++i) {
     Vector3& position = positions[static_cast<std::size_t>(net.node[i])];
-    position += share * (net.positions[i] - net.frame.to_local(position));
+    position += share * (places[i] - net.frame.to_local(position));
   }
   return positions;
 }

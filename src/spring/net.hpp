@@ -58,5 +58,8 @@ void place_net(Net& net, const std::vector<Vector3>& positions, const Constraint
 /// are exactly where the constraints say, all others untouched.
 std::vector<Vector3> scatter_positions(const Net& net, std::vector<Vector3> positions, const Constraints& constraints,
                                        double strength);
+/// The same with other places of the moving nodes, in the net's coordinates.
+std::vector<Vector3> scatter_places(const Net& net, std::span<const Vector3> places, std::vector<Vector3> positions,
+                                    const Constraints& constraints, double strength);
 
 }  // namespace vspring

@@ -105,6 +105,21 @@ test('follows a node that is dragged, and memory does not grow', () => {
   surface.delete();
 });
 
+test('foresees about where a drag leads, and stays where it is', () => {
+  const surface = opened(generated('ahead.obj', 'annulus', '--nodes', '2000'), 'ahead.obj');
+  assert.equal(surface.foresee(), null);
+  surface.fair(null);
+  const before = surface.positions();
+  const rim = [...surface.boundary().keys()].filter((node) => surface.boundary()[node] && Math.hypot(before[3 * node], before[3 * node + 1]) < 0.5);
+  for (const node of rim) surface.holdPosition(node, before[3 * node] + 0.01, before[3 * node + 1], before[3 * node + 2] + 0.02);
+  const foreseen = surface.foresee();
+  assert.deepEqual(surface.positions(), before);
+  surface.follow(null);
+  const after = surface.positions();
+  assert.ok(greatestDistance(foreseen, after) < 0.3 * greatestDistance(before, after), `${greatestDistance(foreseen, after)}`);
+  surface.delete();
+});
+
 test('what holds a region is what --region holds, and curvatures are those of --scalars', () => {
   const path = generated('saddle.ply', 'saddle', '--columns', '14', '--rows', '14', '--noise', '0.01');
   const surface = opened(path, 'saddle.ply');

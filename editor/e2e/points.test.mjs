@@ -9,6 +9,7 @@ import { choose, drag, drop, find, greatestDistance, native, open, page, placesO
 useSession();
 
 const figures = () => page.locator('#fit-figures');
+const legend = () => page.locator('#points-legend');
 const lastStep = (text) => page.locator(`[title^="Undo: ${text}"]`).waitFor();
 const sizeOf = (places) => Math.hypot(...[0, 1, 2].map((axis) => Math.max(...places.map((place) => place[axis])) - Math.min(...places.map((place) => place[axis]))));
 
@@ -47,6 +48,10 @@ test('a surface is drawn towards points, by every kind of fit, as the native pro
   await lastStep('Load points cloud.xyz');
   await settled(page);
   await figures().filter({ hasText: `${nodes.length} points · at most` }).waitFor();
+  const [, greatest] = (await figures().textContent()).match(/at most (\S+) away/);
+  assert.equal(await legend().locator('figcaption').textContent(), 'Distance of the points');
+  const [first, , last] = (await legend().locator('.marks span').allTextContents()).map(Number);
+  assert.ok(first === 0 && Math.abs(last - Number(greatest)) < 0.01 * last, `${last} is not ${greatest}`);
 
   const compare = (...options) => sameAsNative(6e-5, ['fit', 'patch.obj', '--points', points, ...options]);
   const length = await page.locator('#fit-value').inputValue();
@@ -93,6 +98,7 @@ test('a surface is drawn towards points, by every kind of fit, as the native pro
   await redo.click();
   await settled(page);
   assert.ok(await figures().isHidden());
+  assert.ok(await legend().isHidden());
 });
 
 test('points are dropped on a surface; within a tolerance the panel says how many are outside', async () => {
@@ -103,6 +109,8 @@ test('points are dropped on a surface; within a tolerance the panel says how man
   assert.match(await page.locator('#name').textContent(), /annulus/);
   await page.getByLabel('Fit by').selectOption('within');
   await figures().filter({ hasText: /\d % outside/ }).waitFor({ timeout: 120_000 });
+  await legend().filter({ hasText: 'in red beyond the tolerance' }).waitFor();
+  assert.equal(Number(await legend().locator('.marks span').last().textContent()), Number(await page.locator('#fit-value').inputValue()));
 });
 
 // A noisy wave of two columns, and points half a unit above it.

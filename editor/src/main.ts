@@ -1,5 +1,6 @@
 // Puts the editor together.
 
+import { sequential } from '../../page/colours.js';
 import { Autosave } from './autosave';
 import { bindCommands, listShortcuts, type Command } from './commands';
 import { heldPosition, toFile } from './constraints';
@@ -11,7 +12,7 @@ import { acceptDrops, choose, download, fromAddress, stem } from './files';
 import { Fields, fieldNames, type Field } from './fields';
 import { Gestures } from './gestures';
 import { showFor } from './kinds';
-import { showLegend } from './legend';
+import { showLegend, showLengths } from './legend';
 import { looks, type Look } from './materials';
 import { rim } from './neighbours';
 import { Numbers } from './numbers';
@@ -187,7 +188,11 @@ function showPoints(): void {
   if ((dotted.fit === fit && dotted.report === report) || (editor.dragging && !report?.distances)) return;
   dotted = { fit, report };
   const distances = report?.distances?.length === (fit?.cloud.positions.length ?? 0) / 3 ? report!.distances! : null;
-  view.dots.set(fit && shape ? placesOf(shape, fit.cloud.positions) : new Float32Array(), distances, fit?.kind === 'within' ? fit.value : report?.fit?.greatest || 1);
+  const limit = fit?.kind === 'within' ? fit.value : report?.fit?.greatest || 1;
+  view.dots.set(fit && shape ? placesOf(shape, fit.cloud.positions) : new Float32Array(), distances, limit);
+  const legend = document.getElementById('points-legend')!;
+  legend.hidden = !fit || !distances;
+  if (!legend.hidden) showLengths(legend, `Distance of the points${fit!.kind === 'within' ? ', in red beyond the tolerance' : ''}`, sequential, limit);
   view.draw();
 }
 

@@ -2,11 +2,13 @@
 
 #pragma once
 
+#include <emscripten.h>
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 
 #include <cstdio>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "vspring/vspring.hpp"
@@ -41,14 +43,25 @@ inline val list_of(const std::vector<std::string>& lines) {
   return list;
 }
 
-/// Library errors become JavaScript ones with the same text.
+/// What is returned where there is nothing to return.
+template <typename Value>
+Value none() {
+  if constexpr (std::is_same_v<Value, val>)
+    return val::undefined();
+  else
+    return Value();
+}
+
+/// Library errors become JavaScript ones with the same text, which faults.js throws when the call has returned.
 template <typename Call>
 auto forwarding_errors(const Call& call) {
+  using Value = decltype(call());
   try {
     return call();
   } catch (const std::exception& error) {
-    val::global("Error").new_(std::string(error.what())).throw_();
+    EM_ASM({ Module['fault'] = UTF8ToString($0); }, error.what());
   }
+  return none<Value>();
 }
 
 /// A file in memory for as long as something is read from it or written to it.

@@ -197,6 +197,13 @@ test('fits to points as the native program does', () => {
   plain.delete();
 });
 
+// Where there is room for a large block moves up with all that is left behind.
+function room() {
+  const block = core._malloc(1 << 20);
+  core._free(block);
+  return [block, core.HEAPU8.length];
+}
+
 test('hundreds of shapes that are opened, faired, dragged and deleted leave no memory behind', () => {
   const bytes = new Uint8Array(readFileSync(generated('many.obj', 'annulus', '--nodes', '400', '--noise', '0.02')));
   const once = () => {
@@ -208,12 +215,6 @@ test('hundreds of shapes that are opened, faired, dragged and deleted leave no m
     surface.follow(null);
     surface.write('many.ply');
     surface.delete();
-  };
-  // Where there is room for a large block moves up with all that is left behind.
-  const room = () => {
-    const block = core._malloc(1 << 20);
-    core._free(block);
-    return [block, core.HEAPU8.length];
   };
   for (let k = 0; k < 20; ++k) once();
   const before = room();
@@ -240,6 +241,28 @@ test('refuses what the native program refuses, in its words', () => {
   assert.equal(surface.fair(null).outcome, 'converged', 'nothing is lost');
   surface.setRules('{"rules": []}');
   assert.throws(() => surface.fair(null), /nothing holds the component/);
+  surface.delete();
+  assert.throws(() => new core.Points(bytes, 'bad.obj'), /^Error: bad\.obj:2: .*zero/);
+  assert.throws(() => new core.Curve(bytes, 'bad.csv'), /^Error: bad\.csv/);
+});
+
+test('what is refused leaves nothing behind', () => {
+  const bytes = new TextEncoder().encode('v 0 0 0\nv 1 0 zero\n');
+  const surface = opened(generated('refusing.obj', 'annulus', '--nodes', '300'), 'refusing.obj');
+  const once = () => {
+    assert.throws(() => new core.Surface(bytes, 'bad.obj'));
+    assert.throws(() => new core.Curve(bytes, 'bad.csv'));
+    assert.throws(() => new core.Points(bytes, 'bad.obj'));
+    surface.setRules('{"rules": []}');
+    assert.throws(() => surface.setRules('{"rules": [{"nodes": [5000], "position": "fixed"}]}'));
+    assert.throws(() => surface.holdPosition(-1, 0, 0, 0));
+    assert.throws(() => surface.fair(null));
+    assert.throws(() => surface.write('part.xyz'));
+  };
+  for (let k = 0; k < 50; ++k) once();
+  const before = room();
+  for (let k = 0; k < 2000; ++k) once();
+  assert.deepEqual(room(), before);
   surface.delete();
 });
 

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { choose, drag, find, greatestDistance, native, open, page, placesOf, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { choose, drag, drop, find, greatestDistance, native, open, page, placesOf, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession(() => {
   const wave = Array.from({ length: 61 }, (_, k) => [k / 10, Math.sin(k / 9) + 0.02 * ((k * 7) % 5)]);
@@ -176,6 +176,19 @@ test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as t
   await page.keyboard.press('Tab');
   await page.locator('#size', { hasText: '40 nodes, closed curve' }).waitFor();
   await settled(page);
+});
+
+test('a drawn curve that is closed, or gets other nodes, keeps the points that it is drawn towards', async () => {
+  await open();
+  await drawn([[0.2, 0.6], [0.4, 0.5], [0.6, 0.6]], () => page.keyboard.press('Enter'));
+  const [[x, y]] = placesOf((await saved(page, 'xyz')).path);
+  await drop(page, 'near.xyz', `${x} ${y} 0\n${x + 1} ${y + 1} 0\n`, true);
+  const figures = page.locator('#fit-figures');
+  await figures.filter({ hasText: 'near.xyz: 2 points · at most' }).waitFor();
+  await page.getByRole('button', { name: 'Closed' }).click();
+  await page.locator('#size', { hasText: '60 nodes, closed curve' }).waitFor();
+  await settled(page);
+  await figures.filter({ hasText: 'near.xyz: 2 points · at most' }).waitFor();
 });
 
 test('the tangent at an end is given by numbers, tilted by its arrow, and free again', async () => {

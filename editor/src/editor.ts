@@ -7,7 +7,7 @@ import { Drags } from './drags';
 import { FrameCounter } from './frames';
 import { begun, done, redone, undone, type History } from './history';
 import type { NamedBytes } from './files';
-import type { Cloud, PointSource } from './points';
+import type { Cloud, Fit, PointSource } from './points';
 import type { Ask, FitJob, Job, Opened, Report, Solved } from './protocol';
 import { restricted } from './region';
 import { normalNear, nothing, shapeOf, type Shape } from './shape';
@@ -160,15 +160,16 @@ export class Editor {
     this.events.changed();
   }
 
-  /** A curve through places, held there, with so many nodes a span. edit: what else holds at the place of that number. */
-  async draw(places: readonly Vector[], closed: boolean, perSpan: number, edit: (place: number) => Edit = () => ({})): Promise<void> {
+  /** A curve through places, held there, with so many nodes a span. edit: what else holds at the place of that number. fit: what it is drawn towards. */
+  async draw(places: readonly Vector[], closed: boolean, perSpan: number, edit: (place: number) => Edit = () => ({}), fit?: Fit): Promise<void> {
     this.solver.clear();
     try {
       const nodes = perSpan * (places.length - (closed ? 0 : 1)) + (closed ? 0 : 1);
       const source = { places: Float64Array.from(places.flat()), closed, nodes };
       const opened = await this.client.ask('draw', source);
       const kept = [...opened.from.keys()].filter((node) => opened.from[node] >= 0);
-      this.take(source, opened, begun(holding.edited(holding.initial, kept, (node) => ({ ...edit(opened.from[node]), position: places[opened.from[node]] }))));
+      const held = holding.edited(holding.initial, kept, (node) => ({ ...edit(opened.from[node]), position: places[opened.from[node]] }));
+      this.take(source, opened, begun({ ...held, fit: fit && { ...fit, cloud: await this.cloudOf(fit.cloud) } }));
     } catch (error) {
       this.setFault((error as Error).message, 'file');
     }
@@ -177,7 +178,7 @@ export class Editor {
   /** The drawn curve through the nodes that are held, as they are now. */
   redraw(closed: boolean, perSpan: number): void {
     const held = [...this.shape!.curve!.runs.nodes].filter((node) => this.isDraggable(node));
-    void this.draw(held.map((node) => this.placeOf(node)), closed, perSpan, (k) => this.constraints.edits[held[k]]);
+    void this.draw(held.map((node) => this.placeOf(node)), closed, perSpan, (k) => this.constraints.edits[held[k]], this.constraints.fit);
   }
 
   private async openConstraints(text: string): Promise<void> {

@@ -98,6 +98,26 @@ TEST(BendingForm, IsSymmetricAndPositiveDefinite) {
   }
 }
 
+TEST(BendingForm, PullsAtWhatIsBentAndNotAtWhatIsMovedAsAWhole) {
+  ThreadTeam team(1);
+  for (const bool normals : {false, true}) {
+    Net net = disc_net(300, normals, team);
+    std::vector<Vector3> ways(net.positions.size(), Vector3::Zero());
+    Eigen::VectorXd heights(static_cast<Eigen::Index>(net.moving));
+    for (std::size_t i = 0; i < net.moving; ++i) {
+      heights[static_cast<Eigen::Index>(i)] = std::sin(0.7 * static_cast<double>(i));
+      ways[i] = heights[static_cast<Eigen::Index>(i)] * net.normals[i];
+    }
+    const Eigen::VectorXd expected = -dense(bending_form(net, team)) * heights;
+    EXPECT_LT((as_matrix(pull_of_ways(net, ways)) - expected).norm(), 1e-10 * expected.norm());
+    // A bowl, whose normals differ.
+    for (Vector3& place : net.positions) place.z() = 0.4 * place.head<2>().squaredNorm();
+    update_directions(net, *surface_model(PseudoNormals::link), team);
+    ways.assign(ways.size(), Vector3(0.3, -0.2, 0.5));
+    EXPECT_LT(as_matrix(pull_of_ways(net, ways)).norm(), 1e-12 * expected.norm());
+  }
+}
+
 TEST(BendingForm, DoesNotResistTilts) {
   ThreadTeam team(1);
   const Net net = disc_net(400, true, team);

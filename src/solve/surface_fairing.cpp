@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -82,6 +83,8 @@ std::optional<std::vector<Vector3>> SurfaceFairing::foresee(const Constraints& c
   if (!fits_last(constraints)) return std::nullopt;
   const Net& net = hierarchy_->net(hierarchy_->count() - 1);
   const std::vector<Vector3> places = hierarchy_->foresee(constraints, *model_, tolerance * diagonal(net));
+  if (!std::all_of(places.begin(), places.end(), [](const Vector3& place) { return place.allFinite(); }))
+    return std::nullopt;
   return scatter_places(net, places, whole_->positions(), constraints, options_.strength);
 }
 

@@ -132,9 +132,13 @@ export interface SolverEvents {
   busy: (busy: boolean) => void;
 }
 
+/** Milliseconds that a step of a drag may have taken when the drag ends and yet be shown. */
+const soon = 100;
+
 /** At most one job runs and one waits. */
 export class Solver {
   private running: Job | null = null;
+  private began = 0;
   private waiting: Job | null = null;
 
   constructor(
@@ -145,8 +149,9 @@ export class Solver {
   push(job: Job): void {
     if (this.running) {
       this.waiting = merged(this.waiting, job);
-      // What comes from the input takes long, and is out of date already.
-      if (!this.running.drag) this.client.endSolutions();
+      // What comes from the input takes long, and is out of date already; what is dragged is still shown where that is soon.
+      const late = !job.drag && performance.now() - this.began > soon;
+      if (!this.running.drag || late) this.client.endSolutions();
     } else {
       void this.run(job);
     }
@@ -160,6 +165,7 @@ export class Solver {
 
   private async run(job: Job): Promise<void> {
     this.running = job;
+    this.began = performance.now();
     this.events.busy(true);
     try {
       const solved = await this.client.ask('solve', job, this.events.progress);

@@ -321,6 +321,7 @@ export class Editor {
   private solved(solved: Solved, { drag }: Job): void {
     const { positions, report, normals } = solved;
     if (positions.length !== this.positions.length) return;
+    if (drag && report.outcome === 'cancelled') return;
     if (drag && report.outcome === 'foreseen') {
       this.drags.solved(drag, solved);
       return;

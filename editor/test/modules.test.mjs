@@ -79,6 +79,13 @@ test('newer jobs stand for those that wait, and constraints are not lost', async
   asked[3].done({});
   await new Promise(setImmediate);
   assert.deepEqual([asked.length, busy.at(-1)], [4, false]);
+
+  solver.push(drag(70));
+  await new Promise((done) => setTimeout(done, 110));
+  solver.push(drag(71));
+  assert.deepEqual(ends, [3], 'the drag goes on');
+  solver.push({ rules: 'd' });
+  assert.deepEqual(ends, [3, 5], 'a slow step of a drag that has ended is not waited for');
 });
 
 // A cube of six quads about the origin, its sides all facing outwards.

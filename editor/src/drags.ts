@@ -83,13 +83,13 @@ export class Drags {
   end(keep: boolean): void {
     if (!this.pull) return;
     const { part, nodes, vectors } = this.pull;
-    this.pull = null;
+    this.drop();
     if (keep) this.editor.apply(labelOf(part, nodes), placed(this.editor.constraints, nodes, vectors, part));
     else this.editor.settle();
   }
 
   drop(): void {
-    this.pull = null;
+    this.pull = this.ahead = null;
   }
 
   solved(drag: Drag, { positions, report }: Solved): void {

@@ -4,7 +4,7 @@ import type { MeshoptSimplifier } from 'meshoptimizer/simplifier';
 
 let simplifier: typeof MeshoptSimplifier | null = null;
 
-/** To be called once by who will want fewer triangles: what it takes is not small. */
+/** To be called once by who will want fewer triangles: what it takes is not small. Where it cannot be loaded there are as many as ever. */
 export async function loadSimplifier(): Promise<void> {
   const loaded = (await import('meshoptimizer/simplifier')).MeshoptSimplifier;
   await loaded.ready;

@@ -23,7 +23,7 @@ export class SurfaceLayer {
 
   /** software: there is no graphics card. */
   constructor(private readonly software: boolean) {
-    if (software) void loadSimplifier();
+    if (software) loadSimplifier().catch((error: unknown) => console.warn('Pictures of a drag have all triangles:', error));
   }
 
   get objects(): Object3D[] {

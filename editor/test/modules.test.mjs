@@ -176,6 +176,38 @@ test('a picture is ahead of the library as its last shapes went, and not too far
   assert.ok(Math.hypot(far[0], far[1]) < 3, 'no further than what is known allows');
 });
 
+test('a drag of many nodes shows what is foreseen, then what is solved, both moved on to the pointer; one of few waits', async () => {
+  const { Drags } = await compiled('drags');
+  globalThis.requestAnimationFrame ??= (call) => setTimeout(call);
+  const start = Float64Array.of(0, 0, 0, 5, 0, 0);
+  const at = (x) => Float64Array.of(x, 0, 0, 5 + x / 2, 0, 0);
+  for (const movingNodes of [50_000, 2000]) {
+    const asked = [];
+    let shown = 0;
+    const editor = {
+      picked: new Set([0]), busy: false, result: start, report: { movingNodes }, shape: { curve: null, scale: 0.01 }, isDraggable: () => true,
+      placeOf: () => [0, 0, 0], dragBegun() {}, showDrag() { ++shown; },
+    };
+    const drags = new Drags(editor, { push: ({ drag }) => asked.push(drag) });
+    drags.begin('position', 0, 0);
+    drags.by([0.1, 0, 0], 1);
+    if (movingNodes === 2000) {
+      assert.deepEqual([asked.length, drags.shape, shown], [1, null, 0]);
+      continue;
+    }
+    assert.deepEqual(asked.map(({ rough, way }) => [rough ?? false, way[0]]), [[true, 0.1], [false, 0.1]]);
+    assert.deepEqual(drags.shape, start, 'nothing is known yet');
+    drags.solved(asked[0], { positions: Float64Array.of(0.1, 0, 0, 5.04, 0, 0), report: { outcome: 'foreseen' } });
+    drags.by([0.2, 0, 0], 2);
+    assert.ok(Math.abs(drags.shape[0] - 0.2) < 1e-12 && Math.abs(drags.shape[3] - 5.08) < 1e-12, `${drags.shape}`);
+    drags.solved(asked[1], { positions: at(0.1), report: { outcome: 'converged', iterations: 3, seconds: 0.4 } });
+    assert.ok(Math.abs(drags.shape[3] - 5.1) < 1e-12, `${drags.shape}`);
+    assert.ok(shown > 0);
+    drags.drop();
+    assert.equal(drags.shape, null);
+  }
+});
+
 test('a frame counts if its shape is of a place at most 100 ms old', () => {
   const frames = new FrameCounter();
   frames.start(1000);

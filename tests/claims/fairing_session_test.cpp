@@ -245,12 +245,14 @@ TEST(FairingSession, APlaceThatIsNoneIsRefusedAndNothingIsLost) {
 TEST(FairingSession, CancelledItGoesOnTheNextTime) {
   Dragged one = dragged(800);
   FairingSession session(one.mesh, to(1e-6));
-  (void)session.fair(one.constraints);
+  const FairResult first = session.fair(one.constraints);
+  const Constraints before = one.constraints;
   one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0, 0, 0.01));
   Context context;
   context.cancel();
   EXPECT_EQ(session.fair(one.constraints, context).report.outcome, Outcome::cancelled);
   context.reset();
+  EXPECT_EQ(session.fair(before, context).positions, first.positions) << "it stayed where it was";
   const FairResult result = session.fair(one.constraints, context);
   EXPECT_EQ(result.report.outcome, Outcome::converged);
   EXPECT_EQ(result.report.levels.size(), 1U) << "from the shape before";

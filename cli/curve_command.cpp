@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -73,7 +74,7 @@ const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::o
                                                           {"dat", CurveFormat::dat},
                                                           {"xyz", CurveFormat::xyz},
                                                           {"svg", CurveFormat::svg}};
-const std::map<std::string, Method> methods = {
+const std::map<std::string, Method> curve_methods = {
     {"equilibrium", Method::equilibrium}, {"multigrid", Method::multigrid}, {"sweep", Method::sweep}};
 const std::map<std::string, NormalPlane> normal_planes = {{"full", NormalPlane::full},
                                                           {"principal", NormalPlane::principal}};
@@ -102,10 +103,10 @@ void add_node_options(CLI::App& command, CurveArguments& arguments) {
       ->group(group);
 }
 
-void add_method_options(CLI::App& command, CurveArguments& arguments, const FairingWords& words) {
+void add_curve_method(CLI::App& command, CurveArguments& arguments, const FairingWords& words) {
   FairOptions& options = arguments.options;
   add_choice(
-      command, "--method", options.method, methods,
+      command, "--method", options.method, curve_methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium)")
       ->group(fairing_group);
@@ -142,7 +143,7 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
   add_constraint_options(command, *arguments, words);
   add_node_options(command, *arguments);
   add_pull_options(command, arguments->pull, pull_of_own_nodes);
-  add_method_options(command, *arguments, words);
+  add_curve_method(command, *arguments, words);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, false);
   command.footer(

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -54,13 +55,13 @@ const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNorm
                                                              {"average", PseudoNormals::average},
                                                              {"area", PseudoNormals::area},
                                                              {"angle", PseudoNormals::angle}};
-const std::map<std::string, Method> methods = {
+const std::map<std::string, Method> surface_methods = {
     {"equilibrium", Method::equilibrium}, {"multigrid", Method::multigrid}, {"sweep", Method::sweep}};
 
-void add_method_options(CLI::App& command, FairArguments& arguments, const FairingWords& words) {
+void add_surface_method(CLI::App& command, FairArguments& arguments, const FairingWords& words) {
   FairOptions& options = arguments.options;
   add_choice(
-      command, "--method", options.method, methods,
+      command, "--method", options.method, surface_methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium; where it finds none, sweep)")
       ->group(fairing_group);
@@ -100,7 +101,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
                 "they bound; in place of --fix boundary (default: off)")
       ->group(holding_group);
   add_pull_options(command, arguments->pull, pull_of_own_nodes);
-  add_method_options(command, *arguments, words);
+  add_surface_method(command, *arguments, words);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, true);
   command.footer(

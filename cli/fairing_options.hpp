@@ -1,11 +1,14 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "picture.hpp"
 #include "terminal.hpp"
 #include "vspring/fair.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace vspring::cli {
 

@@ -1,5 +1,6 @@
 #include "figures.hpp"
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace vspring::cli {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -33,8 +34,8 @@ struct FitArguments : FairingArguments {
   bool closed = false;
 };
 
-std::vector<Repeat> close(SurfaceFile& /*file*/) { return {}; }
-std::vector<Repeat> close(CurveFile& file) { return close_chains(file.curve); }
+std::vector<Repeat> close_fitted(SurfaceFile& /*file*/) { return {}; }
+std::vector<Repeat> close_fitted(CurveFile& file) { return close_chains(file.curve); }
 
 std::vector<std::string> write(const FitArguments& arguments, const SurfaceFile& file,
                                const std::vector<Vector3>& positions) {
@@ -47,10 +48,10 @@ std::vector<std::string> write(const FitArguments& arguments, const CurveFile& f
 
 using Positions = std::vector<Vector3>;
 
-std::string picture_of(const SurfaceFile& /*file*/, const Positions& /*positions*/, const Positions& /*points*/) {
+std::string picture_of_fit(const SurfaceFile& /*file*/, const Positions& /*positions*/, const Positions& /*points*/) {
   return {};
 }
-std::string picture_of(const CurveFile& file, const Positions& positions, const Positions& points) {
+std::string picture_of_fit(const CurveFile& file, const Positions& positions, const Positions& points) {
   return draw_curve(file, positions, {.before = &file.curve, .points = points});
 }
 
@@ -58,7 +59,7 @@ template <typename File>
 int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   using Shape = std::remove_cvref_t<decltype(shape_of(file))>;
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
-  const std::vector<Repeat> repeats = arguments.closed ? close(file) : std::vector<Repeat>{};
+  const std::vector<Repeat> repeats = arguments.closed ? close_fitted(file) : std::vector<Repeat>{};
   const Shape& shape = shape_of(file);
   const Constraints constraints = make_constraints(arguments, shape, rule_input(file));
   FairOptions fairing_options = arguments.options;
@@ -95,7 +96,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   };
   return fairing.finish<Shape>({shape, after, constraints, result.report.fair}, shape.positions(), file.warnings,
                                {.shape = write_shape,
-                                .picture = [&] { return picture_of(file, result.positions, cloud.positions()); },
+                                .picture = [&] { return picture_of_fit(file, result.positions, cloud.positions()); },
                                 .points = cloud.positions(),
                                 .scalars = point_deviation,
                                 .figures = account.figures(),
@@ -117,7 +118,7 @@ int run_fit(FitArguments arguments) {
                     read_shape(arguments.input, arguments.format, arguments.curve));
 }
 
-const std::map<std::string, Method> methods = {{"equilibrium", Method::equilibrium}, {"sweep", Method::sweep}};
+const std::map<std::string, Method> fit_methods = {{"equilibrium", Method::equilibrium}, {"sweep", Method::sweep}};
 
 void add_fit_options(CLI::App& command, FitArguments& arguments) {
   command
@@ -131,7 +132,7 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
                    "Points pull whichever way they face (default: those that have normals only at nodes of a surface "
                    "that faces the same way)");
   add_pull_options(command, arguments.pull, "How points pull: one of");
-  add_choice(command, "--method", arguments.options.method, methods,
+  add_choice(command, "--method", arguments.options.method, fit_methods,
              "The accelerated solver that goes to the true equilibrium, or the paper's plain iteration (default: "
              "equilibrium; where it finds none, sweep)")
       ->group(fairing_group);

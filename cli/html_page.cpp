@@ -1,6 +1,7 @@
 #include "html_page.hpp"
 
 #include <initializer_list>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
 #include <map>
@@ -38,8 +39,8 @@ using Json = nlohmann::ordered_json;
 Json counts_of(const PolygonMesh& mesh) { return {{"nodes", mesh.node_count()}, {"faces", mesh.face_count()}}; }
 Json counts_of(const PolygonCurve& curve) { return {{"nodes", curve.node_count()}, {"chains", curve.chains().size()}}; }
 
-void close(SurfaceFile& /*file*/) {}
-void close(CurveFile& file) { (void)close_chains(file.curve); }
+void close_measured(SurfaceFile& /*file*/) {}
+void close_measured(CurveFile& file) { (void)close_chains(file.curve); }
 
 void write_whole(const std::string& path, const std::string& bytes) {
   const UninterruptedWhileWriting guard;
@@ -86,13 +87,13 @@ Constraints constraints_for(const MeasureArguments& arguments, const File& file,
   return make_constraints(arguments, shape_of(input), rule_input(input));
 }
 
-std::string picture_of(const MeasureArguments& arguments, const SurfaceFile& /*file*/, const SurfaceFile* /*other*/,
-                       const Json& scene, const Context& context) {
+std::string picture_of_measured(const MeasureArguments& arguments, const SurfaceFile& /*file*/,
+                                const SurfaceFile* /*other*/, const Json& scene, const Context& context) {
   return surface_picture(arguments.picture, "vspring: " + arguments.input, scene, context);
 }
 
-std::string picture_of(const MeasureArguments& arguments, const CurveFile& file, const CurveFile* other,
-                       const Json& /*scene*/, const Context& context) {
+std::string picture_of_measured(const MeasureArguments& arguments, const CurveFile& file, const CurveFile* other,
+                                const Json& /*scene*/, const Context& context) {
   const PolygonCurve* before = other != nullptr ? &other->curve : nullptr;
   return curve_picture(arguments.picture, draw_curve(file, file.curve.positions(), {.before = before}), context);
 }
@@ -117,7 +118,7 @@ bool write_views(const MeasureArguments& arguments, const File& file, const File
     if (!context.cancelled()) write_whole(path, bytes);
   };
   write(arguments.html, [&] { return html_page("vspring: " + arguments.input, report, scene); });
-  write(arguments.picture.path, [&] { return picture_of(arguments, file, other, scene, context); });
+  write(arguments.picture.path, [&] { return picture_of_measured(arguments, file, other, scene, context); });
   if (arguments.scalars.empty() || context.cancelled()) return !context.cancelled();
   const std::vector<NodeScalar> scalars =
       scalars_of(shape_of(file), other != nullptr ? &shape_of(*other) : nullptr, context);
@@ -143,8 +144,8 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
   if (arguments.picture.shows("deviation")) refuse_deviation(file, other ? &*other : nullptr);
   if (arguments.closed) {
-    close(file);
-    if (other) close(*other);
+    close_measured(file);
+    if (other) close_measured(*other);
   }
   Context context;
   context.threads = arguments.threads;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "vspring/version.hpp"
 
 namespace vspring::cli {

@@ -45,6 +45,12 @@ class ThreadTeam {
   std::atomic<std::size_t> next_ = 0;
 };
 
+// What is worth handing to another thread: nodes or faces that something is computed for, and nodes that are only moved
+// about.
+inline constexpr std::size_t nodes_per_task = 2048;
+inline constexpr std::size_t faces_per_task = 4096;
+inline constexpr std::size_t light_nodes_per_task = 16384;
+
 /// Calls body(begin, end) for ranges that together cover 0 … count − 1, each at most `grain` long. The ranges do not
 /// depend on the size of the team.
 template <typename Body>

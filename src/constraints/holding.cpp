@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <string>
 
+#include "base/dense_algebra.hpp"
 #include "shape/fan.hpp"
 #include "shape/frame.hpp"
 #include "shape/node_graph.hpp"
@@ -170,8 +170,7 @@ class Holding {
     }
     for (std::size_t k = 0; k < systems.size(); ++k) {
       if (bounded[k] != 0) continue;
-      const Eigen::SelfAdjointEigenSolver<System> eigen(systems[k], Eigen::EigenvaluesOnly);
-      const auto& values = eigen.eigenvalues();
+      const SmallVector values = eigen_of_symmetric(systems[k]).values;
       if (values[1] > no_information * values[4]) continue;
       warnings.push_back(
           fmt::format("what holds the component of node {} leaves a family of shapes, and the result is one of them; "

@@ -6,10 +6,10 @@
 // face normals err by the spacing.
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense_algebra.hpp"
 #include "shape/direction.hpp"
 #include "shape/frame.hpp"
 #include "shape/incidence.hpp"
@@ -122,11 +122,9 @@ class Estimator {
     }
     for (const Eigen::Index unknowns : {5, 3, 2}) {
       if (rows < unknowns) continue;
-      Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(terms.leftCols(unknowns));
-      const auto pivots = qr.matrixR().diagonal().cwiseAbs();
-      if (!(pivots[unknowns - 1] > independent * pivots[0])) continue;
-      const Eigen::VectorXd solution = qr.solve(heights);
-      return (normal - solution[0] * x - solution[1] * y).normalized();
+      const auto solution = least_squares(terms.leftCols(unknowns), heights, independent);
+      if (!solution) continue;
+      return (normal - (*solution)[0] * x - (*solution)[1] * y).normalized();
     }
     return normal;
   }

@@ -14,7 +14,7 @@ namespace vspring {
 
 namespace {
 
-constexpr std::size_t nodes_per_task = 1024;
+constexpr std::size_t jets_per_task = 1024;
 // A node this high over the tangent plane, relative to its distance along it, is more than 70° around a sphere, or on
 // the other side of a thin part: a height over the plane does not describe the way to it.
 constexpr double steepest = 0.7;
@@ -162,7 +162,7 @@ std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Incidence& 
                                       const std::vector<Vector3>& positions, std::span<const std::uint8_t> marked,
                                       const Context& context, ThreadTeam& team) {
   std::vector<NodeCurvature> result(positions.size());
-  parallel_ranges(team, result.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(team, result.size(), jets_per_task, [&](std::size_t begin, std::size_t end) {
     if (context.cancelled()) return;
     Looker looker(mesh, incidence, positions);
     for (std::size_t i = begin; i < end; ++i) {

@@ -6,6 +6,11 @@
 
 namespace vspring {
 
+// An extreme of curvature is one if it can be seen: more than this share of the root mean square, and more than a
+// radius of a thousand times the size.
+inline constexpr double visible_share = 0.05;
+inline constexpr double visible_curvature = 1e-3;
+
 /// The number of nodes inside where `values` have a maximum that stands out by more than `threshold`: by its
 /// persistence, the way down before a higher maximum can be climbed (H. Edelsbrunner, D. Letscher, A. Zomorodian,
 /// "Topological persistence and simplification", Discrete Comput. Geom. 28, 2002).

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/degrees.hpp"
 #include "fairness/counted.hpp"
 #include "shape/face_geometry.hpp"
 #include "shape/fan.hpp"
@@ -15,9 +15,6 @@ namespace vspring {
 
 namespace {
 
-// Sums are taken task by task and then over the tasks in order, so that they do not depend on the number of threads.
-constexpr std::size_t nodes_per_task = 2048;
-constexpr std::size_t faces_per_task = 4096;
 constexpr std::size_t edges_per_task = 8192;
 
 struct Turns {
@@ -153,9 +150,8 @@ Fairness FairnessMeter::measure(const std::vector<Vector3>& positions, const Con
   for (const double energy : energies) fairness.vspring_energy += energy;
   Turns turns;
   for (const Turns& part : parts) turns.add(part);
-  constexpr double degrees = 180 / std::numbers::pi;
-  fairness.greatest_turn = degrees * turns.greatest;
-  fairness.mean_turn = turns.count > 0 ? degrees * std::sqrt(turns.squares / turns.count) : 0;
+  fairness.greatest_turn = degrees_per_radian * turns.greatest;
+  fairness.mean_turn = turns.count > 0 ? degrees_per_radian * std::sqrt(turns.squares / turns.count) : 0;
   return fairness;
 }
 

@@ -1,6 +1,6 @@
 #include <cmath>
-#include <numbers>
 
+#include "base/degrees.hpp"
 #include "base/threads.hpp"
 #include "fairness/curve_runs.hpp"
 #include "spring/curve_force.hpp"
@@ -66,11 +66,10 @@ Fairness measure(const PolygonCurve& whole_curve, const Constraints* constraints
     greatest_turn = std::max(greatest_turn, turn);
     turns += 1;
   }
-  constexpr double degrees = 180 / std::numbers::pi;
   Fairness fairness;
   fairness.vspring_energy = energy;
-  fairness.greatest_turn = degrees * greatest_turn;
-  fairness.mean_turn = turns > 0 ? degrees * std::sqrt(squared_turns / turns) : 0;
+  fairness.greatest_turn = degrees_per_radian * greatest_turn;
+  fairness.mean_turn = turns > 0 ? degrees_per_radian * std::sqrt(squared_turns / turns) : 0;
   return fairness;
 }
 

@@ -14,10 +14,6 @@ namespace vspring {
 
 namespace {
 
-// As on surfaces: what can be seen.
-constexpr double visible_share = 0.05;
-constexpr double visible_curvature = 1e-3;
-
 /// In a frame of size 1; lengths go back to units of the input at the end.
 class CurveMeasurement {
  public:

@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/degrees.hpp"
 #include "base/progress.hpp"
 #include "fairness/counted.hpp"
 #include "fairness/curvatures.hpp"
@@ -19,12 +20,7 @@ namespace vspring {
 
 namespace {
 
-constexpr std::size_t nodes_per_task = 4096;
-constexpr double degrees = 180 / std::numbers::pi;
-// An extreme of curvature is one if it can be seen: more than this share of the root mean square, and more than a
-// radius of a thousand times the size.
-constexpr double visible_share = 0.05;
-constexpr double visible_curvature = 1e-3;
+constexpr std::size_t nodes_per_sum = 4096;
 
 /// The area that each node stands for: linear functions integrate exactly over flat faces. A face is taken as triangles
 /// about the mean of its nodes, which has the mean of their values.
@@ -146,10 +142,10 @@ class SurfaceMeasurement {
   void bend() {
     const std::vector<NodeCurvature> curvature = curvatures(mesh_, incidence_, positions_, nodes_, context_, team_);
     const std::vector<double> areas = node_areas(mesh_, positions_, faces_);
-    std::vector<Bending> parts((areas.size() + nodes_per_task - 1) / nodes_per_task);
-    parallel_ranges(team_, areas.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    std::vector<Bending> parts((areas.size() + nodes_per_sum - 1) / nodes_per_sum);
+    parallel_ranges(team_, areas.size(), nodes_per_sum, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        if (nodes_[i] != 0) parts[begin / nodes_per_task].add(curvature[i], areas[i]);
+        if (nodes_[i] != 0) parts[begin / nodes_per_sum].add(curvature[i], areas[i]);
       }
     });
     Bending all;
@@ -196,8 +192,8 @@ class SurfaceMeasurement {
       figures_.neighbouring_edge_spread = quality.neighbouring_edge_spread;
     }
     if (quality.smallest_angle <= quality.greatest_angle) {
-      figures_.smallest_angle = degrees * quality.smallest_angle;
-      figures_.greatest_angle = degrees * quality.greatest_angle;
+      figures_.smallest_angle = degrees_per_radian * quality.smallest_angle;
+      figures_.greatest_angle = degrees_per_radian * quality.greatest_angle;
     }
     figures_.flipped_faces = quality.flipped_faces;
     figures_.zero_length_edges = quality.zero_length_edges;

@@ -13,9 +13,6 @@ namespace vspring {
 
 namespace {
 
-constexpr std::size_t nodes_per_task = 2048;
-constexpr std::size_t faces_per_task = 4096;
-
 class Inspection {
  public:
   Inspection(const PolygonMesh& mesh, const Incidence& incidence, const std::vector<Vector3>& positions,

@@ -3,15 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/degrees.hpp"
 #include "fairness/counted.hpp"
 
 namespace vspring {
 
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 /// Between two lines, 0 to π/2: the sense of a normal does not matter.
 double angle_between_lines(const Vector3& a, const Vector3& b) {
@@ -19,7 +17,7 @@ double angle_between_lines(const Vector3& a, const Vector3& b) {
 }
 
 void include(std::optional<double>& greatest, double angle) {
-  greatest = std::max(greatest.value_or(0), degrees * angle);
+  greatest = std::max(greatest.value_or(0), degrees_per_radian * angle);
 }
 
 /// What a curve does on one side of a node.

@@ -152,10 +152,10 @@ void PointTies::gather_around(std::size_t node, std::vector<std::uint32_t>& arou
 }
 
 bool PointTies::renew(ThreadTeam& team, double margin) {
-  constexpr std::size_t nodes_per_task = 256;
+  constexpr std::size_t searches_per_task = 256;
   std::atomic<bool> changed = false;
   const TiedPoints& tied = net_->points;
-  parallel_ranges(team, net_->node.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(team, net_->node.size(), searches_per_task, [&](std::size_t begin, std::size_t end) {
     std::vector<std::uint32_t> around;
     for (std::size_t i = begin; i < end; ++i) {
       const auto points = tied.all_of(i);

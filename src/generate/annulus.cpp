@@ -60,7 +60,7 @@ Chain chain_of(const AnnulusOptions& options) {
 /// Nodes inside that the corners of a profile need.
 Index least_inside(Profile profile) { return profile == Profile::steps ? 6 : 0; }
 
-void check(const AnnulusOptions& options) {
+void check_annulus(const AnnulusOptions& options) {
   const int profile = static_cast<int>(options.profile);
   require(profile >= 0 && profile <= static_cast<int>(Profile::flat), "profile", "one of the profiles", profile);
   const Index corner_nodes = least_inside(options.profile);
@@ -135,7 +135,7 @@ RingLayout layout_annulus(const AnnulusOptions& options, const Chain& chain) {
 }  // namespace
 
 PolygonMesh annulus(const AnnulusOptions& options) {
-  check(options);
+  check_annulus(options);
   const Chain chain = chain_of(options);
   return revolve([&](double length) { return chain.at(length); }, layout_annulus(options, chain),
                  {options.jitter, options.seed});

@@ -1,8 +1,8 @@
 // Shapes that are images of a grid.
 
 #include <cmath>
-#include <numbers>
 
+#include "base/degrees.hpp"
 #include "base/random.hpp"
 #include "generate/arguments.hpp"
 #include "generate/grid_faces.hpp"
@@ -10,8 +10,6 @@
 namespace vspring::generate {
 
 namespace {
-
-constexpr double degrees = std::numbers::pi / 180;
 
 /// The place on a shape of the shares s of the columns and t of the rows, 0 to 1.
 using Map = std::function<Vector3(double s, double t)>;
@@ -56,8 +54,8 @@ PolygonMesh sphere_patch(const Grid& grid, double radius, double angle) {
   require(angle > 0 && angle < 180, "angle", "greater than 0 and less than 180 degrees", angle);
   // Equal steps of the angles whose tangents are x/z and y/z: a side of the cubed sphere.
   return image_of_grid(grid, {}, [&](double s, double t) {
-    const double a = angle * degrees * (s - 0.5);
-    const double b = angle * degrees * (t - 0.5);
+    const double a = angle / degrees_per_radian * (s - 0.5);
+    const double b = angle / degrees_per_radian * (t - 0.5);
     const Vector3 direction(std::sin(a) * std::cos(b), std::cos(a) * std::sin(b), std::cos(a) * std::cos(b));
     return Vector3(radius * direction.normalized());
   });
@@ -69,7 +67,7 @@ PolygonMesh cylinder_patch(const Grid& grid, double radius, double angle, double
   require_length("height", height);
   require(angle > 0 && angle < 360, "angle", "greater than 0 and less than 360 degrees", angle);
   return image_of_grid(grid, {}, [&](double s, double t) {
-    const double a = angle * degrees * (s - 0.5);
+    const double a = angle / degrees_per_radian * (s - 0.5);
     return Vector3(radius * std::cos(a), radius * std::sin(a), height * t);
   });
 }

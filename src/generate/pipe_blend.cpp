@@ -19,7 +19,7 @@ int pipe_rows(const PipeBlendOptions& options) {
   return 2 * static_cast<int>(std::max(1.0, std::round(options.pipe_length * options.cells / options.side / 2)));
 }
 
-void check(const PipeBlendOptions& options) {
+void check_pipe_blend(const PipeBlendOptions& options) {
   require(options.pipes.size() >= 2 && options.pipes.size() <= side_count, "number of pipes", "from 2 to 6",
           static_cast<double>(options.pipes.size()));
   for (auto pipe = options.pipes.begin(); pipe != options.pipes.end(); ++pipe) {
@@ -70,7 +70,7 @@ void add_pipe(MeshBuilder& builder, const PipeBlendOptions& options, const CubeS
 }  // namespace
 
 PolygonMesh pipe_blend(const PipeBlendOptions& options) {
-  check(options);
+  check_pipe_blend(options);
   const auto place = [&](const LatticePoint& point) -> Vector3 {
     const double middle = 0.5 * options.cells;
     return options.side / options.cells * Vector3(point[0] - middle, point[1] - middle, point[2] - middle);

@@ -27,4 +27,7 @@ void store(char* to, Number number, bool swapped) {
 /// Whether numbers in this order have to be swapped on this machine.
 constexpr bool swapped_here(std::endian order) { return order != std::endian::native; }
 
+/// Of numbers in little-endian order, which binary STL has and fresh files get.
+inline constexpr bool little_swapped = swapped_here(std::endian::little);
+
 }  // namespace vspring

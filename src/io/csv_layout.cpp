@@ -11,7 +11,7 @@ namespace vspring {
 namespace {
 
 /// The rows that a delimiter is found from.
-constexpr std::size_t looked_at = 20;
+constexpr std::size_t rows_looked_at = 20;
 
 using Cells = std::vector<std::string_view>;
 
@@ -19,7 +19,7 @@ std::vector<TableLine> first_rows(std::string_view bytes) {
   std::vector<TableLine> rows;
   walk_lines(bytes, [&](const TableLine& line) {
     if (line.kind == TableLine::Kind::row) rows.push_back(line);
-    return rows.size() < looked_at;
+    return rows.size() < rows_looked_at;
   });
   return rows;
 }

@@ -1,9 +1,9 @@
 #include "io/curve_drawing.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense_algebra.hpp"
 #include "shape/circle.hpp"
 
 namespace vspring {
@@ -67,9 +67,9 @@ CurveView::CurveView(const DrawnCurve& curve) {
 }
 
 void CurveView::turn(const Eigen::Matrix3d& spread) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-  across_ = forward(solver.eigenvectors().col(2));
-  up_ = forward(solver.eigenvectors().col(1));
+  const SymmetricEigen eigen = eigen_of_symmetric(spread);
+  across_ = forward(eigen.vectors.col(2));
+  up_ = forward(eigen.vectors.col(1));
 }
 
 Drawing drawing_of(const DrawnCurve& curve, const CurveView& view) {

@@ -18,8 +18,8 @@
 namespace vspring {
 namespace {
 
-constexpr std::array names = {"obj", "csv", "dat", "xyz", "svg"};
-constexpr Formats<CurveFormat> formats(names);
+constexpr std::array curve_format_names = {"obj", "csv", "dat", "xyz", "svg"};
+constexpr Formats<CurveFormat> curve_formats(curve_format_names);
 
 void require_plane(std::span<const Vector3> positions) {
   if (const std::size_t node = first_off_plane(positions); node < positions.size())
@@ -57,7 +57,7 @@ std::string converted(CurveFormat format, const CurveFile& file, const std::vect
 
 }  // namespace
 
-std::optional<CurveFormat> curve_format(std::string_view extension) { return formats.of_extension(extension); }
+std::optional<CurveFormat> curve_format(std::string_view extension) { return curve_formats.of_extension(extension); }
 
 CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format) {
   InputFile file = read_input(path);
@@ -82,7 +82,7 @@ std::vector<std::string> write_curve(const std::string& path, const CurveFile& f
                                      const CurvePicture& picture) {
   require_all(file, positions);
   const std::optional<CurveFormat> own = file.format == CurveFormat::svg ? std::nullopt : std::optional(file.format);
-  const CurveFormat target = formats.to_write(path, format, own);
+  const CurveFormat target = curve_formats.to_write(path, format, own);
   const CurveSource* source = file.source.get();
   if (source != nullptr && source->positions.size() != positions.size())
     throw Error(ErrorCode::invalid_argument,
@@ -112,7 +112,7 @@ std::string draw_curve(const CurveFile& file, const std::vector<Vector3>& positi
 
 void write_curve(const std::string& path, const PolygonCurve& curve, std::optional<CurveFormat> format, bool planar) {
   CurveFile file;
-  file.format = formats.to_write(path, format, std::nullopt);
+  file.format = curve_formats.to_write(path, format, std::nullopt);
   file.planar = planar;
   for (Index node = 0; node < curve.node_count(); ++node) {
     if (!curve.position(node).allFinite())

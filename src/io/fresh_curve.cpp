@@ -19,7 +19,7 @@ void append_row(std::string& text, const Vector3& position, int count, char betw
   text += '\n';
 }
 
-std::string fresh_obj(const FreshCurve& curve) {
+std::string fresh_curve_obj(const FreshCurve& curve) {
   std::string text;
   text.reserve(70 * curve.positions.size());
   for (const Vector3& position : curve.positions) {
@@ -87,7 +87,7 @@ void check_aerofoil(const FreshCurve& curve) {
 }  // namespace
 
 std::string fresh_curve(CurveFormat format, const FreshCurve& curve, std::vector<std::string>& losses) {
-  if (format == CurveFormat::obj) return fresh_obj(curve);
+  if (format == CurveFormat::obj) return fresh_curve_obj(curve);
   if (format == CurveFormat::dat) check_aerofoil(curve);
   name_losses_of_rows(curve, losses);
   std::string text;

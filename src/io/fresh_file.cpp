@@ -15,8 +15,6 @@
 namespace vspring {
 namespace {
 
-constexpr bool swapped = swapped_here(std::endian::little);
-
 void append_vector(std::string& text, const Vector3& vector) {
   for (int k = 0; k < 3; ++k) {
     if (k > 0) text += ' ';
@@ -32,11 +30,12 @@ void append_index(std::string& text, Index number) {
 template <typename Number>
 void append_bytes(std::string& bytes, Number number) {
   std::array<char, sizeof(Number)> room;
-  store(room.data(), number, swapped);
+  store(room.data(), number, little_swapped);
   bytes.append(room.data(), room.size());
 }
 
-std::string fresh_obj(const PolygonMesh& mesh, std::span<const Vector3> positions, std::span<const Vector3> normals) {
+std::string fresh_surface_obj(const PolygonMesh& mesh, std::span<const Vector3> positions,
+                              std::span<const Vector3> normals) {
   std::string text;
   text.reserve(60 * (positions.size() + normals.size()) + 20 * mesh.corners().size());
   for (const Vector3& position : positions) {
@@ -164,7 +163,7 @@ std::string fresh_file(SurfaceFormat format, const PolygonMesh& mesh, std::span<
                        std::span<const Vector3> normals, std::vector<std::string>& losses) {
   switch (format) {
     case SurfaceFormat::obj:
-      return fresh_obj(mesh, positions, normals);
+      return fresh_surface_obj(mesh, positions, normals);
     case SurfaceFormat::off:
       return fresh_off(mesh, positions, normals);
     case SurfaceFormat::ply:

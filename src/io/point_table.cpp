@@ -56,7 +56,7 @@ ScatteredPoints read_rows(const InputFile& file, CellCutter cutter, const Column
 }
 
 /// The numbers that a row begins with.
-std::size_t count_numbers(const std::vector<std::string_view>& cells) {
+std::size_t count_leading_numbers(const std::vector<std::string_view>& cells) {
   const auto end = std::find_if(cells.begin(), cells.end(), [](std::string_view cell) { return !number_of(cell); });
   return static_cast<std::size_t>(end - cells.begin());
 }
@@ -83,7 +83,7 @@ ScatteredPoints read_xyz_points(const InputFile& file) {
   walk_lines(file.bytes, [&](const TableLine& line) {
     if (line.kind != TableLine::Kind::row) return true;
     const std::vector<std::string_view>& cells = cutter.cut(line.text);
-    numbers = count_numbers(cells);
+    numbers = count_leading_numbers(cells);
     cells_of_first = cells.size();
     faces = (numbers == 6 || numbers == 7) && numbers == cells_of_first && is_unit_or_zero(cells);
     return false;
@@ -96,9 +96,9 @@ ScatteredPoints read_xyz_points(const InputFile& file) {
   if (faces) columns.normal = {3, 4, 5};
   return read_rows(file, cutter, columns, 0, [&](const TableLine& line, const auto& cells) {
     // Of points in a plane and in space mixed, or with weights and without, some would be misread.
-    if ((planar && count_numbers(cells) > 2) || ((columns.weight || faces) && cells.size() != cells_of_first))
+    if ((planar && count_leading_numbers(cells) > 2) || ((columns.weight || faces) && cells.size() != cells_of_first))
       file.refuse_line(line.offset, fmt::format("this row has {} numbers, the first row has {}; correct one of them",
-                                                count_numbers(cells), numbers));
+                                                count_leading_numbers(cells), numbers));
   });
 }
 

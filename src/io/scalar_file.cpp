@@ -16,8 +16,8 @@
 namespace vspring {
 namespace {
 
-constexpr std::array names = {"vtp", "ply"};
-constexpr Formats<ScalarFormat> formats(names);
+constexpr std::array scalar_format_names = {"vtp", "ply"};
+constexpr Formats<ScalarFormat> scalar_formats(scalar_format_names);
 
 void check(const std::vector<Vector3>& positions, std::span<const NodeScalar> scalars) {
   const auto plain = [](char c) {
@@ -127,16 +127,16 @@ std::string vtp(const PolygonCurve& curve, std::span<const NodeScalar> scalars) 
 
 }  // namespace
 
-std::optional<ScalarFormat> scalar_format(std::string_view extension) { return formats.of_extension(extension); }
+std::optional<ScalarFormat> scalar_format(std::string_view extension) { return scalar_formats.of_extension(extension); }
 
 void write_scalars(const std::string& path, const PolygonMesh& mesh, std::span<const NodeScalar> scalars) {
-  const ScalarFormat format = formats.to_write(path, std::nullopt, std::nullopt);
+  const ScalarFormat format = scalar_formats.to_write(path, std::nullopt, std::nullopt);
   check(mesh.positions(), scalars);
   write_file(path, format == ScalarFormat::vtp ? vtp(mesh, scalars) : fresh_ply(mesh, mesh.positions(), {}, scalars));
 }
 
 void write_scalars(const std::string& path, const PolygonCurve& curve, std::span<const NodeScalar> scalars) {
-  if (formats.to_write(path, std::nullopt, std::nullopt) == ScalarFormat::ply)
+  if (scalar_formats.to_write(path, std::nullopt, std::nullopt) == ScalarFormat::ply)
     throw Error(ErrorCode::invalid_argument, path + ": PLY holds surfaces; write the numbers of a curve as .vtp");
   check(curve.positions(), scalars);
   write_file(path, vtp(curve, scalars));

@@ -9,7 +9,7 @@ namespace vspring {
 namespace {
 
 /// Lines that may come before one that shows the format.
-constexpr std::size_t looked_at = std::size_t{1} << 20;
+constexpr std::size_t bytes_looked_at = std::size_t{1} << 20;
 
 std::string_view first_word(std::string_view text) {
   const auto begin = std::find_if_not(text.begin(), text.end(), is_space);
@@ -31,7 +31,7 @@ bool begins_off(std::string_view word) {
 
 /// What the first line that is neither empty nor a comment shows, and for OBJ the first that could be nothing else.
 std::optional<SurfaceFormat> format_of_lines(std::string_view bytes) {
-  std::string_view rest = bytes.substr(0, looked_at);
+  std::string_view rest = bytes.substr(0, bytes_looked_at);
   bool first = true;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
@@ -50,8 +50,8 @@ std::optional<SurfaceFormat> format_of_lines(std::string_view bytes) {
 }
 
 bool is_text_stl(std::string_view bytes) {
-  if (first_word(bytes.substr(0, looked_at)) != "solid") return false;
-  const std::string_view start = bytes.substr(0, looked_at);
+  if (first_word(bytes.substr(0, bytes_looked_at)) != "solid") return false;
+  const std::string_view start = bytes.substr(0, bytes_looked_at);
   return start.find("facet") != std::string_view::npos || start.find("endsolid") != std::string_view::npos;
 }
 

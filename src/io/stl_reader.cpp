@@ -73,14 +73,13 @@ SurfaceFile read_binary(InputFile file) {
   if (facets == 0) file.refuse("it has no triangles; choose the file of a surface");
   Facets list(facets);
   std::set<std::string> carried = {"normals of triangles"};
-  constexpr bool swapped = swapped_here(std::endian::little);
   for (std::size_t facet = 0; facet < facets; ++facet) {
     if (list.full()) file.refuse("too many triangles; split the file");
     const char* const record = file.bytes.data() + stl::facets_begin + facet * stl::facet_size;
     for (std::size_t c = 1; c <= 3; ++c) {
       Vector3 position;
       for (std::size_t k = 0; k < 3; ++k)
-        position[static_cast<Index>(k)] = static_cast<double>(load<float>(record + 12 * c + 4 * k, swapped));
+        position[static_cast<Index>(k)] = static_cast<double>(load<float>(record + 12 * c + 4 * k, little_swapped));
       list.add_corner(position);
     }
     if (record[48] != 0 || record[49] != 0) carried.insert("attributes of triangles");

@@ -9,15 +9,10 @@
 #include "io/text_rewriter.hpp"
 
 namespace vspring {
-namespace {
-
-constexpr bool swapped = swapped_here(std::endian::little);
-
-}  // namespace
 
 std::size_t stl::promised_size(std::string_view bytes) {
   if (bytes.size() < facets_begin) return 0;
-  return facets_begin + facet_size * std::size_t{load<std::uint32_t>(bytes.data() + header_size, swapped)};
+  return facets_begin + facet_size * std::size_t{load<std::uint32_t>(bytes.data() + header_size, little_swapped)};
 }
 
 Vector3 stl::facet_normal(const Vector3& a, const Vector3& b, const Vector3& c) {
@@ -56,7 +51,7 @@ std::string StlSource::rewritten_binary(const Rewrite& rewrite) const {
     char* const record = out.data() + stl::facets_begin + facet * stl::facet_size;
     const auto put = [&](std::size_t vector, const Vector3& value, Index node) {
       for (std::size_t k = 0; k < 3; ++k)
-        store(record + 12 * vector + 4 * k, single(value[k], static_cast<std::size_t>(node)), swapped);
+        store(record + 12 * vector + 4 * k, single(value[k], static_cast<std::size_t>(node)), little_swapped);
     };
     std::array<Vector3, 3> corners;
     bool any_moved = false;

@@ -16,8 +16,8 @@
 namespace vspring {
 namespace {
 
-constexpr std::array names = {"obj", "off", "ply", "stl"};
-constexpr Formats<SurfaceFormat> formats(names);
+constexpr std::array surface_format_names = {"obj", "off", "ply", "stl"};
+constexpr Formats<SurfaceFormat> surface_formats(surface_format_names);
 
 /// A file in another format than the source's, or of a mesh that no file gave.
 std::string converted(SurfaceFormat format, const Rewrite& rewrite, std::vector<std::string>& losses) {
@@ -41,7 +41,9 @@ std::string converted(SurfaceFormat format, const Rewrite& rewrite, std::vector<
 
 }  // namespace
 
-std::optional<SurfaceFormat> surface_format(std::string_view extension) { return formats.of_extension(extension); }
+std::optional<SurfaceFormat> surface_format(std::string_view extension) {
+  return surface_formats.of_extension(extension);
+}
 
 SurfaceFile read_surface(const std::string& path, std::optional<SurfaceFormat> format) {
   InputFile file = read_input(path);
@@ -66,7 +68,7 @@ std::vector<std::string> write_surface(const std::string& path, const SurfaceFil
   if (positions.size() != surface.mesh.positions().size())
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("{} positions given for {} nodes", positions.size(), surface.mesh.node_count()));
-  const SurfaceFormat target = formats.to_write(path, format, surface.format);
+  const SurfaceFormat target = surface_formats.to_write(path, format, surface.format);
   const SurfaceSource* source = surface.source.get();
   if (source != nullptr &&
       (source->positions.size() != positions.size() || source->corner_count != surface.mesh.corners().size()))
@@ -85,7 +87,7 @@ std::vector<std::string> write_surface(const std::string& path, const SurfaceFil
 }
 
 void write_surface(const std::string& path, const PolygonMesh& mesh, std::optional<SurfaceFormat> format) {
-  const SurfaceFormat target = formats.to_write(path, format, std::nullopt);
+  const SurfaceFormat target = surface_formats.to_write(path, format, std::nullopt);
   for (Index node = 0; node < mesh.node_count(); ++node) {
     if (!mesh.position(node).allFinite())
       throw Error(ErrorCode::invalid_argument, fmt::format("node {}: its position is not finite", node));

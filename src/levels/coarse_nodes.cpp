@@ -7,8 +7,6 @@ namespace vspring {
 
 namespace {
 
-using Kind = Triangulation::Kind;
-
 // Nodes that a boundary loop keeps, if it has them: with fewer it is no smooth curve any more.
 constexpr std::size_t least_loop = 6;
 // Nodes of more neighbours are kept: no neighbour could take over so many.
@@ -23,7 +21,7 @@ class Chooser {
 
   void keep_fixed() {
     for (std::size_t i = 0; i < triangulation_.size(); ++i) {
-      if (triangulation_.kind(i) != Kind::fixed) continue;
+      if (triangulation_.kind(i) != Triangulation::Kind::fixed) continue;
       keep(i);
       triangulation_.for_each_neighbour(i, [&](std::size_t j) { keep(j); });
     }
@@ -32,14 +30,14 @@ class Chooser {
   void keep_constrained(const std::vector<std::uint8_t>& constrained) {
     for (std::size_t i = 0; i < triangulation_.size(); ++i) {
       const bool wanted = constrained[i] != 0 || triangulation_.ring(i).size() > many_neighbours;
-      if (wanted && triangulation_.kind(i) == Kind::closed && is_free(i)) keep(i);
+      if (wanted && triangulation_.kind(i) == Triangulation::Kind::closed && is_free(i)) keep(i);
     }
   }
 
   void keep_loops() {
     std::vector<std::uint8_t> seen(triangulation_.size(), 0);
     for (std::size_t i = 0; i < triangulation_.size(); ++i) {
-      if (triangulation_.kind(i) != Kind::open || seen[i] != 0) continue;
+      if (triangulation_.kind(i) != Triangulation::Kind::open || seen[i] != 0) continue;
       walk_loop(i, seen);
       thin_loop();
     }
@@ -98,7 +96,7 @@ class Chooser {
   /// Fills loop_ with the boundary through a node, as far as it goes.
   void walk_loop(std::size_t start, std::vector<std::uint8_t>& seen) {
     loop_.clear();
-    for (std::size_t i = start; triangulation_.kind(i) == Kind::open && seen[i] == 0;) {
+    for (std::size_t i = start; triangulation_.kind(i) == Triangulation::Kind::open && seen[i] == 0;) {
       seen[i] = 1;
       loop_.push_back(static_cast<std::uint32_t>(i));
       const auto ring = triangulation_.ring(i);

@@ -6,8 +6,6 @@ namespace vspring {
 
 namespace {
 
-using Kind = Triangulation::Kind;
-
 constexpr std::size_t least_piece = 4096;
 constexpr std::size_t pieces_wanted = 16;
 constexpr int most_passes = 4;
@@ -45,7 +43,7 @@ class Coarsening {
     for (int pass = 0; pass < most_passes; ++pass) {
       std::size_t flips = 0;
       for (std::size_t i = 0; i < triangulation_.size(); ++i) {
-        if (kept_[i] != 0 && triangulation_.kind(i) != Kind::fixed) flips += flip_around(i);
+        if (kept_[i] != 0 && triangulation_.kind(i) != Triangulation::Kind::fixed) flips += flip_around(i);
       }
       if (flips == 0) return;
     }
@@ -89,7 +87,8 @@ class Coarsening {
 
   /// How many neighbours more than it should have.
   [[nodiscard]] long excess(std::uint32_t i) const {
-    return static_cast<long>(triangulation_.ring(i).size()) - (triangulation_.kind(i) == Kind::closed ? 6 : 4);
+    return static_cast<long>(triangulation_.ring(i).size()) -
+           (triangulation_.kind(i) == Triangulation::Kind::closed ? 6 : 4);
   }
 
   std::size_t flip_around(std::size_t i) {
@@ -105,18 +104,19 @@ class Coarsening {
   [[nodiscard]] bool worth_flipping(std::size_t i, std::size_t place) const {
     const auto ring = triangulation_.ring(i);
     const std::size_t size = ring.size();
-    const bool open = triangulation_.kind(i) == Kind::open;
+    const bool open = triangulation_.kind(i) == Triangulation::Kind::open;
     if (ring[place] < i || (open && (place == 0 || place + 1 == size))) return false;
     const auto a = static_cast<std::uint32_t>(i);
     const std::uint32_t b = ring[place];
     const std::uint32_t c = ring[place > 0 ? place - 1 : size - 1];
     const std::uint32_t d = ring[place + 1 < size ? place + 1 : 0];
     for (const std::uint32_t j : {b, c, d}) {
-      if (triangulation_.kind(j) == Kind::fixed) return false;
+      if (triangulation_.kind(j) == Triangulation::Kind::fixed) return false;
     }
     // The sum of squares falls.
     if (excess(a) + excess(b) - excess(c) - excess(d) <= 2) return false;
-    if (triangulation_.kind(c) == Kind::open && triangulation_.kind(d) == Kind::open) return false;
+    if (triangulation_.kind(c) == Triangulation::Kind::open && triangulation_.kind(d) == Triangulation::Kind::open)
+      return false;
     const auto can_lose_one = [&](std::uint32_t j) {
       return triangulation_.ring(j).size() > Triangulation::fewest(triangulation_.kind(j));
     };

@@ -15,7 +15,7 @@ constexpr std::size_t enough_edges = 48;
 constexpr double least_share = 1e-6;
 // Turns of up to about 60° tell the shape; sharper ones are noise, and too far from linear to start with.
 constexpr double sharp_cosine = 0.5;
-constexpr int most_passes = 100;
+constexpr int most_rounds = 100;
 
 /// A node that coarser levels keep, and that averages leave alone.
 bool is_anchor(const Net& net, std::size_t node) { return node >= net.moving || net.given[node] != 0; }
@@ -161,7 +161,7 @@ void untangle(CurveLevel& level) {
     const Vector3 after = net.positions[links[1].node()] - net.positions[i];
     return before.dot(after) < sharp_cosine * before.norm() * after.norm();
   };
-  for (int pass = 0; pass < most_passes; ++pass) {
+  for (int pass = 0; pass < most_rounds; ++pass) {
     bool tangled = false;
     for (std::size_t i = 0; i < net.moving && !tangled; ++i) tangled = sharp(i);
     if (!tangled) return;

@@ -11,7 +11,6 @@ namespace vspring {
 
 namespace {
 
-constexpr std::size_t nodes_per_task = 2048;
 constexpr int longest_walk = 1000;
 // Of the squared mean edge, added to squared distances: a node in the very place does not settle it alone.
 constexpr double blur = 0.1;

@@ -7,7 +7,6 @@ namespace vspring {
 
 namespace {
 
-constexpr std::size_t nodes_per_task = 16384;
 // Passes over a shape that was handed up until its nodes lie about as the regularisation (§4.4) wants them: a sweep
 // would move them along their tangent planes, off curved surfaces, by the square of how far they have to go.
 constexpr int passes = 3;
@@ -32,7 +31,7 @@ void place_removed(Net& net, const Removals& removals) {
 /// Places every moving node anew between its neighbours, itself counted as one more of them.
 void relax(Net& net, std::vector<Place>& places, ThreadTeam& team) {
   places.resize(net.moving);
-  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(team, net.moving, light_nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto links = net.rings.links(i);
       const auto shares = net.shares_of(i);
@@ -47,7 +46,7 @@ void relax(Net& net, std::vector<Place>& places, ThreadTeam& team) {
       });
     }
   });
-  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(team, net.moving, light_nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) put(net, i, places[i]);
   });
 }
@@ -65,7 +64,7 @@ void restrict_shape(const SurfaceLevel& fine, SurfaceLevel& coarse) {
 void prolong(const SurfaceLevel& coarse, SurfaceLevel& fine, ThreadTeam& team) {
   const Net& from = coarse.net;
   Net& to = fine.net;
-  parallel_ranges(team, coarse.finer.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(team, coarse.finer.size(), light_nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t i = coarse.finer[k];
       if (k < from.moving) to.positions[i] = from.positions[k];

@@ -8,7 +8,6 @@ namespace {
 
 // Room for neighbours: a node into which several others are drawn has up to so many for a while.
 constexpr std::uint32_t least_room = 14;
-constexpr std::size_t nodes_per_task = 16384;
 
 }  // namespace
 
@@ -29,7 +28,7 @@ Triangulation::Triangulation(const PolygonMesh& mesh, ThreadTeam& team) {
   for (std::size_t i = 0; i < nodes; ++i)
     needed[i] = 2 * static_cast<std::uint32_t>(incidence.corners(static_cast<Index>(i)).size());
   make_room(needed);
-  parallel_ranges(team, nodes, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(team, nodes, light_nodes_per_task, [&](std::size_t begin, std::size_t end) {
     FanWalker walker(mesh, incidence);
     for (std::size_t i = begin; i < end; ++i) {
       const Fan& fan = walker.walk(static_cast<Index>(i));
@@ -48,7 +47,7 @@ Triangulation::Triangulation(const Triangulation& finer, std::span<const std::ui
   std::vector<std::uint32_t> needed(kept.size());
   for (const std::uint32_t node : kept) needed[number[node]] = finer.count_[node];
   make_room(needed);
-  parallel_ranges(team, kept.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(team, kept.size(), light_nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t i = number[kept[k]];
       kind_[i] = finer.kind_[kept[k]];

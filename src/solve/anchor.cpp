@@ -1,7 +1,9 @@
 #include "solve/anchor.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
+
+#include "base/dense_algebra.hpp"
 
 namespace vspring {
 
@@ -73,7 +75,7 @@ void Anchor::hold(std::span<Vector3> vectors) const {
     products[component_[i]] += fields.transpose() * fields;
     shares[component_[i]] += fields.transpose() * vectors[i];
   }
-  for (std::size_t k = 0; k < count_; ++k) shares[k] = products[k].completeOrthogonalDecomposition().solve(shares[k]);
+  for (std::size_t k = 0; k < count_; ++k) shares[k] = smallest_solution(products[k], shares[k]);
   for (std::size_t i = 0; i < vectors.size(); ++i) {
     if (component_[i] != count_) vectors[i] -= fields_at(i) * shares[component_[i]];
   }

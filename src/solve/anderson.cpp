@@ -1,7 +1,8 @@
 #include "solve/anderson.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
+
+#include "base/dense_algebra.hpp"
 
 namespace vspring {
 
@@ -52,13 +53,8 @@ void Anderson<Scalar>::accelerate(std::vector<Vector3>& correction) {
   if (columns > 0) {
     Eigen::MatrixXd products = Eigen::MatrixXd::Zero(columns, columns + 1);
     for (const Eigen::MatrixXd& part : parts) products += part;
-    Eigen::MatrixXd gram = products.leftCols(columns).selfadjointView<Eigen::Lower>();
-    // Columns of one length, and a trace of damping where they hardly differ.
-    const Eigen::VectorXd scale = gram.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-    gram = scale.asDiagonal() * gram * scale.asDiagonal();
-    gram.diagonal().array() += 1e-12;
-    const Eigen::VectorXd shares =
-        scale.asDiagonal() * gram.ldlt().solve(Eigen::VectorXd(scale.asDiagonal() * products.col(columns)));
+    const Eigen::MatrixXd gram = products.leftCols(columns).selfadjointView<Eigen::Lower>();
+    const Eigen::VectorXd shares = damped_solution(gram, products.col(columns), 1e-12);
     if (shares.allFinite()) {
       parallel_ranges(*team_, size_, vectors_per_task, [&](std::size_t begin, std::size_t end) {
         for (std::size_t a = 0; a < used_; ++a) {

@@ -11,7 +11,6 @@ namespace vspring {
 
 namespace {
 
-constexpr std::size_t nodes_per_task = 2048;
 // Shares of nodes that lie unevenly may be negative; the matrix is to stay definite.
 constexpr double least_weight = 0.1;
 // Of the sum of a node's weights, what has to be left of it where they are made to take linear functions to zero.

@@ -1,8 +1,9 @@
 #include "solve/bending_matrix.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <utility>
+
+#include "base/dense_algebra.hpp"
 
 namespace vspring {
 
@@ -43,7 +44,7 @@ void BendingMatrix::add_far_row(std::vector<Entry> entries, double sign) {
         system(a, b) += entry.value * far_[static_cast<std::size_t>(b)].solution[entry.column];
     }
   }
-  far_system_ = system.inverse();
+  far_system_ = inverse(system);
 }
 
 template <typename Value>

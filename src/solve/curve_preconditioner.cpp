@@ -10,7 +10,7 @@ namespace vspring {
 namespace {
 
 // Of the weights 1/ℓ³: where lengths have changed by some 10 %, corrections are off by a third.
-constexpr double greatest_change = 1.3;
+constexpr double greatest_change_of_weights = 1.3;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ bool CurvePreconditioner::refresh(const Model& model) {
   bool fits = !built_weight_.empty();
   for (std::size_t i = 0; i < weight_.size() && fits; ++i) {
     const double change = weight_[i] / built_weight_[i];
-    fits = change < greatest_change && change * greatest_change > 1;
+    fits = change < greatest_change_of_weights && change * greatest_change_of_weights > 1;
   }
   const bool pulled_otherwise = stiffness_.renew(curve_->net, model, alone_);
   if (fits && !pulled_otherwise) return false;

@@ -13,7 +13,6 @@ namespace vspring {
 
 namespace {
 
-constexpr std::size_t nodes_per_task = 2048;
 // No edge may turn or stretch by more than about this in one step: the equations are near to linear up to there.
 constexpr double greatest_turn = 0.3;
 // Iterations that do not get nearer, with steps of full length, before rounding is taken to have the last word.

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <span>
 #include <vector>
 
+#include "base/stopwatch.hpp"
 #include "solve/account.hpp"
 #include "solve/equilibrium.hpp"
 #include "solve/pseudo_transient.hpp"
@@ -16,8 +16,6 @@
 namespace vspring {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int default_limit = 200;
 // From a shape that is near: beyond, coarser levels are sooner there.
@@ -44,9 +42,6 @@ constexpr double still = 1e-9;
 // The cosine of 60°.
 constexpr double sharpest_turn = 0.5;
 constexpr double greatest_displacement_ratio = 4;
-constexpr std::size_t nodes_per_task = 2048;
-
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 /// The places of the moving nodes, as precise as a start need be.
 std::vector<Eigen::Vector3f> rounded(const Net& net) {
@@ -262,7 +257,7 @@ class Run {
 
   void relax(std::size_t level, int max_iterations,
              const std::function<EquilibriumResult(const EquilibriumTask&)>& method) {
-    const auto begin = Clock::now();
+    const Stopwatch stopwatch;
     const std::size_t last = hierarchy_.count() - 1;
     const Net& net = hierarchy_.net(level);
     const double share = static_cast<double>(net.moving) / static_cast<double>(hierarchy_.net(last).moving);
@@ -281,7 +276,7 @@ class Run {
     report_.iterations += result.iterations;
     report_.levels.push_back({.moving_nodes = static_cast<Index>(net.moving),
                               .iterations = result.iterations,
-                              .seconds = seconds_since(begin)});
+                              .seconds = stopwatch.seconds()});
     report_.outcome = result.outcome;
     report_.residual = result.expected_error / size_;
     report_.expected_error = report_.residual;

@@ -1,9 +1,9 @@
 // Curves (§4.8).
 
-#include <chrono>
 #include <utility>
 
 #include "base/progress.hpp"
+#include "base/stopwatch.hpp"
 #include "base/threads.hpp"
 #include "levels/curve_levels.hpp"
 #include "solve/account.hpp"
@@ -15,17 +15,9 @@
 
 namespace vspring {
 
-namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
-
-}  // namespace
-
 FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const FairOptions& options,
                 Context& context) {
-  const auto begin = Clock::now();
+  const Stopwatch stopwatch;
   options.validate();
   FairResult result;
   FairReport& report = result.report;
@@ -59,7 +51,7 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
   PolygonCurve faired = curve;
   faired.set_positions(result.positions);
   report.after = measure(faired, &constraints);
-  report.seconds = seconds_since(begin);
+  report.seconds = stopwatch.seconds();
   return result;
 }
 

@@ -5,12 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "base/stopwatch.hpp"
 #include "fit/point_factors.hpp"
 #include "fit/point_ties.hpp"
 #include "solve/fit_points.hpp"
@@ -22,12 +22,10 @@ namespace vspring {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 // The last steps of a plain iteration are about k times their distance.
 constexpr double step_share = 0.1;
 // Of outliers and shape.
-constexpr int most_turns = 12;
+constexpr int most_turns_of_outliers = 12;
 // Where nodes have homes, waves are short and decay soon.
 constexpr int most_sweeps_of_homes = 2000;
 
@@ -39,7 +37,7 @@ class Fitting {
       : run_(shape, constraints, points, options, context), options_(options) {}
 
   FitResult fit() {
-    const auto begin = Clock::now();
+    const Stopwatch stopwatch;
     const auto& shape = run_.subject.shape();
     const Constraints& constraints = run_.subject.constraints();
     if (constraints.node_count() != shape.node_count()) (void)check_constraints(shape, constraints);
@@ -61,7 +59,7 @@ class Fitting {
     report.after = summary(result.distances, run_.kept);
     report.outliers = report.points - report.after.all.count;
     report.outside_points = count_outside(result.distances);
-    report.fair.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    report.fair.seconds = stopwatch.seconds();
     return std::move(result);
   }
 
@@ -71,7 +69,7 @@ class Fitting {
     const bool searches = options_.within || options_.rms;
     // A tolerance means nothing as long as outliers count.
     bool smooth_first = searches;
-    for (int turn = 0; turn < most_turns; ++turn) {
+    for (int turn = 0; turn < most_turns_of_outliers; ++turn) {
       fit(progress, smooth_first);
       if (run_.context.cancelled()) return;
       const auto before = std::exchange(run_.kept, without_furthest(run_.distances(), options_.outliers));

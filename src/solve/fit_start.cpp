@@ -10,7 +10,7 @@ namespace vspring {
 namespace {
 
 // Points that the sense of all is found from.
-constexpr std::size_t most_asked = 500;
+constexpr std::size_t most_points_asked = 500;
 // By how much the other sense must be better, in squares of distances.
 constexpr double clearly_better = 0.5;
 
@@ -27,7 +27,7 @@ FitStart fit_start(const ScatteredPoints& points, const std::vector<Vector3>& pl
         {[&](std::size_t j, std::size_t node) { return face_alike(normal_of(j), sides.normals[node]); }, reach});
   };
   // In the sense that is meant points are nearer to nodes that face alike.
-  const std::size_t stride = (points.positions.size() + most_asked - 1) / most_asked;
+  const std::size_t stride = (points.positions.size() + most_points_asked - 1) / most_points_asked;
   std::vector<Vector3> asked;
   for (std::size_t j = 0; j < points.positions.size(); j += stride) asked.push_back(points.positions[j]);
   const auto misfit = [&](double sense) {

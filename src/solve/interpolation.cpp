@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::size_t nearest = 4;
 // Of the unscaled shares, what has to be left where they are made to reproduce linear functions.
-constexpr double least_left = 0.2;
-constexpr double ridge = 0.01;
+constexpr double least_share_left = 0.2;
+constexpr double ridge_share = 0.01;
 constexpr auto none = static_cast<std::uint32_t>(-1);
 
 struct Source {
@@ -36,11 +36,11 @@ void find_shares(const Vector3& centre, std::span<const Vector3> positions, std:
     mean += weight * d;
     spread += weight * d * d.transpose();
   }
-  // Across that plane there is little to be reproduced; a ridge keeps it from being tried.
-  spread += ridge * spread.trace() * Eigen::Matrix3d::Identity();
+  // Across that plane there is little to be reproduced; a ridge_share keeps it from being tried.
+  spread += ridge_share * spread.trace() * Eigen::Matrix3d::Identity();
   Vector3 slope = solve_definite(spread, mean);
   const double left = 1 - mean.dot(slope) / sum;
-  if (left < least_left) slope *= (1 - least_left) / (1 - left);
+  if (left < least_share_left) slope *= (1 - least_share_left) / (1 - left);
   double total = 0;
   for (std::size_t k = 0; k < sources.size(); ++k) {
     shares[k] *= 1 - slope.dot(positions[sources[k].node] - centre);

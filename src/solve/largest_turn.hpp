@@ -15,7 +15,6 @@ namespace vspring {
 /// called on all threads of the team.
 template <typename Value>
 double greatest_over_nodes(const Net& net, ThreadTeam& team, const Value& value) {
-  constexpr std::size_t nodes_per_task = 2048;
   std::vector<double> greatest((net.moving + nodes_per_task - 1) / nodes_per_task, 0);
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     double of_range = 0;

@@ -13,8 +13,6 @@ namespace {
 
 using Entry = SparseRows::Entry;
 
-constexpr std::size_t nodes_per_task = 2048;
-
 void multiply(std::span<const Entry> row, const WholeMatrix& matrix, SparseSum& image) {
   image.clear();
   for (const Entry& outer : row) {

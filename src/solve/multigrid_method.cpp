@@ -1,15 +1,13 @@
 #include "solve/multigrid_method.hpp"
 
 #include <algorithm>
-#include <chrono>
 
+#include "base/stopwatch.hpp"
 #include "solve/sweep_method.hpp"
 
 namespace vspring {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // The coarsest level goes on until steps are this much smaller than on the others.
 constexpr double coarsest_share = 1e-3;
@@ -54,7 +52,7 @@ class Cycle {
 
  private:
   SweepResult iterate(std::size_t level, double step_tolerance, int max_iterations) {
-    const auto begin = Clock::now();
+    const Stopwatch stopwatch;
     SweepTask task{.step_tolerance = step_tolerance, .max_iterations = max_iterations};
     const auto nodes = static_cast<double>(hierarchy_.net(level).moving);
     const double share = nodes / static_cast<double>(hierarchy_.net(hierarchy_.count() - 1).moving);
@@ -66,7 +64,7 @@ class Cycle {
     };
     const SweepResult result = sweep_until_still(hierarchy_.net(level), model_, task, team_, context_);
     report_.levels[level].iterations += result.iterations;
-    report_.levels[level].seconds += std::chrono::duration<double>(Clock::now() - begin).count();
+    report_.levels[level].seconds += stopwatch.seconds();
     return result;
   }
 

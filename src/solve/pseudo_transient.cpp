@@ -16,7 +16,7 @@ namespace {
 using Matrix = Eigen::SparseMatrix<double>;
 
 // Of an edge in one step: at most, and what steps become longer up to.
-constexpr double greatest_turn = 0.5;
+constexpr double greatest_flow_turn = 0.5;
 constexpr double wanted_turn = 0.3;
 // Lengths of steps; 1 is about a sweep.
 constexpr double shortest = 1;
@@ -67,13 +67,13 @@ class Flow {
       if (task.on_iteration) task.on_iteration(size);
       const double turn = largest_turn(net_, step_, team_);
       // Only Newton's step says how far it is; it is not taken, as the shape is to be the one that it says it of.
-      if (newton && size < task.tolerance && turn <= greatest_turn) {
+      if (newton && size < task.tolerance && turn <= greatest_flow_turn) {
         ++result.iterations;
         result.outcome = Outcome::converged;
         result.expected_error = size;
         return result;
       }
-      const double share = std::min(1.0, greatest_turn / turn);
+      const double share = std::min(1.0, greatest_flow_turn / turn);
       const double before = forces_.norm();
       const std::vector<Vector3> places(net_.positions.begin(),
                                         net_.positions.begin() + static_cast<std::ptrdiff_t>(net_.moving));

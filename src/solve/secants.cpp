@@ -1,7 +1,8 @@
 #include "solve/secants.hpp"
 
-#include <Eigen/Dense>
 #include <utility>
+
+#include "base/dense_algebra.hpp"
 
 namespace vspring {
 
@@ -35,10 +36,7 @@ void Secants::predict(std::span<Vector3> held, std::span<Vector3> moving) const 
     for (Eigen::Index b = 0; b <= a; ++b) gram(a, b) = gram(b, a) = product(step(a).held, step(b).held);
     right[a] = product(step(a).held, held);
   }
-  const Eigen::VectorXd scale = gram.diagonal().cwiseSqrt().cwiseInverse();
-  gram = scale.asDiagonal() * gram * scale.asDiagonal();
-  gram.diagonal().array() += damping;
-  const Eigen::VectorXd shares = scale.asDiagonal() * gram.ldlt().solve(Eigen::VectorXd(scale.asDiagonal() * right));
+  const Eigen::VectorXd shares = damped_solution(gram, right, damping);
   if (!shares.allFinite()) return;
   for (Eigen::Index k = 0; k < count; ++k) {
     for (std::size_t i = 0; i < held.size(); ++i) held[i] -= shares[k] * step(k).held[i];

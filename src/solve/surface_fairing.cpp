@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <utility>
 
+#include "base/stopwatch.hpp"
 #include "solve/account.hpp"
 #include "solve/equilibrium_method.hpp"
 #include "solve/fair_boundary.hpp"
@@ -17,10 +17,6 @@
 namespace vspring {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 bool hold_the_same(const Constraints& a, const Constraints& b) {
   if (a.node_count() != b.node_count()) return false;
@@ -38,19 +34,19 @@ SurfaceFairing::SurfaceFairing(const PolygonMesh& mesh, const FairOptions& optio
     : whole_(&mesh), options_(options), team_(threads), model_(surface_model(options.pseudo_normals)) {}
 
 FairResult SurfaceFairing::fair_once(const Constraints& constraints, Context& context) {
-  const auto begin = Clock::now();
+  const Stopwatch stopwatch;
   FairResult result;
   Net net = run(constraints, context, result.report);
   if (hierarchy_) net = std::move(*hierarchy_).take();
   hierarchy_.reset();
   finish(net, constraints, result);
-  result.report.seconds = seconds_since(begin);
+  result.report.seconds = stopwatch.seconds();
   return result;
 }
 
 FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& context,
                                       std::optional<double> tolerance) {
-  const auto begin = Clock::now();
+  const Stopwatch stopwatch;
   FairResult result;
   const bool went_on = fits_last(constraints) && go_on(constraints, context, tolerance, result.report);
   if (!went_on) {
@@ -60,7 +56,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
     const Net net = run(constraints, context, result.report);
     if (!hierarchy_) {
       finish(net, constraints, result);
-      result.report.seconds = seconds_since(begin);
+      result.report.seconds = stopwatch.seconds();
       return result;
     }
   }
@@ -75,7 +71,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
     hierarchy_->go_back();
   else if (result.report.outcome == Outcome::converged && result.report.method == Method::equilibrium)
     last_ = constraints;
-  result.report.seconds = seconds_since(begin);
+  result.report.seconds = stopwatch.seconds();
   return result;
 }
 

@@ -22,14 +22,13 @@ constexpr int slide_passes = 6;
 constexpr double worth_sliding = 0.5;
 constexpr double negligible_slide = 0.05;
 constexpr double slide_share = 0.15;
-constexpr std::size_t nodes_per_task = 2048;
 // Moves of what holds, as shares of the tolerance: those that nobody need follow, and those that say where nodes go.
 constexpr double negligible_move = 0.25;
 constexpr double telling_move = 2;
 // Moving nodes up to which Cholesky factors are faster than multigrid.
 constexpr std::size_t few_enough_to_factor = 3000;
 
-double longest(std::span<const Vector3> vectors) {
+double greatest_length(std::span<const Vector3> vectors) {
   double square = 0;
   for (const Vector3& vector : vectors) square = std::max(square, vector.squaredNorm());
   return std::sqrt(square);
@@ -129,7 +128,7 @@ std::vector<Vector3> SurfaceHierarchy::ways_with(const std::vector<Vector3>& hel
   std::vector<Vector3> ways(net.moving, Vector3::Zero());
   secants_.predict(rest, ways);
   rest.resize(net.positions.size() - net.moving);
-  if (longest(rest) > negligible_move * tolerance) {
+  if (greatest_length(rest) > negligible_move * tolerance) {
     (void)kept_preconditioner().refresh(model);
     std::vector<Vector3> correction;
     preconditioner_->follow(rest, negligible_move * tolerance, correction);
@@ -156,7 +155,7 @@ void SurfaceHierarchy::follow(const Constraints& constraints, const Model& model
   for (std::size_t i = 0; i < net.positions.size(); ++i) {
     if (net.normal_given(i)) net.normals[i] += *step++;
   }
-  if (longest(held_step_) < telling_move * tolerance) held_step_.clear();
+  if (greatest_length(held_step_) < telling_move * tolerance) held_step_.clear();
   if (!memory_) memory_.emplace(acceleration_depth, net.moving, *team_);
   memory_->begin_anew();
 }

@@ -12,18 +12,17 @@ namespace vspring {
 
 namespace {
 
-constexpr std::size_t nodes_per_task = 2048;
 // See Accuracy; the iteration around the solvers does the rest.
 constexpr double bending_share = 0.15;
 constexpr double spreading_share = 1;
 constexpr double following_share = 0.01;
 // Of the weights 1/ℓ.
-constexpr float greatest_change = 1.15F;
+constexpr float greatest_change_of_shape = 1.15F;
 // Nodes that points hold by more than this many times the springs' stiffness go to the point all the same; single
 // precision has room for no more.
 constexpr double stiffest = 1e8;
 // What is asked of a node, in the net's coordinates; a step has its limits anyway.
-constexpr double most_asked = 1e12;
+constexpr double greatest_asked = 1e12;
 // Of how far a surface may be taken to fall away, as a share of the step.
 constexpr double steepest = 0.5;
 
@@ -81,7 +80,7 @@ bool SurfacePreconditioner::refresh(const Model& model) {
     parallel_ranges(*team_, net_->moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const float change = weight_[i] / built_weight_[i];
-        if (!(change < greatest_change && change * greatest_change > 1)) fits = false;
+        if (!(change < greatest_change_of_shape && change * greatest_change_of_shape > 1)) fits = false;
       }
     });
   }
@@ -105,7 +104,7 @@ void SurfacePreconditioner::correct(const Model& model, double enough, std::vect
     for (std::size_t i = begin; i < end; ++i) {
       const NodeForce& force = forces[i - begin];
       const double asked = force.spring.dot(net.normals[i]) / std::max(force.stiffness / stiffest, 1.0);
-      along_[i] = static_cast<double>(weight_[i]) / factor_ * std::clamp(asked, -most_asked, most_asked);
+      along_[i] = static_cast<double>(weight_[i]) / factor_ * std::clamp(asked, -greatest_asked, greatest_asked);
       correction[i] = force.regularisation;
     }
   });

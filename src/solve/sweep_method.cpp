@@ -14,8 +14,8 @@ namespace {
 // Steps may well grow for a while, when a fold opens or a bulge turns over; beyond this they tell of a shape that falls
 // apart: under too few constraints nodes can go on drifting to one side of a closed surface until it collapses.
 constexpr double lost_factor = 10;
-constexpr int patience = 500;
-constexpr int iterations_per_tie = 5;
+constexpr int sweep_patience = 500;
+constexpr int sweeps_per_tie = 5;
 // Where a point changes over to another node, steps as small as this may jump, and nothing is lost.
 constexpr double small_step = 1e-3;
 
@@ -37,7 +37,7 @@ SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& tas
       result.outcome = Outcome::cancelled;
       break;
     }
-    const bool fresh = !task.renew_ties || still || result.iterations % iterations_per_tie == 0;
+    const bool fresh = !task.renew_ties || still || result.iterations % sweeps_per_tie == 0;
     if (task.renew_ties && fresh) task.renew_ties();
     result.residual = sweep.iterate();
     ++result.iterations;
@@ -46,7 +46,7 @@ SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& tas
     still = result.residual < task.step_tolerance;
     if (still && fresh) {
       result.outcome = Outcome::converged;
-    } else if (best.lost_for() >= patience || !std::isfinite(result.residual)) {
+    } else if (best.lost_for() >= sweep_patience || !std::isfinite(result.residual)) {
       result.outcome = Outcome::stalled;
     }
   }

@@ -21,13 +21,13 @@ constexpr double holding_share = 0.99;
 // Of the energy, in so many turns.
 constexpr double settled_share = 0.005;
 constexpr int turns_per_look = 15;
-constexpr int most_turns = 120;
+constexpr int most_turns_of_points = 120;
 constexpr int hopeless_turns = 45;
 // Of the weight of a point, in a turn and over all.
-constexpr double greatest_change = 3;
+constexpr double greatest_step = 3;
 constexpr double pace = 0.7;
 constexpr double pace_of_all = 2;
-constexpr double least_weight = 1e-9;
+constexpr double least_point_weight = 1e-9;
 constexpr double most_weight = 1e9;
 
 }  // namespace
@@ -103,7 +103,7 @@ ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, T
   // The least energy some turns ago.
   double before = least_energy;
   result.within = false;
-  for (int turn = 0; turn < most_turns; ++turn) {
+  for (int turn = 0; turn < most_turns_of_points; ++turn) {
     const std::vector<double> distances = task.measure();
     const double greatest = *std::max_element(distances.begin(), distances.end());
     const bool within = greatest <= tolerance;
@@ -126,12 +126,13 @@ ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, T
     }
     // All together by as much as the furthest asks: so shapes on the way stay about within, once one has been.
     const double all =
-        result.within ? std::pow(std::clamp(greatest / aim, 1 / greatest_change, greatest_change), pace_of_all) : 1;
+        result.within ? std::pow(std::clamp(greatest / aim, 1 / greatest_step, greatest_step), pace_of_all) : 1;
     const double power = result.within ? pace : 1;
     for (std::size_t k = 0; k < weights.size(); ++k) {
-      const double share = std::clamp(distances[points.numbers[k]] / aim, 1 / greatest_change, greatest_change);
+      const double share = std::clamp(distances[points.numbers[k]] / aim, 1 / greatest_step, greatest_step);
       const double change = all * std::pow(share, power);
-      points.weights[k] = std::clamp(points.weights[k] * change, least_weight * weights[k], most_weight * weights[k]);
+      points.weights[k] =
+          std::clamp(points.weights[k] * change, least_point_weight * weights[k], most_weight * weights[k]);
     }
     (void)task.follow();
     if (task.cancelled()) break;

@@ -3,7 +3,6 @@
 namespace vspring {
 
 void update_directions(Net& net, const Model& model, ThreadTeam& team) {
-  constexpr std::size_t nodes_per_task = 2048;
   parallel_ranges(team, net.computed, nodes_per_task,
                   [&](std::size_t begin, std::size_t end) { model.update_directions(net, begin, end); });
 }

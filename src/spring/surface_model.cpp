@@ -1,7 +1,7 @@
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "base/dense_algebra.hpp"
 #include "spring/model_of.hpp"
 #include "spring/pseudo_normal.hpp"
 #include "spring/surface_force.hpp"
@@ -51,7 +51,7 @@ struct SurfaceRules {
     spread += spread.trace() * normal * normal.transpose();
     // Neighbours all on a line or at a point leave directions open; the smallest solution is meant, so they get none of
     // it.
-    const Vector3 a = spread.completeOrthogonalDecomposition().solve(mean);
+    const Vector3 a = smallest_solution(spread, mean);
     for (std::size_t k = 0; k < links.size(); ++k) {
       if (links[k].spoke()) shares[k] = 1 / spokes - (across(links[k]) - mean).dot(a);
     }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "fairing_options.hpp"
+#include "fairing_arguments.hpp"
 #include "progress_bar.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"

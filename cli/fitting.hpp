@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fairing_options.hpp"
+#include "fairing_arguments.hpp"
 #include "vspring/fit.hpp"
 
 namespace vspring::cli {
@@ -19,11 +19,6 @@ struct PullArguments {
   std::optional<double> rms;
   double outliers = 0;
 };
-
-inline const std::string pull_of_own_nodes = "How the nodes of the input pull as points: none or one of";
-
-/// heading: of the options in the help text.
-void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading);
 
 /// Throws Error(invalid_argument) where more than one of the four is given, or --outliers without any.
 [[nodiscard]] bool asks_to_fit(const PullArguments& arguments);

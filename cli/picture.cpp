@@ -2,15 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cctype>
-#include <cmath>
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "browser.hpp"
 #include "html_page.hpp"
@@ -21,62 +16,6 @@
 namespace vspring::cli {
 
 namespace {
-
-/// Words of --picture-style, and the names that the page has for them.
-const std::map<std::string, std::string> style_names = {{"shaded", "shaded"},
-                                                        {"wire", "wire"},
-                                                        {"zebra", "zebra"},
-                                                        {"mean-curvature", "mean"},
-                                                        {"gaussian-curvature", "gaussian"},
-                                                        {"deviation", "deviation"}};
-const std::map<std::string, Vector3> view_names = {{"front", -Vector3::UnitY()}, {"back", Vector3::UnitY()},
-                                                   {"left", -Vector3::UnitX()},  {"right", Vector3::UnitX()},
-                                                   {"top", Vector3::UnitZ()},    {"bottom", -Vector3::UnitZ()}};
-
-Eigen::Matrix3d seen_from(const Vector3& direction, const Vector3& up) {
-  const Vector3 towards = direction.normalized();
-  const Vector3 across = up.cross(towards).normalized();
-  Eigen::Matrix3d rows;
-  rows << across.transpose(), towards.cross(across).transpose(), towards.transpose();
-  return rows;
-}
-
-/// What stands between commas.
-std::vector<std::string> parts_of(const std::string& text) {
-  std::vector<std::string> parts;
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
-  return parts;
-}
-
-Eigen::Matrix3d parse_view(const std::string& text) {
-  const auto refuse = [&](const char* why) {
-    return CLI::ValidationError("--view", fmt::format("\"{}\": {}", text, why));
-  };
-  Vector3 direction;
-  Vector3 up = Vector3::UnitZ();
-  const auto named = view_names.find(text);
-  if (named != view_names.end()) {
-    direction = named->second;
-  } else {
-    std::vector<double> numbers;
-    for (const std::string& part : parts_of(text)) {
-      double number = 0;
-      if (!CLI::detail::lexical_cast(part, number) || !std::isfinite(number)) throw refuse("not numbers with commas");
-      numbers.push_back(number);
-    }
-    if (numbers.size() != 3 && numbers.size() != 6)
-      throw refuse("front, back, left, right, top, bottom, three numbers or six");
-    direction = Vector3(numbers[0], numbers[1], numbers[2]);
-    if (numbers.size() == 6) up = Vector3(numbers[3], numbers[4], numbers[5]);
-  }
-  constexpr double parallel = 1e-6;
-  const auto along = [&] { return up.stableNormalized().cross(direction.stableNormalized()).norm() < parallel; };
-  if (direction.isZero(0) || up.isZero(0)) throw refuse("a direction has a length");
-  if (along() && up == Vector3::UnitZ()) up = Vector3::UnitY();
-  if (along()) throw refuse("what is up may not point to the eye");
-  return seen_from(direction.stableNormalized(), up.stableNormalized());
-}
 
 bool named_svg(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
@@ -114,60 +53,18 @@ std::string drawn(const PictureArguments& arguments, bool curve, nlohmann::order
 
 }  // namespace
 
+Eigen::Matrix3d seen_from(const Vector3& direction, const Vector3& up) {
+  const Vector3 towards = direction.normalized();
+  const Vector3 across = up.cross(towards).normalized();
+  Eigen::Matrix3d rows;
+  rows << across.transpose(), towards.cross(across).transpose(), towards.transpose();
+  return rows;
+}
+
 Eigen::Matrix3d default_view() { return seen_from(Vector3(1, -2, 1.5), Vector3::UnitZ()); }
 
 bool PictureArguments::shows(const std::string& style) const {
   return !path.empty() && std::find(styles.begin(), styles.end(), style) != styles.end();
-}
-
-void add_picture_options(CLI::App& command, PictureArguments& arguments, bool surfaces) {
-  const std::string group = "The picture";
-  command
-      .add_option("--picture", arguments.path,
-                  surfaces ? "Draw the shape, before and after side by side; curves with curvature comb and curvature "
-                             "against arc length. Needs Chromium, but not for .svg of curves"
-                           : "Draw the curve with its curvature comb and its curvature against arc length, before and "
-                             "after; .png needs Chromium")
-      ->type_name("OUT.png|OUT.svg")
-      ->group(group);
-  command
-      .add_option("--picture-size", arguments.width,
-                  "Width of the picture, pixels; the height follows (default: 1600; .svg of curves scale anyway)")
-      ->type_name("PIXELS")
-      ->check(CLI::Range(100, 4000))
-      ->group(group);
-  if (!surfaces) return;
-  command
-      .add_option_function<std::string>(
-          "--picture-style",
-          [&arguments](const std::string& words) {
-            arguments.for_surfaces = true;
-            arguments.styles.clear();
-            for (const std::string& word : parts_of(words)) {
-              const auto style = style_names.find(word);
-              if (style == style_names.end())
-                throw CLI::ValidationError("--picture-style", "\"" + word +
-                                                                  "\" is not one of shaded, wire, zebra, "
-                                                                  "mean-curvature, gaussian-curvature, deviation");
-              arguments.styles.push_back(style->second);
-            }
-          },
-          "What it shows, a row for each: shaded, wire, zebra (reflection lines), mean-curvature, gaussian-curvature, "
-          "deviation from the shape before (default: shaded,zebra)")
-      ->type_name("STYLE,...")
-      ->group(group);
-  command
-      .add_option_function<std::string>(
-          "--view",
-          [&arguments](const std::string& text) {
-            arguments.for_surfaces = true;
-            arguments.view = parse_view(text);
-          },
-          "From where surfaces are seen, also at first in the page of --html: front, back, left, right, top, bottom, "
-          "or "
-          "x,y,z towards the eye, and after them what is up (default: 1,-2,1.5,0,0,1)")
-      ->type_name("SIDE|X,Y,Z[,X,Y,Z]")
-      ->group(group);
 }
 
 void refuse_picture(const PictureArguments& arguments, bool curve) {

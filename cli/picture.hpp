@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "vspring/context.hpp"
-
-namespace CLI {
-class App;
-}
+#include "vspring/types.hpp"
 
 namespace vspring::cli {
+
+/// The rows are the directions to the right, up and towards the eye, which is that way.
+[[nodiscard]] Eigen::Matrix3d seen_from(const Vector3& direction, const Vector3& up);
 
 /// The rows are the directions to the right, up and towards the eye: from above and in front, z upwards.
 [[nodiscard]] Eigen::Matrix3d default_view();
@@ -26,9 +26,6 @@ struct PictureArguments {
 
   [[nodiscard]] bool shows(const std::string& style) const;
 };
-
-/// --picture and --picture-size, and with `surfaces` --picture-style and --view. `arguments` must outlive the command.
-void add_picture_options(CLI::App& command, PictureArguments& arguments, bool surfaces);
 
 /// Throws Error before anything long begins: invalid_argument where the extension is neither .png nor .svg or an option
 /// is for surfaces only, unusable_file where the program that draws is not installed. Nothing without --picture.

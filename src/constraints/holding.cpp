@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t faults_named = 3;
 constexpr Index fewest_held_of_a_loop = 3;
-// Below this share of the largest, an eigenvalue of the system for the spheres through the data counts as none.
+// Below this share of the largest, a pivot of the system for the spheres through the data counts as none.
 constexpr double no_information = 1e-12;
 
 class Holding {
@@ -170,8 +170,8 @@ class Holding {
     }
     for (std::size_t k = 0; k < systems.size(); ++k) {
       if (bounded[k] != 0) continue;
-      const SmallVector values = eigen_of_symmetric(systems[k]).values;
-      if (values[1] > no_information * values[4]) continue;
+      const Eigen::VectorXd known = pivots(systems[k]);
+      if (known[3] > no_information * known[0]) continue;
       warnings.push_back(
           fmt::format("what holds the component of node {} leaves a family of shapes, and the result is one of them; "
                       "hold more nodes, or normals, to choose",

@@ -67,9 +67,9 @@ CurveView::CurveView(const DrawnCurve& curve) {
 }
 
 void CurveView::turn(const Eigen::Matrix3d& spread) {
-  const SymmetricEigen eigen = eigen_of_symmetric(spread);
-  across_ = forward(eigen.vectors.col(2));
-  up_ = forward(eigen.vectors.col(1));
+  const Eigen::Matrix3d axes = principal_axes(spread);
+  across_ = forward(axes.col(2));
+  up_ = forward(axes.col(1));
 }
 
 Drawing drawing_of(const DrawnCurve& curve, const CurveView& view) {

@@ -20,9 +20,9 @@ std::optional<Vector3> plane_normal(std::span<const Vector3> positions) {
     const Vector3 from_mean = frame.to_local(position) - mean;
     spread += from_mean * from_mean.transpose();
   }
-  const SymmetricEigen eigen = eigen_of_symmetric(spread);
-  Vector3 normal = eigen.vectors.col(0).normalized();
-  const Vector3 across = eigen.vectors.col(1).normalized();
+  const Eigen::Matrix3d axes = principal_axes(spread);
+  Vector3 normal = axes.col(0).normalized();
+  const Vector3 across = axes.col(1).normalized();
   // Eigenvalues know thickness and width to their square roots' rounding only: both are measured.
   double width = 0;
   for (const Vector3& position : positions) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 
 #include "base/dense_algebra.hpp"
 
@@ -75,7 +76,8 @@ void Anchor::hold(std::span<Vector3> vectors) const {
     products[component_[i]] += fields.transpose() * fields;
     shares[component_[i]] += fields.transpose() * vectors[i];
   }
-  for (std::size_t k = 0; k < count_; ++k) shares[k] = smallest_solution(products[k], shares[k]);
+  for (std::size_t k = 0; k < count_; ++k)
+    shares[k] = some_solution(products[k], shares[k], 6 * std::numeric_limits<double>::epsilon());
   for (std::size_t i = 0; i < vectors.size(); ++i) {
     if (component_[i] != count_) vectors[i] -= fields_at(i) * shares[component_[i]];
   }

@@ -1,10 +1,10 @@
-#include "shapes.hpp"
+#include "commands/shapes.hpp"
 
 #include <fmt/format.h>
 
 #include <memory>
 
-#include "choice.hpp"
+#include "commands/choice.hpp"
 #include "vspring/generate.hpp"
 
 namespace vspring::cli {

@@ -6,13 +6,13 @@
 #include <functional>
 #include <new>
 
-#include "curve_command.hpp"
-#include "edit_command.hpp"
+#include "commands/curve_command.hpp"
+#include "commands/edit_command.hpp"
+#include "commands/fair_command.hpp"
+#include "commands/fit_command.hpp"
+#include "commands/generate_command.hpp"
+#include "commands/measure_command.hpp"
 #include "exit_status.hpp"
-#include "fair_command.hpp"
-#include "fit_command.hpp"
-#include "generate_command.hpp"
-#include "measure_command.hpp"
 #include "terminal.hpp"
 #include "vspring/error.hpp"
 #include "vspring/version.hpp"

@@ -1,4 +1,4 @@
-#include "fit_command.hpp"
+#include "commands/fit_command.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,11 @@
 #include <vector>
 
 #include "any_shape.hpp"
-#include "choice.hpp"
 #include "closed_chains.hpp"
+#include "commands/choice.hpp"
+#include "commands/fairing_options.hpp"
+#include "commands/picture_options.hpp"
+#include "commands/pull_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "vspring/vspring.hpp"

@@ -1,4 +1,4 @@
-#include "curve_command.hpp"
+#include "commands/curve_command.hpp"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,11 @@
 #include <optional>
 #include <string>
 
-#include "choice.hpp"
 #include "closed_chains.hpp"
+#include "commands/choice.hpp"
+#include "commands/fairing_options.hpp"
+#include "commands/picture_options.hpp"
+#include "commands/pull_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "vspring/vspring.hpp"

@@ -2,38 +2,13 @@
 
 #include <string>
 
-#include "picture.hpp"
-#include "terminal.hpp"
-#include "vspring/fair.hpp"
-
 namespace CLI {
 class App;
 }
 
 namespace vspring::cli {
 
-enum class Hold { boundary, none };
-
-/// What all commands that fair a shape are told.
-struct FairingArguments {
-  std::string input;
-  std::string output;
-  std::string rules;
-  Hold fix = Hold::boundary;
-  Hold fix_directions = Hold::none;
-  std::string region;
-  FairOptions options;
-  std::optional<Distribution> distribution;  ///< else what the command takes by itself
-  bool paper = false;
-  int threads = 0;
-  std::string report;
-  std::string html;
-  PictureArguments picture;
-  std::string scalars;
-  std::string deviation;
-  bool quiet = false;
-  Colour colour = Colour::automatic;
-};
+struct FairingArguments;
 
 /// How help texts call things.
 struct FairingWords {

@@ -1,4 +1,4 @@
-#include "generate_command.hpp"
+#include "commands/generate_command.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "choice.hpp"
+#include "commands/choice.hpp"
+#include "commands/shapes.hpp"
 #include "exit_status.hpp"
-#include "shapes.hpp"
 #include "signals.hpp"
 #include "vspring/generate.hpp"
 

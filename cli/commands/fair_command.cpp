@@ -1,4 +1,4 @@
-#include "fair_command.hpp"
+#include "commands/fair_command.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "choice.hpp"
+#include "commands/choice.hpp"
+#include "commands/fairing_options.hpp"
+#include "commands/picture_options.hpp"
+#include "commands/pull_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "vspring/vspring.hpp"

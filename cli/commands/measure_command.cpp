@@ -1,4 +1,4 @@
-#include "measure_command.hpp"
+#include "commands/measure_command.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "any_shape.hpp"
-#include "choice.hpp"
 #include "closed_chains.hpp"
+#include "commands/choice.hpp"
+#include "commands/fairing_options.hpp"
+#include "commands/picture_options.hpp"
 #include "exit_status.hpp"
 #include "fairing.hpp"
 #include "figures.hpp"

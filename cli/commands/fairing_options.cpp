@@ -1,11 +1,12 @@
-#include "fairing_options.hpp"
+#include "commands/fairing_options.hpp"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <map>
 
-#include "choice.hpp"
+#include "commands/choice.hpp"
+#include "fairing_arguments.hpp"
 
 namespace vspring::cli {
 

@@ -1,4 +1,4 @@
-#include "edit_command.hpp"
+#include "commands/edit_command.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -2,23 +2,34 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 namespace vspring {
 
-// Small dense problems. Eigen's decompositions are long to compile, so all stand in one source and few are used.
+/// The Cholesky decomposition of a small symmetric matrix without negative eigenvalues that takes the largest pivot
+/// that is left, so that it tells of its rank (N. J. Higham, "Analysis of the Cholesky Decomposition of a Semi-definite
+/// Matrix", 1990). By hand since Eigen's LDLT takes its pivots in the order of the matrix's own diagonal, and its other
+/// decompositions take long to compile. Cost: n³/3.
+class PivotedCholesky {
+ public:
+  explicit PivotedCholesky(Eigen::MatrixXd matrix);
+
+  /// How many pivots are more than `least` times the first.
+  [[nodiscard]] Eigen::Index rank(double least) const;
+
+  /// Some x that comes nearest to matrix · x = right, where further pivots count as zero.
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right, double least) const;
+
+ private:
+  Eigen::MatrixXd factors_;  // below the diagonal; on it the pivots
+  std::vector<Eigen::Index> order_;
+};
 
 /// Eigenvectors of a symmetric matrix in columns of length 1, in the order of rising eigenvalues.
 [[nodiscard]] Eigen::Matrix3d principal_axes(const Eigen::Matrix3d& symmetric);
 
 /// The smallest x that comes nearest to matrix · x = right, for a symmetric matrix without negative eigenvalues.
 [[nodiscard]] Eigen::Vector3d smallest_solution(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& right);
-
-/// The Cholesky decomposition of a symmetric matrix without negative eigenvalues, largest pivots first: squares of the
-/// pivots that QR would find in a matrix of which this is the product with its transpose.
-[[nodiscard]] Eigen::VectorXd pivots(const Eigen::MatrixXd& matrix);
-
-/// Some x that comes nearest to matrix · x = right, where pivots below `least` times the first count as zero.
-[[nodiscard]] Eigen::VectorXd some_solution(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right, double least);
 
 /// The solution of gram · x = right with columns scaled to one length, and that much added to the diagonal where they
 /// hardly differ. Not finite where there is none.

@@ -170,8 +170,7 @@ class Holding {
     }
     for (std::size_t k = 0; k < systems.size(); ++k) {
       if (bounded[k] != 0) continue;
-      const Eigen::VectorXd known = pivots(systems[k]);
-      if (known[3] > no_information * known[0]) continue;
+      if (PivotedCholesky(systems[k]).rank(no_information) >= 4) continue;
       warnings.push_back(
           fmt::format("what holds the component of node {} leaves a family of shapes, and the result is one of them; "
                       "hold more nodes, or normals, to choose",

@@ -45,10 +45,10 @@ std::vector<std::uint8_t> boundary_nodes(const PolygonCurve& curve) {
 
 std::vector<PolygonCurve::Chain> chains_of_segments(const std::vector<std::pair<Index, Index>>& segments,
                                                     Index node_count) {
-  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  constexpr std::size_t no_segment = static_cast<std::size_t>(-1);
   const auto proper = [&](std::size_t s) { return segments[s].first != segments[s].second; };
   // Where a node has two segments, they follow each other.
-  std::vector<std::array<std::size_t, 2>> at(static_cast<std::size_t>(node_count), {none, none});
+  std::vector<std::array<std::size_t, 2>> at(static_cast<std::size_t>(node_count), {no_segment, no_segment});
   std::vector<Index> degree(static_cast<std::size_t>(node_count), 0);
   for (std::size_t s = 0; s < segments.size(); ++s) {
     if (!proper(s)) continue;

@@ -77,7 +77,7 @@ void Anchor::hold(std::span<Vector3> vectors) const {
     shares[component_[i]] += fields.transpose() * vectors[i];
   }
   for (std::size_t k = 0; k < count_; ++k)
-    shares[k] = some_solution(products[k], shares[k], 6 * std::numeric_limits<double>::epsilon());
+    shares[k] = PivotedCholesky(products[k]).solve(shares[k], 6 * std::numeric_limits<double>::epsilon());
   for (std::size_t i = 0; i < vectors.size(); ++i) {
     if (component_[i] != count_) vectors[i] -= fields_at(i) * shares[component_[i]];
   }

@@ -14,7 +14,7 @@
 
 #include "support/clothoid.hpp"
 
-namespace vspring::reference {
+namespace vspring::reference::clothoid_reference_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -276,4 +276,4 @@ TEST(ClothoidReferenceSpline, TwoPointsAreOneHermiteClothoid) {
 }
 
 }  // namespace
-}  // namespace vspring::reference
+}  // namespace vspring::reference::clothoid_reference_test

@@ -9,7 +9,7 @@
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::constraints_test {
 namespace {
 
 using namespace support;
@@ -333,4 +333,4 @@ TEST(Rules, NormalsOfTheInputAndOfTheFile) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::constraints_test

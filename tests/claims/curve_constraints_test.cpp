@@ -11,7 +11,7 @@
 #include "support/curves.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::curve_constraints_test {
 namespace {
 
 using namespace support;
@@ -233,4 +233,4 @@ TEST(CurveRules, WrongOnesAreRefusedByNumberAndChangeNothing) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::curve_constraints_test

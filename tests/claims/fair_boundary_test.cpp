@@ -9,7 +9,7 @@
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fair_boundary_test {
 namespace {
 
 using namespace support;
@@ -145,4 +145,4 @@ TEST(FairBoundary, RefusesLoopsThatNothingHolds) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_boundary_test

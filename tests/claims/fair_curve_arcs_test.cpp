@@ -11,7 +11,7 @@
 #include "support/curves.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fair_curve_arcs_test {
 namespace {
 
 using namespace support;
@@ -173,4 +173,4 @@ TEST(FairCurveArcs, KeptSpacingIsThatOfTheInput) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_curve_arcs_test

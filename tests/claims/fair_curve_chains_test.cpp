@@ -11,7 +11,7 @@
 #include "support/curves.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fair_curve_chains_test {
 namespace {
 
 using namespace support;
@@ -168,4 +168,4 @@ TEST(FairCurveChains, ABumpOnAnArcFairedAsARegionGoes) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_curve_chains_test

@@ -12,7 +12,7 @@
 #include "support/curves.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fair_curve_clothoid_test {
 namespace {
 
 using namespace support;
@@ -186,4 +186,4 @@ TEST(FairCurveClothoid, ThePapersIterationComesToTheSameShape) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_curve_clothoid_test

@@ -9,7 +9,7 @@
 #include "support/curves.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fair_curve_hard_test {
 namespace {
 
 using namespace support;
@@ -241,4 +241,4 @@ TEST(FairCurveReport, TellsHowItWent) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_curve_hard_test

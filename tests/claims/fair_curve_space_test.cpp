@@ -10,7 +10,7 @@
 #include "support/curves.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fair_curve_space_test {
 namespace {
 
 using namespace support;
@@ -210,4 +210,4 @@ TEST(FairCurveSpace, InTheWholeNormalPlaneAHelixMovesByItsTorsion) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_curve_space_test

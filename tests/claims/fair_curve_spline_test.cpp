@@ -12,7 +12,7 @@
 #include "support/curves.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fair_curve_spline_test {
 namespace {
 
 using namespace support;
@@ -172,4 +172,4 @@ TEST(FairCurveSpline, ATangentAtAFixedNodeAllowsAJumpOfCurvature) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_curve_spline_test

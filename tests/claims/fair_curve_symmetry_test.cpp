@@ -12,7 +12,7 @@
 #include "support/curves.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fair_curve_symmetry_test {
 namespace {
 
 using namespace support;
@@ -187,4 +187,4 @@ TEST(FairCurveSymmetry, StrengthGoesPartOfTheWay) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_curve_symmetry_test

@@ -5,7 +5,7 @@
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fair_keep_test {
 namespace {
 
 using namespace support;
@@ -36,4 +36,4 @@ TEST(KeptDistribution, NoiseThatTurnsFacesOverDoesNotDriveNodesApart) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_keep_test

@@ -8,7 +8,7 @@
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fair_multigrid_test {
 namespace {
 
 using namespace support;
@@ -189,4 +189,4 @@ TEST(Multigrid, CoarseLevelsFoldNothing) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_multigrid_test

@@ -13,7 +13,7 @@
 #include "support/curves.hpp"
 #include "support/specimens.hpp"
 
-namespace vspring {
+namespace vspring::fair_starts_test {
 namespace {
 
 using namespace support;
@@ -130,4 +130,4 @@ TEST(Starts, CurvesForgetTheirs) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_starts_test

@@ -10,7 +10,7 @@
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fair_surface_equilibrium_test {
 namespace {
 
 using namespace support;
@@ -249,4 +249,4 @@ TEST(SurfaceEquilibrium, ABumpOnASphereFairedAsARegionGoes) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_surface_equilibrium_test

@@ -9,7 +9,7 @@
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fair_surface_test {
 namespace {
 
 using namespace support;
@@ -227,4 +227,4 @@ TEST(FairSurface, RefusesOptionsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_surface_test

@@ -12,7 +12,7 @@
 
 #include "support/specimens.hpp"
 
-namespace vspring {
+namespace vspring::fair_surface_zoo_test {
 namespace {
 
 using namespace support;
@@ -132,4 +132,4 @@ TEST(Zoo, CrumpledPatchesComeToAnEquilibrium) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fair_surface_zoo_test

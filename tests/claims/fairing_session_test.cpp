@@ -7,7 +7,7 @@
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fairing_session_test {
 namespace {
 
 using namespace support;
@@ -289,4 +289,4 @@ TEST(FairingSession, ThreadsGiveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fairing_session_test

@@ -9,7 +9,7 @@
 
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fairness_curvature_test {
 namespace {
 
 using generate::Faces;
@@ -259,4 +259,4 @@ TEST(SurfaceIntegrals, OfACylinderPatch) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fairness_curvature_test

@@ -10,7 +10,7 @@
 #include "support/clothoid.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fairness_curve_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -203,4 +203,4 @@ TEST(CurveFigures, WithConstraintsOnlyTheMovingPart) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fairness_curve_test

@@ -8,7 +8,7 @@
 
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fairness_degenerate_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -126,4 +126,4 @@ TEST(DegenerateCurves, HaveFiniteFigures) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fairness_degenerate_test

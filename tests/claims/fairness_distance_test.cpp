@@ -8,7 +8,7 @@
 
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fairness_distance_test {
 namespace {
 
 using generate::Faces;
@@ -93,4 +93,4 @@ TEST(Distance, IsTheSameForEveryNumberOfThreadsAndScales) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fairness_distance_test

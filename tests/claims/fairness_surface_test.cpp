@@ -9,7 +9,7 @@
 
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fairness_surface_test {
 namespace {
 
 using generate::Faces;
@@ -242,4 +242,4 @@ TEST(Figures, HaveKeysOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fairness_surface_test

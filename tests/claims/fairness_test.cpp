@@ -9,7 +9,7 @@
 
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fairness_test {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
@@ -100,4 +100,4 @@ TEST(Fairness, FacesWithoutAreaAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fairness_test

@@ -8,7 +8,7 @@
 #include "support/fits.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fit_accuracy_test {
 namespace {
 
 using namespace support;
@@ -100,4 +100,4 @@ TEST(FitAccuracy, PointsOnAClothoidGiveItBackWithItsOrder) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fit_accuracy_test

@@ -11,7 +11,7 @@
 #include "support/fits.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fit_equilibrium_test {
 namespace {
 
 using namespace support;
@@ -344,4 +344,4 @@ TEST(FitEquilibrium, ScaleAndPlaceOfTheWholeMakeNoDifference) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fit_equilibrium_test

@@ -11,7 +11,7 @@
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fit_normals_test {
 namespace {
 
 using namespace support;
@@ -190,4 +190,4 @@ TEST(FitNormals, MustBeOfLengthOne) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fit_normals_test

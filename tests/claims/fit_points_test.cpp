@@ -10,7 +10,7 @@
 #include "support/fits.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fit_points_test {
 namespace {
 
 using namespace support;
@@ -167,4 +167,4 @@ TEST(FitPoints, RefusalsNameThePoint) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fit_points_test

@@ -12,7 +12,7 @@
 #include "support/fits.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fit_test {
 namespace {
 
 using namespace support;
@@ -236,4 +236,4 @@ TEST(Fit, AWaveKeepsTheShareThatTheSmoothingSplineLeavesIt) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fit_test

@@ -12,7 +12,7 @@
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::fit_tolerance_test {
 namespace {
 
 using namespace support;
@@ -351,4 +351,4 @@ TEST(FitTolerances, RefuseWhatCannotBeMeant) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fit_tolerance_test

@@ -138,7 +138,10 @@ inline std::vector<Specimen> specimens(int cells) {
   };
   for (const Faces faces : every_kind) {
     for (const auto& [words, disorder] : disorders) {
-      const auto name = [&](const char* shape) { return fmt::format("{} of {}{}", shape, name_of(faces), words); };
+      // A structured binding is not for a lambda to capture in every compiler.
+      const auto name = [&, &suffix = words](const char* shape) {
+        return fmt::format("{} of {}{}", shape, name_of(faces), suffix);
+      };
       const generate::Grid grid{.columns = cells, .rows = cells, .faces = faces};
       all.push_back(on_chart(name("sphere"), sphere_chart, false, grid, disorder, radial));
       all.back().distance = off_sphere;

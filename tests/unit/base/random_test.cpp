@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace vspring {
+namespace vspring::random_test {
 namespace {
 
 TEST(Random, FollowsThePublishedAlgorithm) {
@@ -72,4 +72,4 @@ TEST(Random, WholeNumbersAreEquallyLikely) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::random_test

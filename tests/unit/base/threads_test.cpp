@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace vspring {
+namespace vspring::threads_test {
 namespace {
 
 TEST(Threads, EveryTaskIsDoneOnce) {
@@ -78,4 +78,4 @@ TEST(Threads, RangesCoverEverythingWithoutOverlap) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::threads_test

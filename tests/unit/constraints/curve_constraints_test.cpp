@@ -7,7 +7,7 @@
 #include "support/curves.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::curve_constraints_test {
 namespace {
 
 using namespace support;
@@ -160,4 +160,4 @@ TEST(RegionOfACurve, ANodeOutOfRangeIsRefusedAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::curve_constraints_test

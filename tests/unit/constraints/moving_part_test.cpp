@@ -9,7 +9,7 @@
 
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::moving_part_test {
 namespace {
 
 /// Only nodes as near to the middle move.
@@ -132,4 +132,4 @@ TEST(MovingPart, ASessionFollowsInIt) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::moving_part_test

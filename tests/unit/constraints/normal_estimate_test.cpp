@@ -9,7 +9,7 @@
 #include "vspring/generate.hpp"
 #include "vspring/topology.hpp"
 
-namespace vspring {
+namespace vspring::normal_estimate_test {
 namespace {
 
 using generate::Faces;
@@ -96,4 +96,4 @@ TEST(EstimateNormals, OfAStripOneFaceWideAndOfALoneTriangle) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::normal_estimate_test

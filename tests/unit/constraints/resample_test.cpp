@@ -9,7 +9,7 @@
 
 #include "vspring/error.hpp"
 
-namespace vspring {
+namespace vspring::resample_test {
 namespace {
 
 Vector3 on_circle(double angle) { return {std::cos(angle), std::sin(angle), 0}; }
@@ -128,4 +128,4 @@ TEST(Resample, NodesInOnePlaceAreNoHindrance) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::resample_test

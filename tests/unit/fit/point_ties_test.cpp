@@ -10,7 +10,7 @@
 #include "support/curves.hpp"
 #include "support/surfaces.hpp"
 
-namespace vspring {
+namespace vspring::point_ties_test {
 namespace {
 
 using namespace support;
@@ -180,4 +180,4 @@ TEST(PointTies, FaceAsTheirPointsDo) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::point_ties_test

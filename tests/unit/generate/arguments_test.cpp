@@ -8,7 +8,7 @@
 #include "vspring/error.hpp"
 #include "vspring/generate.hpp"
 
-namespace vspring {
+namespace vspring::arguments_test {
 namespace {
 
 using namespace generate;
@@ -138,4 +138,4 @@ TEST(Arguments, AtTheEndsOfTheirRangesGiveFiniteShapes) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::arguments_test

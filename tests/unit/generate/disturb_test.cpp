@@ -5,7 +5,7 @@
 #include "unit/generate/counted.hpp"
 #include "vspring/generate.hpp"
 
-namespace vspring {
+namespace vspring::disturb_test {
 namespace {
 
 TEST(Noise, FillsABallAndLeavesTheBoundary) {
@@ -67,4 +67,4 @@ TEST(Shuffle, IsTheSameMeshUnderOtherNumbers) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::disturb_test

@@ -6,7 +6,7 @@
 #include "unit/generate/counted.hpp"
 #include "vspring/generate.hpp"
 
-namespace vspring {
+namespace vspring::grids_test {
 namespace {
 
 using generate::Faces;
@@ -188,4 +188,4 @@ TEST(Grids, OneSeedGivesTheSameBits) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::grids_test

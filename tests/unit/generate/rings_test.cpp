@@ -10,7 +10,7 @@
 #include "vspring/error.hpp"
 #include "vspring/generate.hpp"
 
-namespace vspring {
+namespace vspring::rings_test {
 namespace {
 
 using generate::Profile;
@@ -206,4 +206,4 @@ TEST(ShareOut, GivesWholePartsThatAddUp) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::rings_test

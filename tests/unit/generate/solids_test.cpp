@@ -3,7 +3,7 @@
 #include "unit/generate/counted.hpp"
 #include "vspring/generate.hpp"
 
-namespace vspring {
+namespace vspring::solids_test {
 namespace {
 
 using generate::Faces;
@@ -131,4 +131,4 @@ TEST(PolygonPatch, OfFourSidesIsASquareGridInTheMiddle) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::solids_test

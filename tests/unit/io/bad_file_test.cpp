@@ -3,7 +3,7 @@
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 
-namespace vspring {
+namespace vspring::bad_file_test {
 namespace {
 
 class BadFile : public Scratch {};
@@ -183,4 +183,4 @@ TEST_F(BadFile, MayBeMissingOrAFolderOrForbidden) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::bad_file_test

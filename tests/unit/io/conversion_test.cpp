@@ -6,7 +6,7 @@
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 
-namespace vspring {
+namespace vspring::conversion_test {
 namespace {
 
 class Conversion : public Scratch {};
@@ -210,4 +210,4 @@ TEST_F(Conversion, WritesWhatTheCallerPutIntoTheMesh) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::conversion_test

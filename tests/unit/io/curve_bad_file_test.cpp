@@ -1,6 +1,6 @@
 #include "unit/io/curve_round_trip.hpp"
 
-namespace vspring {
+namespace vspring::curve_bad_file_test {
 namespace {
 
 class CurveBadFile : public CurveScratch {};
@@ -119,4 +119,4 @@ TEST_F(CurveBadFile, MayBeMissingOrAFolderOrForbidden) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::curve_bad_file_test

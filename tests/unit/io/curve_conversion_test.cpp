@@ -2,7 +2,7 @@
 
 #include "unit/io/curve_round_trip.hpp"
 
-namespace vspring {
+namespace vspring::curve_conversion_test {
 namespace {
 
 class CurveConversion : public CurveScratch {
@@ -118,4 +118,4 @@ TEST_F(CurveConversion, RefusesPositionsThatDoNotFitTheCurve) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::curve_conversion_test

@@ -1,6 +1,6 @@
 #include "unit/io/curve_round_trip.hpp"
 
-namespace vspring {
+namespace vspring::curve_dat_test {
 namespace {
 
 class CurveDat : public CurveScratch {};
@@ -66,4 +66,4 @@ TEST_F(CurveDat, WritesOneChainOfThePlaneOnly) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::curve_dat_test

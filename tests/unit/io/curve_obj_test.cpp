@@ -2,7 +2,7 @@
 
 #include "unit/io/curve_round_trip.hpp"
 
-namespace vspring {
+namespace vspring::curve_obj_test {
 namespace {
 
 class CurveObj : public CurveScratch {};
@@ -95,4 +95,4 @@ TEST_F(CurveObj, KeepsPositionsThatAreNotFinite) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::curve_obj_test

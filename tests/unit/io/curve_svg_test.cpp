@@ -5,7 +5,7 @@
 
 #include "unit/io/curve_round_trip.hpp"
 
-namespace vspring {
+namespace vspring::curve_svg_test {
 namespace {
 
 class CurveSvg : public CurveScratch {
@@ -259,4 +259,4 @@ TEST_F(CurveSvg, LeavesOutTheDotsOfManyNodes) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::curve_svg_test

@@ -2,7 +2,7 @@
 
 #include "unit/io/curve_round_trip.hpp"
 
-namespace vspring {
+namespace vspring::curve_table_test {
 namespace {
 
 class CurveTable : public CurveScratch {};
@@ -107,4 +107,4 @@ TEST_F(CurveTable, RefusesToLeaveThePlaneOfTwoColumns) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::curve_table_test

@@ -3,7 +3,7 @@
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 
-namespace vspring {
+namespace vspring::obj_test {
 namespace {
 
 class ObjFile : public Scratch {
@@ -173,4 +173,4 @@ TEST_F(ObjFile, LeavesNormalsThatNoMovedFaceTouches) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::obj_test

@@ -1,7 +1,7 @@
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 
-namespace vspring {
+namespace vspring::off_test {
 namespace {
 
 class OffFile : public Scratch {
@@ -62,4 +62,4 @@ TEST_F(OffFile, EveryKindKeepsItsBytesButThoseOfMovedNodes) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::off_test

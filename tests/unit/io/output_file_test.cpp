@@ -10,7 +10,7 @@
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 
-namespace vspring {
+namespace vspring::output_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -167,4 +167,4 @@ TEST_F(OutputFile, StandardInputAndOutputAreFilesToo) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::output_file_test

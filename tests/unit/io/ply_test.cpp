@@ -5,7 +5,7 @@
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 
-namespace vspring {
+namespace vspring::ply_test {
 namespace {
 
 /// Writes the same PLY as text or in either byte order.
@@ -219,4 +219,4 @@ TEST_F(PlyFile, ReadsPointsWithoutFaces) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::ply_test

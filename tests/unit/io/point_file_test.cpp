@@ -4,7 +4,7 @@
 #include "vspring/generate.hpp"
 #include "vspring/surface_file.hpp"
 
-namespace vspring {
+namespace vspring::point_file_test {
 namespace {
 
 using Weights = std::vector<double>;
@@ -124,4 +124,4 @@ TEST_F(PointFile, OfOtherKinds) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::point_file_test

@@ -5,7 +5,7 @@
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 
-namespace vspring {
+namespace vspring::scalar_file_test {
 namespace {
 
 class ScalarFile : public Scratch {
@@ -70,4 +70,4 @@ TEST_F(ScalarFile, RefusesWhatNoFileCanHold) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::scalar_file_test

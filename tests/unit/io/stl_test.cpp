@@ -4,7 +4,7 @@
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 
-namespace vspring {
+namespace vspring::stl_test {
 namespace {
 
 using Facet = std::array<Vector3, 4>;  // normal and corners
@@ -111,4 +111,4 @@ TEST_F(StlFile, WeldsAGridOfAnySize) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::stl_test

@@ -11,7 +11,7 @@
 #include "unit/levels/zoo.hpp"
 #include "vspring/topology.hpp"
 
-namespace vspring {
+namespace vspring::coarsening_test {
 namespace {
 
 using Kind = Triangulation::Kind;
@@ -312,4 +312,4 @@ TEST(PatchMesh, LeavesNoNodeInsideWithTwoEdges) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::coarsening_test

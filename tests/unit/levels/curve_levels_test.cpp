@@ -9,7 +9,7 @@
 #include "spring/model.hpp"
 #include "support/curves.hpp"
 
-namespace vspring {
+namespace vspring::curve_levels_test {
 namespace {
 
 using namespace support;
@@ -203,4 +203,4 @@ TEST(Straighten, GoesRoundAClosedChainFromItsFirstHeldNode) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::curve_levels_test

@@ -10,7 +10,7 @@
 #include "unit/levels/zoo.hpp"
 #include "vspring/topology.hpp"
 
-namespace vspring {
+namespace vspring::surface_levels_test {
 namespace {
 
 std::vector<SurfaceLevel> levels_of(const PolygonMesh& mesh, const Constraints& constraints, int threads = 1,
@@ -169,4 +169,4 @@ TEST(SurfaceLevels, HaveSharesWhereTheDistributionIsKept) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::surface_levels_test

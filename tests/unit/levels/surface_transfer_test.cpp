@@ -12,7 +12,7 @@
 #include "sweep/sweep.hpp"
 #include "unit/levels/zoo.hpp"
 
-namespace vspring {
+namespace vspring::surface_transfer_test {
 namespace {
 
 using generate::Faces;
@@ -240,4 +240,4 @@ TEST(Prolongation, StaysFiniteWhereNodesCoincide) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::surface_transfer_test

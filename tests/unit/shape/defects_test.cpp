@@ -12,7 +12,7 @@
 #include "vspring/generate.hpp"
 #include "vspring/topology.hpp"
 
-namespace vspring {
+namespace vspring::defects_test {
 namespace {
 
 using generate::Faces;
@@ -120,4 +120,4 @@ TEST(Defects, AnyMeshCanBeLookedAt) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::defects_test

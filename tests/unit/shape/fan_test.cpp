@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace vspring {
+namespace vspring::fan_test {
 namespace {
 
 PolygonMesh mesh_of(Index nodes, std::initializer_list<std::initializer_list<Index>> faces) {
@@ -82,4 +82,4 @@ TEST(Fan, NamesWhatIsNotManifold) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::fan_test

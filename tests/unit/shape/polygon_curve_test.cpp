@@ -4,7 +4,7 @@
 
 #include "vspring/error.hpp"
 
-namespace vspring {
+namespace vspring::polygon_curve_test {
 namespace {
 
 using Segments = std::vector<std::pair<Index, Index>>;
@@ -51,4 +51,4 @@ TEST(PolygonCurve, AnUnknownNodeIsRefused) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::polygon_curve_test

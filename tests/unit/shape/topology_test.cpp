@@ -8,7 +8,7 @@
 #include "vspring/error.hpp"
 #include "vspring/generate.hpp"
 
-namespace vspring {
+namespace vspring::topology_test {
 namespace {
 
 // Nodes on a half circle, so that no edge has zero length and no face of three lacks area.
@@ -132,4 +132,4 @@ TEST(PolygonMesh, RefusesWhatIsNotSafe) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::topology_test

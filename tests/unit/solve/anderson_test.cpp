@@ -7,7 +7,7 @@
 
 #include "base/random.hpp"
 
-namespace vspring {
+namespace vspring::anderson_test {
 namespace {
 
 using State = std::vector<Vector3>;
@@ -124,4 +124,4 @@ TEST(Anderson, TeamsOfAnySizeGiveTheSameBits) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::anderson_test

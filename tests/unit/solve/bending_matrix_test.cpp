@@ -8,7 +8,7 @@
 
 #include "base/random.hpp"
 
-namespace vspring {
+namespace vspring::bending_matrix_test {
 namespace {
 
 struct Row {
@@ -111,4 +111,4 @@ TEST(BendingMatrix, SolvesWhereTheProductInDoublePrecisionIsNoLongerDefinite) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::bending_matrix_test

@@ -10,7 +10,7 @@
 #include "spring/model.hpp"
 #include "support/curves.hpp"
 
-namespace vspring {
+namespace vspring::curve_preconditioner_test {
 namespace {
 
 using namespace support;
@@ -130,4 +130,4 @@ TEST(CurvePreconditioner, CutsClosedChainsAtAHeldNodeWithoutATrace) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::curve_preconditioner_test

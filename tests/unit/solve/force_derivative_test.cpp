@@ -8,7 +8,7 @@
 #include "base/random.hpp"
 #include "support/surfaces.hpp"
 
-namespace vspring {
+namespace vspring::force_derivative_test {
 namespace {
 
 using namespace support;
@@ -54,4 +54,4 @@ TEST(ForceDerivative, TellsHowAllDisplacementsChange) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::force_derivative_test

@@ -16,7 +16,7 @@
 #include "solve/surface_systems.hpp"
 #include "vspring/generate.hpp"
 
-namespace vspring {
+namespace vspring::linear_solvers_test {
 namespace {
 
 /// A disc whose boundary is held, with normals or without.
@@ -283,4 +283,4 @@ TEST(Slide, StaysOnTheSphere) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::linear_solvers_test

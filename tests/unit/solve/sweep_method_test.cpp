@@ -7,7 +7,7 @@
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
-namespace vspring {
+namespace vspring::sweep_method_test {
 namespace {
 
 TEST(SweepMethod, EndsWithTheBestShapeWhereNodesAreNoLongerFinite) {
@@ -33,4 +33,4 @@ TEST(SweepMethod, EndsWithTheBestShapeWhereNodesAreNoLongerFinite) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::sweep_method_test

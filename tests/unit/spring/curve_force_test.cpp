@@ -10,7 +10,7 @@
 #include "spring/model.hpp"
 #include "spring/tangent.hpp"
 
-namespace vspring {
+namespace vspring::curve_force_test {
 namespace {
 
 std::vector<Link> inner_links(std::uint32_t i) {
@@ -151,4 +151,4 @@ TEST(CurveForce, IsFiniteWhereTangentsAreOppositeOrMissing) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::curve_force_test

@@ -13,7 +13,7 @@
 #include "spring/v_spring.hpp"
 #include "vspring/generate.hpp"
 
-namespace vspring {
+namespace vspring::exactness_test {
 namespace {
 
 using generate::Faces;
@@ -127,4 +127,4 @@ TEST(VSpring, TheForceChangesOverByDegreesWhereNormalsAreAtARightAngle) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::exactness_test

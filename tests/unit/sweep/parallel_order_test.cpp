@@ -5,7 +5,7 @@
 #include "sweep/sweep.hpp"
 #include "vspring/generate.hpp"
 
-namespace vspring {
+namespace vspring::parallel_order_test {
 namespace {
 
 Net net_of(generate::Faces faces, int size) {
@@ -115,4 +115,4 @@ TEST(Sweep, NoNeighbourDrivesANodeAwayThatNoiseHasPutOutsideThemAll) {
 }
 
 }  // namespace
-}  // namespace vspring
+}  // namespace vspring::parallel_order_test

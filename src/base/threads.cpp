@@ -51,6 +51,7 @@ class Helpers {
   }
 
   void call(ThreadTeam& team, int count) {
+    calls_so_far_.fetch_add(1, std::memory_order_relaxed);
     const std::lock_guard lock(mutex_);
     calls_.insert(calls_.end(), count, &team);
     try {
@@ -60,6 +61,8 @@ class Helpers {
     }
     for (; count > 0; --count) called_.notify_one();
   }
+
+  [[nodiscard]] std::size_t calls_so_far() const noexcept { return calls_so_far_.load(std::memory_order_relaxed); }
 
   /// How many calls of that team nobody has answered; nobody will.
   int withdraw(const ThreadTeam& team) {
@@ -86,7 +89,10 @@ class Helpers {
   std::condition_variable called_;
   std::vector<ThreadTeam*> calls_;
   std::size_t idle_ = 0;
+  std::atomic<std::size_t> calls_so_far_ = 0;
 };
+
+std::size_t ThreadTeam::calls_for_help() noexcept { return Helpers::of_program().calls_so_far(); }
 
 ThreadTeam::~ThreadTeam() {
   if (round_ == 0) return;

@@ -23,6 +23,9 @@ class ThreadTeam {
 
   [[nodiscard]] int size() const noexcept { return size_; }
 
+  /// How often teams of this program have called for helpers: whether something ran on several threads.
+  [[nodiscard]] static std::size_t calls_for_help() noexcept;
+
   /// Calls task(k) for k from 0 to count − 1 and returns when all are done. Tasks must not throw.
   void run(std::size_t count, const std::function<void(std::size_t)>& task);
 

@@ -21,7 +21,7 @@ if(VSPRING_SANITIZE)
   target_link_options(vspring_options INTERFACE -fsanitize=${VSPRING_SANITIZE})
 endif()
 
-# What nearly every source includes, read once. A build without it finds missing includes.
+# What nearly every source includes, read once. A source that forgets an include compiles all the same; scripts/check-names finds it.
 function(vspring_precompile target)
   if(VSPRING_PRECOMPILE_HEADERS)
     target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <functional> <string> <vector> ${ARGN})

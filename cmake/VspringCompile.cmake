@@ -1,6 +1,6 @@
 # How sources are compiled in less time.
 
-# What nearly every source includes, read once. A build without it finds missing includes.
+# What nearly every source includes, read once. scripts/check-names finds missing includes.
 function(vspring_precompile target)
   if(VSPRING_PRECOMPILE_HEADERS)
     target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <algorithm> <functional> <string> <vector> ${ARGN})

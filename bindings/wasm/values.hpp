@@ -7,6 +7,7 @@
 #include <emscripten/val.h>
 
 #include <cstdio>
+#include <exception>
 #include <string>
 #include <type_traits>
 #include <vector>

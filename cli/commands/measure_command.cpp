@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "any_shape.hpp"
 #include "closed_chains.hpp"

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "shape/box_tree.hpp"
 #include "shape/frame.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "generate/arguments.hpp"
 #include "generate/rings.hpp"

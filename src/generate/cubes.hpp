@@ -3,6 +3,7 @@
 #include <array>
 #include <functional>
 #include <unordered_map>
+#include <utility>
 
 #include "vspring/generate.hpp"
 

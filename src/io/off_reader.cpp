@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "io/face_list.hpp"
 #include "io/file_normals.hpp"

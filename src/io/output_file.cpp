@@ -6,8 +6,10 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "io/file_descriptor.hpp"
 #include "io/system_fault.hpp"

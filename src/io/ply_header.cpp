@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <system_error>
+#include <utility>
 
 #include "io/face_list.hpp"
 #include "io/text_cursor.hpp"

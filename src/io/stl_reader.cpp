@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <set>
+#include <utility>
 
 #include "io/byte_order.hpp"
 #include "io/face_list.hpp"

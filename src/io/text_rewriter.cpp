@@ -3,6 +3,8 @@
 #include <fmt/compile.h>
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "io/text_cursor.hpp"
 
 namespace vspring {

@@ -101,7 +101,7 @@ class VtpWriter {
     append_number(text_, value);
     text_ += end;
   }
-  void whole(std::size_t value, char end) { fmt::format_to(std::back_inserter(text_), "{}{}", value, end); }
+  void whole(std::size_t value, char end) { (text_ += fmt::format_int(value).c_str()) += end; }
 
   const char* cells_;
   std::string text_;

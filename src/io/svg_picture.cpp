@@ -104,8 +104,7 @@ class Pen {
 
  private:
   void append(fmt::format_string<double, double> form, const Vector2& p) {
-    fmt::format_to(std::back_inserter(text_), form, pixels_ * (p.x() - upper_left_.x()),
-                   pixels_ * (upper_left_.y() - p.y()));
+    text_ += fmt::format(form, pixels_ * (p.x() - upper_left_.x()), pixels_ * (upper_left_.y() - p.y()));
   }
 
   std::string& text_;

@@ -133,8 +133,8 @@ void draw(std::string& text, const Plot& plot, const Series& series, const char*
       colour);
   for (const Series::Line& line : series.lines) {
     for (std::size_t k = 0; k < line.points.size(); ++k)
-      fmt::format_to(std::back_inserter(text), "{}{:.2f} {:.2f}", k == 0 ? 'M' : 'L', plot.x(line.points[k].x()),
-                     plot.y(line.points[k].y()));
+      text +=
+          fmt::format("{}{:.2f} {:.2f}", k == 0 ? 'M' : 'L', plot.x(line.points[k].x()), plot.y(line.points[k].y()));
   }
   text += "\"/>\n";
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <string>
 #include <vector>
 
@@ -153,7 +154,12 @@ void print_sweeps() {
 
 int main() {
   const std::vector<Index> sizes = {100, 300, 1'000, 3'000, 10'000, 30'000, 100'000, 300'000, 1'000'000};
-  print_times(sizes);
-  print_accuracy(sizes);
-  print_sweeps();
+  try {
+    print_times(sizes);
+    print_accuracy(sizes);
+    print_sweeps();
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 1;
+  }
 }

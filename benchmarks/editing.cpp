@@ -49,6 +49,7 @@ void drag(const char* what, const PolygonMesh& mesh, Constraints constraints, In
     iterations[pictures] += report.iterations;
   }
   std::vector<double> anew;
+  anew.reserve(5);
   for (int k = 0; k < 5; ++k) anew.push_back(fair(mesh, constraints, {}, context).report.seconds);
   fmt::print("| {} | {:.1f} % | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.1f} |\n", what, 100 * share, threads,
              1000 * median(seconds[1]), 1.0 * iterations[1] / steps, 1000 * median(seconds[0]),

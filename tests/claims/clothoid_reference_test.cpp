@@ -240,9 +240,13 @@ TEST(ClothoidReferenceSpline, PointsOfACircleGiveTheCircle) {
   const double radius = 2;
   std::vector<Vector2d> points;
   std::vector<double> at;
-  for (double angle = 0.4, step = 0.3; angle < 8; angle += step, step = 1.2 - step / 2) {
+  double angle = 0.4;
+  double step = 0.3;
+  while (angle < 8) {
     at.push_back(angle);
     points.push_back(radius * Vector2d(std::cos(angle), std::sin(angle)));
+    angle += step;
+    step = 1.2 - step / 2;
   }
   const auto spline = hermite_clothoid_spline(points, at.front() + pi / 2, at.back() + pi / 2);
   expect_spline(spline, points);
@@ -258,6 +262,7 @@ TEST(ClothoidReferenceSpline, PointsOfAClothoidGiveTheClothoid) {
   const Clothoid whole{{0, 0}, 0.5, -1.5, 1.0, 5};
   std::vector<Vector2d> points;
   const std::vector<double> at{0, 0.7, 1.2, 2.3, 3.1, 3.6, 4.4, 5};
+  points.reserve(at.size());
   for (const double s : at) points.push_back(whole.at(s));
   const auto spline = hermite_clothoid_spline(points, whole.angle, whole.angle_at(whole.length));
   expect_spline(spline, points);

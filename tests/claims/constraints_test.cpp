@@ -174,6 +174,7 @@ TEST(Constraints, DefectsAreRefusedOnlyWhereTheyWouldMove) {
     SCOPED_TRACE(broken.named);
     std::vector<Vector3> positions = plane.positions();
     std::vector<std::vector<Index>> faces;
+    faces.reserve(static_cast<std::size_t>(plane.face_count()));
     for (Index f = 0; f < plane.face_count(); ++f) faces.emplace_back(plane.face(f).begin(), plane.face(f).end());
     broken.harm(positions, faces);
     MeshBuilder builder;

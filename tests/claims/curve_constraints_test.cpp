@@ -30,7 +30,7 @@ std::string refusal(const std::function<void()>& call, ErrorCode code) {
 
 /// By check_constraints() and by fair(), with the same words.
 std::string refusal(const PolygonCurve& curve, const Constraints& constraints, ErrorCode code) {
-  const std::string message = refusal([&] { (void)check_constraints(curve, constraints); }, code);
+  std::string message = refusal([&] { (void)check_constraints(curve, constraints); }, code);
   EXPECT_EQ(refusal([&] { (void)fair(curve, constraints); }, code), message);
   return message;
 }
@@ -39,6 +39,7 @@ bool says(const std::string& message, const std::string& part) { return message.
 
 std::vector<Vector3> circle(int count) {
   std::vector<Vector3> nodes;
+  nodes.reserve(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) nodes.push_back(heading(360 * degree * k / count));
   return nodes;
 }

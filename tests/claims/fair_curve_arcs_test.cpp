@@ -18,14 +18,14 @@ using namespace support;
 
 struct Layout {
   Spacing spacing;
-  double ratio;
   Distribution distribution;
+  double ratio;
 };
 
 constexpr Layout layouts[] = {
-    {Spacing::even, 1, Distribution::even},    {Spacing::random, 3, Distribution::even},
-    {Spacing::graded, 10, Distribution::even}, {Spacing::even, 1, Distribution::keep},
-    {Spacing::random, 3, Distribution::keep},  {Spacing::graded, 10, Distribution::keep},
+    {Spacing::even, Distribution::even, 1},    {Spacing::random, Distribution::even, 3},
+    {Spacing::graded, Distribution::even, 10}, {Spacing::even, Distribution::keep, 1},
+    {Spacing::random, Distribution::keep, 3},  {Spacing::graded, Distribution::keep, 10},
 };
 
 std::string described(int nodes, const Layout& layout, bool tilted) {

@@ -41,6 +41,7 @@ double error_of(const std::vector<Vector3>& start, const EndAngles& angles, cons
 /// Errors of 33, 65 and 129 nodes, and so on.
 std::vector<double> errors(int refinements, const std::function<double(int edges)>& error) {
   std::vector<double> all;
+  all.reserve(static_cast<std::size_t>(refinements));
   for (int k = 0; k < refinements; ++k) all.push_back(error(32 << k));
   return all;
 }

@@ -52,6 +52,7 @@ TEST(FairCurveHardStarts, RandomPositions) {
       SCOPED_TRACE(fmt::format("{} nodes, seed {}", count, seed));
       Draw draw(seed);
       std::vector<Vector3> nodes;
+      nodes.reserve(static_cast<std::size_t>(count));
       for (int i = 0; i < count; ++i) nodes.push_back(draw.in_cube(1));
       expect_sane_however_held(nodes);
     }
@@ -89,6 +90,7 @@ TEST(FairCurveHardStarts, CoincidentNeighbours) {
   for (const int count : {6, 40, 200}) {
     SCOPED_TRACE(count);
     std::vector<Vector3> nodes;
+    nodes.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) nodes.push_back(heading(0.02 * (i - i % 2)));
     expect_sane_however_held(nodes);
     for (int i = 0; i < count; ++i) nodes[static_cast<std::size_t>(i)] = heading(0.02 * (i - i % 5));
@@ -101,6 +103,7 @@ TEST(FairCurveHardStarts, HugeAndTinyCoordinates) {
     SCOPED_TRACE(size);
     Draw draw(8);
     std::vector<Vector3> nodes;
+    nodes.reserve(30);
     for (int i = 0; i < 30; ++i) nodes.emplace_back(size * draw.in_cube(1));
     expect_sane_however_held(nodes);
   }

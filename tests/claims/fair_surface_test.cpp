@@ -94,6 +94,7 @@ TEST(FairSurface, MotionAndScalingCommuteWithFairing) {
     const Vector3 shift = scale * Vector3(5, -3, 2);
     const auto moved = [&](const std::vector<Vector3>& positions) {
       std::vector<Vector3> result;
+      result.reserve(positions.size());
       for (const Vector3& position : positions) result.emplace_back(scale * (turn * position) + shift);
       return result;
     };

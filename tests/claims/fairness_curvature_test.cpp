@@ -132,7 +132,7 @@ TEST(Curvatures, DirectionsAndNormals) {
   const PolygonMesh mesh = torus(48, Faces::mixed);
   const auto found = curvatures(mesh);
   for (Index i = 0; i < mesh.node_count(); ++i) {
-    const Vector3 p = mesh.position(i);
+    const Vector3& p = mesh.position(i);
     const NodeCurvature& at = found[static_cast<std::size_t>(i)];
     const Vector3 around = Vector3(-p.y(), p.x(), 0).normalized();
     const Vector3 centre = Vector3(p.x(), p.y(), 0).normalized();

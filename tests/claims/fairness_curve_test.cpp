@@ -48,6 +48,7 @@ TEST(CurveFigures, CurvatureAtNodes) {
   double last = 0;
   for (const int count : {50, 100, 200}) {
     std::vector<Vector3> nodes;
+    nodes.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k)
       nodes.emplace_back(3e8 * std::cos(2 * pi * k / count), 2e8 * std::sin(2 * pi * k / count), 5e8);
     const std::vector<double> found = curvatures(PolygonCurve(nodes, true));
@@ -149,6 +150,7 @@ TEST(CurveFigures, RoundingIsNoExtreme) {
   EXPECT_LT(measure_curve(line).bending_energy, 1e-10);
   // Straight, round, straight: flat runs have no extremes of their own.
   std::vector<Vector3> stadium;
+  stadium.reserve(181);
   for (int k = 0; k < 50; ++k) stadium.emplace_back(-2 + 0.04 * k, -1, 0);
   for (int k = 0; k < 80; ++k) stadium.emplace_back(std::sin(pi * k / 80), -std::cos(pi * k / 80), 0);
   for (int k = 0; k <= 50; ++k) stadium.emplace_back(-0.04 * k, 1, 0);

@@ -34,7 +34,7 @@ TEST(Random, UniformNumbersFillTheirIntervalEvenly) {
     sum += drawn;
   }
   // Five standard deviations.
-  for (const int count : tenths) EXPECT_NEAR(count, draws / 10, 5 * std::sqrt(draws * 0.09));
+  for (const int count : tenths) EXPECT_NEAR(count, draws / 10.0, 5 * std::sqrt(draws * 0.09));
   EXPECT_NEAR(sum / draws, 0.5, 5 / std::sqrt(12.0 * draws));
   const double between = random.uniform(-3, -2);
   EXPECT_TRUE(between >= -3 && between < -2);

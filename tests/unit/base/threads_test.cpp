@@ -38,6 +38,7 @@ TEST(Threads, ManyShortRunsFollowEachOther) {
 TEST(Threads, TeamsSideBySideHelpNobodyElse) {
   std::vector<std::thread> callers;
   std::vector<std::vector<int>> done(4);
+  callers.reserve(done.size());
   for (auto& mine : done) {
     callers.emplace_back([&mine] {
       for (int k = 0; k < 200; ++k) {

@@ -77,6 +77,7 @@ TEST(Resample, KeepsHeldNodesWithWhatHoldsThem) {
 
 TEST(Resample, ClosedChainsStayClosedAndMeetingOnesMeet) {
   std::vector<Vector3> positions;
+  positions.reserve(13);
   for (int k = 0; k < 12; ++k) positions.push_back(on_circle(std::numbers::pi * k / 6));
   positions.emplace_back(3, 0, 0);
   PolygonCurve::Chain ring{.nodes = {}, .closed = true};

@@ -23,6 +23,7 @@ std::size_t nearest_of(const std::vector<Vector3>& nodes, const Vector3& point) 
 std::vector<Vector3> scattered(int count) {
   Draw draw(9);
   std::vector<Vector3> points;
+  points.reserve(static_cast<std::size_t>(count));
   for (int j = 0; j < count; ++j) points.emplace_back(draw.uniform(-0.2, 1.2), draw.uniform(-0.2, 1.2), 0.1);
   return points;
 }
@@ -124,6 +125,7 @@ TEST(PointTies, PassAHubOfManyFaces) {
   constexpr int sides = 300;
   std::vector<Index> rim;
   const Index hub = builder.add_node({0, 0, 0});
+  rim.reserve(sides);
   for (int i = 0; i < sides; ++i) rim.push_back(builder.add_node(heading(360 * degree * i / sides)));
   for (std::size_t i = 0; i < sides; ++i) {
     const std::vector<Index> face = {hub, rim[i], rim[(i + 1) % sides]};

@@ -43,7 +43,10 @@ TEST(Grids, PlanesOfEveryKindAreWholeAndFaceUp) {
 
 TEST(Grids, NodesGoRowByRowFromTheOrigin) {
   const PolygonMesh mesh = generate::plane({.columns = 4, .rows = 3}, 8, 3);
-  for (Index i = 0; i < mesh.node_count(); ++i) EXPECT_EQ(mesh.position(i), Vector3(2 * (i % 5), i / 5, 0));
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    const Index row = i / 5;
+    EXPECT_EQ(mesh.position(i), Vector3(2 * (i % 5), row, 0));
+  }
 }
 
 TEST(Grids, TrianglesPreferNoDirection) {

@@ -34,9 +34,7 @@ TEST_F(CurveConversion, SaysWhatIsLost) {
            "obj");
   EXPECT_EQ(as(obj, "csv",
                {"comments", "faces", "groups", "materials", "normals",
-                "that chains share nodes: these are written "
-                "once for each",
-                "nodes that no chain uses"}),
+                "that chains share nodes: these are written once for each", "nodes that no chain uses"}),
             "x,y,z\n0,0,0\n1,0,0\n0,1,0\n0,0,0\n\n5,5,5\n0,0,0\n");
   const CurveFile dat = read("foil\n# c\n1 0 TE\n0 0\n", "dat");
   EXPECT_EQ(as(dat, "csv", {"comments", "other columns", "the name"}), "x,y\n1,0\n0,0\n");

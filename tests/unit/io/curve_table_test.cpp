@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "unit/io/curve_round_trip.hpp"
@@ -10,7 +12,7 @@ class CurveTable : public CurveScratch {};
 TEST_F(CurveTable, ReadsEveryDelimiter) {
   for (const std::string between : {",", ";", "\t", " ", " , ", "   "}) {
     const auto row = [&](const std::string& x, const std::string& y, const std::string& z) {
-      return x + between + y + between + z + "\n";
+      return fmt::format("{1}{0}{2}{0}{3}\n", between, x, y, z);
     };
     const std::string text = row("x", "y", "z") + row("0.5", "1", "-2e1") + row("+3", "nan", "5");
     const CurveFile file = read(text, "csv");
@@ -73,7 +75,8 @@ TEST_F(CurveTable, StaysOpenWhereTheLastNodeRepeatsTheFirst) {
 TEST_F(CurveTable, TakesEveryLineEndAndTheMarkBeforeUtf8) {
   const std::string mark = "\xEF\xBB\xBF";
   for (const std::string end : {"\n", "\r\n", "\r"}) {
-    for (const std::string& text : {mark + "x,y" + end + "0,0" + end + "1,2", "0 0 \t" + end + "1 2  " + end}) {
+    for (const std::string& text :
+         {fmt::format("{0}x,y{1}0,0{1}1,2", mark, end), fmt::format("0 0 \t{0}1 2  {0}", end)}) {
       for (const std::string extension : {"csv", "xyz"}) {
         if (extension == "xyz" && text.starts_with(mark)) continue;
         EXPECT_EQ(unmoved(text, extension), text);

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 
@@ -35,8 +37,8 @@ const Kind kinds[] = {
 TEST_F(OffFile, EveryKindKeepsItsBytesButThoseOfMovedNodes) {
   for (const Kind& kind : kinds) {
     const auto text = [&](const std::string& place, const std::string& more) {
-      return kind.head + place + more + "  # of node 0\n1 0 0" + kind.first_node + "\n0 1\t0" + kind.first_node +
-             "\n3 0 1 2  1 0.5 0\n# end\n";
+      return fmt::format("{0}{1}{2}  # of node 0\n1 0 0{3}\n0 1\t0{3}\n3 0 1 2  1 0.5 0\n# end\n", kind.head, place,
+                         more, kind.first_node);
     };
     const std::string before = text("0 0 0", kind.first_node);
     SCOPED_TRACE(before);

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <array>
 #include <bit>
 
@@ -141,7 +143,7 @@ TEST_F(PlyFile, ComesOutByteForByteButForMovedNodesAndTheirNormals) {
 std::string triangle(Ply::Encoding encoding, const std::string& type, const auto& x) {
   Ply ply(encoding);
   ply.line("element vertex 3");
-  for (const std::string name : {"x", "y", "z"}) ply.line("property " + type + " " + name);
+  for (const std::string name : {"x", "y", "z"}) ply.line(fmt::format("property {} {}", type, name));
   ply.line("element face 1").line("property list uchar int vertex_indices").line("end_header");
   for (const auto& value : x) {
     ply.put(value);

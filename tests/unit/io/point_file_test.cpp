@@ -1,5 +1,7 @@
 #include "vspring/point_file.hpp"
 
+#include <fmt/format.h>
+
 #include "unit/io/scratch.hpp"
 #include "vspring/generate.hpp"
 #include "vspring/surface_file.hpp"
@@ -75,7 +77,7 @@ TEST_F(PointFile, XyzHasWeightsInRowsOfFourOrSevenNumbers) {
   EXPECT_EQ(read("a.xyz", "1 2 3 0.5\n4 5 6 2\n").weights, (Weights{0.5, 2}));
   EXPECT_EQ(read("a.xyz", "1 2 3 0 0 1 0.5\n").weights, Weights{0.5});
   for (const std::string row : {"1 2", "1 2 3", "1 2 3 wall", "1 2 3 4 5", "1 2 3 0 0 1", "1 2 3 0 0 1 0.5 8"}) {
-    const ScatteredPoints points = read("a.xyz", row + "\n# and\n" + row + "\n");
+    const ScatteredPoints points = read("a.xyz", fmt::format("{0}\n# and\n{0}\n", row));
     EXPECT_TRUE(points.weights.empty()) << row;
     ASSERT_EQ(points.positions.size(), 2U);
     EXPECT_EQ(points.positions[1], Vector3(1, 2, row.size() > 3 ? 3 : 0));

@@ -20,8 +20,7 @@ using Kind = Triangulation::Kind;
 PolygonMesh triangulated(const PolygonMesh& mesh) {
   const Constraints constraints(mesh.node_count());
   const Net net = gather_net(mesh, constraints);
-  const PolygonMesh patch = triangulated_patch(net);
-  return patch;
+  return triangulated_patch(net);
 }
 
 struct Coarse {
@@ -172,7 +171,9 @@ TEST_P(EverySurface, BoundaryLoopsLoseEverySecondNodeDownToSix) {
   ASSERT_EQ(before.size(), after.size());
   std::vector<std::size_t> expected;
   std::vector<std::size_t> found;
+  expected.reserve(before.size());
   for (const auto& loop : before) expected.push_back(std::max(std::min<std::size_t>(loop.size(), 6), loop.size() / 2));
+  found.reserve(after.size());
   for (const auto& loop : after) found.push_back(loop.size());
   std::sort(expected.begin(), expected.end());
   std::sort(found.begin(), found.end());
@@ -289,6 +290,7 @@ TEST(PatchMesh, CutsEveryPolygonIntoTrianglesOfFewEdgesANode) {
   for (const int sides : {4, 5, 8, 9, 31, 1000}) {
     MeshBuilder builder;
     std::vector<Index> face;
+    face.reserve(static_cast<std::size_t>(sides));
     for (int k = 0; k < sides; ++k) face.push_back(builder.add_node({std::cos(k), std::sin(k), 0}));
     builder.add_face(face);
     const PolygonMesh triangles = triangulated(builder.take());

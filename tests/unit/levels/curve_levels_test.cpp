@@ -16,6 +16,7 @@ using namespace support;
 
 std::vector<Vector3> arc(const std::vector<double>& at, double turn) {
   std::vector<Vector3> nodes;
+  nodes.reserve(at.size());
   for (const double place : at) nodes.push_back(heading(place * turn));
   return nodes;
 }

@@ -99,6 +99,7 @@ TEST(CurvePreconditioner, CutsClosedChainsAtAHeldNodeWithoutATrace) {
   // starts.
   const int count = 40;
   std::vector<Vector3> nodes;
+  nodes.reserve(count);
   Draw draw(2);
   for (int k = 0; k < count; ++k)
     nodes.emplace_back((1 + draw.uniform(-1e-3, 1e-3)) * heading(360 * degree * k / count));

@@ -56,6 +56,7 @@ const std::vector<double> uneven = {0.1, 0.13, 0.5, 0.52, 1.7, 1.9, 2.6};
 
 TEST(Tangent, OfTheCircleIsExactForUnevenNodes) {
   std::vector<Vector3> nodes;
+  nodes.reserve(uneven.size());
   for (const double angle : uneven) nodes.push_back(on_circle(angle));
   for (std::uint32_t i = 1; i + 1 < nodes.size(); ++i) {
     const auto links = inner_links(i);
@@ -75,6 +76,7 @@ TEST(Tangent, OfAnEndIsItsChord) {
 
 TEST(CurveForce, IsNoneOnACircleHoweverUnevenTheNodes) {
   std::vector<Vector3> nodes;
+  nodes.reserve(uneven.size());
   for (const double angle : uneven) nodes.push_back(on_circle(angle));
   const auto all = springs(net_of(nodes));
   // The first and the last feel the ends, which are free to turn.

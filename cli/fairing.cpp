@@ -163,7 +163,11 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
   FigurePair figures;
   if (!context_.cancelled() && !(arguments_->report.empty() && arguments_->html.empty())) {
     figures = measured(faired);
-    if (!context_.cancelled()) json["fairness"] = {{"before", values_of(figures[0])}, {"after", values_of(figures[1])}};
+    if (!context_.cancelled()) {
+      // Not assigned as a list: clang 14 does not destroy what such an assignment replaces.
+      nlohmann::ordered_json fairness = {{"before", values_of(figures[0])}, {"after", values_of(figures[1])}};
+      json["fairness"].swap(fairness);
+    }
   }
   if (!arguments_->report.empty()) {
     const UninterruptedWhileWriting guard;

@@ -52,9 +52,7 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   json["peak_memory_bytes"] = peak_memory_bytes();
   json["threads"] = report.threads;
   json["version"] = version();
-  // One by one: of clang 14 nested lists of such values leave memory behind.
-  json["fairness"]["before"] = to_json(report.before);
-  json["fairness"]["after"] = to_json(report.after);
+  json["fairness"] = {{"before", to_json(report.before)}, {"after", to_json(report.after)}};
   if (report.boundary) {
     json["boundary"] = {
         {"outcome", name(report.boundary->outcome)},

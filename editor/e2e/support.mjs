@@ -19,14 +19,6 @@ export function native(...options) {
 // Software drawing, as where there is no graphics card, the same on every machine. The sandbox needs rights that containers lack; the pages are our own.
 const flags = ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--force-device-scale-factor=1'];
 
-export const launching = { executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: flags };
-
-// The one that run.mjs has started for all files of tests, or one of this file's own.
-function browser() {
-  const shared = process.env.VSPRING_BROWSER;
-  return shared ? chromium.connect(shared) : chromium.launch(launching);
-}
-
 export class Session {
   // shared: whether page and worker may share memory. without: a file of the editor that the server does not have.
   static async start({ shared = true, without } = {}) {
@@ -34,7 +26,7 @@ export class Session {
     session.folder = mkdtempSync(join(tmpdir(), 'vspring-editor-'));
     session.server = await serve({ '/': join(root, 'build/editor'), '/files/': session.folder, ...(without && { [`/${without}`]: '/' }) }, 0, shared);
     session.address = `http://127.0.0.1:${session.server.address().port}/`;
-    session.browser = await browser();
+    session.browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: flags });
     return session;
   }
 

@@ -22,6 +22,10 @@ std::string outcome_line(const FairReport& report, const Terminal& terminal) {
       return terminal.green("converged");
     case Outcome::iteration_limit:
       return terminal.yellow("stopped at the limit of iterations (--max-iterations)");
+    case Outcome::work_limit:
+      return terminal.yellow("stopped: what is left is not worth more time");
+    case Outcome::worse_than_input:
+      return terminal.yellow("worse than the input");
     case Outcome::stalled:
       return terminal.yellow("stalled");
     case Outcome::cancelled:
@@ -63,10 +67,14 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   }
   json["warnings"] = report.warnings;
   json["history"] = report.history;
+  json["node_iterations"] = report.work;
+  json["node_iteration_limit"] = report.most_work > 0 ? nlohmann::ordered_json(report.most_work) : nullptr;
   json["levels"] = nlohmann::ordered_json::array();
   for (const LevelReport& level : report.levels)
-    json["levels"].push_back(
-        {{"moving_nodes", level.moving_nodes}, {"iterations", level.iterations}, {"seconds", level.seconds}});
+    json["levels"].push_back({{"moving_nodes", level.moving_nodes},
+                              {"iterations", level.iterations},
+                              {"outcome", name(level.outcome)},
+                              {"seconds", level.seconds}});
   return json;
 }
 

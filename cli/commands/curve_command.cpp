@@ -33,7 +33,7 @@ int run_curve(CurveArguments arguments) {
     arguments.options.curve = CurveRules::paper();
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
-  arguments.options.distribution = distribution_of(arguments, asks_to_fit(arguments.pull));
+  settle_distribution(arguments, asks_to_fit(arguments.pull));
   check_outputs(arguments);
   refuse_views(arguments, true);
   Fairing fairing(arguments);

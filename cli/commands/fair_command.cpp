@@ -31,7 +31,7 @@ int run_fair(FairArguments arguments) {
     arguments.options.pseudo_normals = PseudoNormals::average;
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
-  arguments.options.distribution = distribution_of(arguments, asks_to_fit(arguments.pull));
+  settle_distribution(arguments, asks_to_fit(arguments.pull));
   check_outputs(arguments);
   refuse_views(arguments, false);
   Fairing fairing(arguments);

@@ -14,7 +14,8 @@ namespace vspring::cli {
 namespace {
 
 const std::map<std::string, Hold> holds = {{"boundary", Hold::boundary}, {"none", Hold::none}};
-const std::map<std::string, Distribution> distributions = {{"even", Distribution::even}, {"keep", Distribution::keep}};
+const std::map<std::string, Distribution> distributions = {
+    {"smooth", Distribution::smooth}, {"even", Distribution::even}, {"keep", Distribution::keep}};
 const std::map<std::string, Colour> colours = {
     {"auto", Colour::automatic}, {"always", Colour::always}, {"never", Colour::never}};
 
@@ -105,8 +106,10 @@ void add_shaping_options(CLI::App& command, FairingArguments& arguments, const F
   add_choice(
       command, "--distribution", arguments.distribution, distributions,
       fmt::format(
-          "Along the {}, nodes go to the mean of their neighbours, or keep their share between them and, "
-          "where points draw a surface, their place (default: even; keep where the nodes of the input are the points)",
+          "Along the {}, nodes keep the spacing of the input without its noise; go to the mean of their neighbours; or "
+          "keep their share between them and, where points draw a surface, their place (default: smooth; keep where "
+          "the "
+          "nodes of the input are the points; even with the methods multigrid and sweep)",
           words.shape))
       ->group(fairing_group);
   command

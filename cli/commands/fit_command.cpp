@@ -108,7 +108,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
 }
 
 int run_fit(FitArguments arguments) {
-  arguments.options.distribution = distribution_of(arguments, false);
+  settle_distribution(arguments, false);
   check_outputs(arguments, {{"--points", arguments.points}});
   if (!arguments.deviation.empty() &&
       scalar_format(std::filesystem::path(arguments.deviation).extension().string()) != ScalarFormat::ply)

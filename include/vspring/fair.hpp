@@ -28,7 +28,8 @@ struct FairOptions {
   PseudoNormals pseudo_normals = PseudoNormals::link;
   /// Of curves.
   CurveRules curve = {};
-  Distribution distribution = Distribution::even;
+  /// Where not given: smooth; of multigrid and sweep, if they are asked for, even.
+  std::optional<Distribution> distribution = std::nullopt;
   /// Of surfaces: boundary nodes whose position is free are faired first, as the closed curves that they form between
   /// the held ones (§4.5), and stay there while the surface follows. Else they are drawn in with the surface.
   bool fair_boundary = false;
@@ -39,8 +40,8 @@ struct FairOptions {
   /// mean length of its edges.
   double step_tolerance = 1e-3;
   /// Where not given: 10,000 sweeps, with multigrid on each level; 200 iterations of the equilibrium solver on each of
-  /// its levels, and where these lead nowhere, on surfaces of up to 10,000 moving nodes, steps along the flow of the
-  /// plain iteration.
+  /// its levels and no more than FairReport::most_work, and on surfaces where these lead nowhere steps along the flow
+  /// of the plain iteration.
   std::optional<int> max_iterations = std::nullopt;
   /// Multigrid: levels, the shape itself among them; fewer where that has too few nodes. Where not given: 6 as in the
   /// paper, but fewer where the coarsest would have under 60 moving nodes, and more where there are enough for another;
@@ -48,25 +49,44 @@ struct FairOptions {
   std::optional<int> levels = std::nullopt;
   /// Multigrid: iterations on each level on the way down.
   int pre_smoothing = 5;
+  /// A shape that is worse than the input is returned as it was found, with a warning, and nothing else is tried: for
+  /// comparisons of methods and distributions.
+  bool as_found = false;
   /// result = input + strength × (fair − input) for moving nodes; 0 to 1.
   double strength = 1;
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
+
+  /// What is given, or else taken, for the distribution.
+  [[nodiscard]] Distribution distribution_taken() const {
+    const bool papers_own = method && *method != Method::equilibrium;
+    return distribution.value_or(papers_own ? Distribution::even : Distribution::smooth);
+  }
 };
 
 /// "equilibrium", "multigrid" or "sweep".
 [[nodiscard]] const char* name(Method method) noexcept;
 
-enum class Outcome { converged, iteration_limit, stalled, cancelled };
+enum class Outcome {
+  converged,         ///< nothing is expected to be further away than the tolerance
+  iteration_limit,   ///< FairOptions::max_iterations
+  work_limit,        ///< FairReport::most_work: what is left is not worth more time
+  stalled,           ///< further iterations do not lead nearer
+  worse_than_input,  ///< what was found has folds, places or an energy that the input had not; unless
+                     ///< FairOptions::as_found, the positions are the best shape that is not worse, at worst the
+                     ///< input with its constraints applied
+  cancelled
+};
 
-/// "converged", "iteration-limit", "stalled" or "cancelled".
+/// "converged", "iteration-limit", "work-limit", "stalled", "worse-than-input" or "cancelled".
 [[nodiscard]] const char* name(Outcome outcome) noexcept;
 
 /// The work on one level of the hierarchy, the coarsest first.
 struct LevelReport {
   Index moving_nodes = 0;
   int iterations = 0;
+  Outcome outcome = Outcome::converged;
   double seconds = 0;
 };
 
@@ -85,6 +105,10 @@ struct FairReport {
   std::optional<double> expected_error;
   /// What was done on coarser versions of the shape and at last on itself.
   std::vector<LevelReport> levels;
+  /// Equilibrium: what was done on all levels together, in iterations of one moving node (a step of the flow counts 60,
+  /// a sweep 1/16), and the most that would have been done; 0 where iterations are limited instead.
+  double work = 0;
+  double most_work = 0;
   Index nodes = 0;
   Index faces = 0;
   Index moving_nodes = 0;

@@ -12,9 +12,11 @@ enum class PseudoNormals {
 
 /// Where the tangential regularisation (§4.4) sends a node.
 enum class Distribution {
-  even,  ///< to the mean of its neighbours, as in the paper
-  keep   ///< to the share between its neighbours that it has in the input; where points draw a surface also back,
-         ///< across its normal, to where it was, which counts as much as all neighbours do
+  even,    ///< to the mean of its neighbours, as in the paper
+  smooth,  ///< to the share between its neighbours that it has in the input once noise is taken out of its spacing:
+           ///< aspects and gradings of cells stay, roughness within some three edges goes
+  keep     ///< to the share between its neighbours that it has in the input; where points draw a surface also back,
+           ///< across its normal, to where it was, which counts as much as all neighbours do
 };
 
 /// The tangent of a curve at a node (§4.8).

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 namespace vspring {
 
@@ -16,8 +17,13 @@ constexpr std::size_t few_neighbours = 6;
 
 class Chooser {
  public:
-  explicit Chooser(const Triangulation& triangulation)
-      : triangulation_(triangulation), state_(triangulation.size(), State::free) {}
+  Chooser(const Triangulation& triangulation, std::span<const Vector3> places)
+      : triangulation_(triangulation), places_(places), state_(triangulation.size(), State::free) {
+    if (places.empty()) return;
+    shortest_.assign(triangulation.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < triangulation.size(); ++i)
+      triangulation.for_each_neighbour(i, [&](std::size_t j) { shortest_[i] = std::min(shortest_[i], square(i, j)); });
+  }
 
   void keep_fixed() {
     for (std::size_t i = 0; i < triangulation_.size(); ++i) {
@@ -66,16 +72,23 @@ class Chooser {
 
   [[nodiscard]] bool is_free(std::size_t i) const { return state_[i] == State::free || state_[i] == State::waiting; }
 
+  [[nodiscard]] double square(std::size_t i, std::size_t j) const { return (places_[i] - places_[j]).squaredNorm(); }
+
+  /// Whether one of two neighbours can stand for the other.
+  [[nodiscard]] bool near(std::size_t i, std::size_t j) const {
+    return places_.empty() || square(i, j) <= far_neighbour * far_neighbour * std::max(shortest_[i], shortest_[j]);
+  }
+
   void keep(std::size_t i) {
     if (state_[i] == State::kept) return;
     state_[i] = State::kept;
     triangulation_.for_each_neighbour(i, [&](std::size_t j) {
-      if (state_[j] != State::kept) state_[j] = State::covered;
+      if (state_[j] != State::kept && near(i, j)) state_[j] = State::covered;
     });
     triangulation_.for_each_neighbour(i, [&](std::size_t j) {
-      if (triangulation_.ring(j).size() > many_neighbours) return;
+      if (triangulation_.ring(j).size() > many_neighbours || !near(i, j)) return;
       triangulation_.for_each_neighbour(j, [&](std::size_t k) {
-        if (state_[k] != State::free) return;
+        if (state_[k] != State::free || !near(j, k)) return;
         state_[k] = State::waiting;
         (triangulation_.ring(k).size() < few_neighbours ? later_ : front_).push_back(static_cast<std::uint32_t>(k));
       });
@@ -107,22 +120,28 @@ class Chooser {
 
   void thin_loop() {
     const std::size_t size = loop_.size();
-    if (size < 2 * least_loop) {
+    const auto node = [&](std::size_t k) { return loop_[k % size]; };
+    bool evenly = size < 2 * least_loop;
+    for (std::size_t k = 0; k < size; ++k) evenly = evenly && near(node(k), node(k + 1));
+    if (evenly) {
       const std::size_t wanted = std::min(size, least_loop);
       for (std::size_t k = 0; k < wanted; ++k) keep(loop_[k * size / wanted]);
       return;
     }
     // Nodes kept already give the beat. Where two beats meet, two edges between kept nodes may be three.
-    const auto kept = [&](std::size_t k) { return state_[loop_[k % size]] == State::kept; };
+    const auto kept = [&](std::size_t k) { return state_[node(k)] == State::kept; };
+    const auto stands_for = [&](std::size_t k, std::size_t other) { return kept(k) && near(node(k), node(other)); };
     std::size_t begin = 0;
     while (begin < size && !kept(begin)) ++begin;
     if (begin == size) begin = 0;
     for (std::size_t k = begin; k < begin + size; ++k) {
-      if (!kept(k + size - 1) && !kept(k + 1)) keep(loop_[k % size]);
+      if (!stands_for(k + size - 1, k) && !stands_for(k + 1, k)) keep(node(k));
     }
   }
 
   const Triangulation& triangulation_;
+  std::span<const Vector3> places_;
+  std::vector<double> shortest_;  ///< squared, of the edges at every node; empty without places
   std::vector<State> state_;
   std::vector<std::uint32_t> front_;
   std::size_t next_ = 0;
@@ -134,8 +153,9 @@ class Chooser {
 }  // namespace
 
 std::vector<std::uint8_t> choose_coarse_nodes(const Triangulation& triangulation,
-                                              const std::vector<std::uint8_t>& constrained) {
-  Chooser chooser(triangulation);
+                                              const std::vector<std::uint8_t>& constrained,
+                                              std::span<const Vector3> places) {
+  Chooser chooser(triangulation, places);
   chooser.keep_fixed();
   chooser.keep_constrained(constrained);
   chooser.keep_loops();

@@ -1,6 +1,9 @@
 #include "levels/coarsening.hpp"
 
 #include <algorithm>
+#include <limits>
+
+#include "levels/coarse_nodes.hpp"
 
 namespace vspring {
 
@@ -13,8 +16,8 @@ constexpr std::size_t none = static_cast<std::size_t>(-1);
 
 class Coarsening {
  public:
-  Coarsening(Triangulation& triangulation, std::vector<std::uint8_t>& kept)
-      : triangulation_(triangulation), kept_(kept) {}
+  Coarsening(Triangulation& triangulation, std::vector<std::uint8_t>& kept, std::span<const Vector3> places)
+      : triangulation_(triangulation), kept_(kept), places_(places) {}
 
   /// Removes the nodes of a run whose neighbours all lie in the run. Returns those left.
   std::vector<std::uint32_t> remove_within(std::size_t begin, std::size_t end, Removals& removals) {
@@ -71,18 +74,34 @@ class Coarsening {
   }
 
   /// The neighbour to draw a node into: one that stays, so that edges of the coarse level go from cell to cell of nodes
-  /// drawn together; of those the one of fewest neighbours.
+  /// drawn together; of those that are not far away the one of fewest neighbours.
   [[nodiscard]] std::size_t best_place(std::uint32_t i, bool any) const {
     const auto ring = triangulation_.ring(i);
     std::size_t best = none;
     std::size_t fewest = none;
+    const double far = far_neighbour * far_neighbour * nearest_kept(i);
     for (std::size_t k = 0; k < ring.size(); ++k) {
-      const std::size_t neighbours = triangulation_.ring(ring[k]).size() + (kept_[ring[k]] != 0 ? 0 : 1000);
+      const std::size_t neighbours = triangulation_.ring(ring[k]).size() + (kept_[ring[k]] != 0 ? 0 : 1000) +
+                                     (places_.empty() || square(i, ring[k]) <= far ? 0 : 500);
       if ((kept_[ring[k]] == 0 && !any) || neighbours >= fewest || !triangulation_.can_collapse(i, k)) continue;
       fewest = neighbours;
       best = k;
     }
     return best;
+  }
+
+  [[nodiscard]] double square(std::uint32_t i, std::uint32_t j) const {
+    return (places_[i] - places_[j]).squaredNorm();
+  }
+
+  /// The squared distance of the nearest neighbour that stays.
+  [[nodiscard]] double nearest_kept(std::uint32_t i) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    if (places_.empty()) return nearest;
+    for (const std::uint32_t j : triangulation_.ring(i)) {
+      if (kept_[j] != 0) nearest = std::min(nearest, square(i, j));
+    }
+    return nearest;
   }
 
   /// How many neighbours more than it should have.
@@ -126,17 +145,19 @@ class Coarsening {
 
   Triangulation& triangulation_;
   std::vector<std::uint8_t>& kept_;
+  std::span<const Vector3> places_;
 };
 
 }  // namespace
 
-std::vector<Removals> coarsen(Triangulation& triangulation, std::vector<std::uint8_t>& kept, ThreadTeam& team) {
+std::vector<Removals> coarsen(Triangulation& triangulation, std::vector<std::uint8_t>& kept, ThreadTeam& team,
+                              std::span<const Vector3> places) {
   const std::size_t nodes = triangulation.size();
   const std::size_t piece = std::max(least_piece, (nodes + pieces_wanted - 1) / pieces_wanted);
   const std::size_t pieces = (nodes + piece - 1) / piece;
   std::vector<Removals> removals(pieces + 1);
   std::vector<std::vector<std::uint32_t>> left(pieces);
-  Coarsening coarsening(triangulation, kept);
+  Coarsening coarsening(triangulation, kept, places);
   parallel_ranges(team, nodes, piece, [&](std::size_t begin, std::size_t end) {
     left[begin / piece] = coarsening.remove_within(begin, end, removals[begin / piece]);
     removals[begin / piece].close();

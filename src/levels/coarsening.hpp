@@ -6,6 +6,7 @@
 
 #include "base/threads.hpp"
 #include "levels/triangulation.hpp"
+#include "vspring/types.hpp"
 
 namespace vspring {
 
@@ -36,7 +37,8 @@ struct Removals {
 /// Removes from a triangulation all nodes but those kept, each drawn into a neighbour, so far as it stays a surface;
 /// marks those that have to stay as kept. Afterwards edges are turned where that brings the numbers of neighbours
 /// nearer to six inside and four at the boundary. Returns the removals in groups: the last came after all others, which
-/// do not look at each other's nodes. Cost: linear.
-std::vector<Removals> coarsen(Triangulation& triangulation, std::vector<std::uint8_t>& kept, ThreadTeam& team);
+/// do not look at each other's nodes. places: as for choose_coarse_nodes(). Cost: linear.
+std::vector<Removals> coarsen(Triangulation& triangulation, std::vector<std::uint8_t>& kept, ThreadTeam& team,
+                              std::span<const Vector3> places = {});
 
 }  // namespace vspring

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/threads.hpp"
 #include "shape/cubic.hpp"
+#include "spring/spacing.hpp"
 
 namespace vspring {
 
@@ -11,8 +13,9 @@ namespace {
 
 // Edges between two anchors below which no node is left out: enough for a full turn or two.
 constexpr std::size_t enough_edges = 48;
-// With Distribution::keep, an edge is aimed at no less than this share of the mean edge of its strand.
-constexpr double least_share = 1e-6;
+// An edge is aimed at no less than this share of the mean edge of its strand; with Distribution::keep, of this.
+constexpr double least_share = 0.01;
+constexpr double least_share_kept = 1e-6;
 // Turns of up to about 60° tell the shape; sharper ones are noise, and too far from linear to start with.
 constexpr double sharp_cosine = 0.5;
 constexpr int most_rounds = 100;
@@ -34,18 +37,22 @@ std::vector<Vector3> averaged(const CurveNet& curve) {
 
 std::vector<std::vector<double>> places_along(const CurveNet& curve, Distribution distribution) {
   std::vector<std::vector<double>> along;
+  ThreadTeam alone(1);
+  const std::vector<Vector3> nodes_at =
+      distribution == Distribution::smooth ? smooth_places(curve.net, alone) : curve.net.positions;
   for (const Strand& strand : curve.strands) {
     const std::size_t count = strand.nodes.size();
     const std::size_t edges = strand.closed ? count : count - 1;
     std::vector<double> lengths(edges, 1);
-    if (distribution == Distribution::keep) {
+    if (distribution != Distribution::even) {
       double mean = 0;
       for (std::size_t k = 0; k < edges; ++k) {
-        const Vector3 d = curve.net.positions[strand.nodes[(k + 1) % count]] - curve.net.positions[strand.nodes[k]];
+        const Vector3 d = nodes_at[strand.nodes[(k + 1) % count]] - nodes_at[strand.nodes[k]];
         lengths[k] = std::sqrt(d.dot(d) + curve.net.tiny);
         mean += lengths[k] / static_cast<double>(edges);
       }
-      for (double& length : lengths) length = std::max(length, least_share * mean);
+      const double least = distribution == Distribution::keep ? least_share_kept : least_share;
+      for (double& length : lengths) length = std::max(length, least * mean);
     }
     std::vector<double> at(1, 0);
     at.reserve(edges + 1);
@@ -136,7 +143,7 @@ std::vector<CurveLevel> curve_levels(CurveNet curve, Distribution distribution) 
   std::vector<CurveLevel> levels(1);
   levels[0].along = places_along(curve, distribution);
   levels[0].curve = std::move(curve);
-  if (distribution == Distribution::keep) set_shares(levels[0]);
+  if (distribution != Distribution::even) set_shares(levels[0]);
   for (;;) {
     const CurveLevel& fine = levels.back();
     std::vector<std::vector<std::uint32_t>> kept;

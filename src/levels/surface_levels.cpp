@@ -4,6 +4,7 @@
 
 #include "levels/coarse_nodes.hpp"
 #include "levels/patch_mesh.hpp"
+#include "spring/spacing.hpp"
 
 namespace vspring {
 
@@ -72,7 +73,14 @@ Net coarse_net(const Net& fine, const Selection& selection, const Triangulation&
 }  // namespace
 
 std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distribution distribution, ThreadTeam& team) {
-  distribute(net, model, distribution, team);
+  // Coarser levels do not keep a distribution: that of a coarse one may ask for faces that turn over.
+  std::vector<Vector3> places;
+  if (distribution != Distribution::even) places = smooth_places(net, team);
+  if (distribution == Distribution::smooth) {
+    net.shares = shares_at(net, places, team);
+  } else {
+    distribute(net, model, distribution, team);
+  }
   std::vector<SurfaceLevel> levels(1);
   levels[0].net = std::move(net);
   if (levels[0].net.moving <= few_enough) return levels;
@@ -82,14 +90,19 @@ std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distributi
     std::vector<std::uint8_t> constrained(fine.given.size());
     for (std::size_t i = 0; i < constrained.size(); ++i)
       constrained[i] = static_cast<std::uint8_t>(i >= fine.moving || fine.given[i] != 0);
-    std::vector<std::uint8_t> kept = choose_coarse_nodes(triangulation, constrained);
-    std::vector<Removals> removals = coarsen(triangulation, kept, team);
+    std::vector<std::uint8_t> kept = choose_coarse_nodes(triangulation, constrained, places);
+    std::vector<Removals> removals = coarsen(triangulation, kept, team, places);
     Selection selection = select(fine, triangulation, kept);
     const bool smaller = static_cast<double>(selection.nodes.size()) <= worthwhile * static_cast<double>(kept.size());
     if (!smaller || selection.moving < too_few) break;
     triangulation = Triangulation(triangulation, selection.nodes, selection.number, team);
     SurfaceLevel level{coarse_net(fine, selection, triangulation), std::move(selection.nodes), std::move(removals)};
-    distribute(level.net, model, distribution, team, false);
+    if (!places.empty()) {
+      std::vector<Vector3> kept_places(level.finer.size());
+      for (std::size_t k = 0; k < kept_places.size(); ++k) kept_places[k] = places[level.finer[k]];
+      places = std::move(kept_places);
+      level.net.shares = shares_at(level.net, places, team, true);
+    }
     levels.push_back(std::move(level));
     if (levels.back().net.moving <= few_enough) break;
   }

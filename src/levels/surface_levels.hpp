@@ -22,8 +22,9 @@ struct SurfaceLevel {
 
 /// The hierarchy of a surface, the coarsest level first, the surface itself last. Coarser levels are triangulations of
 /// about a quarter of the nodes, with constraints and boundary loops of their own; they follow from connectivity and
-/// constraints alone. There are as many as it takes to come down to some twenty moving nodes. With Distribution::keep
-/// the shares of all nets are set from where the nodes are now. Cost: linear; the same result on any number of threads.
+/// constraints alone. There are as many as it takes to come down to some twenty moving nodes. With
+/// Distribution::keep the shares of the finest net are set from where the nodes are now, those of all others, and with
+/// Distribution::smooth all, from their smooth_places(). Cost: linear; the same result on any number of threads.
 std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distribution distribution, ThreadTeam& team);
 
 /// Hands the shape of a level down to the next coarser one: nodes stay where they are, with their normals. Cost: linear

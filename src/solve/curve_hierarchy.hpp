@@ -26,6 +26,7 @@ class CurveHierarchy final : public Hierarchy {
   void prolong_from(std::size_t level) override { prolong(levels_[level], levels_[level + 1]); }
   // Levels are made with the start, averaged.
   void start() override { untangle(levels_.front()); }
+  void set_shares(std::vector<double> shares) override { levels_.back().curve.net.shares = std::move(shares); }
   void forget_shape(std::size_t level) override { straighten(levels_[level]); }
   Preconditioner& preconditioner(std::size_t level) override { return preconditioner_.emplace(levels_[level].curve); }
 

@@ -1,16 +1,23 @@
 #include "solve/equilibrium_method.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "base/stopwatch.hpp"
 #include "solve/account.hpp"
 #include "solve/equilibrium.hpp"
 #include "solve/pseudo_transient.hpp"
+#include "solve/soundness.hpp"
 #include "solve/spring_energy.hpp"
+#include "spring/spacing.hpp"
 #include "sweep/sweep.hpp"
 
 namespace vspring {
@@ -31,22 +38,26 @@ constexpr int coarse_changes = 2;
 constexpr std::size_t few = 2000;
 // Moving nodes up to which a second start is of any use where coarser levels led nowhere.
 constexpr std::size_t not_too_many = 100'000;
-// Moving nodes up to which the flow is followed where corrections lead nowhere, and how much of that is tried.
-constexpr std::size_t few_enough_to_follow = 10'000;
+// What may be tried where nobody gave a number of iterations, in iterations of one moving node: some two seconds for
+// 3,000 nodes on one core.
+constexpr double most_work = 1.2e6;
+constexpr double most_work_a_node = 400;
+// In that measure.
+constexpr double work_of_flow_step = 60;
+constexpr double work_of_sweep = 1.0 / 16;
+// Steps along the flow, where corrections lead nowhere: fewer are no use.
 constexpr int fewest_steps = 20;
 constexpr int most_steps = 100;
-constexpr std::size_t most_node_steps = 200'000;
 // The last resort: sweeps until hardly anything moves, as a share of the edges.
-constexpr std::size_t most_node_sweeps = 30'000'000;
 constexpr double still = 1e-9;
 // The cosine of 60°.
 constexpr double sharpest_turn = 0.5;
 constexpr double greatest_displacement_ratio = 4;
 
-/// The places of the moving nodes, as precise as a start need be.
-std::vector<Eigen::Vector3f> rounded(const Net& net) {
+/// Places of the moving nodes, as precise as a start need be.
+std::vector<Eigen::Vector3f> rounded(const Net& net, std::span<const Vector3> places) {
   std::vector<Eigen::Vector3f> result(net.moving);
-  for (std::size_t i = 0; i < net.moving; ++i) result[i] = net.positions[i].cast<float>();
+  for (std::size_t i = 0; i < net.moving; ++i) result[i] = places[i].cast<float>();
   return result;
 }
 
@@ -71,7 +82,10 @@ class Run {
         context_(context),
         progress_(progress),
         report_(report),
-        points_(points) {}
+        points_(points) {
+    const auto nodes = static_cast<double>(hierarchy.net(hierarchy.count() - 1).moving);
+    if (!options.max_iterations) report.most_work = std::max(most_work, most_work_a_node * nodes);
+  }
 
   /// Without a look at coarser levels.
   void run_on_shape_itself(Preconditioner& preconditioner, Anderson<float>* memory, bool take_last) {
@@ -85,6 +99,9 @@ class Run {
     Net& finest = hierarchy_.net(last);
     report_.outcome = context_.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
     if (context_.cancelled() || options_.max_iterations == 0) return;
+    if (!points_) input_ = finest.positions;
+    std::optional<Soundness> soundness;
+    if (!points_) soundness.emplace(finest, model_, team_);
     // Coarser levels do not keep a distribution, and where points are, a start is near.
     const bool try_first = points_ && options_.distribution == Distribution::keep;
     if (try_first || may_be_there(finest)) {
@@ -96,6 +113,7 @@ class Run {
       }
     }
     if (report_.outcome == Outcome::iteration_limit) go_down();
+    if (soundness) stay_sound(*soundness);
   }
 
  private:
@@ -103,9 +121,10 @@ class Run {
     const int limit = options_.max_iterations.value_or(default_limit);
     const std::size_t last = hierarchy_.count() - 1;
     const Net& finest = hierarchy_.net(last);
-    const bool may_follow_flow = !points_ && !options_.max_iterations && finest.tangents.empty() &&
-                                 finest.moving <= few_enough_to_follow && !leaves_a_family(finest);
-    const std::vector<Vector3> start = may_follow_flow ? finest.positions : std::vector<Vector3>();
+    const bool may_follow_flow =
+        !points_ && !options_.max_iterations && finest.tangents.empty() && !leaves_a_family(finest);
+    // Where noise has folded the finest level, its own start is no help.
+    const bool is_folded = !finest.shares.empty() && caught_in_a_fold(last);
     hierarchy_.start();
     std::vector<Eigen::Vector3f> own_start;
     const std::size_t first = hierarchy_.first_of_use();
@@ -126,38 +145,92 @@ class Run {
         relax(last, limit);
         break;
       }
-      own_start = hierarchy_.net(k + 1).moving <= not_too_many ? rounded(hierarchy_.net(k + 1))
-                                                               : std::vector<Eigen::Vector3f>();
+      own_start = {};
+      const Net& finer = hierarchy_.net(k + 1);
+      if (finer.moving <= not_too_many)
+        own_start = rounded(finer, k + 1 == last && is_folded ? smooth_places(finer, team_) : finer.positions);
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
     }
-    if (may_follow_flow && unfinished()) try_flow(start);
+    if (may_follow_flow && unfinished()) try_flow();
+  }
+
+  /// Where the shape is worse than it came, looks for another: from the start without its noise, from the start itself,
+  /// and with the spacing of the start. The best that is no worse stays, at worst the start.
+  void stay_sound(const Soundness& soundness) {
+    const std::size_t last = hierarchy_.count() - 1;
+    Net& net = hierarchy_.net(last);
+    const std::string fault = soundness.fault(net);
+    if (fault.empty()) return;
+    const bool was_cancelled = report_.outcome == Outcome::cancelled;
+    if (options_.as_found) {
+      report_.warnings.push_back("what was found is worse than the input: " + fault);
+      if (!was_cancelled) report_.outcome = Outcome::worse_than_input;
+      return;
+    }
+    const Reached found = reached(last);
+    const std::function<void()> ways[] = {[&] { net.positions = smooth_places(net, team_); }, [] {},
+                                          [&] {
+                                            update_directions(net, model_, team_);
+                                            hierarchy_.set_shares(model_.present_shares(net));
+                                          }};
+    std::optional<Reached> best;
+    double least_energy = std::numeric_limits<double>::infinity();
+    for (const auto& way : ways) {
+      if (was_cancelled || out_of_work(net)) break;
+      net.positions = input_;
+      way();
+      relax(last, options_.max_iterations.value_or(default_limit));
+      if (report_.outcome == Outcome::cancelled) break;
+      if (!soundness.fault(net).empty()) continue;
+      if (report_.outcome == Outcome::converged) return;
+      const double energy = energy_of(net).sum;
+      if (energy >= least_energy) continue;
+      least_energy = energy;
+      best = reached(last);
+    }
+    const bool cancelled = report_.outcome == Outcome::cancelled;
+    go_back(last, best ? *best : Reached{input_, found.outcome, found.residual});
+    report_.outcome = cancelled ? Outcome::cancelled : Outcome::worse_than_input;
+    report_.warnings.push_back(fmt::format(
+        "no equilibrium was found that is no worse than the input ({}): this is {}; hold more nodes or normals, let a "
+        "smaller part move, or refine it",
+        fault, best ? "the fairest shape on the way" : "the input with its constraints"));
+  }
+
+  [[nodiscard]] bool out_of_work(const Net& net) const {
+    return report_.most_work > 0 && report_.work + static_cast<double>(net.moving) > report_.most_work;
   }
 
   /// Corrections that take a surface for flat and even may lead nowhere where it has folds. The flow of the plain
   /// iteration, with all that it depends on, may lead somewhere: from the shape that was reached, from where some
   /// sweeps take the start, from a soap film, from the start itself or from where very many sweeps take it.
-  void try_flow(const std::vector<Vector3>& start) {
+  void try_flow() {
     Net& net = hierarchy_.net(hierarchy_.count() - 1);
     const auto sweep_from_start = [&](std::size_t sweeps) {
-      net.positions = start;
+      net.positions = input_;
       Sweep sweep(net, model_, team_);
       for (std::size_t k = 0; k < sweeps && !context_.cancelled(); ++k) {
+        report_.work += work_of_sweep * static_cast<double>(net.moving);
         if (sweep.iterate() < still) break;
       }
     };
     const std::function<void()> starts[] = {[] {}, [&] { sweep_from_start(10); },
                                             [&] { hierarchy_.forget_shape(hierarchy_.count() - 1); },
                                             [&] { sweep_from_start(0); }, [&] { sweep_from_start(1000); }};
-    int left = static_cast<int>(most_node_steps / net.moving);
-    const int at_once = std::clamp(left / 3, fewest_steps, most_steps);
+    const auto nodes = static_cast<double>(net.moving);
+    const auto steps_left = [&] {
+      return static_cast<int>((report_.most_work - report_.work) / (work_of_flow_step * nodes));
+    };
+    const int at_once = std::clamp(steps_left() / 3, fewest_steps, most_steps);
     for (const auto& go_to_start : starts) {
-      if (left < at_once) break;
-      const int before = report_.iterations;
+      if (steps_left() < at_once) break;
       if (follow_flow_from(go_to_start, at_once)) return;
-      left -= report_.iterations - before;
     }
-    (void)follow_flow_from([&] { sweep_from_start(most_node_sweeps / net.moving); }, at_once);
+    // Steps of the flow from where sweeps end need as much again.
+    const double sweeps =
+        (report_.most_work - report_.work) / (work_of_sweep * nodes) - at_once * work_of_flow_step / work_of_sweep;
+    if (sweeps > 0) (void)follow_flow_from([&] { sweep_from_start(static_cast<std::size_t>(sweeps)); }, at_once);
   }
 
   /// False, and what there was before, where that leads nowhere.
@@ -166,7 +239,8 @@ class Run {
     Net& net = hierarchy_.net(last);
     const Reached best = reached(last);
     go_to_start();
-    relax(last, steps, [&](const EquilibriumTask& task) { return follow_flow(net, model_, task, team_, context_); });
+    relax(last, steps, work_of_flow_step,
+          [&](const EquilibriumTask& task) { return follow_flow(net, model_, task, team_, context_); });
     if (report_.outcome == Outcome::converged) return true;
     const bool cancelled = report_.outcome == Outcome::cancelled;
     go_back(last, best);
@@ -244,18 +318,20 @@ class Run {
   }
 
   [[nodiscard]] bool unfinished() const {
-    return report_.outcome == Outcome::iteration_limit || report_.outcome == Outcome::stalled;
+    return report_.outcome == Outcome::iteration_limit || report_.outcome == Outcome::stalled ||
+           report_.outcome == Outcome::work_limit;
   }
 
   void relax(std::size_t level, int max_iterations) { relax(level, max_iterations, hierarchy_.preconditioner(level)); }
 
   void relax(std::size_t level, int max_iterations, Preconditioner& preconditioner) {
-    relax(level, max_iterations, [&](const EquilibriumTask& task) {
+    relax(level, max_iterations, 1, [&](const EquilibriumTask& task) {
       return go_to_equilibrium(hierarchy_.net(level), model_, preconditioner, task, team_, context_);
     });
   }
 
-  void relax(std::size_t level, int max_iterations,
+  /// work: of an iteration of a node.
+  void relax(std::size_t level, int max_iterations, double work,
              const std::function<EquilibriumResult(const EquilibriumTask&)>& method) {
     const Stopwatch stopwatch;
     const std::size_t last = hierarchy_.count() - 1;
@@ -264,6 +340,10 @@ class Run {
     EquilibriumTask task;
     task.tolerance = options_.tolerance * size_ * (level == last ? 1 : coarse_share);
     task.max_iterations = max_iterations;
+    if (report_.most_work > 0) {
+      const double left = (report_.most_work - report_.work) / (work * static_cast<double>(net.moving));
+      task.max_iterations = static_cast<int>(std::clamp(left, 0.0, static_cast<double>(max_iterations)));
+    }
     if (points_) task.renew_ties = [&](double margin) { return points_->renew(margin); };
     if (level != last) task.most_changes = coarse_changes;
     task.memory = memory_;
@@ -272,10 +352,14 @@ class Run {
       report_.history.push_back(expected / size_);
       progress_.report("fairing", share / 2, static_cast<int>(report_.history.size()), expected / size_);
     };
-    const EquilibriumResult result = method(task);
+    EquilibriumResult result = method(task);
+    if (result.outcome == Outcome::iteration_limit && task.max_iterations < max_iterations)
+      result.outcome = Outcome::work_limit;
+    report_.work += work * static_cast<double>(result.iterations) * static_cast<double>(net.moving);
     report_.iterations += result.iterations;
     report_.levels.push_back({.moving_nodes = static_cast<Index>(net.moving),
                               .iterations = result.iterations,
+                              .outcome = result.outcome,
                               .seconds = stopwatch.seconds()});
     report_.outcome = result.outcome;
     report_.residual = result.expected_error / size_;
@@ -291,6 +375,7 @@ class Run {
   ProgressReporter& progress_;
   FairReport& report_;
   PointLevels* points_;
+  std::vector<Vector3> input_;
   Anderson<float>* memory_ = nullptr;
   bool take_last_ = false;
 };

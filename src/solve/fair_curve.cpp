@@ -34,10 +34,10 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
 
   const auto model = curve_model_for(gathered.net, options.curve);
   if (report.method == Method::sweep) {
-    distribute(gathered.net, *model, options.distribution, team);
+    distribute(gathered.net, *model, options.distribution_taken(), team);
     run_sweeps(gathered.net, *model, options, team, context, progress, report);
   } else {
-    CurveHierarchy hierarchy(curve_levels(std::move(gathered), options.distribution));
+    CurveHierarchy hierarchy(curve_levels(std::move(gathered), options.distribution_taken()));
     if (report.method == Method::multigrid) {
       run_multigrid(hierarchy, *model, options, team, context, progress, report);
     } else {

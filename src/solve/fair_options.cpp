@@ -25,6 +25,10 @@ const char* name(Outcome outcome) noexcept {
       return "converged";
     case Outcome::iteration_limit:
       return "iteration-limit";
+    case Outcome::work_limit:
+      return "work-limit";
+    case Outcome::worse_than_input:
+      return "worse-than-input";
     case Outcome::stalled:
       return "stalled";
     case Outcome::cancelled:

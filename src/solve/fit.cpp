@@ -8,7 +8,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "base/stopwatch.hpp"
 #include "fit/point_factors.hpp"
@@ -16,6 +18,7 @@
 #include "solve/fit_points.hpp"
 #include "solve/fit_run.hpp"
 #include "solve/fit_to_tolerance.hpp"
+#include "solve/soundness.hpp"
 #include "solve/sweep_method.hpp"
 
 namespace vspring {
@@ -50,6 +53,7 @@ class Fitting {
     } else {
       fit(progress, false);
     }
+    stay_sound();
 
     report.fair.before = run_.subject.fairness(shape.positions());
     report.fair.after = run_.subject.fairness(result.positions);
@@ -64,6 +68,31 @@ class Fitting {
   }
 
  private:
+  /// Where the shape is worse than it came, it stays as it came, unless it is wanted as found.
+  void stay_sound() {
+    FairReport& report = run_.result.report.fair;
+    if (report.outcome == Outcome::worse_than_input) return;
+    auto gathered = run_.gather();
+    Net& net = net_of(gathered);
+    for (const Vector3& point : run_.points.positions) net.points.positions.push_back(net.frame.to_local(point));
+    const auto model = model_of(gathered, options_.fair);
+    const Soundness soundness(net, *model, run_.team);
+    net.points = {};
+    Net found = net;
+    for (std::size_t i = 0; i < net.moving; ++i)
+      found.positions[i] = net.frame.to_local(run_.result.positions[static_cast<std::size_t>(net.node[i])]);
+    const std::string fault = soundness.fault(found);
+    if (fault.empty()) return;
+    if (!options_.fair.as_found) run_.finish(net);
+    if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
+    report.warnings.push_back(
+        options_.fair.as_found
+            ? "what was found is worse than the input: " + fault
+            : fmt::format("what was found is worse than the input ({}): this is the input with its constraints; "
+                          "other weights or tolerances may do, or more that is held",
+                          fault));
+  }
+
   /// Fits and leaves out the points that are furthest away, in turns, until they stay the same.
   void leave_outliers_out(ProgressReporter& progress) {
     const bool searches = options_.within || options_.rms;
@@ -151,7 +180,7 @@ class Fitting {
     auto gathered = run_.gather();
     Net& net = net_of(gathered);
     const auto model = model_of(gathered, options);
-    distribute(net, *model, options.distribution, run_.team);
+    distribute(net, *model, options.distribution_taken(), run_.team);
     const auto smoothing = smoothing_in(net);
     PointTies ties = tie_points(net, *model, points, smoothing, run_.team);
     points = {};

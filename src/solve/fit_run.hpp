@@ -104,7 +104,7 @@ class FitRun {
 
   void count_points(const Net& net) {
     FitReport& report = result.report;
-    for (std::size_t i = 0; i < net.moving; ++i) {
+    for (std::size_t i = 0; i < net.moving && !net.points.empty(); ++i) {
       const auto count = static_cast<Index>(net.points.of(i).size());
       report.pulling_points += count;
       report.pulled_nodes += count > 0 ? 1 : 0;

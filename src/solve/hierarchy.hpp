@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "solve/preconditioner.hpp"
 #include "spring/net.hpp"
@@ -36,6 +37,8 @@ class Hierarchy {
 
   /// Hands the start down to all levels without its noise, and makes it fit to start from on the coarsest.
   virtual void start() = 0;
+  /// Other shares (§4.4) for the shape itself.
+  virtual void set_shares(std::vector<double> shares) = 0;
   /// The start of last resort on the level that is worked on first, which forgets the shape.
   virtual void forget_shape(std::size_t level) = 0;
   /// For that level, made anew; used up before the next one is asked for.

@@ -67,7 +67,7 @@ class PulledShape {
       : options_(options),
         team_(&team),
         model_(model_of(gathered, options)),
-        hierarchy_(hierarchy_of(std::move(gathered), *model_, options.distribution, team)),
+        hierarchy_(hierarchy_of(std::move(gathered), *model_, options.distribution_taken(), team)),
         ties_(tie_points(net(), *model_, points, smoothing, team)),
         levels_(hierarchy_, ties_, std::move(smoothing), *model_, team) {}
 

@@ -1,7 +1,9 @@
 #include "solve/spring_energy.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "spring/curve_force.hpp"
 #include "spring/v_spring.hpp"
 
 namespace vspring {
@@ -13,10 +15,17 @@ SpringEnergy spring_energy(const Net& net) {
       const std::size_t j = link.node();
       if (!link.spoke() || (j < net.moving && j < i)) continue;
       const Vector3 d = net.positions[j] - net.positions[i];
+      if (!net.tangents.empty()) {
+        energy.sum += curve_spring(net, i, j).squaredNorm() / (d.squaredNorm() + net.tiny);
+        continue;
+      }
       const double difference = steady_difference(d, net.normals[i], net.normals[j]);
       energy.sum += difference * difference / (d.squaredNorm() + net.tiny);
-      if (!net.normals[i].isZero(0) && !net.normals[j].isZero(0))
-        energy.least_cosine = std::min(energy.least_cosine, net.normals[i].dot(net.normals[j]));
+      if (net.normals[i].isZero(0) || net.normals[j].isZero(0)) continue;
+      const double cosine = net.normals[i].dot(net.normals[j]);
+      // The sense of a given normal means nothing.
+      const bool given = net.normal_given(i) || net.normal_given(j);
+      energy.least_cosine = std::min(energy.least_cosine, given ? std::abs(cosine) : cosine);
     }
   }
   return energy;

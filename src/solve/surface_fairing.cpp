@@ -12,11 +12,16 @@
 #include "solve/fair_boundary.hpp"
 #include "solve/multigrid_method.hpp"
 #include "solve/part_of_mesh.hpp"
+#include "solve/soundness.hpp"
+#include "solve/spring_energy.hpp"
 #include "solve/sweep_method.hpp"
 
 namespace vspring {
 
 namespace {
+
+// In sweeps of one node: some half a second.
+constexpr double sweeps_of_last_resort = 5e6;
 
 bool hold_the_same(const Constraints& a, const Constraints& b) {
   if (a.node_count() != b.node_count()) return false;
@@ -103,9 +108,8 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   report.threads = team_.size();
   Net net = gather_part(*whole_, part_, constraints);
   before_ = measure(mesh(), &held(constraints), team_);
-  std::optional<double> missed_by;
   if (report.method != Method::sweep) {
-    hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution, team_), team_);
+    hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
     if (report.method == Method::multigrid) {
       run_multigrid(*hierarchy_, *model_, options_, team_, context, progress, report);
     } else {
@@ -113,24 +117,39 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
     }
     const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
     if (found || options_.method || options_.max_iterations) return {};
-    // Nobody asked for this method: the paper's iteration ends on shapes that have no equilibrium, too.
-    missed_by = std::exchange(report.expected_error, std::nullopt);
-    report.levels.clear();
-    report.history.clear();
-    report.iterations = 0;
-    report.method = Method::sweep;
-    hierarchy_.reset();
-    net = gather_part(*whole_, part_, constraints);
+    try_sweeps(constraints, context, progress, report);
+    return {};
   }
-  distribute(net, *model_, options_.distribution, team_);
+  distribute(net, *model_, options_.distribution_taken(), team_);
   run_sweeps(net, *model_, options_, team_, context, progress, report);
-  if (missed_by)
-    report.warnings.push_back(
-        fmt::format("no equilibrium was found (the nearest shape is expected to be {:.2g} % of the size away from "
-                    "one): this is the plain iteration's shape; hold more nodes, or normals, or let a smaller region "
-                    "move",
-                    100 * *missed_by));
   return net;
+}
+
+void SurfaceFairing::try_sweeps(const Constraints& constraints, Context& context, ProgressReporter& progress,
+                                FairReport& report) {
+  Net net = gather_part(*whole_, part_, constraints);
+  const Soundness soundness(net, *model_, team_);
+  distribute(net, *model_, options_.distribution_taken(), team_);
+  FairOptions options = options_;
+  options.max_iterations =
+      static_cast<int>(std::clamp(sweeps_of_last_resort / static_cast<double>(net.moving), 10.0, 1e4));
+  FairReport of_sweeps;
+  run_sweeps(net, *model_, options, team_, context, progress, of_sweeps);
+  Net& nearest = hierarchy_->net(hierarchy_->count() - 1);
+  update_directions(nearest, *model_, team_);
+  update_directions(net, *model_, team_);
+  const bool better = soundness.fault(net).empty() && spring_energy(net).sum < spring_energy(nearest).sum;
+  if (better) nearest.positions = net.positions;
+  if (report.outcome == Outcome::worse_than_input) {
+    if (!better) return;
+    // In place of what was said of that.
+    report.outcome = Outcome::stalled;
+    report.warnings.pop_back();
+  }
+  report.warnings.push_back(fmt::format(
+      "no equilibrium was found (the nearest shape is expected to be {:.2g} % of the size away from one): this is {}; "
+      "hold more nodes, or normals, or let a smaller region move",
+      100 * report.expected_error.value_or(0), better ? "the plain iteration's shape, which is fairer" : "that shape"));
 }
 
 bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance,

@@ -37,6 +37,9 @@ class SurfaceFairing {
   [[nodiscard]] bool fits_last(const Constraints& constraints) const;
   /// Leaves the shape in the net that it returns, or in hierarchy_.
   Net run(const Constraints& constraints, Context& context, FairReport& report);
+  /// Where no equilibrium was found and nobody asked for the method: the paper's iteration may lead somewhere. The
+  /// fairer of both stays.
+  void try_sweeps(const Constraints& constraints, Context& context, ProgressReporter& progress, FairReport& report);
   /// From the last shape. False where that leads nowhere.
   bool go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance, FairReport& report);
   void finish(const Net& net, const Constraints& constraints, FairResult& result);

@@ -28,8 +28,13 @@ class SurfaceHierarchy final : public Hierarchy {
   void restrict_from(std::size_t level) override { restrict_shape(levels_[level], levels_[level - 1]); }
   /// Nodes go along the shape that was handed up to where the finer level wants them.
   void prolong_from(std::size_t level) override;
-  /// Nodes take half of their neighbours' mean place with them to each coarser level: noise is not a shape.
+  /// Noise is not a shape: coarser levels start from smooth_places(); with an even distribution, nodes take half of
+  /// their neighbours' mean place with them to each coarser level.
   void start() override;
+  void set_shares(std::vector<double> shares) override {
+    levels_.back().net.shares = std::move(shares);
+    systems_of_.reset();
+  }
   /// All nodes at the mean of their neighbours.
   void forget_shape(std::size_t level) override;
   Preconditioner& preconditioner(std::size_t level) override;

@@ -3,6 +3,7 @@
 #include "shape/planarity.hpp"
 #include "spring/curve_force.hpp"
 #include "spring/model_of.hpp"
+#include "spring/spacing.hpp"
 #include "spring/tangent.hpp"
 
 namespace vspring {
@@ -44,15 +45,8 @@ struct CurveRulesOf {
   }
 
   /// By the lengths of the edges, which noise does not turn round as it does the edges themselves.
-  void present_shares(const Net& net, std::size_t i, bool /*unfold*/, std::span<double> shares) const {
-    const auto links = net.rings.links(i);
-    double whole = 0;
-    for (std::size_t k = 0; k < links.size(); ++k) {
-      const Vector3 d = net.positions[links[k].node()] - net.positions[i];
-      shares[k] = std::sqrt(d.dot(d) + net.tiny);
-      whole += shares[k];
-    }
-    for (double& share : shares) share = links.size() > 1 ? 1 - share / whole : 1;
+  void present_shares(const Net& net, std::size_t i, std::span<double> shares) const {
+    share_by_length(net, i, net.positions, shares);
   }
 };
 

@@ -1,5 +1,7 @@
 #include "spring/model.hpp"
 
+#include "spring/spacing.hpp"
+
 namespace vspring {
 
 void update_directions(Net& net, const Model& model, ThreadTeam& team) {
@@ -7,11 +9,15 @@ void update_directions(Net& net, const Model& model, ThreadTeam& team) {
                   [&](std::size_t begin, std::size_t end) { model.update_directions(net, begin, end); });
 }
 
-void distribute(Net& net, const Model& model, Distribution distribution, ThreadTeam& team, bool unfold) {
+void distribute(Net& net, const Model& model, Distribution distribution, ThreadTeam& team) {
   net.shares.clear();
   if (distribution == Distribution::even) return;
+  if (distribution == Distribution::smooth) {
+    net.shares = shares_at(net, smooth_places(net, team), team);
+    return;
+  }
   update_directions(net, model, team);
-  net.shares = model.present_shares(net, unfold);
+  net.shares = model.present_shares(net);
 }
 
 }  // namespace vspring

@@ -33,9 +33,9 @@ class Model {
   virtual void update_directions(Net& net, std::size_t begin, std::size_t end) const = 0;
 
   /// What every link counts in the regularisation (§4.4) so that the present place of each node is where it is sent;
-  /// aligned with the links of the net. unfold: but not of nodes that noise has put outside their neighbours, which are
-  /// sent among these. Needs directions.
-  [[nodiscard]] virtual std::vector<double> present_shares(const Net& net, bool unfold) const = 0;
+  /// aligned with the links of the net; but not of nodes that noise has put outside their neighbours, which are sent
+  /// among these. Needs directions.
+  [[nodiscard]] virtual std::vector<double> present_shares(const Net& net) const = 0;
 
   /// Steps 2 and 3 of Fig. 3: moves the nodes of a block one after the other, each from the newest positions. Returns
   /// the largest displacement relative to the mean length of the node's edges (§4.6), infinity where one is not finite.
@@ -53,8 +53,7 @@ class Model {
 /// Directions of all nodes of the net that have rings.
 void update_directions(Net& net, const Model& model, ThreadTeam& team);
 
-/// Sets what the regularisation aims at: the net's shares, from its present places where they are to be kept. unfold:
-/// as of present_shares(); not for coarser levels, on which nodes lie outside their neighbours without any noise.
-void distribute(Net& net, const Model& model, Distribution distribution, ThreadTeam& team, bool unfold = true);
+/// Sets what the regularisation aims at: the net's shares, from its present places.
+void distribute(Net& net, const Model& model, Distribution distribution, ThreadTeam& team);
 
 }  // namespace vspring

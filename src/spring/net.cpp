@@ -156,6 +156,17 @@ void place_net(Net& net, const std::vector<Vector3>& positions, const Constraint
   net.frame = Frame(box);
   net.positions.reserve(net.node.size());
   for (const Index node : net.node) net.positions.push_back(net.frame.to_local(position(node)));
+  const bool displaced = std::any_of(net.node.begin(), net.node.end(), [&](Index node) {
+    const Vector3& input = positions[static_cast<std::size_t>(node)];
+    return input.allFinite() && position(node) != input;
+  });
+  if (displaced) {
+    net.input = net.positions;
+    for (std::size_t i = 0; i < net.node.size(); ++i) {
+      const Vector3& input = positions[static_cast<std::size_t>(net.node[i])];
+      if (input.allFinite()) net.input[i] = net.frame.to_local(input);
+    }
+  }
 
   net.normals.assign(net.node.size(), Vector3::Zero());
   net.given.assign(net.node.size(), 0);

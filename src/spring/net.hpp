@@ -31,6 +31,8 @@ struct Net {
   std::size_t computed = 0;         ///< nodes 0 … computed − 1 have rings; directions are computed where not given
   std::vector<std::uint8_t> given;  ///< which directions constraints give, for every node
   Rings rings;
+  /// Places of all nodes in the input, where constraints put some of them elsewhere; else empty.
+  std::vector<Vector3> input;
   std::vector<double> shares;  ///< what links count in the regularisation; empty: all the same
   std::vector<Vector3> homes;  ///< of a surface, to where the regularisation draws moving nodes too; empty: nowhere
   TiedPoints points;           ///< scattered points that pull at nodes; empty where there are none

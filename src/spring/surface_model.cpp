@@ -1,9 +1,9 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "base/dense_algebra.hpp"
 #include "spring/model_of.hpp"
 #include "spring/pseudo_normal.hpp"
+#include "spring/spacing.hpp"
 #include "spring/surface_force.hpp"
 
 namespace vspring {
@@ -25,37 +25,19 @@ struct SurfaceRules {
     return d.dot(net.normals[i]) * net.normals[i];
   }
 
-  /// Of all shares of sum 1 that leave the node in its place across the normal, those nearest to even ones: share_j =
-  /// 1/m − (d_j − mean)·a. Negative ones of a node that noise has put outside its neighbours, so that faces lie upside
-  /// down, would drive nodes apart: to unfold these all are raised to a tenth of an even one at least, and the node
-  /// goes in among its neighbours.
-  void present_shares(const Net& net, std::size_t i, bool unfold, std::span<double> shares) const {
+  /// Those nearest to even ones. Negative ones of a node that noise has put outside its neighbours, so that faces lie
+  /// upside down, would drive nodes apart: to unfold these all are raised to a tenth of an even one at least, and the
+  /// node goes in among its neighbours.
+  void present_shares(const Net& net, std::size_t i, std::span<double> shares) const {
     const auto links = net.rings.links(i);
     const Vector3& normal = net.normals[i];
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    Vector3 mean = Vector3::Zero();
-    double spokes = 0;
+    even_shares(net, i, normal, net.positions, shares);
+    const auto spokes =
+        static_cast<double>(std::count_if(links.begin(), links.end(), [](Link link) { return link.spoke(); }));
     const auto across = [&](Link link) -> Vector3 {
       const Vector3 d = net.positions[link.node()] - net.positions[i];
       return d - d.dot(normal) * normal;
     };
-    for (const Link link : links) {
-      if (!link.spoke()) continue;
-      mean += across(link);
-      spokes += 1;
-    }
-    mean /= std::max(spokes, 1.0);
-    for (const Link link : links) {
-      if (link.spoke()) spread += (across(link) - mean) * (across(link) - mean).transpose();
-    }
-    spread += spread.trace() * normal * normal.transpose();
-    // Neighbours all on a line or at a point leave directions open; the smallest solution is meant, so they get none of
-    // it.
-    const Vector3 a = smallest_solution(spread, mean);
-    for (std::size_t k = 0; k < links.size(); ++k) {
-      if (links[k].spoke()) shares[k] = 1 / spokes - (across(links[k]) - mean).dot(a);
-    }
-    if (!unfold) return;
     const double least = spokes * *std::min_element(shares.begin(), shares.end());
     // Beside larger polygons, and with three neighbours, a node may rightly lie outside these.
     const auto around = static_cast<double>(links.size());

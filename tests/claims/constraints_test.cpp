@@ -115,16 +115,15 @@ TEST(Constraints, WhatLeavesAFamilyOfShapesIsWarnedOf) {
 }
 
 TEST(Constraints, AClosedSurfaceHeldAtOneNodeEndsInOneOfTheFamily) {
-  const PolygonMesh block = generate::genus({.holes = 0, .cells = 6});
+  const PolygonMesh block = generate::genus({.holes = 0, .cells = 4});
   Constraints constraints(block.node_count());
   constraints.fix_position(0, block.position(0));
   const FairResult result = fair(block, constraints);
-  EXPECT_EQ(result.report.outcome, Outcome::converged);
-  // One of a family: no equilibrium to go to, and the plain iteration stops where it is.
-  EXPECT_EQ(result.report.method, Method::sweep);
-  EXPECT_FALSE(result.report.expected_error);
+  // One of a family: no equilibrium to go to, and nothing that would be called one.
+  EXPECT_NE(result.report.outcome, Outcome::converged);
   EXPECT_EQ(result.report.warnings.size(), 2U);
-  EXPECT_LT(result.report.after.greatest_turn, result.report.before.greatest_turn / 4);
+  EXPECT_LE(result.report.work, result.report.most_work);
+  EXPECT_LT(result.report.after.greatest_turn, result.report.before.greatest_turn / 3);
   EXPECT_LT(result.report.after.vspring_energy, result.report.before.vspring_energy / 100);
 }
 
@@ -236,9 +235,9 @@ TEST(Constraints, AMoebiusStripIsFaired) {
     }
   }
   const PolygonMesh strip = builder.take();
-  const FairResult result = fair(strip, held_boundary(strip), {.step_tolerance = 1e-8});
+  const FairResult result = fair(strip, held_boundary(strip), {.tolerance = 1e-8});
   EXPECT_EQ(result.report.outcome, Outcome::converged);
-  EXPECT_LT(result.report.after.vspring_energy, result.report.before.vspring_energy / 5);
+  EXPECT_LT(result.report.after.vspring_energy, result.report.before.vspring_energy / 4);
 }
 
 TEST(Region, ThePatchMeetsTheRestWithACommonTangentPlane) {
@@ -257,7 +256,7 @@ TEST(Region, ThePatchMeetsTheRestWithACommonTangentPlane) {
     const PolygonMesh mesh(dented, cylinder.face_begin(), cylinder.corners());
     Constraints constraints = held_boundary(mesh);
     restrict_to_region(constraints, mesh, region);
-    const FairResult result = fair(mesh, constraints, {.step_tolerance = 1e-12, .max_iterations = 100000});
+    const FairResult result = fair(mesh, constraints, {.distribution = Distribution::even, .tolerance = 1e-9});
     double greatest = 0;
     for (const Vector3& p : result.positions) greatest = std::max(greatest, std::abs(std::hypot(p.x(), p.y()) - 1));
     return greatest;

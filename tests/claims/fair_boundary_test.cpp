@@ -44,6 +44,8 @@ struct DisturbedCap {
 FairOptions boundary_first() {
   FairOptions options;
   options.fair_boundary = true;
+  // So that nodes of the rim come back to the places that their normals are of.
+  options.distribution = Distribution::even;
   options.tolerance = 1e-12;
   options.step_tolerance = 1e-12;
   options.max_iterations = 20000;

@@ -92,6 +92,8 @@ std::vector<Problem> problems() {
 TEST(Starts, SurfacesForgetTheirs) {
   FairOptions options;
   options.method = Method::equilibrium;
+  // Spacing, where it is kept, is that of the start.
+  options.distribution = Distribution::even;
   for (const Problem& problem : problems()) {
     FairOptions exact = options;
     exact.tolerance = 1e-12;
@@ -121,7 +123,10 @@ TEST(Starts, CurvesForgetTheirs) {
     const std::vector<Vector3> truth = faired(line, constraints);
     for (const Start& start : five_starts(line, constraints, Vector3::UnitY(), Vector3::UnitX())) {
       SCOPED_TRACE(name + ", " + start.name);
-      const FairResult result = fair(PolygonCurve(start.positions), constraints);
+      // Spacing, where it is kept, is that of the start.
+      FairOptions even;
+      even.distribution = Distribution::even;
+      const FairResult result = fair(PolygonCurve(start.positions), constraints, even);
       EXPECT_EQ(result.report.outcome, Outcome::converged);
       const double error = greatest_distance(result.positions, truth);
       EXPECT_LT(error, 3 * *result.report.expected_error);

@@ -70,7 +70,7 @@ TEST(SurfaceEquilibrium, TheSenseOfGivenNormalsDoesNotMatter) {
 }
 
 TEST(SurfaceEquilibrium, IterationsHardlyGrowWithTheNodes) {
-  for (const Index nodes : {1000, 8000, 32000}) {
+  for (const Index nodes : {1000, 16000}) {
     SCOPED_TRACE(nodes);
     const PolygonMesh cap = generate::cap({.nodes = nodes, .half_angle = 60});
     const FairResult result = fair(flattened(cap, 60, 0.02), held_boundary(cap, radial), to_equilibrium());
@@ -120,7 +120,10 @@ TEST(SurfaceEquilibrium, ABoundaryWithoutNormalsIsFlatAndOneNormalTiltsTheMiddle
 TEST(SurfaceEquilibrium, DoesNotDependOnTheStart) {
   const PolygonMesh funnel = generate::funnel(600);
   const Constraints constraints = clamped_boundary(funnel);
-  const FairResult expected = fair(funnel, constraints, to_equilibrium(1e-11));
+  // Spacing, where it is kept, is that of the start.
+  FairOptions even = to_equilibrium(1e-11);
+  even.distribution = Distribution::even;
+  const FairResult expected = fair(funnel, constraints, even);
   ASSERT_EQ(expected.report.outcome, Outcome::converged);
   std::vector<PolygonMesh> starts;
   for (const double noise : {0.05, 0.3, 1.0}) starts.push_back(generate::add_noise(funnel, noise, 9));
@@ -131,7 +134,7 @@ TEST(SurfaceEquilibrium, DoesNotDependOnTheStart) {
       funnel, std::vector<Vector3>(static_cast<std::size_t>(funnel.node_count()), Vector3(0.2, 0.1, 0))));
   for (std::size_t k = 0; k < starts.size(); ++k) {
     SCOPED_TRACE(k);
-    const FairResult result = fair(starts[k], constraints, to_equilibrium(1e-11));
+    const FairResult result = fair(starts[k], constraints, even);
     EXPECT_EQ(result.report.outcome, Outcome::converged);
     EXPECT_LT(greatest_distance(result.positions, expected.positions), 1e-8);
   }
@@ -143,9 +146,12 @@ TEST(SurfaceEquilibrium, AFairShapeIsLeftAsItIs) {
   for (const PolygonMesh& mesh : meshes) {
     SCOPED_TRACE(mesh.face_count());
     const Constraints constraints = clamped_boundary(mesh);
-    const FairResult once = fair(mesh, constraints, to_equilibrium());
+    // Without noise in it a spacing that is made smooth again still slides a little along the shape.
+    FairOptions options = to_equilibrium();
+    options.distribution = Distribution::even;
+    const FairResult once = fair(mesh, constraints, options);
     ASSERT_EQ(once.report.outcome, Outcome::converged);
-    const FairResult twice = fair(with_positions(mesh, once.positions), constraints, to_equilibrium());
+    const FairResult twice = fair(with_positions(mesh, once.positions), constraints, options);
     EXPECT_EQ(twice.report.iterations, 1);
     EXPECT_LT(greatest_distance(once.positions, twice.positions), 1e-14 * diagonal(mesh));
   }
@@ -196,7 +202,7 @@ TEST(SurfaceEquilibrium, TheExpectedErrorIsWithinAFactorOfThreeOfTheTrueOne) {
   const auto add = [&](const std::string& name, const PolygonMesh& mesh) {
     cases.push_back({name, mesh, clamped_boundary(mesh)});
   };
-  for (const Index nodes : {300, 1500, 6000}) {
+  for (const Index nodes : {300, 3600}) {
     const PolygonMesh cap = generate::cap({.nodes = nodes, .half_angle = 60});
     cases.push_back({fmt::format("cap {}", nodes), flattened(cap, 60, 0.02), held_boundary(cap, radial)});
     add(fmt::format("funnel {}", nodes), generate::funnel(nodes));

@@ -54,6 +54,12 @@ TEST(FitAccuracy, NoiseIsReducedAsAveragingPredicts) {
   }
 }
 
+/// Springs see how even the spacing is.
+FitOptions evenly(FitOptions options) {
+  options.fair.distribution = Distribution::even;
+  return options;
+}
+
 /// The order in which points on a shape, as dense as nodes, give it back on finer meshes.
 TEST(FitAccuracy, PointsOnACylinderGiveItBackWithTheOrderOfFairing) {
   const auto error = [](int cells) {
@@ -61,7 +67,7 @@ TEST(FitAccuracy, PointsOnACylinderGiveItBackWithTheOrderOfFairing) {
     const PolygonMesh dense = generate::cylinder_patch({.columns = 3 * cells, .rows = 3 * cells}, 1, 120, 2);
     const Constraints held = held_boundary(exact, [](const Vector3& p) { return Vector3(p.x(), p.y(), 0); });
     const FitResult result =
-        fit(generate::add_noise(exact, 0.02, 3), held, {.positions = dense.positions()}, to_equilibrium(0.01));
+        fit(generate::add_noise(exact, 0.02, 3), held, {.positions = dense.positions()}, evenly(to_equilibrium(0.01)));
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
     double greatest = 0;
     for (const Vector3& p : result.positions) greatest = std::max(greatest, std::abs(p.head<2>().norm() - 1));
@@ -88,8 +94,8 @@ TEST(FitAccuracy, PointsOnAClothoidGiveItBackWithItsOrder) {
     const std::vector<Vector3> exact = sampled(clothoid, places(Spacing::even, edges));
     const std::vector<Vector3> dense = sampled(clothoid, places(Spacing::even, 4 * edges));
     const Constraints held = held_ends(exact, heading(clothoid.angle), heading(clothoid.angle_at(clothoid.length)));
-    const FitResult result =
-        fit(PolygonCurve(noisy(exact, held, 0.01, 1, true)), held, {.positions = dense}, to_equilibrium(0.01, 1e-9));
+    const FitResult result = fit(PolygonCurve(noisy(exact, held, 0.01, 1, true)), held, {.positions = dense},
+                                 evenly(to_equilibrium(0.01, 1e-9)));
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
     return distance_from(clothoid, result.positions);
   };

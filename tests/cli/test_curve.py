@@ -102,7 +102,7 @@ class Curve(Case):
     def test_resample_and_spacing(self):
         points = [(math.cos(2 * (k / 30) ** 2), math.sin(2 * (k / 30) ** 2)) for k in range(31)]
         rules = self.write("held.json", json.dumps({"rules": [{"nodes": [0, 30], "tangent": "fixed"}]}))
-        self.curve(csv(points), "--resample", "101", "--constraints", rules, "--tolerance", "1e-12")
+        self.curve(csv(points), "--resample", "101", "--constraints", rules, "--tolerance", "1e-12", "--distribution", "even")
         after = read(self.folder / "out.csv")
         self.assertEqual(len(after), 101)
         self.assertEqual((after[0], after[-1]), (points[0], points[-1]))
@@ -114,7 +114,7 @@ class Curve(Case):
 
     def test_paper_and_normal_plane(self):
         helix = [(math.cos(t / 8), math.sin(t / 8), t / 40) for t in range(61)]
-        helix = [(x, y, z + 0.02 * (k % 2)) for k, (x, y, z) in enumerate(helix)]
+        helix = [(x, y, z + 0.002 * (k % 2)) for k, (x, y, z) in enumerate(helix)]
         for options in (["--paper"], ["--normal-plane", "principal"], ["--normal-plane", "full"], ["--method", "sweep"]):
             with self.subTest(options=options):
                 self.curve(csv(helix), "--fix-normals", "boundary", *options)

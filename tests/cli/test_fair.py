@@ -153,7 +153,7 @@ class Fair(Case):
 
     def test_a_family_of_shapes_ends_in_one_with_a_warning(self):
         self.write("rules.json", json.dumps({"rules": [{"nodes": [0], "position": "fixed"}]}))
-        result = self.fair("--constraints", self.folder / "rules.json", text=OCTAHEDRON)
+        result = self.fair("--constraints", self.folder / "rules.json", text=OCTAHEDRON, status=3)
         self.assertIn("family", result.stderr.decode())
 
     def test_ctrl_c_writes_the_shape_so_far_whole(self):

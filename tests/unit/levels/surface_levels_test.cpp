@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "sweep/sweep.hpp"
@@ -162,9 +163,37 @@ TEST(SurfaceLevels, HaveSharesWhereTheDistributionIsKept) {
   auto levels = levels_of(mesh, boundary_held(mesh, true), 1, Distribution::keep);
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
-  for (SurfaceLevel& level : levels) {
-    Sweep sweep(level.net, *model, team);
-    EXPECT_LT(sweep.iterate(), 1e-10) << level.net.moving;
+  Sweep sweep(levels.back().net, *model, team);
+  EXPECT_LT(sweep.iterate(), 1e-10);
+  for (const SurfaceLevel& level : levels) EXPECT_EQ(level.net.shares.size(), level.net.rings.link_count());
+}
+
+/// How many times as long as the shortest edge at a node the longest is, at worst.
+double greatest_ratio(const Net& net) {
+  double ratio = 1;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    double shortest = std::numeric_limits<double>::infinity();
+    double longest = 0;
+    for (const Link link : net.rings.links(i)) {
+      if (!link.spoke()) continue;
+      const double length = (net.positions[link.node()] - net.positions[i]).norm();
+      shortest = std::min(shortest, length);
+      longest = std::max(longest, length);
+    }
+    ratio = std::max(ratio, longest / shortest);
+  }
+  return ratio;
+}
+
+TEST(SurfaceLevels, LongCellsBecomeEvenFromLevelToLevel) {
+  for (const generate::Faces faces : {generate::Faces::quads, generate::Faces::triangles}) {
+    // Sixteen times as long as wide.
+    const PolygonMesh mesh = generate::tube({.columns = 16, .rows = 64, .faces = faces}, 1, 1.6);
+    const auto levels = levels_of(mesh, boundary_held(mesh, true), 1, Distribution::smooth);
+    EXPECT_GT(greatest_ratio(levels.back().net), 15);
+    const auto& coarsest = levels[levels.size() > 4 ? levels.size() - 4 : 0].net;
+    EXPECT_LT(greatest_ratio(coarsest), 5);
+    for (const SurfaceLevel& level : levels) expect_sound(level.net);
   }
 }
 

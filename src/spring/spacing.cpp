@@ -1,0 +1,329 @@
+#include "spring/spacing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <utility>
+
+#include "base/dense_algebra.hpp"
+#include "spring/pseudo_normal.hpp"
+
+namespace vspring {
+
+namespace {
+
+constexpr int sweeps = 10;
+constexpr int stretch_passes = 4;
+// Of shares that go by the inverse squares of distances. Nodes that lie beside their neighbours, or on a line with two
+// of them, would else be held by next to nothing on some side.
+constexpr double least_share = 0.25;
+// Coarser levels need not keep a spacing, but must unfold, whatever edges they have.
+constexpr double least_share_of_coarse = 0.8;
+// The sine of an angle that is as good as none.
+constexpr double least_sine = 1e-9;
+
+bool is_open(std::span<const Link> links) { return links.front().start(); }
+
+/// The angle of every spoke around a node if the mesh were regular there; of links that are no spokes, nothing.
+void regular_angles(std::span<const Link> links, std::vector<double>& angles) {
+  const auto spokes = static_cast<double>(std::count_if(links.begin(), links.end(), [](Link k) { return k.spoke(); }));
+  const double step =
+      is_open(links) ? std::numbers::pi / std::max(spokes - 1, 1.0) : 2 * std::numbers::pi / std::max(spokes, 1.0);
+  angles.assign(links.size(), 0);
+  double angle = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (!links[k].spoke()) continue;
+    angles[k] = angle;
+    angle += step;
+  }
+}
+
+/// By how much the mesh is longer one way than the other around a node, and which way: with θ the angle around the node
+/// if the mesh were regular there, the logarithms of squared edges are a constant and Re(s̄ exp 2iθ).
+using Stretch = std::complex<double>;
+
+/// What the stretch makes of the logarithm of a squared edge.
+double stretched(const Stretch& stretch, double angle) {
+  return stretch.real() * std::cos(2 * angle) + stretch.imag() * std::sin(2 * angle);
+}
+
+/// The spacing is that of the input, whatever is pulled out of it.
+const std::vector<Vector3>& input_places(const Net& net) { return net.input.empty() ? net.positions : net.input; }
+
+double log_square(const Net& net, std::size_t i, std::size_t j) {
+  const std::vector<Vector3>& places = input_places(net);
+  return std::log((places[j] - places[i]).squaredNorm() + net.tiny);
+}
+
+/// Of a node with faces all around. angles: regular_angles().
+Stretch stretch_around(const Net& net, std::size_t i, std::span<const double> angles) {
+  const auto links = net.rings.links(i);
+  Stretch sum = 0;
+  double spokes = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (!links[k].spoke()) continue;
+    sum += std::polar(1.0, 2 * angles[k]) * log_square(net, i, links[k].node());
+    spokes += 1;
+  }
+  if (spokes < 3) return 0;
+  // Around four spokes the sines vanish, and the squared cosines are all ones.
+  return sum * ((spokes == 4 ? 1 : 2) / spokes);
+}
+
+/// The stretch around every node with faces all around, noise evened out over neighbours; else none.
+std::vector<Stretch> stretches(const Net& net, ThreadTeam& team) {
+  std::vector<Stretch> stretch(net.computed);
+  // What turns the stretch of a neighbour into the terms of the node, for every link.
+  std::vector<Stretch> turn(net.rings.link_count(), 0);
+  parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> angles;
+    std::vector<double> angles_there;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto links = net.rings.links(i);
+      if (is_open(links)) continue;
+      regular_angles(links, angles);
+      stretch[i] = stretch_around(net, i, angles);
+      for (std::size_t k = 0; k < links.size(); ++k) {
+        const std::size_t j = links[k].node();
+        if (!links[k].spoke() || j >= net.computed) continue;
+        const auto there = net.rings.links(j);
+        if (is_open(there)) continue;
+        const auto back =
+            std::find_if(there.begin(), there.end(), [&](Link link) { return link.spoke() && link.node() == i; });
+        if (back == there.end()) continue;
+        regular_angles(there, angles_there);
+        const double angle = angles_there[static_cast<std::size_t>(back - there.begin())];
+        turn[net.rings.begin(i) + k] = std::polar(1.0, 2 * (angles[k] - angle));
+      }
+    }
+  });
+  std::vector<Stretch> next(stretch.size());
+  for (int pass = 0; pass < stretch_passes; ++pass) {
+    parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto links = net.rings.links(i);
+        Stretch sum = 0;
+        double count = 0;
+        for (std::size_t k = 0; k < links.size(); ++k) {
+          const Stretch by = turn[net.rings.begin(i) + k];
+          if (by == 0.0) continue;
+          sum += by * stretch[links[k].node()];
+          count += 1;
+        }
+        next[i] = count > 0 ? 0.5 * (stretch[i] + sum / count) : stretch[i];
+      }
+    });
+    stretch.swap(next);
+  }
+  return stretch;
+}
+
+/// What the links of moving nodes count in a sweep, of sum 1 at each: the inverse squares of the lengths that edges
+/// have but for noise.
+std::vector<double> sweep_weights(const Net& net, ThreadTeam& team) {
+  const std::vector<Stretch> stretch = stretches(net, team);
+  std::vector<double> weights(net.rings.link_count(), 0);
+  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> angles;
+    std::vector<std::size_t> spokes;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto links = net.rings.links(i);
+      const auto of_node = std::span(weights).subspan(net.rings.begin(i), links.size());
+      spokes.clear();
+      for (std::size_t k = 0; k < links.size(); ++k) {
+        if (links[k].spoke()) spokes.push_back(k);
+      }
+      if (spokes.empty()) continue;
+      if (is_open(links)) {
+        // Along a free boundary only, as on a curve: the mean of all would draw it in.
+        of_node[spokes.front()] += 0.5;
+        of_node[spokes.back()] += 0.5;
+        continue;
+      }
+      regular_angles(links, angles);
+      const Stretch own = stretch_around(net, i, angles);
+      const std::size_t count = spokes.size();
+      const bool has_more = count >= 8 && count % 2 == 0;
+      double mean = 0;
+      for (const std::size_t k : spokes) mean += log_square(net, i, links[k].node()) / static_cast<double>(count);
+      // What edges that lie opposite have in common beyond that: of eight, four may be diagonals.
+      const auto further = [&](std::size_t k) {
+        return log_square(net, i, links[k].node()) - mean - stretched(own, angles[k]);
+      };
+      double sum = 0;
+      for (std::size_t s = 0; s < count; ++s) {
+        const std::size_t k = spokes[s];
+        double square = stretched(stretch[i], angles[k]);
+        if (has_more) square += 0.5 * (further(k) + further(spokes[(s + count / 2) % count]));
+        sum += of_node[k] = std::exp(-square);
+      }
+      for (const std::size_t k : spokes) of_node[k] /= sum;
+    }
+  });
+  return weights;
+}
+
+/// Of a curve, which is stretched no way.
+std::vector<double> even_weights(const Net& net) {
+  std::vector<double> weights(net.rings.link_count(), 0);
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const std::size_t count = net.rings.links(i).size();
+    // An open end that moves would be drawn in.
+    if (count > 1) std::fill_n(weights.begin() + static_cast<std::ptrdiff_t>(net.rings.begin(i)), count, 0.5);
+  }
+  return weights;
+}
+
+/// Nodes of bricks lie on a line with two of their three neighbours: shares that keep them there leave it open how far
+/// rows are apart. So nodes of three neighbours go half of their way to the mean of these, which leaves even hexagons
+/// as they are.
+void turn_bricks_to_hexagons(const Net& net, std::vector<Vector3>& places) {
+  std::vector<std::pair<std::size_t, Vector3>> moved;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const auto links = net.rings.links(i);
+    if (links.size() < 3 || is_open(links)) continue;
+    Vector3 way = Vector3::Zero();
+    int spokes = 0;
+    for (const Link link : links) {
+      if (!link.spoke()) continue;
+      way += places[link.node()] - places[i];
+      ++spokes;
+    }
+    if (spokes == 3) moved.emplace_back(i, places[i] + way / 6);
+  }
+  for (const auto& [i, place] : moved) places[i] = place;
+}
+
+}  // namespace
+
+std::vector<Vector3> smooth_places(const Net& net, ThreadTeam& team) {
+  const std::vector<double> weights = net.tangents.empty() ? sweep_weights(net, team) : even_weights(net);
+  std::vector<Vector3> places = input_places(net);
+  std::vector<Vector3> next = places;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto links = net.rings.links(i);
+        Vector3 way = Vector3::Zero();
+        for (std::size_t k = 0; k < links.size(); ++k)
+          way += weights[net.rings.begin(i) + k] * (places[links[k].node()] - places[i]);
+        next[i] = places[i] + 0.5 * way;
+      }
+    });
+    places.swap(next);
+  }
+  if (net.tangents.empty()) turn_bricks_to_hexagons(net, places);
+  return places;
+}
+
+void even_shares(const Net& net, std::size_t i, const Vector3& normal, std::span<const Vector3> places,
+                 std::span<double> shares) {
+  const auto links = net.rings.links(i);
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  Vector3 mean = Vector3::Zero();
+  double spokes = 0;
+  const auto across = [&](Link link) -> Vector3 {
+    const Vector3 d = places[link.node()] - places[i];
+    return d - d.dot(normal) * normal;
+  };
+  for (const Link link : links) {
+    if (!link.spoke()) continue;
+    mean += across(link);
+    spokes += 1;
+  }
+  mean /= std::max(spokes, 1.0);
+  for (const Link link : links) {
+    if (link.spoke()) spread += (across(link) - mean) * (across(link) - mean).transpose();
+  }
+  spread += spread.trace() * normal * normal.transpose();
+  // Neighbours all on a line or at a point leave directions open; the smallest solution is meant, so they get none of
+  // it.
+  const Vector3 a = smallest_solution(spread, mean);
+  for (std::size_t k = 0; k < links.size(); ++k)
+    shares[k] = links[k].spoke() ? 1 / spokes - (across(links[k]) - mean).dot(a) : 0;
+}
+
+void share_by_length(const Net& net, std::size_t i, std::span<const Vector3> places, std::span<double> shares) {
+  const auto links = net.rings.links(i);
+  double whole = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const Vector3 d = places[links[k].node()] - places[i];
+    shares[k] = std::sqrt(d.dot(d) + net.tiny);
+    whole += shares[k];
+  }
+  for (std::size_t k = 0; k < links.size(); ++k) shares[k] = links.size() > 1 ? 1 - shares[k] / whole : 1;
+}
+
+namespace {
+
+/// Mean value coordinates of a node among all its neighbours, `ways` to whom lie in a plane. None where it is not among
+/// them.
+void find_mean_value_shares(std::span<const Vector3> ways, const Vector3& normal, std::vector<double>& shares) {
+  const std::size_t count = ways.size();
+  shares.assign(count, 0);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t next = (k + 1) % count;
+    const double lengths = ways[k].norm() * ways[next].norm();
+    const double product = ways[k].cross(ways[next]).dot(normal);
+    // The tangent of half the angle between the two; where they are opposite, very large.
+    const double least = least_sine * lengths;
+    const double half = (lengths - ways[k].dot(ways[next])) / (std::abs(product) > least ? product : least);
+    shares[k] += half;
+    shares[next] += half;
+  }
+  double sum = 0;
+  for (std::size_t k = 0; k < count; ++k) sum += shares[k] /= ways[k].norm();
+  if (!(std::abs(sum) > 0) || !std::isfinite(sum)) {
+    std::fill(shares.begin(), shares.end(), 1);
+    return;
+  }
+  for (double& share : shares) share /= sum;
+}
+
+}  // namespace
+
+std::vector<double> shares_at(const Net& net, std::span<const Vector3> places, ThreadTeam& team, bool coarse) {
+  const double least = coarse ? least_share_of_coarse : least_share;
+  std::vector<double> result(net.rings.link_count(), 0);
+  if (!net.tangents.empty()) {
+    for (std::size_t i = 0; i < net.moving; ++i)
+      share_by_length(net, i, places, std::span(result).subspan(net.rings.begin(i)));
+    return result;
+  }
+  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    std::vector<Vector3> ways;
+    std::vector<double> shares;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto links = net.rings.links(i);
+      if (links.empty()) continue;
+      const auto of_node = std::span(result).subspan(net.rings.begin(i), links.size());
+      const Vector3 normal = LinkNormal()(places[i], links, places);
+      if (is_open(links)) {
+        even_shares(net, i, normal, places, of_node);
+        continue;
+      }
+      ways.clear();
+      for (const Link link : links) {
+        if (!link.spoke()) continue;
+        const Vector3 d = places[link.node()] - places[i];
+        ways.push_back(d - d.dot(normal) * normal);
+      }
+      double inverse_squares = 0;
+      for (const Vector3& way : ways) inverse_squares += 1 / (way.squaredNorm() + net.tiny);
+      find_mean_value_shares(ways, normal, shares);
+      double sum = 0;
+      for (std::size_t k = 0; k < ways.size(); ++k) {
+        const double by_distance = 1 / ((ways[k].squaredNorm() + net.tiny) * inverse_squares);
+        sum += shares[k] = std::max(shares[k], least * by_distance);
+      }
+      std::size_t next = 0;
+      for (std::size_t k = 0; k < links.size(); ++k) {
+        if (links[k].spoke()) of_node[k] = shares[next++] / sum;
+      }
+    }
+  });
+  return result;
+}
+
+}  // namespace vspring

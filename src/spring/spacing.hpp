@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/threads.hpp"
+#include "spring/net.hpp"
+
+namespace vspring {
+
+/// Where the nodes of a surface's net lie in the input once its noise is taken out of their spacing: after some sweeps
+/// to the mean of neighbours, which count by the inverse square of how long the mesh is towards them. Held nodes stay.
+/// Rough spacing goes within some three edges; aspects and gradings of cells stay, so the shape of a lathe does not
+/// sink between wide cells. Bricks become hexagons. Cost: linear; the same result on any number of threads.
+std::vector<Vector3> smooth_places(const Net& net, ThreadTeam& team);
+
+/// Of all shares of sum 1 that leave a node in its place among its neighbours, across the normal, those nearest to even
+/// ones: share_j = 1/m − (d_j − mean)·a. Aligned with the links of the node, zero where a link is no spoke. Shares of a
+/// node outside its neighbours are partly negative.
+void even_shares(const Net& net, std::size_t i, const Vector3& normal, std::span<const Vector3> places,
+                 std::span<double> shares);
+
+/// Of a node of a curve: an edge counts as the other one is long.
+void share_by_length(const Net& net, std::size_t i, std::span<const Vector3> places, std::span<double> shares);
+
+/// What every link counts in the regularisation (§4.4) so that all nodes are where they are sent when they lie as at
+/// `places`, in the plane across their normal there: mean value coordinates (M. S. Floater, "Mean value coordinates",
+/// Comput. Aided Geom. Des. 20(1), 2003), none of them below a quarter, on a coarse level 0.8, of what the inverse
+/// squares of distances would make it. Aligned with the links of the net, of sum 1 over the spokes. Nodes on a free
+/// boundary, which lie outside their neighbours, have the shares nearest to even ones. Cost: linear; the same result on
+/// any number of threads.
+std::vector<double> shares_at(const Net& net, std::span<const Vector3> places, ThreadTeam& team, bool coarse = false);
+
+}  // namespace vspring

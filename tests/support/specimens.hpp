@@ -68,6 +68,20 @@ inline Vector3 cylinder_chart(double along, double around, double lift) {
   return {(1 + lift) * std::cos(angle), (1 + lift) * std::sin(angle), 2 * around};
 }
 
+/// The band of the unit sphere from 35° to 70° off its pole; it closes after one turn.
+inline Vector3 band_chart(double along, double around, double lift) {
+  const double off_pole = (35 + 35 * along) * degree;
+  const double angle = 2 * std::numbers::pi * around;
+  return (1 + lift) *
+         Vector3(std::sin(off_pole) * std::cos(angle), std::sin(off_pole) * std::sin(angle), std::cos(off_pole));
+}
+
+/// A flat ring of radii 0.5 and 1.5.
+inline Vector3 ring_chart(double along, double around, double lift) {
+  const double angle = 2 * std::numbers::pi * around;
+  return {(0.5 + along) * std::cos(angle), (0.5 + along) * std::sin(angle), lift};
+}
+
 struct Disorder {
   double jitter = 0;  ///< of a cell
   double noise = 0;   ///< a length
@@ -160,6 +174,22 @@ inline std::vector<Specimen> specimens(int cells) {
     kept.hard = faces == Faces::mixed || faces == Faces::hexagons;
     all.push_back(std::move(kept));
     all.push_back(region_of_saddle(faces, cells));
+  }
+  for (const Faces faces : {Faces::triangles, Faces::quads}) {
+    // Cells up to six times as wide as high, which evenly spread nodes would make sink towards the axis.
+    const generate::Grid rings{.columns = 3 * cells / 2, .rows = cells, .faces = faces};
+    for (const auto& [words, disorder] : {std::pair<const char*, Disorder>("", {}),
+                                          {", noisy", {.noise = 0.3 * spacing}},
+                                          {", graded 10 : 1", {.ratio = 10}}}) {
+      all.push_back(on_chart(fmt::format("band in rings of {}{}", name_of(faces), words), band_chart, true, rings,
+                             disorder, radial));
+      all.back().distance = off_sphere;
+      all.back().distribution = Distribution::smooth;
+      all.push_back(
+          on_chart(fmt::format("flat rings of {}{}", name_of(faces), words), ring_chart, true, rings, disorder, up));
+      all.back().distance = [](const Vector3& p) { return std::abs(p.z()); };
+      all.back().distribution = Distribution::smooth;
+    }
   }
   for (const int sides : {5, 12}) {
     const PolygonMesh polygon = polygon_cap(sides, cells / 4);

@@ -1,0 +1,91 @@
+#include "solve/soundness.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "spring/curve_net.hpp"
+#include "support/curves.hpp"
+#include "support/surfaces.hpp"
+
+namespace vspring::soundness_test {
+namespace {
+
+using namespace support;
+
+bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+/// A bumpy square whose boundary is held, with its normals or without.
+Net square(bool with_normals) {
+  const PolygonMesh mesh = generate::add_noise(generate::plane({.columns = 8, .rows = 8}), 0.02, 3);
+  return gather_net(
+      mesh, with_normals ? held_boundary(mesh, [](const Vector3&) { return Vector3::UnitZ(); }) : held_boundary(mesh));
+}
+
+TEST(Soundness, FindsNothingWhereNothingIsWorse) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  for (const bool with_normals : {false, true}) {
+    Net start = square(with_normals);
+    const Soundness soundness(start, *model, team);
+    EXPECT_EQ(soundness.fault(start), "");
+    Net flat = start;
+    for (Vector3& p : flat.positions) p.z() = 0;
+    EXPECT_EQ(soundness.fault(flat), "");
+  }
+}
+
+TEST(Soundness, NamesNodesThatAreNowhereOrFarOutside) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  for (const bool with_normals : {false, true}) {
+    Net start = square(with_normals);
+    const Soundness soundness(start, *model, team);
+    const std::string node = "node " + std::to_string(start.node[5]) + " ";
+    Net nowhere = start;
+    nowhere.positions[5].y() = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(contains(soundness.fault(nowhere), node.c_str())) << soundness.fault(nowhere);
+    Net outside = start;
+    outside.positions[5].z() += 50;
+    EXPECT_TRUE(contains(soundness.fault(outside), node.c_str())) << soundness.fault(outside);
+    // A normal may ask for a wide bulge.
+    Net bulged = start;
+    for (std::size_t i = 0; i < bulged.moving; ++i) bulged.positions[i].z() += 4;
+    EXPECT_EQ(contains(soundness.fault(bulged), "outside"), !with_normals) << soundness.fault(bulged);
+  }
+}
+
+TEST(Soundness, CountsEdgesThatTurnBack) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  Net start = square(true);
+  const Soundness soundness(start, *model, team);
+  Net folded = start;
+  // A node goes beyond its neighbours.
+  folded.positions[0] += 2.5 * (folded.positions[folded.rings.links(0)[0].node()] - folded.positions[0]);
+  EXPECT_TRUE(contains(soundness.fault(folded), "90°")) << soundness.fault(folded);
+  // Where it was so before, it is no worse.
+  const Soundness of_folded(folded, *model, team);
+  EXPECT_EQ(of_folded.fault(folded), "");
+  EXPECT_EQ(of_folded.fault(start), "");
+}
+
+TEST(Soundness, OfCurvesToo) {
+  ThreadTeam team(1);
+  const auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 20));
+  Net start = gather_net(PolygonCurve(nodes), held_ends(nodes)).net;
+  const auto model = curve_model_for(start, CurveRules());
+  const Soundness soundness(start, *model, team);
+  EXPECT_EQ(soundness.fault(start), "");
+  Net folded = start;
+  folded.positions[4].x() += 0.2;
+  EXPECT_TRUE(contains(soundness.fault(folded), "90°")) << soundness.fault(folded);
+  Net wavy = start;
+  for (std::size_t i = 0; i < wavy.moving; ++i) wavy.positions[i].y() += 0.01 * std::sin(static_cast<double>(9 * i));
+  EXPECT_TRUE(contains(soundness.fault(wavy), "energy")) << soundness.fault(wavy);
+}
+
+}  // namespace
+}  // namespace vspring::soundness_test

@@ -108,8 +108,7 @@ void add_shaping_options(CLI::App& command, FairingArguments& arguments, const F
       fmt::format(
           "Along the {}, nodes keep the spacing of the input without its noise; go to the mean of their neighbours; or "
           "keep their share between them and, where points draw a surface, their place (default: smooth; keep where "
-          "the "
-          "nodes of the input are the points; even with the methods multigrid and sweep)",
+          "the nodes of the input are the points; even for curves and with the methods multigrid and sweep)",
           words.shape))
       ->group(fairing_group);
   command

@@ -80,7 +80,7 @@ test('a curve: every control has a name, and Tab reaches it', async () => {
 });
 
 test('the progress bar has a name and so has what ends it', async () => {
-  session.generated('large.ply', 'annulus', '--nodes', '60000', '--noise', '0.02');
+  session.generated('large.ply', 'annulus', '--nodes', '200000', '--noise', '0.01');
   await open('?file=files/large.ply', { wait: false });
   await page.getByRole('progressbar', { name: 'Solving' }).waitFor();
   assert.ok((await names()).includes('Cancel'));

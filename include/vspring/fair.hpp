@@ -28,7 +28,7 @@ struct FairOptions {
   PseudoNormals pseudo_normals = PseudoNormals::link;
   /// Of curves.
   CurveRules curve = {};
-  /// Where not given: smooth; of multigrid and sweep, if they are asked for, even.
+  /// Where not given: smooth; of curves, and of multigrid and sweep if they are asked for, even.
   std::optional<Distribution> distribution = std::nullopt;
   /// Of surfaces: boundary nodes whose position is free are faired first, as the closed curves that they form between
   /// the held ones (§4.5), and stay there while the surface follows. Else they are drawn in with the surface.
@@ -58,7 +58,7 @@ struct FairOptions {
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
 
-  /// What is given, or else taken, for the distribution.
+  /// What is given, or else taken, for the distribution of surfaces.
   [[nodiscard]] Distribution distribution_taken() const {
     const bool papers_own = method && *method != Method::equilibrium;
     return distribution.value_or(papers_own ? Distribution::even : Distribution::smooth);

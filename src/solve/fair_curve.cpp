@@ -33,11 +33,12 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
   report.before = measure(curve, &constraints);
 
   const auto model = curve_model_for(gathered.net, options.curve);
+  const Distribution distribution = options.distribution.value_or(Distribution::even);
   if (report.method == Method::sweep) {
-    distribute(gathered.net, *model, options.distribution_taken(), team);
+    distribute(gathered.net, *model, distribution, team);
     run_sweeps(gathered.net, *model, options, team, context, progress, report);
   } else {
-    CurveHierarchy hierarchy(curve_levels(std::move(gathered), options.distribution_taken()));
+    CurveHierarchy hierarchy(curve_levels(std::move(gathered), distribution));
     if (report.method == Method::multigrid) {
       run_multigrid(hierarchy, *model, options, team, context, progress, report);
     } else {

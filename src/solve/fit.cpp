@@ -180,7 +180,7 @@ class Fitting {
     auto gathered = run_.gather();
     Net& net = net_of(gathered);
     const auto model = model_of(gathered, options);
-    distribute(net, *model, options.distribution_taken(), run_.team);
+    distribute(net, *model, distribution_of(gathered, options), run_.team);
     const auto smoothing = smoothing_in(net);
     PointTies ties = tie_points(net, *model, points, smoothing, run_.team);
     points = {};

@@ -28,6 +28,12 @@ inline auto model_of(const Net& /*net*/, const FairOptions& options) { return su
 inline auto model_of(const CurveNet& curve, const FairOptions& options) {
   return curve_model_for(curve.net, options.curve);
 }
+inline Distribution distribution_of(const Net& /*net*/, const FairOptions& options) {
+  return options.distribution_taken();
+}
+inline Distribution distribution_of(const CurveNet& /*curve*/, const FairOptions& options) {
+  return options.distribution.value_or(Distribution::even);
+}
 inline SurfaceHierarchy hierarchy_of(Net net, const Model& model, Distribution distribution, ThreadTeam& team) {
   return {surface_levels(std::move(net), model, distribution, team), team};
 }
@@ -67,7 +73,8 @@ class PulledShape {
       : options_(options),
         team_(&team),
         model_(model_of(gathered, options)),
-        hierarchy_(hierarchy_of(std::move(gathered), *model_, options.distribution_taken(), team)),
+        distribution_(distribution_of(gathered, options)),
+        hierarchy_(hierarchy_of(std::move(gathered), *model_, distribution_, team)),
         ties_(tie_points(net(), *model_, points, smoothing, team)),
         levels_(hierarchy_, ties_, std::move(smoothing), *model_, team) {}
 
@@ -103,6 +110,7 @@ class PulledShape {
   const FairOptions& options_;
   ThreadTeam* team_;
   std::unique_ptr<const Model> model_;
+  Distribution distribution_;
   decltype(hierarchy_of(std::declval<Gathered>(), std::declval<const Model&>(), Distribution::even,
                         std::declval<ThreadTeam&>())) hierarchy_;
   PointTies ties_;

@@ -165,6 +165,7 @@ Believed believed(const std::vector<Vector3>& start, const Constraints& constrai
   for (const double tolerance : {1e-3, 1e-5, 1e-7, 1e-9}) {
     FairOptions options;
     options.tolerance = tolerance;
+    options.distribution = Distribution::smooth;
     const FairResult result = fair(PolygonCurve(start), constraints, options);
     EXPECT_EQ(result.report.outcome, Outcome::converged);
     EXPECT_LE(*result.report.expected_error, tolerance);

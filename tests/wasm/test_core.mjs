@@ -223,7 +223,7 @@ test('hundreds of shapes that are opened, faired, dragged and deleted leave no m
 });
 
 test('ends soon when asked to, with a shape', () => {
-  const surface = opened(generated('cancel.obj', 'annulus', '--nodes', '6000', '--noise', '0.05'), 'cancel.obj');
+  const surface = opened(generated('cancel.obj', 'annulus', '--nodes', '6000', '--noise', '0.02'), 'cancel.obj');
   const report = surface.fair((fraction) => fraction > 0);
   assert.equal(report.outcome, 'cancelled');
   assert.ok(surface.positions().every(Number.isFinite));

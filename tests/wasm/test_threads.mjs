@@ -89,7 +89,7 @@ test('arrays are copies that may be handed to others, where memory has grown too
 
 test('ends soon when asked to, refuses in the words of the program, and goes on', () => {
   const core = cores[1];
-  const surface = opened(core, bytesOf('annulus', '--nodes', '6000', '--noise', '0.05'));
+  const surface = opened(core, bytesOf('annulus', '--nodes', '6000', '--noise', '0.02'));
   assert.equal(surface.fair((fraction) => fraction > 0).outcome, 'cancelled');
   assert.throws(() => new core.Surface(new TextEncoder().encode('v 0 0 0\nv 1 0 zero\n'), 'bad.obj'), /bad\.obj:2: .*zero/);
   surface.setRules('{"rules": []}');

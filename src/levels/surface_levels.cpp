@@ -96,12 +96,13 @@ std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distributi
     const bool smaller = static_cast<double>(selection.nodes.size()) <= worthwhile * static_cast<double>(kept.size());
     if (!smaller || selection.moving < too_few) break;
     triangulation = Triangulation(triangulation, selection.nodes, selection.number, team);
-    SurfaceLevel level{coarse_net(fine, selection, triangulation), std::move(selection.nodes), std::move(removals)};
+    SurfaceLevel level{coarse_net(fine, selection, triangulation), std::move(selection.nodes), std::move(removals), {}};
     if (!places.empty()) {
       std::vector<Vector3> kept_places(level.finer.size());
       for (std::size_t k = 0; k < kept_places.size(); ++k) kept_places[k] = places[level.finer[k]];
       places = std::move(kept_places);
       level.net.shares = shares_at(level.net, places, team, true);
+      level.places = places;
     }
     levels.push_back(std::move(level));
     if (levels.back().net.moving <= few_enough) break;

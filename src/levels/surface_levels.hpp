@@ -18,6 +18,8 @@ struct SurfaceLevel {
   /// The nodes of the next finer level that this one lacks, in its numbers; empty on the finest. Groups as from
   /// coarsen().
   std::vector<Removals> removals;
+  /// Where its nodes lie by smooth_places() of the finest net; empty on that, and with Distribution::even.
+  std::vector<Vector3> places;
 };
 
 /// The hierarchy of a surface, the coarsest level first, the surface itself last. Coarser levels are triangulations of

@@ -160,14 +160,10 @@ class Run {
   void stay_sound(const Soundness& soundness) {
     const std::size_t last = hierarchy_.count() - 1;
     Net& net = hierarchy_.net(last);
+    if (options_.as_found) return say_if_worse(soundness, net, report_);
     const std::string fault = soundness.fault(net);
     if (fault.empty()) return;
     const bool was_cancelled = report_.outcome == Outcome::cancelled;
-    if (options_.as_found) {
-      report_.warnings.push_back("what was found is worse than the input: " + fault);
-      if (!was_cancelled) report_.outcome = Outcome::worse_than_input;
-      return;
-    }
     const Reached found = reached(last);
     const std::function<void()> ways[] = {[&] { net.positions = smooth_places(net, team_); }, [] {},
                                           [&] {

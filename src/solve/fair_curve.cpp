@@ -1,5 +1,6 @@
 // Curves (§4.8).
 
+#include <optional>
 #include <utility>
 
 #include "base/progress.hpp"
@@ -10,6 +11,7 @@
 #include "solve/curve_hierarchy.hpp"
 #include "solve/equilibrium_method.hpp"
 #include "solve/multigrid_method.hpp"
+#include "solve/soundness.hpp"
 #include "solve/sweep_method.hpp"
 #include "vspring/fair.hpp"
 
@@ -34,6 +36,8 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
 
   const auto model = curve_model_for(gathered.net, options.curve);
   const Distribution distribution = options.distribution.value_or(Distribution::even);
+  std::optional<Soundness> soundness;
+  if (report.method != Method::equilibrium) soundness.emplace(gathered.net, *model, team);
   if (report.method == Method::sweep) {
     distribute(gathered.net, *model, distribution, team);
     run_sweeps(gathered.net, *model, options, team, context, progress, report);
@@ -46,6 +50,7 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
     }
     gathered = std::move(hierarchy).take();
   }
+  if (soundness) say_if_worse(*soundness, gathered.net, report);
 
   result.positions = scatter_positions(gathered.net, curve.positions(), constraints, options.strength);
   measure_moves(gathered.net, curve.positions(), result.positions, report);

@@ -76,8 +76,6 @@ std::size_t turned_edges(const Net& net) {
   return count;
 }
 
-std::size_t edges(const Net& net) { return net.rings.link_count(); }
-
 }  // namespace
 
 Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(&model), team_(&team) {
@@ -86,9 +84,12 @@ Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(
   has_directions_ = std::any_of(start.given.begin(), start.given.end(), [](std::uint8_t given) { return given != 0; });
   has_points_ = !start.points.positions.empty();
   turned_ = turned_edges(start);
+  const bool was_prepared = !start.curvatures.empty();
   model.prepare(start);
   update_directions(start, model, team);
   energy_ = spring_energy(start).sum;
+  // Sweeps must do without: they move from the newest positions.
+  if (!was_prepared) start.curvatures.clear();
 }
 
 std::string Soundness::fault(Net& now) const {
@@ -106,10 +107,17 @@ std::string Soundness::fault(Net& now) const {
   model_->prepare(now);
   update_directions(now, *model_, *team_);
   const double energy = spring_energy(now).sum;
-  const double unseen = unseen_turn * unseen_turn * static_cast<double>(edges(now));
+  const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
   if (!(energy <= noticed_rise * energy_ + unseen))
     return fmt::format("the V-Spring energy rose from {:.3g} to {:.3g}", energy_, energy);
   return {};
+}
+
+void say_if_worse(const Soundness& soundness, Net& found, FairReport& report) {
+  const std::string fault = soundness.fault(found);
+  if (fault.empty()) return;
+  report.warnings.push_back("what was found is worse than the input: " + fault);
+  if (report.outcome == Outcome::converged) report.outcome = Outcome::worse_than_input;
 }
 
 }  // namespace vspring

@@ -6,6 +6,7 @@
 
 #include "base/threads.hpp"
 #include "spring/model.hpp"
+#include "vspring/fair.hpp"
 
 namespace vspring {
 
@@ -31,5 +32,8 @@ class Soundness {
   std::size_t turned_ = 0;
   double energy_ = 0;
 };
+
+/// Of a shape that is handed out as it was found: warns where it is worse, and does not call it converged.
+void say_if_worse(const Soundness& soundness, Net& found, FairReport& report);
 
 }  // namespace vspring

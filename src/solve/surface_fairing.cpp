@@ -108,10 +108,13 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   report.threads = team_.size();
   Net net = gather_part(*whole_, part_, constraints);
   before_ = measure(mesh(), &held(constraints), team_);
+  std::optional<Soundness> soundness;
+  if (report.method != Method::equilibrium) soundness.emplace(net, *model_, team_);
   if (report.method != Method::sweep) {
     hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
     if (report.method == Method::multigrid) {
       run_multigrid(*hierarchy_, *model_, options_, team_, context, progress, report);
+      say_if_worse(*soundness, hierarchy_->net(hierarchy_->count() - 1), report);
     } else {
       run_equilibrium(*hierarchy_, *model_, options_, team_, context, progress, report);
     }
@@ -122,6 +125,7 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   }
   distribute(net, *model_, options_.distribution_taken(), team_);
   run_sweeps(net, *model_, options_, team_, context, progress, report);
+  say_if_worse(*soundness, net, report);
   return net;
 }
 

@@ -9,7 +9,6 @@
 #include "levels/surface_slide.hpp"
 #include "solve/interpolation.hpp"
 #include "solve/surface_preconditioner.hpp"
-#include "spring/spacing.hpp"
 #include "spring/surface_force.hpp"
 
 namespace vspring {
@@ -80,17 +79,14 @@ void SurfaceHierarchy::make_systems(std::size_t level) {
 }
 
 void SurfaceHierarchy::start() {
-  std::vector<Vector3> smooth;
-  if (!levels_.back().net.shares.empty()) smooth = smooth_places(levels_.back().net, *team_);
   for (std::size_t k = levels_.size(); k-- > 1;) {
     const Net& fine = levels_[k].net;
     SurfaceLevel& coarse = levels_[k - 1];
     for (std::size_t i = 0; i < coarse.net.moving; ++i) {
       const std::size_t at = coarse.finer[i];
       coarse.net.positions[i] =
-          smooth.empty() ? Vector3(0.5 * (fine.positions[at] + mean_place(fine, at))) : smooth[at];
+          coarse.places.empty() ? Vector3(0.5 * (fine.positions[at] + mean_place(fine, at))) : coarse.places[i];
     }
-    if (!smooth.empty()) smooth = coarse.net.positions;
   }
 }
 

@@ -25,11 +25,11 @@ constexpr double least_sine = 1e-9;
 
 bool is_open(std::span<const Link> links) { return links.front().start(); }
 
-/// The angle of every spoke around a node if the mesh were regular there; of links that are no spokes, nothing.
+/// The angle of every spoke around a node with faces all around if the mesh were regular there; of links that are no
+/// spokes, nothing.
 void regular_angles(std::span<const Link> links, std::vector<double>& angles) {
   const auto spokes = static_cast<double>(std::count_if(links.begin(), links.end(), [](Link k) { return k.spoke(); }));
-  const double step =
-      is_open(links) ? std::numbers::pi / std::max(spokes - 1, 1.0) : 2 * std::numbers::pi / std::max(spokes, 1.0);
+  const double step = 2 * std::numbers::pi / spokes;
   angles.assign(links.size(), 0);
   double angle = 0;
   for (std::size_t k = 0; k < links.size(); ++k) {

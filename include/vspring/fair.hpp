@@ -71,7 +71,7 @@ struct FairOptions {
 enum class Outcome {
   converged,         ///< nothing is expected to be further away than the tolerance
   iteration_limit,   ///< FairOptions::max_iterations
-  work_limit,        ///< FairReport::most_work: what is left is not worth more time
+  work_limit,        ///< FairReport::most_work, or a limit nobody gave: what is left is not worth more time
   stalled,           ///< further iterations do not lead nearer
   worse_than_input,  ///< what was found has folds, places or an energy that the input had not; unless
                      ///< FairOptions::as_found, the positions are the best shape that is not worse, at worst the
@@ -105,8 +105,8 @@ struct FairReport {
   std::optional<double> expected_error;
   /// What was done on coarser versions of the shape and at last on itself.
   std::vector<LevelReport> levels;
-  /// Equilibrium: what was done on all levels together, in iterations of one moving node (a step of the flow counts 60,
-  /// a sweep 1/16), and the most that would have been done; 0 where iterations are limited instead.
+  /// What was done on all levels together, in iterations of the equilibrium solver on one moving node (a step of the
+  /// flow counts 60, a sweep 1/16), and the most that would have been done; 0 where iterations are limited instead.
   double work = 0;
   double most_work = 0;
   Index nodes = 0;

@@ -32,8 +32,10 @@ class FairingSession {
 
   /// The same for pictures of a drag: no node is expected to be further from its final place than `tolerance`, in place
   /// of that of the options, and nothing is measured: `before`, `after`, moves and counts of what is held are left out
-  /// of the report. Costs one or two iterations, each linear in the moving nodes, where constraints go on much as at
-  /// the last calls. Throws as fair() does, and for a tolerance out of range.
+  /// of the report. Where it cannot go on from the last shape it makes at most 40 iterations on each level; a shape
+  /// that is worse than the input is said to be (Outcome::worse_than_input), and fair() looks for a better one. Costs
+  /// one or two iterations, each linear in the moving nodes, where constraints go on much as at the last calls. Throws
+  /// as fair() does, and for a tolerance out of range.
   [[nodiscard]] FairResult follow(const Constraints& constraints, double tolerance, Context& context);
 
   /// About where follow() would lead, for a first picture of a large shape: as the last steps went, and for what these

@@ -66,17 +66,4 @@ PointClusters cluster_points(const TiedPoints& points, double cell) {
   return clusters;
 }
 
-double mean_edge(const Net& net) {
-  double sum = 0;
-  double edges = 0;
-  for (std::size_t i = 0; i < net.moving; ++i) {
-    for (const Link link : net.rings.links(i)) {
-      if (!link.spoke()) continue;
-      sum += (net.positions[link.node()] - net.positions[i]).norm();
-      edges += 1;
-    }
-  }
-  return edges > 0 ? sum / edges : 0;
-}
-
 }  // namespace vspring

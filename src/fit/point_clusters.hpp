@@ -15,7 +15,4 @@ struct PointClusters {
 /// cell: the edge of a cell, in the coordinates of the points. Cost: n log n.
 PointClusters cluster_points(const TiedPoints& points, double cell);
 
-/// The mean length of the edges of the moving nodes of a net, in its coordinates.
-double mean_edge(const Net& net);
-
 }  // namespace vspring

@@ -17,6 +17,7 @@
 #include "solve/pseudo_transient.hpp"
 #include "solve/soundness.hpp"
 #include "solve/spring_energy.hpp"
+#include "solve/sweep_method.hpp"
 #include "spring/spacing.hpp"
 #include "sweep/sweep.hpp"
 
@@ -44,7 +45,6 @@ constexpr double most_work = 1.2e6;
 constexpr double most_work_a_node = 400;
 // In that measure.
 constexpr double work_of_flow_step = 60;
-constexpr double work_of_sweep = 1.0 / 16;
 // Steps along the flow, where corrections lead nowhere: fewer are no use.
 constexpr int fewest_steps = 20;
 constexpr int most_steps = 100;
@@ -94,14 +94,13 @@ class Run {
     relax(hierarchy_.count() - 1, std::min(options_.max_iterations.value_or(near_limit), near_limit), preconditioner);
   }
 
-  void run() {
+  /// soundness: of the start, or null where that is not to be looked at.
+  void run(const Soundness* soundness) {
     const std::size_t last = hierarchy_.count() - 1;
     Net& finest = hierarchy_.net(last);
     report_.outcome = context_.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
     if (context_.cancelled() || options_.max_iterations == 0) return;
     if (!points_) input_ = finest.positions;
-    std::optional<Soundness> soundness;
-    if (!points_) soundness.emplace(finest, model_, team_);
     // Coarser levels do not keep a distribution, and where points are, a start is near.
     const bool try_first = points_ && options_.distribution == Distribution::keep;
     if (try_first || may_be_there(finest)) {
@@ -114,6 +113,8 @@ class Run {
     }
     if (report_.outcome == Outcome::iteration_limit) go_down();
     if (soundness) stay_sound(*soundness);
+    // Limits that nobody gave.
+    if (!options_.max_iterations && report_.outcome == Outcome::iteration_limit) report_.outcome = Outcome::work_limit;
   }
 
  private:
@@ -165,7 +166,13 @@ class Run {
     if (fault.empty()) return;
     const bool was_cancelled = report_.outcome == Outcome::cancelled;
     const Reached found = reached(last);
-    const std::function<void()> ways[] = {[&] { net.positions = smooth_places(net, team_); }, [] {},
+    const bool is_nowhere = !soundness.misplaced(net).empty();
+    // What is held stays where it is held.
+    const auto start_smooth = [&] {
+      const std::vector<Vector3> places = smooth_places(net, team_);
+      std::copy_n(places.begin(), net.moving, net.positions.begin());
+    };
+    const std::function<void()> ways[] = {start_smooth, [] {},
                                           [&] {
                                             update_directions(net, model_, team_);
                                             hierarchy_.set_shares(model_.present_shares(net));
@@ -186,12 +193,18 @@ class Run {
       best = reached(last);
     }
     const bool cancelled = report_.outcome == Outcome::cancelled;
-    go_back(last, best ? *best : Reached{input_, found.outcome, found.residual});
+    net.positions = input_;
+    // Where constraints are at odds with the input, that with its constraints is no shape to fall back on.
+    const bool input_is_better = soundness.fault_of_places(net).empty() || is_nowhere;
+    go_back(last, best ? *best : input_is_better ? Reached{input_, found.outcome, found.residual} : found);
     report_.outcome = cancelled ? Outcome::cancelled : Outcome::worse_than_input;
     report_.warnings.push_back(fmt::format(
         "no equilibrium was found that is no worse than the input ({}): this is {}; hold more nodes or normals, let a "
         "smaller part move, or refine it",
-        fault, best ? "the fairest shape on the way" : "the input with its constraints"));
+        fault,
+        best              ? "the fairest shape on the way"
+        : input_is_better ? "the input with its constraints"
+                          : "that shape, as the input with its constraints is no better"));
   }
 
   [[nodiscard]] bool out_of_work(const Net& net) const {
@@ -353,9 +366,10 @@ class Run {
       result.outcome = Outcome::work_limit;
     report_.work += work * static_cast<double>(result.iterations) * static_cast<double>(net.moving);
     report_.iterations += result.iterations;
+    const bool by_default = !options_.max_iterations && result.outcome == Outcome::iteration_limit;
     report_.levels.push_back({.moving_nodes = static_cast<Index>(net.moving),
                               .iterations = result.iterations,
-                              .outcome = result.outcome,
+                              .outcome = by_default ? Outcome::work_limit : result.outcome,
                               .seconds = stopwatch.seconds()});
     report_.outcome = result.outcome;
     report_.residual = result.expected_error / size_;
@@ -379,8 +393,9 @@ class Run {
 }  // namespace
 
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
-                     Context& context, ProgressReporter& progress, FairReport& report, PointLevels* points) {
-  Run(hierarchy, model, options, team, context, progress, report, points).run();
+                     Context& context, ProgressReporter& progress, FairReport& report, const Soundness* soundness,
+                     PointLevels* points) {
+  Run(hierarchy, model, options, team, context, progress, report, points).run(soundness);
 }
 
 void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,

@@ -5,16 +5,18 @@
 #include "solve/anderson.hpp"
 #include "solve/hierarchy.hpp"
 #include "solve/point_levels.hpp"
+#include "solve/soundness.hpp"
 #include "spring/model.hpp"
 #include "vspring/fair.hpp"
 
 namespace vspring {
 
 /// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the shape is
-/// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. points: of the
-/// levels, if any.
+/// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. soundness:
+/// where given, of the start, the result is no worse or said to be. points: of the levels, if any.
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
-                     Context& context, ProgressReporter& progress, FairReport& report, PointLevels* points = nullptr);
+                     Context& context, ProgressReporter& progress, FairReport& report, const Soundness* soundness,
+                     PointLevels* points = nullptr);
 
 /// The same from a shape that is near to its equilibrium, without a look at coarser levels, with a preconditioner of
 /// the shape itself. Ends short of it where the shape is not near enough.

@@ -1,6 +1,5 @@
 // Curves (§4.8).
 
-#include <optional>
 #include <utility>
 
 #include "base/progress.hpp"
@@ -36,8 +35,7 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
 
   const auto model = curve_model_for(gathered.net, options.curve);
   const Distribution distribution = options.distribution.value_or(Distribution::even);
-  std::optional<Soundness> soundness;
-  if (report.method != Method::equilibrium) soundness.emplace(gathered.net, *model, team);
+  const Soundness soundness(gathered.net, *model, team);
   if (report.method == Method::sweep) {
     distribute(gathered.net, *model, distribution, team);
     run_sweeps(gathered.net, *model, options, team, context, progress, report);
@@ -46,11 +44,11 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
     if (report.method == Method::multigrid) {
       run_multigrid(hierarchy, *model, options, team, context, progress, report);
     } else {
-      run_equilibrium(hierarchy, *model, options, team, context, progress, report);
+      run_equilibrium(hierarchy, *model, options, team, context, progress, report, &soundness);
     }
     gathered = std::move(hierarchy).take();
   }
-  if (soundness) say_if_worse(*soundness, gathered.net, report);
+  if (report.method != Method::equilibrium) say_if_worse(soundness, gathered.net, report);
 
   result.positions = scatter_positions(gathered.net, curve.positions(), constraints, options.strength);
   measure_moves(gathered.net, curve.positions(), result.positions, report);

@@ -81,16 +81,18 @@ class Fitting {
     Net found = net;
     for (std::size_t i = 0; i < net.moving; ++i)
       found.positions[i] = net.frame.to_local(run_.result.positions[static_cast<std::size_t>(net.node[i])]);
-    const std::string fault = soundness.fault(found);
+    std::string fault = soundness.fault(found);
+    if (fault.empty()) fault = run_.subject.crossings(run_.result.positions);
     if (fault.empty()) return;
-    if (!options_.fair.as_found) run_.finish(net);
+    const bool as_found =
+        options_.fair.as_found || (!soundness.fault_of_places(net).empty() && soundness.misplaced(found).empty());
+    if (!as_found) run_.finish(net);
     if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
     report.warnings.push_back(
-        options_.fair.as_found
-            ? "what was found is worse than the input: " + fault
-            : fmt::format("what was found is worse than the input ({}): this is the input with its constraints; "
-                          "other weights or tolerances may do, or more that is held",
-                          fault));
+        as_found ? "what was found is worse than the input: " + fault
+                 : fmt::format("what was found is worse than the input ({}): this is the input with its constraints; "
+                               "other weights or tolerances may do, or more that is held",
+                               fault));
   }
 
   /// Fits and leaves out the points that are furthest away, in turns, until they stay the same.
@@ -140,7 +142,7 @@ class Fitting {
     }
     const bool has_homes = go_to_equilibrium(std::move(points), progress);
     const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
-    if (found || options_.fair.method || options_.fair.max_iterations) return;
+    if (found || options_.fair.method || options_.fair.max_iterations || options_.fair.as_found) return;
     // Nobody asked for this method: the paper's iteration ends where points crumple a shape, too.
     std::optional<FitResult> nearest;
     if (has_homes) nearest = run_.result;
@@ -149,14 +151,21 @@ class Fitting {
         "no equilibrium was found: this is the plain iteration's shape; the points may be too noisy for their weight "
         "and for edges as short as these, or too little may be held: hold more nodes, let a smaller region move, or "
         "keep the distribution of the nodes");
+    const double work = report.work;
+    const double limit = report.most_work;
+    const Index nodes = report.moving_nodes;
     run_.start_report(Method::sweep);
     FairOptions options = options_.fair;
     if (!options_.smoothing_length)
       options.step_tolerance = std::min(options.step_tolerance, step_share * options_.weight);
-    if (nearest) options.max_iterations = most_sweeps_of_homes;
+    options.max_iterations = sweeps_of_last_resort(static_cast<std::size_t>(nodes));
+    if (nearest) options.max_iterations = std::min(*options.max_iterations, most_sweeps_of_homes);
     points = run_.loose_points();
     report.warnings = std::move(said);
     sweep(std::move(points), options, progress);
+    report.work += work;
+    report.most_work = limit;
+    if (report.outcome == Outcome::iteration_limit) report.outcome = Outcome::work_limit;
     if (!nearest || report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
     // Nodes that stay about where they are do not crumple the shape.
     nearest->report.fair.warnings.push_back(fmt::format(

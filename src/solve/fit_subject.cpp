@@ -7,6 +7,7 @@
 
 #include "constraints/holding.hpp"
 #include "fairness/measure.hpp"
+#include "solve/new_crossings.hpp"
 #include "solve/part_of_mesh.hpp"
 
 namespace vspring {
@@ -91,6 +92,10 @@ std::vector<std::uint8_t> FitSurface::usable() const {
     for (const Index node : face) usable[static_cast<std::size_t>(node)] = 1;
   }
   return usable;
+}
+
+std::string FitSurface::crossings(const std::vector<Vector3>& positions) const {
+  return new_crossings(*whole_, positions, *measuring_, *team_);
 }
 
 SurfaceSides FitSurface::sides() const {

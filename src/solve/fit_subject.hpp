@@ -37,6 +37,8 @@ class FitSurface {
   /// 1 for nodes of a face.
   [[nodiscard]] std::vector<std::uint8_t> usable() const;
   [[nodiscard]] SurfaceSides sides() const;
+  /// As new_crossings().
+  [[nodiscard]] std::string crossings(const std::vector<Vector3>& positions) const;
 
  private:
   const PolygonMesh* whole_;
@@ -68,6 +70,8 @@ class FitCurve {
   [[nodiscard]] std::vector<std::uint8_t> usable() const;
   /// None: curves face nowhere.
   [[nodiscard]] static SurfaceSides sides() { return {}; }
+  /// None are looked for.
+  [[nodiscard]] static std::string crossings(const std::vector<Vector3>& /*positions*/) { return {}; }
 
  private:
   [[nodiscard]] PolygonCurve with(const std::vector<Vector3>& positions) const;

@@ -37,12 +37,15 @@ class FitToTolerance {
     PulledShape shape(std::move(gathered), options, std::move(points), length, run_.team);
     // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
     const std::vector<Vector3> start = shape.net().positions;
+    const auto nodes = static_cast<double>(shape.net().moving);
+    const double most_work = std::max(least_most_work, most_work_a_node * nodes);
     for (const double first : first_lengths) {
       *length = first * edge;
       shape.net().positions = start;
       shape.find(context, progress, report.fair);
       if (report.fair.outcome == Outcome::converged || context.cancelled()) break;
     }
+    if (!options.max_iterations) report.fair.most_work = most_work;
     const auto finish_with = [&](double found) {
       run_.finish(shape.net());
       report.smoothing_length = found / scale;
@@ -58,13 +61,16 @@ class FitToTolerance {
       FairReport one;
       shape.follow(context, progress, one);
       report.fair.iterations += one.iterations;
+      report.fair.work += one.work;
       report.fair.history.insert(report.fair.history.end(), one.history.begin(), one.history.end());
       report.fair.residual = one.residual;
       report.fair.expected_error = one.expected_error;
       report.fair.outcome = one.outcome;
       return one.outcome == Outcome::converged;
     };
-    task.cancelled = [&] { return context.cancelled(); };
+    task.ended = [&] {
+      return context.cancelled() || (report.fair.most_work > 0 && report.fair.work >= report.fair.most_work);
+    };
     task.measure = [&] {
       run_.finish_positions(shape.net());
       std::vector<double> all = run_.distances();
@@ -74,7 +80,7 @@ class FitToTolerance {
     task.energy = [&] { return run_.subject.fairness(run_.result.positions).vspring_energy; };
     const auto figure = [&](const std::vector<double>& all) { return figure_of(all); };
     ToleranceFitResult found = smooth_within(task, tolerance_ * scale, figure);
-    if (run_.options.within && !context.cancelled()) found = hold_within(task, tolerance_ * scale, found);
+    if (run_.options.within && !task.ended()) found = hold_within(task, tolerance_ * scale, found);
     finish_with(found.length);
     report.active_points = found.active;
     conclude(found);
@@ -83,6 +89,9 @@ class FitToTolerance {
  private:
   // The smoothing lengths that tolerances are looked for from, in mean edges.
   static constexpr double first_lengths[] = {3, 1, 0.3, 0.1};
+  // What may be done for one tolerance, in iterations of one moving node: as much as for four equilibria.
+  static constexpr double least_most_work = 1.2e6;
+  static constexpr double most_work_a_node = 1600;
   // Of a tolerance, to which equilibria are found.
   static constexpr double precision = 1e-3;
 
@@ -124,7 +133,8 @@ class FitToTolerance {
       fair.outcome = Outcome::cancelled;
       return;
     }
-    fair.outcome = !found.within ? Outcome::stalled : found.settled ? Outcome::converged : Outcome::iteration_limit;
+    const Outcome limit = fair.most_work > 0 ? Outcome::work_limit : Outcome::iteration_limit;
+    fair.outcome = found.settled ? Outcome::converged : found.within ? limit : Outcome::stalled;
     if (!found.within)
       fair.warnings.push_back(
           fmt::format("no shape of this mesh was found within {:g}: this is the one that comes nearest; points may lie "

@@ -81,7 +81,7 @@ class PulledShape {
   Net& net() { return hierarchy_.net(hierarchy_.count() - 1); }
 
   void find(Context& context, ProgressReporter& progress, FairReport& report) {
-    run_equilibrium(hierarchy_, *model_, options_, *team_, context, progress, report,
+    run_equilibrium(hierarchy_, *model_, options_, *team_, context, progress, report, nullptr,
                     net().points.empty() ? nullptr : &levels_);
   }
 
@@ -98,7 +98,9 @@ class PulledShape {
     levels_.tie(last);
     SweepTask task{.step_tolerance = plain_tolerance, .max_iterations = plain_iterations};
     task.renew_ties = [&] { (void)levels_.renew(0); };
-    report.outcome = sweep_until_still(net(), *model_, task, *team_, context).outcome;
+    const SweepResult swept = sweep_until_still(net(), *model_, task, *team_, context);
+    report.outcome = swept.outcome;
+    report.work += work_of_sweep * static_cast<double>(swept.iterations) * static_cast<double>(net().moving);
     update_directions(net(), *model_, *team_);
   }
 

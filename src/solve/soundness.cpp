@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "solve/spring_energy.hpp"
+#include "spring/spacing.hpp"
 
 namespace vspring {
 
@@ -19,15 +22,23 @@ constexpr double box_of_directions = 20;
 // (in radians) for an edge, tells nothing.
 constexpr double noticed_rise = 3;
 constexpr double unseen_turn = 1e-3;
+// Of the bending, which hardly changes where nodes slide. Springs may ask for more of it than a fair shape has where a
+// rim is free to turn.
+constexpr double risen_bending = 1.3;
+// Of the same without noise, of which an input may have more than the bending that a shape should not have.
+constexpr double risen_smooth_bending = 2.5;
 // Of the product of two vectors, what tells of an angle beyond 90° in spite of rounding.
 constexpr double beyond_right = -1e-6;
+// Of mean edges: shorter ones, and faces of less than the square of that, are as good as nothing.
+constexpr double collapsed_size = 1e-4;
 
 bool turns_back(const Vector3& a, const Vector3& b) {
   return a.dot(b) < beyond_right * std::sqrt(a.squaredNorm() * b.squaredNorm());
 }
 
-/// Vector areas, times two, of the faces that follow the spokes of a node; zero where there is none.
-void find_faces(const Net& net, std::size_t i, std::vector<std::size_t>& spokes, std::vector<Vector3>& faces) {
+/// Vector areas, times two, of the faces that follow the spokes of a node; not a number where there is none.
+void find_faces(const Net& net, const std::vector<Vector3>& positions, std::size_t i, std::vector<std::size_t>& spokes,
+                std::vector<Vector3>& faces) {
   const auto links = net.rings.links(i);
   spokes.clear();
   faces.clear();
@@ -38,11 +49,10 @@ void find_faces(const Net& net, std::size_t i, std::vector<std::size_t>& spokes,
     for (std::size_t at = k;;) {
       const std::size_t next = (at + 1) % links.size();
       if (links[next].start() || links.size() < 2) {
-        area.setZero();
+        area.setConstant(std::numeric_limits<double>::quiet_NaN());
         break;
       }
-      area += (net.positions[links[at].node()] - net.positions[i])
-                  .cross(net.positions[links[next].node()] - net.positions[i]);
+      area += (positions[links[at].node()] - positions[i]).cross(positions[links[next].node()] - positions[i]);
       at = next;
       if (links[at].spoke()) break;
     }
@@ -50,30 +60,47 @@ void find_faces(const Net& net, std::size_t i, std::vector<std::size_t>& spokes,
   }
 }
 
-std::size_t turned_edges(const Net& net) {
-  std::size_t count = 0;
+/// positions: of the nodes, those of the net or others. edge: the mean one.
+Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team) {
+  const double tiny = collapsed_size * edge;
   if (!net.tangents.empty()) {
+    Flaws flaws;
     for (std::size_t i = 0; i < net.moving; ++i) {
       const auto links = net.rings.links(i);
       if (links.size() < 2) continue;
-      count += turns_back(net.positions[i] - net.positions[links[0].node()],
-                          net.positions[links[1].node()] - net.positions[i])
-                   ? 1
-                   : 0;
+      const Vector3 before = positions[i] - positions[links[0].node()];
+      const Vector3 after = positions[links[1].node()] - positions[i];
+      flaws.turned += turns_back(before, after) ? 1 : 0;
+      flaws.collapsed += after.squaredNorm() < tiny * tiny ? 1 : 0;
     }
-    return count;
+    return flaws;
   }
-  std::vector<std::size_t> spokes;
-  std::vector<Vector3> faces;
-  for (std::size_t i = 0; i < net.computed; ++i) {
-    find_faces(net, i, spokes, faces);
-    for (std::size_t s = 0; s < spokes.size(); ++s) {
-      const std::size_t j = net.rings.links(i)[spokes[s]].node();
-      if (j < i && j < net.computed) continue;
-      count += turns_back(faces[(s + faces.size() - 1) % faces.size()], faces[s]) ? 1 : 0;
+  std::vector<Flaws> parts((net.computed + nodes_per_task - 1) / nodes_per_task);
+  parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    Flaws& part = parts[begin / nodes_per_task];
+    std::vector<std::size_t> spokes;
+    std::vector<Vector3> faces;
+    for (std::size_t i = begin; i < end; ++i) {
+      find_faces(net, positions, i, spokes, faces);
+      for (std::size_t s = 0; s < spokes.size(); ++s) {
+        if (faces[s].norm() < 2 * tiny * tiny) ++part.collapsed;
+        const std::size_t j = net.rings.links(i)[spokes[s]].node();
+        if (j < i && j < net.computed) continue;
+        const Vector3& before = faces[(s + faces.size() - 1) % faces.size()];
+        if (turns_back(before, faces[s])) ++part.turned;
+        const double areas = before.norm() + faces[s].norm();
+        const double turn = std::atan2(before.cross(faces[s]).norm(), before.dot(faces[s]));
+        if (areas > 0) part.bending += turn * turn * (positions[j] - positions[i]).squaredNorm() / areas;
+      }
     }
+  });
+  Flaws flaws;
+  for (const Flaws& part : parts) {
+    flaws.turned += part.turned;
+    flaws.collapsed += part.collapsed;
+    flaws.bending += part.bending;
   }
-  return count;
+  return flaws;
 }
 
 }  // namespace
@@ -83,7 +110,12 @@ Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(
   for (const Vector3& position : start.points.positions) box_.extend(position);
   has_directions_ = std::any_of(start.given.begin(), start.given.end(), [](std::uint8_t given) { return given != 0; });
   has_points_ = !start.points.positions.empty();
-  turned_ = turned_edges(start);
+  edge_ = mean_edge(start);
+  flaws_ = flaws_of(start, start.input.empty() ? start.positions : start.input, edge_, team);
+  if (looks_at_bending(start)) {
+    bending_ = start.input.empty() ? flaws_.bending : flaws_of(start, start.positions, edge_, team).bending;
+    if (start.input.empty()) smooth_bending_ = bending_without_noise(start);
+  }
   const bool was_prepared = !start.curvatures.empty();
   model.prepare(start);
   update_directions(start, model, team);
@@ -92,22 +124,61 @@ Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(
   if (!was_prepared) start.curvatures.clear();
 }
 
-std::string Soundness::fault(Net& now) const {
+bool Soundness::looks_at_bending(const Net& net) const {
+  return !has_directions_ && !has_points_ && net.tangents.empty();
+}
+
+double Soundness::bending_without_noise(const Net& net) const {
+  return flaws_of(net, smooth_places(net, *team_), edge_, *team_).bending;
+}
+
+std::string Soundness::misplaced(const Net& now) const {
+  Eigen::AlignedBox3d box = box_;
+  for (std::size_t i = now.moving; i < now.positions.size(); ++i) box.extend(now.positions[i]);
   const Vector3 half =
-      0.5 * (has_directions_ ? box_of_directions : wide_box) * box_.diagonal().maxCoeff() * Vector3::Ones();
-  const Eigen::AlignedBox3d wide(box_.center() - half, box_.center() + half);
+      0.5 * (has_directions_ ? box_of_directions : wide_box) * box.diagonal().maxCoeff() * Vector3::Ones();
+  const Eigen::AlignedBox3d wide(box.center() - half, box.center() + half);
   for (std::size_t i = 0; i < now.moving; ++i) {
     if (!now.positions[i].allFinite()) return fmt::format("node {} has no place", now.node[i]);
     if (!wide.contains(now.positions[i]))
       return fmt::format("node {} is far outside the box of what was given", now.node[i]);
   }
-  const std::size_t turned = turned_edges(now);
-  if (turned > turned_) return fmt::format("{} edges turn by more than 90°, {} did before", turned, turned_);
-  if (has_directions_ || has_points_) return {};
+  return {};
+}
+
+std::string Soundness::more_of(const Flaws& flaws, bool of_surface) const {
+  if (flaws.turned > flaws_.turned)
+    return fmt::format("{} edges turn by more than 90°, {} did before", flaws.turned, flaws_.turned);
+  if (flaws.collapsed > flaws_.collapsed)
+    return fmt::format("{} {}, {} had before", flaws.collapsed,
+                       of_surface ? "corners of faces have no area" : "edges have no length", flaws_.collapsed);
+  return {};
+}
+
+std::string Soundness::fault_of_places(const Net& now) const {
+  std::string misplaced_node = misplaced(now);
+  if (!misplaced_node.empty()) return misplaced_node;
+  return more_of(flaws_of(now, now.positions, edge_, *team_), now.tangents.empty());
+}
+
+std::string Soundness::fault(Net& now) const {
+  std::string misplaced_node = misplaced(now);
+  if (!misplaced_node.empty()) return misplaced_node;
+  const Flaws flaws = flaws_of(now, now.positions, edge_, *team_);
+  std::string more = more_of(flaws, now.tangents.empty());
+  if (!more.empty() || has_directions_ || has_points_) return more;
+  const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
+  if (looks_at_bending(now)) {
+    if (flaws.bending > risen_bending * bending_ + unseen)
+      return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", flaws.bending, bending_);
+    const double smooth = smooth_bending_ ? bending_without_noise(now) : 0;
+    if (smooth > risen_smooth_bending * smooth_bending_.value_or(0) + unseen)
+      return fmt::format("it is bent more, by {:.3g} in place of {:.3g} without the noise of either", smooth,
+                         *smooth_bending_);
+  }
   model_->prepare(now);
   update_directions(now, *model_, *team_);
   const double energy = spring_energy(now).sum;
-  const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
   if (!(energy <= noticed_rise * energy_ + unseen))
     return fmt::format("the V-Spring energy rose from {:.3g} to {:.3g}", energy_, energy);
   return {};

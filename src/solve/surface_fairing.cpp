@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "base/stopwatch.hpp"
@@ -11,17 +12,14 @@
 #include "solve/equilibrium_method.hpp"
 #include "solve/fair_boundary.hpp"
 #include "solve/multigrid_method.hpp"
+#include "solve/new_crossings.hpp"
 #include "solve/part_of_mesh.hpp"
-#include "solve/soundness.hpp"
 #include "solve/spring_energy.hpp"
 #include "solve/sweep_method.hpp"
 
 namespace vspring {
 
 namespace {
-
-// In sweeps of one node: some half a second.
-constexpr double sweeps_of_last_resort = 5e6;
 
 bool hold_the_same(const Constraints& a, const Constraints& b) {
   if (a.node_count() != b.node_count()) return false;
@@ -33,6 +31,14 @@ bool hold_the_same(const Constraints& a, const Constraints& b) {
   return true;
 }
 
+/// While somebody drags: what leads nowhere in so many iterations on each level is for later.
+FairOptions in_a_hurry(FairOptions options) {
+  constexpr int enough = 40;
+  if (!options.max_iterations) options.max_iterations = enough;
+  options.as_found = true;
+  return options;
+}
+
 }  // namespace
 
 SurfaceFairing::SurfaceFairing(const PolygonMesh& mesh, const FairOptions& options, int threads)
@@ -41,9 +47,14 @@ SurfaceFairing::SurfaceFairing(const PolygonMesh& mesh, const FairOptions& optio
 FairResult SurfaceFairing::fair_once(const Constraints& constraints, Context& context) {
   const Stopwatch stopwatch;
   FairResult result;
-  Net net = run(constraints, context, result.report);
+  Net net = run(constraints, context, result.report, options_);
   if (hierarchy_) net = std::move(*hierarchy_).take();
   hierarchy_.reset();
+  if (crosses_itself(net, constraints, context, result.report)) {
+    net = gather_part(*whole_, part_, constraints);
+    result.report.warnings.back() +=
+        ": this is the input with its constraints; hold more nodes, or let a smaller part move";
+  }
   finish(net, constraints, result);
   result.report.seconds = stopwatch.seconds();
   return result;
@@ -58,7 +69,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
     result = {};
     last_.reset();
     hierarchy_.reset();
-    const Net net = run(constraints, context, result.report);
+    const Net net = run(constraints, context, result.report, tolerance ? in_a_hurry(options_) : options_);
     if (!hierarchy_) {
       finish(net, constraints, result);
       result.report.seconds = stopwatch.seconds();
@@ -66,15 +77,20 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
     }
   }
   const Net& net = hierarchy_->net(hierarchy_->count() - 1);
+  const Outcome outcome = result.report.outcome;
   if (tolerance) {
     result.report.moving_nodes = static_cast<Index>(net.moving);
-    result.positions = scatter_positions(net, whole_->positions(), constraints, options_.strength);
+    // Where a hurried run has led nowhere, the input with its constraints is a better picture.
+    const bool is_of_use = went_on || outcome == Outcome::converged || soundness_->fault_of_places(net).empty();
+    result.positions = scatter_positions(is_of_use ? net : gather_part(*whole_, part_, constraints),
+                                         whole_->positions(), constraints, options_.strength);
   } else {
+    (void)crosses_itself(net, constraints, context, result.report);
     finish(net, constraints, result);
   }
-  if (went_on && result.report.outcome == Outcome::cancelled)
+  if (went_on && outcome == Outcome::cancelled)
     hierarchy_->go_back();
-  else if (result.report.outcome == Outcome::converged && result.report.method == Method::equilibrium)
+  else if (went_on || (outcome == Outcome::converged && result.report.method == Method::equilibrium))
     last_ = constraints;
   result.report.seconds = stopwatch.seconds();
   return result;
@@ -98,57 +114,59 @@ bool SurfaceFairing::fits_last(const Constraints& constraints) const {
   return true;
 }
 
-Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report) {
+Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report,
+                        const FairOptions& options) {
   part_ = moving_part(*whole_, constraints);
   meter_.reset();
   report.warnings = check_part(*whole_, part_, constraints);
-  report.method = options_.method.value_or(Method::equilibrium);
+  report.method = options.method.value_or(Method::equilibrium);
   ProgressReporter progress(context);
   progress.report("preparing", 0);
   report.threads = team_.size();
   Net net = gather_part(*whole_, part_, constraints);
   before_ = measure(mesh(), &held(constraints), team_);
-  std::optional<Soundness> soundness;
-  if (report.method != Method::equilibrium) soundness.emplace(net, *model_, team_);
+  soundness_.emplace(net, *model_, team_);
   if (report.method != Method::sweep) {
-    hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
+    hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
     if (report.method == Method::multigrid) {
-      run_multigrid(*hierarchy_, *model_, options_, team_, context, progress, report);
-      say_if_worse(*soundness, hierarchy_->net(hierarchy_->count() - 1), report);
+      run_multigrid(*hierarchy_, *model_, options, team_, context, progress, report);
+      say_if_worse(*soundness_, hierarchy_->net(hierarchy_->count() - 1), report);
     } else {
-      run_equilibrium(*hierarchy_, *model_, options_, team_, context, progress, report);
+      run_equilibrium(*hierarchy_, *model_, options, team_, context, progress, report, &*soundness_);
     }
     const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
-    if (found || options_.method || options_.max_iterations) return {};
+    if (found || options.method || options.max_iterations || options.as_found) return {};
     try_sweeps(constraints, context, progress, report);
     return {};
   }
-  distribute(net, *model_, options_.distribution_taken(), team_);
-  run_sweeps(net, *model_, options_, team_, context, progress, report);
-  say_if_worse(*soundness, net, report);
+  distribute(net, *model_, options.distribution_taken(), team_);
+  run_sweeps(net, *model_, options, team_, context, progress, report);
+  say_if_worse(*soundness_, net, report);
   return net;
 }
 
 void SurfaceFairing::try_sweeps(const Constraints& constraints, Context& context, ProgressReporter& progress,
                                 FairReport& report) {
   Net net = gather_part(*whole_, part_, constraints);
-  const Soundness soundness(net, *model_, team_);
   distribute(net, *model_, options_.distribution_taken(), team_);
   FairOptions options = options_;
-  options.max_iterations =
-      static_cast<int>(std::clamp(sweeps_of_last_resort / static_cast<double>(net.moving), 10.0, 1e4));
+  options.max_iterations = sweeps_of_last_resort(net.moving);
   FairReport of_sweeps;
   run_sweeps(net, *model_, options, team_, context, progress, of_sweeps);
+  report.work += of_sweeps.work;
   Net& nearest = hierarchy_->net(hierarchy_->count() - 1);
   update_directions(nearest, *model_, team_);
   update_directions(net, *model_, team_);
-  const bool better = soundness.fault(net).empty() && spring_energy(net).sum < spring_energy(nearest).sum;
+  const bool better = soundness_->fault(net).empty() && spring_energy(net).sum < spring_energy(nearest).sum;
   if (better) nearest.positions = net.positions;
   if (report.outcome == Outcome::worse_than_input) {
     if (!better) return;
     // In place of what was said of that.
     report.outcome = Outcome::stalled;
-    report.warnings.pop_back();
+    report.warnings.back() =
+        "no equilibrium was found that is no worse than the input: this is the plain iteration's "
+        "shape, which is fairer; hold more nodes, or normals, or let a smaller region move";
+    return;
   }
   report.warnings.push_back(fmt::format(
       "no equilibrium was found (the nearest shape is expected to be {:.2g} % of the size away from one): this is {}; "
@@ -168,8 +186,27 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std
   hierarchy_->follow(constraints, *model_, options.tolerance * diagonal(net));
   run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, options, team_, context, progress,
                             report, nullptr, &hierarchy_->memory(), tolerance.has_value());
-  if (report.outcome == Outcome::converged) hierarchy_->arrived();
-  return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
+  if (report.outcome == Outcome::cancelled) return true;
+  if (report.outcome != Outcome::converged) return false;
+  const std::string fault = soundness_->fault_of_places(net);
+  if (!fault.empty()) {
+    // Who has dragged something too far sees it, and drags it back.
+    if (!tolerance && !options_.as_found) return false;
+    report.outcome = Outcome::worse_than_input;
+    report.warnings.push_back("this is worse than the input: " + fault);
+  }
+  hierarchy_->arrived();
+  return true;
+}
+
+bool SurfaceFairing::crosses_itself(const Net& net, const Constraints& constraints, Context& context,
+                                    FairReport& report) {
+  const std::string crossings = new_crossings(
+      *whole_, scatter_positions(net, whole_->positions(), constraints, options_.strength), context, team_);
+  if (crossings.empty()) return false;
+  if (report.outcome == Outcome::converged) report.outcome = Outcome::worse_than_input;
+  report.warnings.push_back("what was found is worse than the input: " + crossings);
+  return report.method == Method::equilibrium && !options_.as_found;
 }
 
 void SurfaceFairing::finish(const Net& net, const Constraints& constraints, FairResult& result) {

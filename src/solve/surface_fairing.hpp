@@ -8,6 +8,7 @@
 #include "base/threads.hpp"
 #include "constraints/moving_part.hpp"
 #include "fairness/measure.hpp"
+#include "solve/soundness.hpp"
 #include "solve/surface_hierarchy.hpp"
 #include "spring/model.hpp"
 #include "vspring/fair.hpp"
@@ -25,7 +26,8 @@ class SurfaceFairing {
 
   /// The same, and remembers the shape and how it was found. Where the constraints hold the same nodes as the time
   /// before and an equilibrium was found then, it starts from there, with what it has.
-  /// tolerance: in place of the options' one, where the report is to have no figures of the shape.
+  /// tolerance: in place of the options' one, where somebody drags: the report is to have no figures of the shape, and
+  /// a shape that is worse than the mesh is said to be, but no other is looked for.
   FairResult fair_again(const Constraints& constraints, Context& context, std::optional<double> tolerance = {});
 
   /// About where fair_again() would lead from the last shape, which stays as it is. None where there is none to go
@@ -36,12 +38,14 @@ class SurfaceFairing {
   /// Whether it can go on from the last shape.
   [[nodiscard]] bool fits_last(const Constraints& constraints) const;
   /// Leaves the shape in the net that it returns, or in hierarchy_.
-  Net run(const Constraints& constraints, Context& context, FairReport& report);
+  Net run(const Constraints& constraints, Context& context, FairReport& report, const FairOptions& options);
   /// Where no equilibrium was found and nobody asked for the method: the paper's iteration may lead somewhere. The
   /// fairer of both stays.
   void try_sweeps(const Constraints& constraints, Context& context, ProgressReporter& progress, FairReport& report);
   /// From the last shape. False where that leads nowhere.
   bool go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance, FairReport& report);
+  /// Says where faces cross each other that did not before. True where they do, and that is not wanted as found.
+  bool crosses_itself(const Net& net, const Constraints& constraints, Context& context, FairReport& report);
   void finish(const Net& net, const Constraints& constraints, FairResult& result);
   /// What is worked on: the part that moves, or the whole.
   [[nodiscard]] const PolygonMesh& mesh() const { return part_ ? part_->mesh : *whole_; }
@@ -55,6 +59,7 @@ class SurfaceFairing {
   ThreadTeam team_;
   std::unique_ptr<const Model> model_;
   Fairness before_;
+  std::optional<Soundness> soundness_;
   // Of what is worked on, from the first result on: while levels are made it would be in the way.
   std::optional<FairnessMeter> meter_;
   std::optional<SurfaceHierarchy> hierarchy_;

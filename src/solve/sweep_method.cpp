@@ -25,7 +25,15 @@ double share_done(double first, double now, double last) {
   return first > now ? std::log(first / now) / std::log(first / last) : 0;
 }
 
+// In sweeps of one node.
+constexpr double most_of_last_resort = 5e6;
+
 }  // namespace
+
+int sweeps_of_last_resort(std::size_t moving_nodes) {
+  const double most = most_of_last_resort / static_cast<double>(std::max<std::size_t>(moving_nodes, 1));
+  return static_cast<int>(std::clamp(most, 10.0, 1e4));
+}
 
 SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& task, ThreadTeam& team, Context& context) {
   Sweep sweep(net, model, team);
@@ -71,6 +79,7 @@ void run_sweeps(Net& net, const Model& model, const FairOptions& options, Thread
   const SweepResult result = sweep_until_still(net, model, task, team, context);
   report.outcome = result.outcome;
   report.iterations = result.iterations;
+  report.work += work_of_sweep * static_cast<double>(result.iterations) * static_cast<double>(net.moving);
   report.residual = result.residual;
   if (result.lost) report.warnings.emplace_back(lost_warning);
 }

@@ -79,12 +79,12 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
     }
     if (inside) net.positions = best;
     const bool found = task.follow();
-    if (task.cancelled()) break;
+    if (task.ended()) break;
     look(found);
   }
   net.positions = best;
   result.within = inside.has_value();
-  result.settled = result.within;
+  result.settled = result.within && !task.ended();
   result.length = inside ? inside->first : nearest;
   *task.length = result.length;
   return result;
@@ -135,7 +135,7 @@ ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, T
           std::clamp(points.weights[k] * change, least_point_weight * weights[k], most_weight * weights[k]);
     }
     (void)task.follow();
-    if (task.cancelled()) break;
+    if (task.ended()) break;
   }
   points.weights = weights;
   net.positions = best;

@@ -21,7 +21,7 @@ struct ToleranceFitTask {
   Net* net = nullptr;
   std::shared_ptr<double> length;  ///< the smoothing length that points pull by, in the coordinates of the net
   std::function<bool()> follow;    ///< false where that leads nowhere
-  std::function<bool()> cancelled;
+  std::function<bool()> ended;     ///< cancelled, or out of work: the best so far stays
   std::function<std::vector<double>()> measure;
   std::function<double()> energy;
 };

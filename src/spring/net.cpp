@@ -207,4 +207,17 @@ std::vector<Vector3> scatter_places(const Net& net, std::span<const Vector3> pla
   return positions;
 }
 
+double mean_edge(const Net& net) {
+  double sum = 0;
+  double edges = 0;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    for (const Link link : net.rings.links(i)) {
+      if (!link.spoke()) continue;
+      sum += (net.positions[link.node()] - net.positions[i]).norm();
+      edges += 1;
+    }
+  }
+  return edges > 0 ? sum / edges : 0;
+}
+
 }  // namespace vspring

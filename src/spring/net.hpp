@@ -48,6 +48,9 @@ struct Net {
   }
 };
 
+/// The mean length of the edges of the moving nodes, in the coordinates of the net. Cost: linear.
+double mean_edge(const Net& net);
+
 /// Gathers the net of a mesh under constraints. The mesh must have passed check_constraints(). Cost: linear in the
 /// mesh, once, and in the moving nodes.
 Net gather_net(const PolygonMesh& mesh, const Constraints& constraints);

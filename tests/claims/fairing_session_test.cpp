@@ -269,6 +269,29 @@ TEST(FairingSession, OtherMethodsFairAnewEveryTime) {
   EXPECT_EQ(session.fair(one.constraints).positions, fair(one.mesh, one.constraints, options).positions);
 }
 
+TEST(FairingSession, SaysThatADragFoldsTheShapeAndComesBackFromIt) {
+  const PolygonMesh mesh = generate::plane({.columns = 12, .rows = 12});
+  Constraints constraints = held_boundary(mesh);
+  const Index node = 6 * 13 + 6;
+  FairingSession session(mesh, to(1e-6));
+  Context context;
+  const auto drag_to = [&](double way) {
+    constraints.fix_position(node, mesh.position(node) + Vector3(way, 0, 0));
+    return session.follow(constraints, 1e-4, context);
+  };
+  EXPECT_EQ(drag_to(0).report.outcome, Outcome::converged);
+  Outcome outcome = Outcome::converged;
+  double way = 0;
+  for (; way < 0.48 && outcome == Outcome::converged; way += 0.02) outcome = drag_to(way).report.outcome;
+  ASSERT_EQ(outcome, Outcome::worse_than_input) << "over the nodes between it and the rim";
+  const FairResult far = session.fair(constraints, context);
+  EXPECT_EQ(far.report.outcome, Outcome::worse_than_input);
+  ASSERT_FALSE(far.report.warnings.empty());
+  EXPECT_EQ(far.positions[node], constraints.position(node));
+  for (const Vector3& p : far.positions) EXPECT_TRUE(p.allFinite());
+  EXPECT_EQ(drag_to(0.02).report.outcome, Outcome::converged);
+}
+
 TEST(FairingSession, ThreadsGiveTheSameBits) {
   std::vector<std::vector<Vector3>> shapes;
   for (const int threads : {1, 3}) {

@@ -285,7 +285,7 @@ TEST(FitEquilibrium, NodesThatKeepTheirDistributionDoNotSlideOffWhatIsSharp) {
 
 TEST(FitEquilibrium, TakesTheNearestShapeWhereNoiseHasFoldedFacesThatKeepTheirPlace) {
   const auto [result, share] = cleaned_cube(1, 0.3);
-  EXPECT_EQ(result.report.fair.outcome, Outcome::iteration_limit);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::work_limit);
   EXPECT_EQ(result.report.fair.method, Method::equilibrium);
   ASSERT_FALSE(result.report.fair.warnings.empty());
   EXPECT_NE(result.report.fair.warnings.back().find("no equilibrium"), std::string::npos);

@@ -236,6 +236,17 @@ TEST(FitWithin, AWideToleranceLeavesPlainFairing) {
   EXPECT_EQ(wave.fit(with_rms(0.2)).positions, result.positions);
 }
 
+TEST(FitWithin, EndsWhereItIsNotWorthMore) {
+  const NoisyPlane plane;
+  for (const double distance : {0.006, 0.0005}) {
+    const FairReport report = plane.fit(within(distance)).report.fair;
+    EXPECT_GT(report.work, 0);
+    // The last run of many may go beyond.
+    EXPECT_LE(report.work, 1.05 * report.most_work) << distance;
+    EXPECT_EQ(report.outcome == Outcome::converged, distance > 0.005) << name(report.outcome);
+  }
+}
+
 TEST(FitWithin, SaysWhereNoShapeIs) {
   const NoisyWave wave(60);
   ScatteredPoints points{.positions = wave.nodes};

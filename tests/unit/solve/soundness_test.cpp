@@ -72,6 +72,68 @@ TEST(Soundness, CountsEdgesThatTurnBack) {
   EXPECT_EQ(of_folded.fault(start), "");
 }
 
+TEST(Soundness, TellsWhatIsBentMoreFromNoise) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  const auto bowed = [](double height, double noise) {
+    const PolygonMesh plane = generate::plane({.columns = 12, .rows = 12});
+    const PolygonMesh mesh = noise > 0 ? generate::add_noise(plane, noise, 3) : plane;
+    Net net = gather_net(mesh, held_boundary(mesh));
+    for (std::size_t i = 0; i < net.moving; ++i) {
+      Vector3& p = net.positions[i];
+      const Vector3 there = plane.position(net.node[i]);
+      p.z() += height * std::sin(3.14159 * there.x()) * std::sin(3.14159 * there.y());
+    }
+    return net;
+  };
+  for (const double noise : {0.0, 0.02}) {
+    Net start = bowed(0.1, noise);
+    const Soundness soundness(start, *model, team);
+    EXPECT_EQ(soundness.fault(start), "");
+    Net same = bowed(0.1, 0);
+    EXPECT_EQ(soundness.fault(same), "") << "without the noise";
+    Net more = bowed(0.3, 0);
+    EXPECT_TRUE(contains(soundness.fault(more), "bent more")) << soundness.fault(more);
+  }
+}
+
+TEST(Soundness, CountsWhatHasCollapsed) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  Net start = square(true);
+  const Soundness soundness(start, *model, team);
+  Net collapsed = start;
+  for (std::size_t i = 0; i < collapsed.moving; ++i) collapsed.positions[i] = start.positions[0];
+  EXPECT_TRUE(contains(soundness.fault(collapsed), "no area")) << soundness.fault(collapsed);
+  EXPECT_EQ(Soundness(collapsed, *model, team).fault(start), "");
+}
+
+TEST(Soundness, KnowsWhatWasHeldElsewhere) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  Net start = square(false);
+  const Soundness soundness(start, *model, team);
+  // All goes with what is held: far from where it was, and as good.
+  Net dragged = start;
+  for (Vector3& p : dragged.positions) p.z() += 50;
+  EXPECT_EQ(soundness.fault_of_places(dragged), "");
+  dragged.positions[0] += 2.5 * (dragged.positions[dragged.rings.links(0)[0].node()] - dragged.positions[0]);
+  EXPECT_TRUE(contains(soundness.fault_of_places(dragged), "90°")) << soundness.fault_of_places(dragged);
+}
+
+TEST(Soundness, LooksAtTheInputAndNotAtWhatConstraintsMakeOfIt) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  const PolygonMesh mesh = generate::plane({.columns = 8, .rows = 8});
+  Constraints constraints = held_boundary(mesh);
+  // Beyond its neighbours.
+  const Index node = 4 * 9 + 4;
+  constraints.fix_position(node, mesh.position(node) + Vector3(0.3, 0, 0));
+  Net start = gather_net(mesh, constraints);
+  const Soundness soundness(start, *model, team);
+  EXPECT_TRUE(contains(soundness.fault(start), "90°")) << soundness.fault(start);
+}
+
 TEST(Soundness, OfCurvesToo) {
   ThreadTeam team(1);
   const auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 20));
@@ -82,6 +144,9 @@ TEST(Soundness, OfCurvesToo) {
   Net folded = start;
   folded.positions[4].x() += 0.2;
   EXPECT_TRUE(contains(soundness.fault(folded), "90°")) << soundness.fault(folded);
+  Net collapsed = start;
+  collapsed.positions[4] = collapsed.positions[5];
+  EXPECT_TRUE(contains(soundness.fault(collapsed), "no length")) << soundness.fault(collapsed);
   Net wavy = start;
   for (std::size_t i = 0; i < wavy.moving; ++i) wavy.positions[i].y() += 0.01 * std::sin(static_cast<double>(9 * i));
   EXPECT_TRUE(contains(soundness.fault(wavy), "energy")) << soundness.fault(wavy);

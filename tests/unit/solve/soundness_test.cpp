@@ -81,7 +81,7 @@ TEST(Soundness, TellsWhatIsBentMoreFromNoise) {
     Net net = gather_net(mesh, held_boundary(mesh));
     for (std::size_t i = 0; i < net.moving; ++i) {
       Vector3& p = net.positions[i];
-      const Vector3 there = plane.position(net.node[i]);
+      const Vector3& there = plane.position(net.node[i]);
       p.z() += height * std::sin(3.14159 * there.x()) * std::sin(3.14159 * there.y());
     }
     return net;

@@ -6,7 +6,7 @@ import { once } from 'node:events';
 import { copyFileSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { createInterface } from 'node:readline';
-import { test } from 'node:test';
+import { after, test } from 'node:test';
 import { drag, faults, find, greatestDistance, native, open, page, placesOf, program, root, rulesOf, session, settled, useSession } from './support.mjs';
 
 useSession();
@@ -15,9 +15,14 @@ useSession();
 async function edited(...options) {
   const child = spawn(program, ['edit', ...options, '--no-browser', '--quiet'],
     { stdio: ['ignore', 'pipe', 'inherit'], env: { ...process.env, VSPRING_EDITOR: join(root, 'build/editor') } });
+  running.add(child);
   const [address] = await once(createInterface(child.stdout), 'line');
   return { child, address };
 }
+
+// A test that fails leaves its program behind, and that would keep this process waiting.
+const running = new Set();
+after(() => { for (const child of running) child.kill('SIGKILL'); });
 
 async function ended({ child }) {
   child.kill('SIGINT');

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "solve/spring_energy.hpp"
@@ -60,14 +61,17 @@ void find_faces(const Net& net, const std::vector<Vector3>& positions, std::size
   }
 }
 
-/// positions: of the nodes, those of the net or others. edge: the mean one.
-Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team) {
+/// positions: of the nodes, those of the net or others. edge: the mean one. dragged: 1 for nodes that are held
+/// elsewhere than the input has them: what turns beside them is wanted; or empty.
+Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team,
+               std::span<const std::uint8_t> dragged = {}) {
   const double tiny = collapsed_size * edge;
+  const auto is_dragged = [&](std::size_t node) { return !dragged.empty() && dragged[node] != 0; };
   if (!net.tangents.empty()) {
     Flaws flaws;
     for (std::size_t i = 0; i < net.moving; ++i) {
       const auto links = net.rings.links(i);
-      if (links.size() < 2) continue;
+      if (links.size() < 2 || is_dragged(links[0].node()) || is_dragged(links[1].node())) continue;
       const Vector3 before = positions[i] - positions[links[0].node()];
       const Vector3 after = positions[links[1].node()] - positions[i];
       flaws.turned += turns_back(before, after) ? 1 : 0;
@@ -81,13 +85,16 @@ Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edg
     std::vector<std::size_t> spokes;
     std::vector<Vector3> faces;
     for (std::size_t i = begin; i < end; ++i) {
+      if (is_dragged(i)) continue;
       find_faces(net, positions, i, spokes, faces);
+      const auto neighbour = [&](std::size_t s) { return net.rings.links(i)[spokes[s % spokes.size()]].node(); };
       for (std::size_t s = 0; s < spokes.size(); ++s) {
+        const std::size_t j = neighbour(s);
+        if (is_dragged(j) || is_dragged(neighbour(s + 1))) continue;
         if (faces[s].norm() < 2 * tiny * tiny) ++part.collapsed;
-        const std::size_t j = net.rings.links(i)[spokes[s]].node();
         if (j < i && j < net.computed) continue;
         const Vector3& before = faces[(s + faces.size() - 1) % faces.size()];
-        if (turns_back(before, faces[s])) ++part.turned;
+        if (turns_back(before, faces[s]) && !is_dragged(neighbour(s + spokes.size() - 1))) ++part.turned;
         const double areas = before.norm() + faces[s].norm();
         const double turn = std::atan2(before.cross(faces[s]).norm(), before.dot(faces[s]));
         if (areas > 0) part.bending += turn * turn * (positions[j] - positions[i]).squaredNorm() / areas;
@@ -112,6 +119,8 @@ Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(
   has_points_ = !start.points.positions.empty();
   edge_ = mean_edge(start);
   flaws_ = flaws_of(start, start.input.empty() ? start.positions : start.input, edge_, team);
+  const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
+  held_.assign(input.begin() + static_cast<std::ptrdiff_t>(start.moving), input.end());
   if (looks_at_bending(start)) {
     bending_ = start.input.empty() ? flaws_.bending : flaws_of(start, start.positions, edge_, team).bending;
     if (start.input.empty()) smooth_bending_ = bending_without_noise(start);
@@ -122,6 +131,18 @@ Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(
   energy_ = spring_energy(start).sum;
   // Sweeps must do without: they move from the newest positions.
   if (!was_prepared) start.curvatures.clear();
+}
+
+std::vector<std::uint8_t> Soundness::dragged(const Net& now) const {
+  std::vector<std::uint8_t> result(now.positions.size(), 0);
+  bool some = false;
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    if ((now.positions[now.moving + k] - held_[k]).norm() < collapsed_size * edge_) continue;
+    result[now.moving + k] = 1;
+    some = true;
+  }
+  if (!some) result.clear();
+  return result;
 }
 
 bool Soundness::looks_at_bending(const Net& net) const {
@@ -158,13 +179,13 @@ std::string Soundness::more_of(const Flaws& flaws, bool of_surface) const {
 std::string Soundness::fault_of_places(const Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
-  return more_of(flaws_of(now, now.positions, edge_, *team_), now.tangents.empty());
+  return more_of(flaws_of(now, now.positions, edge_, *team_, dragged(now)), now.tangents.empty());
 }
 
 std::string Soundness::fault(Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
-  const Flaws flaws = flaws_of(now, now.positions, edge_, *team_);
+  const Flaws flaws = flaws_of(now, now.positions, edge_, *team_, dragged(now));
   std::string more = more_of(flaws, now.tangents.empty());
   if (!more.empty() || has_directions_ || has_points_) return more;
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());

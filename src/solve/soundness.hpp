@@ -2,8 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/threads.hpp"
 #include "spring/model.hpp"
@@ -29,8 +31,9 @@ class Soundness {
   Soundness(Net& start, const Model& model, ThreadTeam& team);
 
   /// What is worse about the shape now, in words for people; empty where nothing is: places that are no numbers or far
-  /// outside the box; more flaws; where nothing but positions holds it, over three times the V-Spring energy, or of a
-  /// surface over 1.3 times the bending, or 2.5 times that without noise. Updates directions. Cost: linear.
+  /// outside the box; more flaws, but for those beside nodes that are held elsewhere than the input has them; where
+  /// nothing but positions holds it, over three times the V-Spring energy, or of a surface over 1.3 times the bending,
+  /// or 2.5 times that without noise. Updates directions. Cost: linear.
   [[nodiscard]] std::string fault(Net& now) const;
 
   /// The same where what is held has been moved since, which the energy depends on: without a look at that. Updates
@@ -41,6 +44,7 @@ class Soundness {
   [[nodiscard]] std::string misplaced(const Net& now) const;
 
  private:
+  [[nodiscard]] std::vector<std::uint8_t> dragged(const Net& now) const;
   [[nodiscard]] bool looks_at_bending(const Net& net) const;
   [[nodiscard]] double bending_without_noise(const Net& net) const;
   [[nodiscard]] std::string more_of(const Flaws& flaws, bool of_surface) const;
@@ -52,6 +56,7 @@ class Soundness {
   bool has_points_ = false;
   double edge_ = 0;  ///< the mean one
   Flaws flaws_;
+  std::vector<Vector3> held_;  ///< where the input has the nodes that are held
   double energy_ = 0;
   // Where nothing but positions holds a surface: with its constraints, and after smooth_places(); none where
   // constraints put nodes elsewhere than the input has them.

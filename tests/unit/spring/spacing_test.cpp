@@ -43,8 +43,9 @@ TEST(Spacing, TheSharesAtPlacesHoldNodesThere) {
       EXPECT_NEAR(sum, 1, 1e-12);
       const NodeForce force = surface_force(net, i);
       // With three neighbours a node may lie outside them.
-      if (faces == Faces::triangles || faces == Faces::quads)
+      if (faces == Faces::triangles || faces == Faces::quads) {
         EXPECT_LT(force.regularisation.norm(), 1e-3 * force.mean_edge);
+      }
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <utility>
@@ -108,7 +109,8 @@ class BoxTree {
 
   /// Where part `part` of `parts` (a power of two) begins.
   [[nodiscard]] std::size_t first_item(std::size_t part, std::size_t parts) const {
-    return boxes_.size() * part / parts;
+    // In 64 bits where addresses have 32, too.
+    return static_cast<std::size_t>(std::uint64_t{boxes_.size()} * part / parts);
   }
   void split(std::size_t part, std::size_t parts);
 

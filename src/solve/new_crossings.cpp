@@ -40,6 +40,7 @@ PolygonMesh around_what_moved(const PolygonMesh& mesh, const std::vector<Vector3
 
 std::string new_crossings(const PolygonMesh& mesh, const std::vector<Vector3>& positions, const Context& context,
                           ThreadTeam& team) {
+  if (context.cancelled()) return {};
   std::vector<Index> numbers;
   PolygonMesh part = around_what_moved(mesh, positions, numbers);
   const auto now = self_intersections(part, context, team);

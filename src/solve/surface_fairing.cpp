@@ -71,6 +71,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
     hierarchy_.reset();
     const Net net = run(constraints, context, result.report, tolerance ? in_a_hurry(options_) : options_);
     if (!hierarchy_) {
+      (void)crosses_itself(net, constraints, context, result.report);
       finish(net, constraints, result);
       result.report.seconds = stopwatch.seconds();
       return result;
@@ -204,7 +205,7 @@ bool SurfaceFairing::crosses_itself(const Net& net, const Constraints& constrain
   const std::string crossings = new_crossings(
       *whole_, scatter_positions(net, whole_->positions(), constraints, options_.strength), context, team_);
   if (crossings.empty()) return false;
-  if (report.outcome == Outcome::converged) report.outcome = Outcome::worse_than_input;
+  report.outcome = Outcome::worse_than_input;
   report.warnings.push_back("what was found is worse than the input: " + crossings);
   return report.method == Method::equilibrium && !options_.as_found;
 }

@@ -237,14 +237,13 @@ TEST(FitWithin, AWideToleranceLeavesPlainFairing) {
 }
 
 TEST(FitWithin, EndsWhereItIsNotWorthMore) {
-  const NoisyPlane plane;
-  for (const double distance : {0.006, 0.0005}) {
-    const FairReport report = plane.fit(within(distance)).report.fair;
-    EXPECT_GT(report.work, 0);
-    // The last run of many may go beyond.
-    EXPECT_LE(report.work, 1.05 * report.most_work) << distance;
-    EXPECT_EQ(report.outcome == Outcome::converged, distance > 0.005) << name(report.outcome);
-  }
+  // Noise of many edges, along the curve as well, crumples it.
+  const FitResult result = NoisyWave(900, 0.01).fit(within(0.006));
+  const FairReport& report = result.report.fair;
+  EXPECT_NE(report.outcome, Outcome::converged);
+  EXPECT_GE(report.work, report.most_work) << "or it would show nothing";
+  // The last run of many may go beyond.
+  EXPECT_LE(report.work, 1.05 * report.most_work);
 }
 
 TEST(FitWithin, SaysWhereNoShapeIs) {

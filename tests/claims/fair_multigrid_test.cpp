@@ -23,7 +23,7 @@ FairOptions multigrid(double step_tolerance = 1e-3) {
 TEST(Multigrid, AFlatDiscBecomesTheCapOfWhateverPolygons) {
   for (const generate::Faces faces : every_kind) {
     SCOPED_TRACE(static_cast<int>(faces));
-    const PolygonMesh patch = generate::sphere_patch({.columns = 16, .rows = 16, .faces = faces, .jitter = 0.2}, 1, 60);
+    const PolygonMesh patch = generate::sphere_patch({.columns = 12, .rows = 12, .faces = faces, .jitter = 0.2}, 1, 60);
     const FairResult result = fair(generate::add_noise(patch, 0.05, 3), held_boundary(patch, radial), multigrid(1e-9));
     EXPECT_EQ(result.report.outcome, Outcome::converged);
     EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-6);
@@ -174,17 +174,19 @@ TEST(Multigrid, CurvesOfAHundredEdgesHaveLevels) {
 }
 
 TEST(Multigrid, CoarseLevelsFoldNothing) {
-  // On levels of some forty nodes this annulus has a second equilibrium, with a crease.
-  const PolygonMesh annulus = generate::annulus({.nodes = 60'000, .boundary_nodes = 1225});
-  const Constraints constraints = clamped_boundary(annulus);
-  for (const auto& [method, normals] :
-       {std::pair(Method::multigrid, PseudoNormals::link), std::pair(Method::equilibrium, PseudoNormals::angle)}) {
-    FairOptions options;
-    options.method = method;
-    options.pseudo_normals = normals;
-    const FairResult result = fair(annulus, constraints, options);
-    EXPECT_EQ(result.report.outcome, Outcome::converged);
-    EXPECT_LT(result.report.after.greatest_turn, 15);
+  // From their levels of 20 and of 25 nodes the V-cycle ends with creases of 86° and of 69°.
+  for (const auto& [nodes, boundary_nodes] : {std::pair(2720, 260), std::pair(2760, 262)}) {
+    const PolygonMesh annulus = generate::annulus({.nodes = nodes, .boundary_nodes = boundary_nodes});
+    const Constraints constraints = clamped_boundary(annulus);
+    for (const auto& [method, normals] :
+         {std::pair(Method::multigrid, PseudoNormals::link), std::pair(Method::equilibrium, PseudoNormals::angle)}) {
+      FairOptions options;
+      options.method = method;
+      options.pseudo_normals = normals;
+      const FairResult result = fair(annulus, constraints, options);
+      EXPECT_EQ(result.report.outcome, Outcome::converged);
+      EXPECT_LT(result.report.after.greatest_turn, 15);
+    }
   }
 }
 

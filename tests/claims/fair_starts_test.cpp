@@ -73,17 +73,17 @@ std::vector<Problem> problems() {
   const Normal up = [](const Vector3&) { return Vector3::UnitZ(); };
   for (const Faces faces : {Faces::triangles, Faces::quads}) {
     const std::string of = " of " + name_of(faces);
-    const PolygonMesh cap = generate::sphere_patch({.columns = 24, .rows = 24, .faces = faces, .jitter = 0.3}, 1, 80);
+    const PolygonMesh cap = generate::sphere_patch({.columns = 16, .rows = 16, .faces = faces, .jitter = 0.3}, 1, 80);
     all.push_back({"cap" + of, cap, held_boundary(cap, radial)});
     all.push_back({"cap by positions" + of, cap, held_boundary(cap)});
     const Specimen funnel =
-        on_chart("", funnel_chart, true, {.columns = 48, .rows = 12, .faces = faces}, {.jitter = 0.3}, up);
+        on_chart("", funnel_chart, true, {.columns = 32, .rows = 8, .faces = faces}, {.jitter = 0.3}, up);
     all.push_back({"funnel" + of, funnel.start, funnel.constraints, Vector3::UnitZ()});
     all.push_back({"funnel by positions" + of, funnel.start, held_boundary(funnel.start), Vector3::UnitZ()});
-    const Specimen region = region_of_saddle(faces, 30);
+    const Specimen region = region_of_saddle(faces, 20);
     all.push_back({region.name, region.start, region.constraints});
   }
-  const PolygonMesh annulus = generate::annulus({.nodes = 700, .jitter = 0.3});
+  const PolygonMesh annulus = generate::annulus({.nodes = 400, .jitter = 0.3});
   all.push_back({"annulus", annulus, clamped_boundary(annulus)});
   all.push_back({"annulus by positions", annulus, held_boundary(annulus)});
   return all;

@@ -90,7 +90,7 @@ TEST(Zoo, CylindersToTheirOrder) {
 }
 
 TEST(Zoo, TheTrueErrorIsWithinAFactorOfThreeOfTheExpectedOne) {
-  for (const Specimen& specimen : specimens(16)) {
+  for (const Specimen& specimen : specimens(12)) {
     if (specimen.hard) continue;
     const FairResult truth = fair(specimen.start, specimen.constraints, to_equilibrium(1e-12, specimen.distribution));
     const double size = diagonal(specimen.start, specimen.constraints);

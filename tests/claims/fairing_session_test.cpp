@@ -35,7 +35,7 @@ Dragged dragged(Index nodes) {
 FairOptions to(double tolerance) { return {.method = Method::equilibrium, .tolerance = tolerance}; }
 
 TEST(FairingSession, FollowsWhatIsDragged) {
-  for (const Index nodes : {800, 6000}) {
+  for (const Index nodes : {800, 2400}) {
     Dragged one = dragged(nodes);
     const FairOptions options = to(1e-6);
     FairingSession session(one.mesh, options);
@@ -58,7 +58,7 @@ TEST(FairingSession, FollowsWhatIsDragged) {
 }
 
 TEST(FairingSession, FollowsNormalsThatTurn) {
-  Dragged one = dragged(3000);
+  Dragged one = dragged(1000);
   const FairOptions options = to(1e-6);
   FairingSession session(one.mesh, options);
   (void)session.fair(one.constraints);
@@ -83,7 +83,7 @@ Vector3 way_of(int step) {
 }
 
 TEST(FairingSession, PicturesOfADragStayWithinTheirTolerance) {
-  const PolygonMesh mesh = generate::annulus({.nodes = 3000});
+  const PolygonMesh mesh = generate::annulus({.nodes = 1000});
   const double tolerance = 2e-4;
   for (const bool normals_held : {false, true}) {
     Constraints constraints(mesh.node_count());
@@ -203,7 +203,7 @@ Constraints with_rim(const Dragged& one, double size) {
 }
 
 TEST(FairingSession, AFarStepIsFollowedAndOneTooFarIsFairedAnew) {
-  Dragged one = dragged(3000);
+  Dragged one = dragged(1000);
   const FairOptions options = to(1e-6);
   one.constraints.free_position(one.node);
   // Three times as large; and within the inner rim, so that the surface folds over.
@@ -294,7 +294,7 @@ TEST(FairingSession, SaysThatADragFoldsTheShapeAndComesBackFromIt) {
 TEST(FairingSession, ThreadsGiveTheSameBits) {
   std::vector<std::vector<Vector3>> shapes;
   for (const int threads : {1, 3}) {
-    Dragged one = dragged(6000);
+    Dragged one = dragged(4600);
     FairingSession session(one.mesh, to(1e-6), threads);
     (void)session.fair(one.constraints);
     one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0, 0, 0.005));

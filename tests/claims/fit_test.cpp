@@ -39,7 +39,7 @@ TEST(Fit, PointsOnASpherePullAFlatCapOntoIt) {
 
 TEST(Fit, ManyNoisyPointsAverageOut) {
   const FlatCap start;
-  const FitResult result = fit(start.flat, start.held, on_the_sphere(20000, 0.05), by_sweeps(0.001, 1e-6));
+  const FitResult result = fit(start.flat, start.held, on_the_sphere(10000, 0.05), by_sweeps(0.001, 1e-6));
   EXPECT_LT(distance_from_unit_sphere(result.positions), 5e-3);
 }
 
@@ -144,7 +144,7 @@ TEST(Fit, GivenNormalsHoldWhilePointsPull) {
 }
 
 TEST(Fit, ATangentHoldsWhileACurveIsPulled) {
-  const PolygonCurve curve = segment(60);
+  const PolygonCurve curve = segment(40);
   const Constraints held = held_ends(curve.positions(), heading(0.5), heading(-0.5));
   const ScatteredPoints points{.positions = {{0.5, 0.2, 0}}};
   const FitResult result = fit(curve, held, points, by_sweeps(0.01, 1e-7, 200000));

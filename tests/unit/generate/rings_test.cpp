@@ -132,7 +132,7 @@ TEST(Cap, HasAnyNumberOfNodesAndLiesOnTheSphere) {
 
 TEST(Cap, TrianglesAreNearlyEvenAndLookOutwards) {
   for (const double half_angle : {10.0, 60.0, 120.0, 170.0}) {
-    for (const Index nodes : {200, 1000, 20000}) {
+    for (const Index nodes : {200, 1000, 5000}) {
       SCOPED_TRACE(testing::Message() << nodes << " nodes, " << half_angle << "°");
       const PolygonMesh mesh = generate::cap({.nodes = nodes, .half_angle = half_angle});
       EXPECT_GT(least_angle(mesh), 35);

@@ -82,6 +82,9 @@ const std::map<std::string, Method> curve_methods = {
 const std::map<std::string, NormalPlane> normal_planes = {{"full", NormalPlane::full},
                                                           {"principal", NormalPlane::principal}};
 
+const std::map<std::string, ResamplingBy> ways_to_resample = {
+    {"length", ResamplingBy::length}, {"cosine", ResamplingBy::cosine}, {"curvature", ResamplingBy::curvature}};
+
 void add_node_options(CLI::App& command, CurveArguments& arguments) {
   const std::string group = "Its nodes";
   command
@@ -92,17 +95,22 @@ void add_node_options(CLI::App& command, CurveArguments& arguments) {
   CLI::Option* number =
       command
           .add_option("--resample", arguments.resampling.nodes,
-                      "Even nodes between those that are held, N in all (default: the nodes of the input)")
+                      "New nodes between those that are held, N in all (default: the nodes of the input)")
           ->type_name("N")
           ->check(CLI::PositiveNumber)
           ->group(group);
   command
       .add_option("--spacing", arguments.resampling.spacing,
-                  "Even nodes between those that are held, about H apart, units of the input (default: the nodes of "
-                  "the input)")
+                  "New nodes between those that are held, on average about H apart, units of the input (default: the "
+                  "nodes of the input)")
       ->type_name("H")
       ->check(CLI::PositiveNumber)
       ->excludes(number)
+      ->group(group);
+  add_choice(
+      command, "--resample-by", arguments.resampling.by, ways_to_resample,
+      "Where new nodes go: evenly; by the cosine, as tables of aerofoils have them, close at the ends and at the "
+      "nose; or closer where the curve is bent more (default: length)")
       ->group(group);
 }
 

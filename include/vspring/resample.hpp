@@ -8,12 +8,21 @@
 
 namespace vspring {
 
-/// How many nodes a resampled curve gets; one of the two.
+/// How the nodes of a resampled curve follow each other between those that are kept.
+enum class ResamplingBy {
+  length,    ///< evenly
+  cosine,    ///< as tables of aerofoils have them: close at both ends and where the piece is furthest from them
+  curvature  ///< so that arcs rise about equally over their chords: closer where the curve is bent more
+};
+
+/// How many nodes a resampled curve gets, one of the two, and where.
 struct Resampling {
   /// In all; pieces between kept nodes get them by their lengths, as nearly as whole numbers allow.
   std::optional<Index> nodes = std::nullopt;
-  /// Between neighbours, in units of the curve, as nearly as the lengths of pieces allow.
+  /// Between neighbours, in units of the curve, as nearly as the lengths of pieces allow; the mean where nodes are not
+  /// even.
   std::optional<double> spacing = std::nullopt;
+  ResamplingBy by = ResamplingBy::length;
 };
 
 struct Resampled {
@@ -22,8 +31,8 @@ struct Resampled {
   std::vector<Index> from;  ///< for every node its number in the input, −1 for new ones
 };
 
-/// Evenly spaced nodes along a curve. Ends, nodes where chains meet, and nodes that `constraints` says anything of are
-/// kept, where the constraints have them; pieces between them are replaced by nodes of even spacing on the cubics
+/// New nodes along a curve. Ends, nodes where chains meet, and nodes that `constraints` says anything of are
+/// kept, where the constraints have them; pieces between them are replaced by nodes on the cubics
 /// through the nodes with the tangents of estimate_tangents(). A closed chain without kept nodes keeps its first. Nodes
 /// come in the order of the chains; those of no chain are left out.
 ///

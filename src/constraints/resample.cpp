@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "shape/cubic.hpp"
@@ -16,19 +17,24 @@ namespace {
 constexpr Index most_nodes = 100'000'000;
 // Straight steps that each cubic is measured by: nodes are even to about a thousandth of the spacing.
 constexpr int steps_per_edge = 16;
+// By how much spacing may grow along a length.
+constexpr double steepest = 0.25;
 
 /// The nodes between two kept ones, both included; a whole closed chain ends with its first node again.
 struct Piece {
   std::vector<Index> nodes;
   std::vector<Vector3> tangents;
-  double length = 0;
+  std::vector<double> density = {};  ///< of new nodes, at each of the nodes; empty: even
+  double length = 0;                 ///< times density
+  double furthest = 1;               ///< the share of the length where it is furthest from its ends
   Index least_edges = 1;
   Index edges = 0;
 };
 
 class Resampler {
  public:
-  Resampler(const PolygonCurve& curve, const Constraints& constraints) : curve_(curve), constraints_(constraints) {
+  Resampler(const PolygonCurve& curve, const Constraints& constraints, ResamplingBy by)
+      : curve_(curve), constraints_(constraints), by_(by) {
     for (const auto& chain : curve.chains()) {
       for (const Index node : chain.nodes) {
         if (!place(node).allFinite())
@@ -40,16 +46,12 @@ class Resampler {
   }
 
   void share_out(const Resampling& how) {
-    if (how.spacing) {
-      double nodes = 0;
-      for (const Piece& piece : pieces_) nodes += piece.length / *how.spacing;
-      if (!(nodes < most_nodes))
-        throw Error(ErrorCode::invalid_argument,
-                    fmt::format("a spacing of {} asks for more than {} nodes", *how.spacing, most_nodes));
-      for (Piece& piece : pieces_)
-        piece.edges = std::max(piece.least_edges, static_cast<Index>(std::lround(piece.length / *how.spacing)));
-    } else {
-      share_out(*how.nodes);
+    share_out_edges(how);
+    if (by_ == ResamplingBy::curvature) {
+      for (Piece& piece : pieces_) follow_curvature(piece);
+    }
+    if (by_ == ResamplingBy::cosine) {
+      for (Piece& piece : pieces_) find_furthest(piece);
     }
   }
 
@@ -85,6 +87,20 @@ class Resampler {
   }
 
  private:
+  void share_out_edges(const Resampling& how) {
+    if (how.spacing) {
+      double nodes = 0;
+      for (const Piece& piece : pieces_) nodes += piece.length / *how.spacing;
+      if (!(nodes < most_nodes))
+        throw Error(ErrorCode::invalid_argument,
+                    fmt::format("a spacing of {} asks for more than {} nodes", *how.spacing, most_nodes));
+      for (Piece& piece : pieces_)
+        piece.edges = std::max(piece.least_edges, static_cast<Index>(std::lround(piece.length / *how.spacing)));
+    } else {
+      share_out(*how.nodes);
+    }
+  }
+
   [[nodiscard]] const Vector3& place(Index node) const {
     return constraints_.position_fixed(node) ? constraints_.position(node) : curve_.position(node);
   }
@@ -148,11 +164,84 @@ class Resampler {
   }
 
   void finish(Piece piece) {
-    for (std::size_t k = 0; k + 1 < piece.nodes.size(); ++k) piece.length += walk(piece, k, [](double, double) {});
+    measure(piece);
     pieces_.push_back(std::move(piece));
   }
 
-  /// Goes along edge k of a piece; calls step(v, length of the edge up to v). Returns the edge's length.
+  void measure(Piece& piece) const {
+    piece.length = 0;
+    for (std::size_t k = 0; k + 1 < piece.nodes.size(); ++k) piece.length += walk(piece, k, [](double, double) {});
+  }
+
+  [[nodiscard]] double edge(const Piece& piece, std::size_t k) const {
+    return (place(piece.nodes[k + 1]) - place(piece.nodes[k])).norm();
+  }
+
+  /// Spacing by the inverse root of curvature, which makes arcs rise equally over their chords; no wider than the
+  /// curve's mean turn asks for twice over, and changing by no more than a quarter from one edge to the next.
+  void follow_curvature(Piece& piece) const {
+    const std::size_t count = piece.nodes.size();
+    std::vector<double> turn(count, 0);
+    double turned = 0;
+    double length = 0;
+    for (std::size_t k = 0; k + 1 < count; ++k) {
+      const double cosine = std::clamp(piece.tangents[k].dot(piece.tangents[k + 1]), -1.0, 1.0);
+      turn[k] = std::acos(cosine);
+      turned += turn[k];
+      length += edge(piece, k);
+    }
+    if (!(turned > 0) || !(length > 0)) return;
+    const double floor = 0.5 * turned / length;
+    std::vector<double> spacing(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const double around = (k > 0 ? edge(piece, k - 1) : 0) + (k + 1 < count ? edge(piece, k) : 0);
+      const double bent = (k > 0 ? turn[k - 1] : 0) + turn[k];
+      spacing[k] = 1 / std::sqrt(floor + (around > 0 ? bent / around : 0));
+    }
+    // To edges of the piece, and from these to densities again.
+    const auto set_density = [&] {
+      piece.density.resize(count);
+      for (std::size_t k = 0; k < count; ++k) piece.density[k] = 1 / spacing[k];
+      measure(piece);
+    };
+    set_density();
+    const double scale = piece.length / static_cast<double>(piece.edges);
+    for (double& one : spacing) one *= scale;
+    for (std::size_t k = 1; k < count; ++k)
+      spacing[k] = std::min(spacing[k], spacing[k - 1] + steepest * edge(piece, k - 1));
+    for (std::size_t k = count - 1; k-- > 0;)
+      spacing[k] = std::min(spacing[k], spacing[k + 1] + steepest * edge(piece, k));
+    set_density();
+  }
+
+  void find_furthest(Piece& piece) const {
+    const Vector3 ends = (place(piece.nodes.front()) + place(piece.nodes.back())) / 2;
+    double furthest = 0;
+    double length = 0;
+    for (std::size_t k = 0; k + 1 < piece.nodes.size(); ++k) {
+      length += walk(piece, k, [](double, double) {});
+      const double distance = (place(piece.nodes[k + 1]) - ends).norm();
+      if (k + 2 == piece.nodes.size() || !(distance > furthest)) continue;
+      furthest = distance;
+      piece.furthest = length / piece.length;
+    }
+    // A piece that goes from one side to the other has no such place.
+    const double across = (place(piece.nodes.back()) - place(piece.nodes.front())).norm();
+    if (!(furthest > across)) piece.furthest = 1;
+  }
+
+  /// Where new node `made` of a piece lies, of its length.
+  [[nodiscard]] double place_of(const Piece& piece, Index made) const {
+    const double share = static_cast<double>(made) / static_cast<double>(piece.edges);
+    if (by_ != ResamplingBy::cosine) return piece.length * share;
+    const auto between = [&](double from, double to) {
+      return from + (to - from) * (1 - std::cos(std::numbers::pi * (share - from) / (to - from))) / 2;
+    };
+    return piece.length * (share < piece.furthest ? between(0, piece.furthest) : between(piece.furthest, 1));
+  }
+
+  /// Goes along edge k of a piece; calls step(v, length of the edge up to v). Returns the edge's length. Lengths are
+  /// times density.
   template <typename Step>
   double walk(const Piece& piece, std::size_t k, Step step) const {
     double length = 0;
@@ -160,7 +249,10 @@ class Resampler {
     for (int s = 1; s <= steps_per_edge; ++s) {
       const double v = static_cast<double>(s) / steps_per_edge;
       const Vector3 here = on_edge(piece, k, v);
-      length += (here - before).norm();
+      const double middle = v - 0.5 / steps_per_edge;
+      const double density =
+          piece.density.empty() ? 1 : (1 - middle) * piece.density[k] + middle * piece.density[k + 1];
+      length += density * (here - before).norm();
       step(v, length);
       before = here;
     }
@@ -243,7 +335,7 @@ class Resampler {
       passed += walk(piece, k, [&](double v, double along) {
         const double here = passed + along;
         for (; made < piece.edges; ++made) {
-          const double at = piece.length * made / piece.edges;
+          const double at = place_of(piece, made);
           if (at > here) break;
           const double share = here > before ? (at - before) / (here - before) : 1;
           nodes.push_back(add(on_edge(piece, k, v_before + share * (v - v_before)), -1, result));
@@ -258,6 +350,7 @@ class Resampler {
 
   const PolygonCurve& curve_;
   const Constraints& constraints_;
+  ResamplingBy by_;
   std::vector<std::uint8_t> kept_;
   std::vector<Piece> pieces_;
   std::vector<std::size_t> pieces_of_;  // of each chain
@@ -277,7 +370,7 @@ Resampled resample(const PolygonCurve& curve, const Constraints& constraints, co
     throw Error(ErrorCode::invalid_argument, fmt::format("{} nodes: choose from 1 to {}", *how.nodes, most_nodes));
   if (how.spacing && !(*how.spacing > 0 && std::isfinite(*how.spacing)))
     throw Error(ErrorCode::invalid_argument, fmt::format("spacing must be greater than 0, not {}", *how.spacing));
-  Resampler resampler(curve, constraints);
+  Resampler resampler(curve, constraints, how.by);
   resampler.share_out(how);
   return resampler.build();
 }

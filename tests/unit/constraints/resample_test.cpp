@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "vspring/error.hpp"
 
@@ -126,6 +128,84 @@ TEST(Resample, NodesInOnePlaceAreNoHindrance) {
   const Resampled even = resample(point, Constraints(5), {.nodes = 7});
   EXPECT_EQ(even.curve.node_count(), 7);
   for (const Vector3& position : even.curve.positions()) EXPECT_EQ(position, Vector3(1, 1, 1));
+}
+
+PolygonCurve segment(const Vector3& to) {
+  std::vector<Vector3> positions;
+  for (const double at : {0.0, 0.1, 0.15, 0.6, 1.0}) positions.emplace_back(at * to);
+  return PolygonCurve(std::move(positions));
+}
+
+PolygonCurve ellipse(double width, double height) {
+  std::vector<Vector3> positions;
+  for (int k = 0; k < 400; ++k) {
+    const Vector3 p = on_circle(2 * std::numbers::pi * k / 400);
+    positions.emplace_back(width * p.x(), height * p.y(), 0);
+  }
+  return PolygonCurve(std::move(positions), true);
+}
+
+TEST(ResampleByCosine, IsThatOfTablesOnAStraightLine) {
+  const PolygonCurve line = segment({3, 4, 0});
+  const Resampled result = resample(line, Constraints(5), {.nodes = 41, .by = ResamplingBy::cosine});
+  ASSERT_EQ(result.curve.node_count(), 41);
+  for (Index k = 0; k <= 40; ++k) {
+    const double at = (1 - std::cos(std::numbers::pi * k / 40)) / 2;
+    EXPECT_LT((result.curve.position(k) - at * Vector3(3, 4, 0)).norm(), 5e-3) << k;
+  }
+}
+
+TEST(ResampleByCosine, NodesAreCloseAtTheEndsAndAtTheNose) {
+  // From the tail over the upper side, the nose and the lower side back to the tail.
+  std::vector<Vector3> positions;
+  for (int k = 0; k <= 300; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 300;
+    const double x = (1 + std::cos(angle)) / 2;
+    positions.emplace_back(x, (angle < std::numbers::pi ? 0.2 : -0.2) * std::sqrt(x) * (1 - x), 0);
+  }
+  const PolygonCurve foil(std::move(positions));
+  const Resampled result = resample(foil, Constraints(301), {.nodes = 81, .by = ResamplingBy::cosine});
+  ASSERT_EQ(result.curve.node_count(), 81);
+  const std::vector<double> edges = edges_of(result.curve);
+  const auto nose =
+      static_cast<std::size_t>(std::min_element(result.curve.positions().begin(), result.curve.positions().end(),
+                                                [](const Vector3& a, const Vector3& b) { return a.x() < b.x(); }) -
+                               result.curve.positions().begin());
+  EXPECT_NEAR(static_cast<double>(nose), 40, 1);
+  const double side = edges[20];
+  EXPECT_NEAR(edges[60], side, 0.05 * side);
+  for (const std::size_t k : {std::size_t{0}, nose - 1, nose, edges.size() - 1}) EXPECT_LT(edges[k], 0.1 * side) << k;
+  for (std::size_t k = 1; k < 20; ++k) EXPECT_GT(edges[k], edges[k - 1]) << k;
+  for (std::size_t k = 21; k < 38; ++k) EXPECT_LT(edges[k], edges[k - 1]) << k;
+}
+
+TEST(ResampleByCurvature, NodesAreCloserWhereTheCurveIsBentMore) {
+  const PolygonCurve curve = ellipse(10, 1);
+  const Resampled result = resample(curve, Constraints(400), {.nodes = 120, .by = ResamplingBy::curvature});
+  ASSERT_EQ(result.curve.node_count(), 120);
+  const std::vector<double> edges = edges_of(result.curve);
+  double sharp = 0;
+  double flat = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const double x = std::abs(result.curve.position(static_cast<Index>(k)).x());
+    if (x > 9.9) sharp = std::max(sharp, edges[k]);
+    if (x < 5) flat = std::min(flat, edges[k]);
+    const double ratio = edges[(k + 1) % edges.size()] / edges[k];
+    EXPECT_LE(std::max(ratio, 1 / ratio), 1.4) << k;
+  }
+  EXPECT_GT(sharp, 0);
+  EXPECT_LT(2 * sharp, flat);
+  for (const Vector3& p : result.curve.positions()) EXPECT_NEAR(std::hypot(p.x() / 10, p.y()), 1, 1e-3);
+}
+
+TEST(ResampleByCurvature, StraightLinesAndCirclesStayEven) {
+  const PolygonCurve line = segment({3, 4, 0});
+  const Resampled straight = resample(line, Constraints(5), {.nodes = 41, .by = ResamplingBy::curvature});
+  ASSERT_EQ(straight.curve.node_count(), 41);
+  EXPECT_LT(spread(edges_of(straight.curve)), 1.001);
+  const Resampled round = resample(ellipse(1, 1), Constraints(400), {.spacing = 0.1, .by = ResamplingBy::curvature});
+  EXPECT_EQ(round.curve.node_count(), 63);
+  EXPECT_LT(spread(edges_of(round.curve)), 1.01);
 }
 
 }  // namespace

@@ -73,9 +73,10 @@ enum class Outcome {
   iteration_limit,   ///< FairOptions::max_iterations
   work_limit,        ///< FairReport::most_work, or a limit nobody gave: what is left is not worth more time
   stalled,           ///< further iterations do not lead nearer
-  worse_than_input,  ///< what was found has folds, places or an energy that the input had not; unless
-                     ///< FairOptions::as_found, the positions are the best shape that is not worse, at worst the
-                     ///< input with its constraints applied
+  worse_than_input,  ///< what was found has folds, crossing or collapsed faces, places, bending or an energy that the
+                     ///< input had not, or lacks windings that it had, see docs/distribution.md; unless
+                     ///< FairOptions::as_found, the positions are the best shape that is not worse, at worst the input
+                     ///< with its constraints applied
   cancelled
 };
 

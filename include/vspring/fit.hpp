@@ -24,9 +24,8 @@ struct FitOptions {
   /// for an equal share of the length (area) that moves, times its own weight: of dense points, waves of angular
   /// frequency ω keep 1/(1 + (λω)⁴) of their height. See docs/fit.md for the k that it comes to.
   std::optional<double> smoothing_length = std::nullopt;
-  /// The fairest shape from which no point lies further than this, in the units of the input, more than 0. Looked for
-  /// on the way from the one that all points smooth alike to the one that only the furthest pull at, by their V-Spring
-  /// energy (Fairness). Not by Method::sweep.
+  /// The shape of least bending from which no point lies further than this, in the units of the input, more than 0; on
+  /// curves in space the fairest on the way there, by its V-Spring energy (Fairness). Not by Method::sweep.
   std::optional<double> within = std::nullopt;
   /// The largest smoothing length for which the root mean square of the distances is not above this, in the units of
   /// the input, more than 0. Not by Method::sweep.

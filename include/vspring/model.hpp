@@ -16,7 +16,8 @@ enum class Distribution {
   smooth,  ///< to the share between its neighbours that it has in the input once noise is taken out of its spacing:
            ///< aspects and gradings of cells stay, roughness within some three edges goes
   keep     ///< to the share between its neighbours that it has in the input; where points draw a surface also back,
-           ///< across its normal, to where it was, which counts as much as all neighbours do
+           ///< across its normal, to where it was, which counts as much as all neighbours do; where they draw a curve
+           ///< back along its tangent to where it was, and nothing else
 };
 
 /// The tangent of a curve at a node (§4.8).

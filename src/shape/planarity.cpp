@@ -10,6 +10,7 @@ namespace vspring {
 
 std::optional<Vector3> plane_normal(std::span<const Vector3> positions) {
   constexpr double flat = 1e-9;
+  constexpr double unseen = 1e-12;
   Eigen::AlignedBox<double, 3> box;
   for (const Vector3& position : positions) box.extend(position);
   const Frame frame(box);
@@ -31,6 +32,11 @@ std::optional<Vector3> plane_normal(std::span<const Vector3> positions) {
     width = std::max(width, std::abs(from_mean.dot(across)));
   }
   if (!(width > flat)) return std::nullopt;
+  // So that what lies in a plane of the coordinates stays there to the bit.
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    if (std::abs(normal[k]) < unseen) normal[k] = 0;
+  }
+  normal.normalize();
   Eigen::Index greatest = 0;
   normal.cwiseAbs().maxCoeff(&greatest);
   return normal[greatest] < 0 ? Vector3(-normal) : normal;

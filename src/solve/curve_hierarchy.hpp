@@ -1,10 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "levels/curve_levels.hpp"
+#include "levels/winding.hpp"
 #include "solve/curve_preconditioner.hpp"
 #include "solve/hierarchy.hpp"
 
@@ -28,8 +30,11 @@ class CurveHierarchy final : public Hierarchy {
   void start() override { untangle(levels_.front()); }
   void set_shares(std::vector<double> shares) override { levels_.back().curve.net.shares = std::move(shares); }
   void forget_shape(std::size_t level) override { straighten(levels_[level]); }
+  bool has_unwound(std::span<const Vector3> input) override { return vspring::has_unwound(levels_.back(), input); }
+  bool wind() override { return vspring::wind(levels_.back()); }
   Preconditioner& preconditioner(std::size_t level) override { return preconditioner_.emplace(levels_[level].curve); }
 
+  CurveNet& finest() { return levels_.back().curve; }
   CurveNet take() && { return std::move(levels_.back().curve); }
 
  private:

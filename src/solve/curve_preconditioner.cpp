@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "solve/curve_bending_rows.hpp"
 #include "spring/curve_force.hpp"
 
 namespace vspring {
@@ -62,10 +63,6 @@ void CurvePreconditioner::build_bending(const Strand& strand) {
   if (size == 0) return;
   BendingMatrix bending(size);
 
-  const auto edge = [&](std::size_t a, std::size_t b) {
-    const Vector3 d = net.positions[nodes[b]] - net.positions[nodes[a]];
-    return std::sqrt(d.dot(d) + net.tiny);
-  };
   std::vector<double> pull(size, 0);
   if (!stiffness_.values().empty()) {
     for (std::size_t i = 0; i < size; ++i) pull[i] = weight_[begin + i] * stiffness_.values()[begin + i];
@@ -84,14 +81,14 @@ void CurvePreconditioner::build_bending(const Strand& strand) {
     }
   };
   std::vector<std::vector<BendingMatrix::Entry>> far;
-  /// A row of entries at successive places of the strand; held nodes drop out, and moving ones follow each other.
-  const auto add = [&](bool across_seam, std::span<const std::pair<std::size_t, double>> entries) {
+  // Held nodes drop out, and moving ones follow each other.
+  for_each_bending_row(net, strand, [&](const CurveBendingRow& bent) {
     std::vector<BendingMatrix::Entry> row;
-    for (const auto& [place, entry] : entries) {
+    for (const auto& [place, entry] : bent.entries) {
       if (moves(place)) row.push_back({nodes[place] - begin, entry});
     }
     if (row.empty()) return;
-    if (across_seam) {
+    if (bent.across_seam) {
       far.push_back(std::move(row));
       return;
     }
@@ -99,34 +96,7 @@ void CurvePreconditioner::build_bending(const Strand& strand) {
     for (std::size_t n = 0; n < row.size(); ++n) banded[n] = row[n].value;
     add_pulls(row.front().column);
     bending.add_row(row.front().column, banded);
-  };
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t i = nodes[k];
-    const bool has_before = k > 0 || strand.closed;
-    const bool has_after = k + 1 < count || strand.closed;
-    const std::size_t before = (k + count - 1) % count;
-    const std::size_t after = (k + 1) % count;
-    const double length_before = has_before ? edge(before, k) : 0;
-    const double length_after = has_after ? edge(k, after) : 0;
-    // The first place of a closed strand comes after its last.
-    const bool before_seam = has_after && after == 0 && moves(0);
-    if (net.given[i] != 0) {
-      if (has_before) {
-        const double entry = 1 / (length_before * std::sqrt(length_before));
-        add(k == 0, std::array{std::pair(before, entry), std::pair(k, -entry)});
-      }
-      if (has_after) {
-        const double entry = 1 / (length_after * std::sqrt(length_after));
-        add(before_seam, std::array{std::pair(k, -entry), std::pair(after, entry)});
-      }
-    } else if (has_before && has_after) {
-      const double scale = 1 / std::sqrt(length_before + length_after);
-      const double entry_before = scale / length_before;
-      const double entry_after = scale / length_after;
-      add(k == 0 || before_seam, std::array{std::pair(before, entry_before), std::pair(k, -entry_before - entry_after),
-                                            std::pair(after, entry_after)});
-    }
-  }
+  });
   add_pulls(size);
   for (auto& row : far) bending.add_far_row(std::move(row));
   for (const BendingMatrix::Entry& crutch : crutches) bending.add_far_row({crutch}, -1);
@@ -139,6 +109,8 @@ void CurvePreconditioner::build_spreading() {
   above_.assign(net.moving, 0);
   pivot_.assign(net.moving, 1);
   slides_.assign(net.moving, 1);
+  // Homes draw each node by itself.
+  if (!net.homes.empty()) return;
   for (const Strand& strand : curve_->strands) {
     if (free(strand)) slides_[strand.nodes.front()] = 0;
   }
@@ -217,7 +189,7 @@ void CurvePreconditioner::correct(const Model& model, double /*enough*/, std::ve
     Vector3 asked = forces_[i].regularisation - correction[i];
     const auto links = net.rings.links(i);
     const auto shares = net.shares_of(i);
-    for (std::size_t k = 0; k < links.size(); ++k) {
+    for (std::size_t k = 0; k < links.size() && net.homes.empty(); ++k) {
       const double share = shares.empty() ? 1 / static_cast<double>(links.size()) : shares[k];
       if (links[k].node() < net.moving) asked += share * correction[links[k].node()];
     }

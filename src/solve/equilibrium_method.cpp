@@ -112,6 +112,7 @@ class Run {
       }
     }
     if (report_.outcome == Outcome::iteration_limit) go_down();
+    if (!points_ && !options_.max_iterations && report_.outcome != Outcome::cancelled) try_winding();
     if (soundness) stay_sound(*soundness);
     // Limits that nobody gave.
     if (!options_.max_iterations && report_.outcome == Outcome::iteration_limit) report_.outcome = Outcome::work_limit;
@@ -156,13 +157,38 @@ class Run {
     if (may_follow_flow && unfinished()) try_flow();
   }
 
+  /// A curve whose ends and tangents are held may unwind on coarse levels, where it should not: then from a start that
+  /// winds as the input does, with all that forces depend on.
+  void try_winding() {
+    const std::size_t last = hierarchy_.count() - 1;
+    Net& net = hierarchy_.net(last);
+    if (!unfinished() && !hierarchy_.has_unwound(input_)) return;
+    const Reached found = reached(last);
+    net.positions = input_;
+    if (hierarchy_.wind()) {
+      relax(last, default_limit, work_of_flow_step,
+            [&](const EquilibriumTask& task) { return follow_flow(net, model_, task, team_, context_); });
+      if (report_.outcome == Outcome::converged && !hierarchy_.has_unwound(input_)) return;
+    }
+    const bool cancelled = report_.outcome == Outcome::cancelled;
+    go_back(last, found);
+    if (cancelled) report_.outcome = Outcome::cancelled;
+  }
+
+  /// What is worse with the shape than with the start; empty where nothing is.
+  std::string fault(const Soundness& soundness) {
+    std::string fault = soundness.fault(hierarchy_.net(hierarchy_.count() - 1));
+    if (fault.empty() && !points_ && hierarchy_.has_unwound(input_)) fault = "it winds less often than the input";
+    return fault;
+  }
+
   /// Where the shape is worse than it came, looks for another: from the start without its noise, from the start itself,
   /// and with the spacing of the start. The best that is no worse stays, at worst the start.
   void stay_sound(const Soundness& soundness) {
     const std::size_t last = hierarchy_.count() - 1;
     Net& net = hierarchy_.net(last);
     if (options_.as_found) return say_if_worse(soundness, net, report_);
-    const std::string fault = soundness.fault(net);
+    const std::string fault = this->fault(soundness);
     if (fault.empty()) return;
     const bool was_cancelled = report_.outcome == Outcome::cancelled;
     const Reached found = reached(last);
@@ -185,7 +211,7 @@ class Run {
       way();
       relax(last, options_.max_iterations.value_or(default_limit));
       if (report_.outcome == Outcome::cancelled) break;
-      if (!soundness.fault(net).empty()) continue;
+      if (!this->fault(soundness).empty()) continue;
       if (report_.outcome == Outcome::converged) return;
       const double energy = energy_of(net).sum;
       if (energy >= least_energy) continue;

@@ -177,7 +177,7 @@ class Fitting {
 
   /// Returns whether nodes have homes.
   bool go_to_equilibrium(LoosePoints points, ProgressReporter& progress) {
-    auto gathered = run_.gather();
+    auto gathered = run_.gather_start();
     const auto smoothing = smoothing_in(net_of(gathered));
     PulledShape shape(std::move(gathered), options_.fair, std::move(points), smoothing, run_.team);
     shape.find(run_.context, progress, run_.result.report.fair);
@@ -186,7 +186,7 @@ class Fitting {
   }
 
   void sweep(LoosePoints points, FairOptions options, ProgressReporter& progress) {
-    auto gathered = run_.gather();
+    auto gathered = run_.gather_start();
     Net& net = net_of(gathered);
     const auto model = model_of(gathered, options);
     distribute(net, *model, distribution_of(gathered, options), run_.team);

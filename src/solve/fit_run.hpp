@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
+#include "levels/curve_noise.hpp"
 #include "solve/account.hpp"
 #include "solve/fit_start.hpp"
 #include "solve/fit_subject.hpp"
 #include "solve/pulled_shape.hpp"
+#include "solve/unfolding.hpp"
 #include "vspring/fit.hpp"
 
 namespace vspring {
@@ -45,11 +48,21 @@ class FitRun {
 
   auto gather() {
     auto gathered = subject.gather();
+    count_nodes(net_of(gathered), subject.constraints(), result.report.fair);
+    return gathered;
+  }
+
+  /// With the places that nodes keep.
+  auto gather_start() {
+    auto gathered = gather();
     Net& net = net_of(gathered);
+    if (options.fair.distribution != Distribution::keep) return gathered;
+    if constexpr (std::is_same_v<Subject, FitCurve>)
+      smooth_noise(gathered);
+    else
+      unfold(gathered, team);
     // Else the nodes slide along a shape that noise has crumpled until it comes apart.
-    if (options.fair.distribution == Distribution::keep && net.tangents.empty())
-      net.homes.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
-    count_nodes(net, subject.constraints(), result.report.fair);
+    net.homes.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
     return gathered;
   }
 

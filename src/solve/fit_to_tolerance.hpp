@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "fit/point_factors.hpp"
 #include "solve/account.hpp"
 #include "solve/fit_run.hpp"
+#include "solve/interior_fit.hpp"
 #include "solve/tolerance_fit.hpp"
 #include "vspring/error.hpp"
 
@@ -28,7 +31,7 @@ class FitToTolerance {
     if (!smooth && plain_fairing_is_within()) return;
     FitReport& report = run_.result.report;
     Context& context = run_.context;
-    auto gathered = run_.gather();
+    auto gathered = run_.gather_start();
     const double scale = net_of(gathered).frame.scale();
     const double edge = mean_edge(net_of(gathered));
     const auto length = std::make_shared<double>(edge);
@@ -39,7 +42,9 @@ class FitToTolerance {
     const std::vector<Vector3> start = shape.net().positions;
     const auto nodes = static_cast<double>(shape.net().moving);
     const double most_work = std::max(least_most_work, most_work_a_node * nodes);
-    for (const double first : first_lengths) {
+    const auto& lengths =
+        shape.net().tangents.empty() && !shape.net().homes.empty() ? first_lengths_on_surfaces : first_lengths;
+    for (const double first : lengths) {
       *length = first * edge;
       shape.net().positions = start;
       shape.find(context, progress, report.fair);
@@ -54,6 +59,7 @@ class FitToTolerance {
       finish_with(*length);
       return;
     }
+    std::optional<double> last_error = report.fair.expected_error;
     ToleranceFitTask task;
     task.net = &shape.net();
     task.length = length;
@@ -66,6 +72,7 @@ class FitToTolerance {
       report.fair.residual = one.residual;
       report.fair.expected_error = one.expected_error;
       report.fair.outcome = one.outcome;
+      if (one.outcome == Outcome::converged && one.expected_error) last_error = one.expected_error;
       return one.outcome == Outcome::converged;
     };
     task.ended = [&] {
@@ -79,8 +86,30 @@ class FitToTolerance {
     };
     task.energy = [&] { return run_.subject.fairness(run_.result.positions).vspring_energy; };
     const auto figure = [&](const std::vector<double>& all) { return figure_of(all); };
-    ToleranceFitResult found = smooth_within(task, tolerance_ * scale, figure);
-    if (run_.options.within && !task.ended()) found = hold_within(task, tolerance_ * scale, found);
+    // The interior-point method needs room.
+    const auto sides = run_.options.within ? Sides::of(shape.net()) : std::nullopt;
+    if (sides) task.close_share = any_start;
+    ToleranceFitResult found = smooth_within(task, (sides ? room : 1) * tolerance_ * scale, figure);
+    if (run_.options.within && !task.ended()) {
+      const ToleranceFitResult smooth_shape = found;
+      const double length_before = *length;
+      const std::vector<Vector3> places = shape.net().positions;
+      if (sides) found = hold_between(task, *sides, tolerance_ * scale, found);
+      if (!sides || (!found.settled && !task.ended())) {
+        if (!found.within) {
+          shape.net().positions = places;
+          *length = length_before;
+          task.close_share = ToleranceFitTask().close_share;
+          found = sides ? smooth_within(task, tolerance_ * scale, figure) : smooth_shape;
+        }
+        found = hold_within(task, tolerance_ * scale, found);
+        // Both ways have been gone to their ends.
+        if (sides) found.settled = found.within && !task.ended();
+      }
+    }
+    // Tries that led nowhere tell nothing of the shape that is kept.
+    if (found.settled && last_error) report.fair.residual = *last_error;
+    if (found.settled && last_error) report.fair.expected_error = last_error;
     finish_with(found.length);
     report.active_points = found.active;
     conclude(found);
@@ -88,10 +117,15 @@ class FitToTolerance {
 
  private:
   // The smoothing lengths that tolerances are looked for from, in mean edges.
-  static constexpr double first_lengths[] = {3, 1, 0.3, 0.1};
+  static constexpr std::array<double, 4> first_lengths = {3, 1, 0.3, 0.1};
+  // The same of surfaces whose nodes keep their place, and whose details may be few edges wide.
+  static constexpr std::array<double, 4> first_lengths_on_surfaces = {1, 0.3, 3, 0.1};
   // What may be done for one tolerance, in iterations of one moving node: as much as for four equilibria.
   static constexpr double least_most_work = 1.2e6;
   static constexpr double most_work_a_node = 1600;
+  // Of a tolerance.
+  static constexpr double room = 0.8;
+  static constexpr double any_start = 0.5;
   // Of a tolerance, to which equilibria are found.
   static constexpr double precision = 1e-3;
 

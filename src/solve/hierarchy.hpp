@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "solve/preconditioner.hpp"
@@ -41,6 +42,10 @@ class Hierarchy {
   virtual void set_shares(std::vector<double> shares) = 0;
   /// The start of last resort on the level that is worked on first, which forgets the shape.
   virtual void forget_shape(std::size_t level) = 0;
+  /// Whether the shape itself winds less often than at `input`, the positions of its nodes.
+  virtual bool has_unwound(std::span<const Vector3> /*input*/) { return false; }
+  /// A start on the shape itself that keeps its windings. False where there is none.
+  virtual bool wind() { return false; }
   /// For that level, made anew; used up before the next one is asked for.
   virtual Preconditioner& preconditioner(std::size_t level) = 0;
 };

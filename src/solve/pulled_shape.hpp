@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,7 @@
 #include "solve/curve_hierarchy.hpp"
 #include "solve/equilibrium_method.hpp"
 #include "solve/point_levels.hpp"
+#include "solve/smooth_start.hpp"
 #include "solve/surface_hierarchy.hpp"
 #include "solve/sweep_method.hpp"
 #include "spring/model.hpp"
@@ -81,6 +83,9 @@ class PulledShape {
   Net& net() { return hierarchy_.net(hierarchy_.count() - 1); }
 
   void find(Context& context, ProgressReporter& progress, FairReport& report) {
+    if (found_before_) levels_.tie(hierarchy_.count() - 1);
+    found_before_ = true;
+    (void)start_from_points();
     run_equilibrium(hierarchy_, *model_, options_, *team_, context, progress, report, nullptr,
                     net().points.empty() ? nullptr : &levels_);
   }
@@ -96,15 +101,40 @@ class PulledShape {
     if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
     net().positions = start;
     levels_.tie(last);
+    if (start_from_points()) {
+      run_equilibrium_from_near(hierarchy_, hierarchy_.preconditioner(last), *model_, options_, *team_, context,
+                                progress, report, &levels_);
+      if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
+      net().positions = start;
+      levels_.tie(last);
+    }
     SweepTask task{.step_tolerance = plain_tolerance, .max_iterations = plain_iterations};
     task.renew_ties = [&] { (void)levels_.renew(0); };
     const SweepResult swept = sweep_until_still(net(), *model_, task, *team_, context);
     report.outcome = swept.outcome;
+    // Sweeps that are still tell nothing of how far they have to go.
+    report.expected_error.reset();
     report.work += work_of_sweep * static_cast<double>(swept.iterations) * static_cast<double>(net().moving);
     update_directions(net(), *model_, *team_);
   }
 
  private:
+  /// A start for curves whose nodes keep their place: a smoothing spline, as noise that is as long as edges are leads
+  /// nowhere. False where that does not apply.
+  bool start_from_points() {
+    if constexpr (!std::is_same_v<Gathered, CurveNet>) return false;
+    if (net().homes.empty() || net().points.empty()) return false;
+    update_directions(net(), *model_, *team_);
+    model_->prepare(net());
+    std::vector<NodeForce> forces(net().moving);
+    model_->find_forces(net(), {0, net().moving}, forces);
+    std::vector<double> pull(net().moving);
+    for (std::size_t i = 0; i < pull.size(); ++i) pull[i] = forces[i].stiffness;
+    if constexpr (std::is_same_v<Gathered, CurveNet>) start_smooth(hierarchy_.finest(), pull);
+    levels_.tie(hierarchy_.count() - 1);
+    return true;
+  }
+
   // The last steps of a plain iteration are about k times their distance.
   static constexpr double plain_tolerance = 1e-4;
   static constexpr int plain_iterations = 300;
@@ -117,6 +147,7 @@ class PulledShape {
                         std::declval<ThreadTeam&>())) hierarchy_;
   PointTies ties_;
   PointLevels levels_;
+  bool found_before_ = false;
 };
 
 }  // namespace vspring

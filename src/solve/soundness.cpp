@@ -62,8 +62,8 @@ void find_faces(const Net& net, const std::vector<Vector3>& positions, std::size
 }
 
 /// positions: of the nodes, those of the net or others. edge: the mean one. dragged: 1 for nodes that are held
-/// elsewhere than the input has them: what turns beside them is wanted; or empty.
-Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team,
+/// elsewhere than the input has them: what turns beside them is wanted; or empty. Without with_bending, bending is 0.
+Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team, bool with_bending,
                std::span<const std::uint8_t> dragged = {}) {
   const double tiny = collapsed_size * edge;
   const auto is_dragged = [&](std::size_t node) { return !dragged.empty() && dragged[node] != 0; };
@@ -95,6 +95,7 @@ Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edg
         if (j < i && j < net.computed) continue;
         const Vector3& before = faces[(s + faces.size() - 1) % faces.size()];
         if (turns_back(before, faces[s]) && !is_dragged(neighbour(s + spokes.size() - 1))) ++part.turned;
+        if (!with_bending) continue;
         const double areas = before.norm() + faces[s].norm();
         const double turn = std::atan2(before.cross(faces[s]).norm(), before.dot(faces[s]));
         if (areas > 0) part.bending += turn * turn * (positions[j] - positions[i]).squaredNorm() / areas;
@@ -112,17 +113,22 @@ Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edg
 
 }  // namespace
 
+std::size_t turned_edges(const Net& net, ThreadTeam& team) {
+  return flaws_of(net, net.positions, mean_edge(net), team, false).turned;
+}
+
 Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(&model), team_(&team) {
   for (const Vector3& position : start.positions) box_.extend(position);
   for (const Vector3& position : start.points.positions) box_.extend(position);
   has_directions_ = std::any_of(start.given.begin(), start.given.end(), [](std::uint8_t given) { return given != 0; });
   has_points_ = !start.points.positions.empty();
   edge_ = mean_edge(start);
-  flaws_ = flaws_of(start, start.input.empty() ? start.positions : start.input, edge_, team);
+  flaws_ = flaws_of(start, start.input.empty() ? start.positions : start.input, edge_, team,
+                    start.input.empty() && looks_at_bending(start));
   const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
   held_.assign(input.begin() + static_cast<std::ptrdiff_t>(start.moving), input.end());
   if (looks_at_bending(start)) {
-    bending_ = start.input.empty() ? flaws_.bending : flaws_of(start, start.positions, edge_, team).bending;
+    bending_ = start.input.empty() ? flaws_.bending : flaws_of(start, start.positions, edge_, team, true).bending;
     if (start.input.empty()) smooth_bending_ = bending_without_noise(start);
   }
   const bool was_prepared = !start.curvatures.empty();
@@ -150,7 +156,7 @@ bool Soundness::looks_at_bending(const Net& net) const {
 }
 
 double Soundness::bending_without_noise(const Net& net) const {
-  return flaws_of(net, smooth_places(net, *team_), edge_, *team_).bending;
+  return flaws_of(net, smooth_places(net, *team_), edge_, *team_, true).bending;
 }
 
 std::string Soundness::misplaced(const Net& now) const {
@@ -179,13 +185,13 @@ std::string Soundness::more_of(const Flaws& flaws, bool of_surface) const {
 std::string Soundness::fault_of_places(const Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
-  return more_of(flaws_of(now, now.positions, edge_, *team_, dragged(now)), now.tangents.empty());
+  return more_of(flaws_of(now, now.positions, edge_, *team_, false, dragged(now)), now.tangents.empty());
 }
 
 std::string Soundness::fault(Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
-  const Flaws flaws = flaws_of(now, now.positions, edge_, *team_, dragged(now));
+  const Flaws flaws = flaws_of(now, now.positions, edge_, *team_, looks_at_bending(now), dragged(now));
   std::string more = more_of(flaws, now.tangents.empty());
   if (!more.empty() || has_directions_ || has_points_) return more;
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());

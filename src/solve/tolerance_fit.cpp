@@ -12,8 +12,8 @@ namespace {
 constexpr double shortest_length = 0.02;
 constexpr double longest_length = 10;
 constexpr double stride = 2;
-// Of the tolerance: near enough.
-constexpr double close_share = 0.01;
+// Lengths in a row for which nothing was found: shorter ones lead nowhere either.
+constexpr int most_lost = 2;
 constexpr int most_trials = 60;
 // Aimed at less than the tolerance, so that what is left of a correction does not go beyond.
 constexpr double aimed_share = 0.995;
@@ -60,17 +60,18 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
     least = std::min(least, figure);
   };
   look(true);
+  int lost = 0;
   for (int turn = 0; turn < most_trials; ++turn) {
     if (!outside) {
       if (*task.length >= longest) break;
       *task.length *= stride;
     } else if (!inside) {
-      if (*task.length <= shortest) break;
+      if (*task.length <= shortest || lost == most_lost) break;
       *task.length /= stride;
     } else {
       const auto& [a, at_a] = *inside;
       const auto& [b, at_b] = *outside;
-      if (at_a >= (1 - close_share) * tolerance || b < (1 + close_share) * a) break;
+      if (at_a >= (1 - task.close_share) * tolerance || b < (1 + task.close_share) * a) break;
       // Between both by the logarithms, a little to the side that is within; kept off the ends.
       const double share = at_b > at_a && at_a > 0 && std::isfinite(at_b)
                                ? std::log(tolerance / at_a) / std::log(at_b / at_a) - 0.02
@@ -80,6 +81,7 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
     if (inside) net.positions = best;
     const bool found = task.follow();
     if (task.ended()) break;
+    lost = found ? 0 : lost + 1;
     look(found);
   }
   net.positions = best;

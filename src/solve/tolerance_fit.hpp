@@ -24,6 +24,7 @@ struct ToleranceFitTask {
   std::function<bool()> ended;     ///< cancelled, or out of work: the best so far stays
   std::function<std::vector<double>()> measure;
   std::function<double()> energy;
+  double close_share = 0.01;  ///< of the tolerance: smooth_within() need not come nearer
 };
 
 struct ToleranceFitResult {
@@ -38,10 +39,10 @@ struct ToleranceFitResult {
 ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
                                  const std::function<double(const std::vector<double>&)>& tolerated);
 
-/// From there, points inside the distance come to pull at less and less, others just enough: each counts by a power of
-/// its distance over the tolerance more than the turn before (C. L. Lawson's algorithm; J. R. Rice, K. H. Usow, "The
-/// Lawson algorithm and extensions", Math. Comp. 22, 1968). Of all shapes on the way that are within, the one of least
-/// energy is left in the net.
+/// For curves in space, others see interior_fit.hpp. From there, points inside the distance come to pull at less and
+/// less, others just enough: each counts by a power of its distance over the tolerance more than the turn before (C. L.
+/// Lawson's algorithm; J. R. Rice, K. H. Usow, "The Lawson algorithm and extensions", Math. Comp. 22, 1968). Of all
+/// shapes on the way that are within, the one of least energy is left in the net.
 ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, ToleranceFitResult smooth);
 
 }  // namespace vspring

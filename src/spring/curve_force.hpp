@@ -69,7 +69,8 @@ struct InverseWeight {
 
 /// The average of the displacements spring(j) by the neighbours j of node i, and the regularisation along the tangent:
 /// to the mean of the neighbours (§4.4), or, with shares, to where the lengths of the edges before and after are as
-/// their opposite shares. A node without a tangent (zero) goes to the mean of its neighbours.
+/// their opposite shares, or, with homes, to the home. A node without a tangent (zero) goes to the mean of its
+/// neighbours.
 template <typename Weight, typename Spring>
 NodeForce curve_force(const Net& net, std::size_t i, const Spring& spring) {
   const auto links = net.rings.links(i);
@@ -98,7 +99,11 @@ NodeForce curve_force(const Net& net, std::size_t i, const Spring& spring) {
     return force;
   }
   force.spring = springs / weights;
-  force.regularisation = (shares.empty() ? mean.dot(tangent) : along) * tangent;
+  if (!net.homes.empty())
+    along = (net.homes[i] - net.positions[i]).dot(tangent);
+  else if (shares.empty())
+    along = mean.dot(tangent);
+  force.regularisation = along * tangent;
   return force;
 }
 

@@ -34,7 +34,7 @@ struct Net {
   /// Places of all nodes in the input, where constraints put some of them elsewhere; else empty.
   std::vector<Vector3> input;
   std::vector<double> shares;  ///< what links count in the regularisation; empty: all the same
-  std::vector<Vector3> homes;  ///< of a surface, to where the regularisation draws moving nodes too; empty: nowhere
+  std::vector<Vector3> homes;  ///< to where the regularisation draws moving nodes, on surfaces too; empty: nowhere
   TiedPoints points;           ///< scattered points that pull at nodes; empty where there are none
   std::vector<Index> node;     ///< number in the shape of every local node
   Frame frame;

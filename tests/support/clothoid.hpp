@@ -96,12 +96,12 @@ inline double normalised(double angle) {
 
 inline double direction(const Eigen::Vector2d& chord) { return std::atan2(chord.y(), chord.x()); }
 
-// g and h with their derivatives by A, phi0 and phi1.
+// g and h with their derivatives by A, phi0 and phi1. Sums of plain numbers, as tests are not optimised.
 struct Moments {
   double g = 0;
   double h = 0;
-  Eigen::Vector3d dg = Eigen::Vector3d::Zero();
-  Eigen::Vector3d dh = Eigen::Vector3d::Zero();
+  std::array<double, 3> dg{};
+  std::array<double, 3> dh{};
 };
 
 inline Moments moments(double a, double phi0, double phi1) {
@@ -111,11 +111,13 @@ inline Moments moments(double a, double phi0, double phi1) {
     const double angle = phi0 + t * (delta + a * (t - 1));
     const double sine = weight * std::sin(angle);
     const double cosine = weight * std::cos(angle);
-    const Eigen::Vector3d by(t * (t - 1), 1 - t, t);
     sum.g += sine;
     sum.h += cosine;
-    sum.dg += cosine * by;
-    sum.dh -= sine * by;
+    const double by[] = {t * (t - 1), 1 - t, t};
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum.dg[k] += cosine * by[k];
+      sum.dh[k] -= sine * by[k];
+    }
   });
   return sum;
 }
@@ -297,8 +299,8 @@ inline std::vector<Clothoid> hermite_clothoid_spline(const std::vector<Eigen::Ve
       system.clothoids.push_back(over_chord(point(i), at[i], point(i + 1), phi0, phi1, a));
       // Curvatures h (delta -+ A) / r at start and end; A depends on the angles through g = 0.
       const Moments m = moments(a, phi0, phi1);
-      const Eigen::Vector2d da = -m.dg.tail<2>() / m.dg[0];
-      const Eigen::Vector2d dh = m.dh.tail<2>() + m.dh[0] * da;
+      const Eigen::Vector2d da = -Eigen::Vector2d(m.dg[1], m.dg[2]) / m.dg[0];
+      const Eigen::Vector2d dh = Eigen::Vector2d(m.dh[1], m.dh[2]) + m.dh[0] * da;
       const Eigen::Vector2d ddelta(-1, 1);
       const double unit = scale / chord_length[i];
       const double delta = phi1 - phi0;

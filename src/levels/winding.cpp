@@ -1,0 +1,360 @@
+#include "levels/winding.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/dense_algebra.hpp"
+#include "shape/planarity.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of a piece, in all, from which it may have to be kept from unwinding.
+constexpr double least_turn = std::numbers::pi;
+// The same in space, where a bump that should go turns as well.
+constexpr double least_turn_in_space = 1.5 * std::numbers::pi;
+// Nodes of a piece that its five numbers are looked for with.
+constexpr std::size_t enough_nodes = 120;
+constexpr double sharpest_turn = 1.8;
+// Nodes that tell how often it winds: between more of them noise may turn the curve around.
+constexpr std::size_t enough_to_count = 64;
+constexpr int most_corrections = 40;
+// Of the gap at the end, in sizes of the piece, and of the tangent there.
+constexpr double closed = 1e-10;
+constexpr double nearly_closed = 1e-7;
+// In the plane the sum of all turns tells how often a piece winds.
+constexpr double same_winding = 1;
+// In space, of what it turned by and of what it was bent by.
+constexpr double less_winding = 0.7;
+constexpr double more_bending = 1.5;
+// What a piece is divided into, so that noise does not count as turns.
+constexpr std::size_t parts = 24;
+
+/// A turn of the tangent, as a vector across it in a frame that is carried along without spin.
+using Turn = Eigen::Vector2d;
+
+struct Frame3 {
+  Vector3 tangent;
+  Vector3 first;
+  Vector3 second;
+
+  /// across: a direction across the tangent; what lies in the plane across it then stays there to the bit.
+  Frame3(const Vector3& along, const Vector3& across) : tangent(along), first(across.cross(along)), second(across) {}
+
+  /// Of the length of the angle.
+  [[nodiscard]] Vector3 axis_of(const Turn& by) const { return by[0] * second - by[1] * first; }
+
+  void turn(const Turn& by) {
+    const double angle = by.norm();
+    if (!(angle > 0)) return;
+    const Eigen::Matrix3d rotation = Eigen::AngleAxisd(angle, axis_of(by) / angle).toRotationMatrix();
+    tangent = (rotation * tangent).normalized();
+    first = rotation * first;
+    first = (first - first.dot(tangent) * tangent).normalized();
+    second = tangent.cross(first);
+  }
+
+  /// What turns the tangent to another one.
+  [[nodiscard]] Turn turn_to(const Vector3& other) const {
+    const Vector3 across = other - other.dot(tangent) * tangent;
+    const double sine = across.norm();
+    if (!(sine > 0)) return Turn::Zero();
+    const double angle = std::atan2(sine, other.dot(tangent));
+    return angle / sine * Turn(across.dot(first), across.dot(second));
+  }
+};
+
+/// A piece of a strand as the turns at its nodes, those at its ends from and to the given tangents, and the lengths of
+/// its edges.
+class Piece {
+ public:
+  Piece(std::vector<Vector3> places, const Vector3& start_tangent, const Vector3& end_tangent,
+        const std::vector<double>& along)
+      : places_(std::move(places)), start_(start_tangent), end_(end_tangent), across_(start_.unitOrthogonal()) {
+    std::vector<Vector3> spread = places_;
+    spread.emplace_back(places_.front() + start_);
+    spread.emplace_back(places_.back() + end_);
+    if (const auto plane = plane_normal(spread)) {
+      across_ = *plane;
+      // Turns out of the plane stay zero.
+      free_ = {0, 2, 4};
+      is_flat_ = true;
+    }
+    Frame3 frame(start_, across_);
+    double length = 0;
+    for (std::size_t k = 0; k + 1 < places_.size(); ++k) {
+      const Vector3 edge = places_[k + 1] - places_[k];
+      lengths_.push_back(edge.norm());
+      length += lengths_.back();
+      turns_.push_back(lengths_.back() > 0 ? frame.turn_to(edge / lengths_.back()) : Turn::Zero());
+      winding_ += frame.axis_of(turns_.back());
+      frame.turn(turns_.back());
+    }
+    turns_.push_back(frame.turn_to(end_));
+    winding_ += frame.axis_of(turns_.back());
+    const double whole = along.back() - along.front();
+    for (std::size_t k = 0; k + 1 < along.size(); ++k) even_.push_back((along[k + 1] - along[k]) / whole * length);
+    size_ = length;
+    for (std::size_t k = 0; k < turns_.size(); ++k) {
+      const double before = k > 0 ? even_[k - 1] : 0;
+      const double after = k < even_.size() ? even_[k] : 0;
+      shares_.push_back((before + after) / 2 / size_);
+      at_.push_back((along[k] - along.front()) / whole - 0.5);
+      mean_ += turns_[k];
+      slope_ += 12 * at_[k] * turns_[k];
+    }
+  }
+
+  /// In all, without what is taken back a few nodes on.
+  [[nodiscard]] double turned() const {
+    double sum = 0;
+    for_each_part([&](const Turn& turn, double /*length*/) { sum += turn.norm(); });
+    return sum;
+  }
+
+  /// Whether it turns by so much that it may unwind. Where a node turns very sharply it is tangled, rather than wound.
+  [[nodiscard]] bool winds() const {
+    const auto sharp = [](const Turn& turn) { return turn.norm() > sharpest_turn; };
+    return (is_flat_ ? turned() >= least_turn : winding_.norm() >= least_turn_in_space) &&
+           std::none_of(turns_.begin(), turns_.end(), sharp);
+  }
+
+  /// By how much it is bent, without what is taken back a few nodes on.
+  [[nodiscard]] double bending() const {
+    double sum = 0;
+    for_each_part([&](const Turn& turn, double length) { sum += turn.squaredNorm() / length; });
+    return sum;
+  }
+
+  /// Whether another piece with the same ends winds less often, or is bent more.
+  [[nodiscard]] bool unwinds_to(const Piece& other) const {
+    if (is_flat_) return (other.winding_ - winding_).norm() > same_winding;
+    return other.winding_.norm() < less_winding * winding_.norm() || other.bending() > more_bending * bending();
+  }
+
+  /// Constant and linear turn, over the whole piece, and the logarithm of how many times as long as the input it is.
+  using Unknowns = Eigen::Matrix<double, 5, 1>;
+
+  /// The linear turns nearest to the input that end as they should; none where none were found.
+  [[nodiscard]] std::optional<Unknowns> nearest() const {
+    std::optional<Unknowns> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Unknowns& start : starts()) {
+      const std::optional<Unknowns> found = close(start, most_corrections);
+      if (!found) continue;
+      if (is_flat_ && std::abs((*found)[0] - mean_[0]) > same_winding) continue;
+      const std::vector<Vector3> places = bent(*found).places;
+      double squares = 0;
+      for (std::size_t k = 0; k < places.size(); ++k) squares += (places[k] - places_[k]).squaredNorm();
+      if (squares >= least) continue;
+      least = squares;
+      best = found;
+    }
+    return best;
+  }
+
+  /// Bends it so. False where that does not end as it should.
+  bool bend(const Unknowns& unknowns) {
+    const std::optional<Unknowns> found = close(unknowns, most_corrections);
+    if (found) places_ = bent(*found).places;
+    return found.has_value();
+  }
+
+  [[nodiscard]] const std::vector<Vector3>& places() const { return places_; }
+
+ private:
+  /// look(turn, length) for each of some parts, of the whole length.
+  template <typename Look>
+  void for_each_part(const Look& look) const {
+    Turn turn = Turn::Zero();
+    double length = 0;
+    for (std::size_t k = 0; k < turns_.size(); ++k) {
+      turn += turns_[k];
+      length += shares_[k];
+      if (k + 1 < turns_.size() && length * static_cast<double>(parts) < 1) continue;
+      if (length > 0) look(turn, length);
+      turn.setZero();
+      length = 0;
+    }
+  }
+
+  struct Bent {
+    std::vector<Vector3> places;
+    Vector3 end_tangent;
+  };
+
+  [[nodiscard]] Bent bent(const Unknowns& unknowns) const {
+    Bent result{.places = {places_.front()}, .end_tangent = {}};
+    Frame3 frame(start_, across_);
+    for (std::size_t k = 0; k < shares_.size(); ++k) {
+      frame.turn(shares_[k] * (unknowns.head<2>() + at_[k] * unknowns.segment<2>(2)));
+      if (k == even_.size()) break;
+      result.places.emplace_back(result.places.back() + even_[k] * std::exp(unknowns[4]) * frame.tangent);
+    }
+    result.end_tangent = frame.tangent;
+    return result;
+  }
+
+  [[nodiscard]] Eigen::VectorXd gap(const Unknowns& unknowns) const {
+    const Bent now = bent(unknowns);
+    Eigen::VectorXd result(6);
+    result << (now.places.back() - places_.back()) / size_, now.end_tangent - end_;
+    return result;
+  }
+
+  [[nodiscard]] std::vector<Unknowns> starts() const {
+    std::vector<Unknowns> result;
+    Unknowns nearest_linear;
+    nearest_linear << mean_, slope_, 0;
+    result.push_back(nearest_linear);
+    if (is_flat_) {
+      constexpr int steps = 20;
+      for (int k = -steps; k <= steps; ++k) {
+        Unknowns start = nearest_linear;
+        start[2] = 3.0 * k / steps * turned();
+        result.push_back(start);
+      }
+      return result;
+    }
+    constexpr int phases = 12;
+    for (int phase = 0; phase < phases; ++phase) {
+      const double angle = 2 * std::numbers::pi * phase / phases;
+      const Turn mean = turned() * Turn(std::cos(angle), std::sin(angle));
+      for (const double share : {-4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0}) {
+        Unknowns start;
+        start << mean, share * Turn(-mean[1], mean[0]), 0;
+        result.push_back(start);
+      }
+    }
+    return result;
+  }
+
+  /// The unknowns near to some for which the piece ends where and as it should, by the method of Levenberg and
+  /// Marquardt.
+  [[nodiscard]] std::optional<Unknowns> close(Unknowns unknowns, int corrections) const {
+    constexpr double difference = 1e-6;
+    double damping = 1e-3;
+    Eigen::VectorXd now = gap(unknowns);
+    const auto count = static_cast<Eigen::Index>(free_.size());
+    for (int k = 0; k < corrections && now.norm() > closed; ++k) {
+      Eigen::MatrixXd slopes(6, count);
+      for (Eigen::Index j = 0; j < count; ++j) {
+        Unknowns moved = unknowns;
+        moved[free_[static_cast<std::size_t>(j)]] += difference;
+        slopes.col(j) = (gap(moved) - now) / difference;
+      }
+      const Eigen::VectorXd step =
+          damped_solution(slopes.transpose() * slopes, -slopes.transpose() * now, damping * std::min(1.0, now.norm()));
+      Unknowns next = unknowns;
+      for (Eigen::Index j = 0; j < count; ++j) next[free_[static_cast<std::size_t>(j)]] += step[j];
+      const Eigen::VectorXd then = gap(next);
+      if (then.allFinite() && then.norm() < now.norm()) {
+        unknowns = next;
+        now = then;
+        damping *= 0.2;
+      } else {
+        damping = std::max(damping * 10, 1e-8);
+        if (damping > 1e6) break;
+      }
+    }
+    if (now.norm() < nearly_closed) return unknowns;
+    return std::nullopt;
+  }
+
+  std::vector<Vector3> places_;
+  Vector3 start_;
+  Vector3 end_;
+  Vector3 across_;  ///< the normal of its plane, or any direction across its first tangent
+  std::vector<double> lengths_;
+  std::vector<Turn> turns_;
+  std::vector<double> even_;           ///< lengths to end with, of the same sum
+  std::vector<double> shares_;         ///< of the length at each node
+  std::vector<double> at_;             ///< of the length up to each node, from −1/2 to 1/2
+  Vector3 winding_ = Vector3::Zero();  ///< sum of the turns about their axes, which noise and bumps hardly add to
+  Turn mean_ = Turn::Zero();           ///< the linear turns nearest to those of the input, over the whole piece
+  Turn slope_ = Turn::Zero();
+  double size_ = 0;
+  bool is_flat_ = false;
+  std::vector<Eigen::Index> free_ = {0, 1, 2, 3, 4};  ///< which of the unknowns there are
+};
+
+/// Calls look(strand, from, to) for each piece of a curve between two held nodes with given tangents that has nodes in
+/// between; stops where it says false.
+template <typename Look>
+bool for_each_piece(const CurveLevel& level, const Look& look) {
+  const Net& net = level.curve.net;
+  for (std::size_t s = 0; s < level.curve.strands.size(); ++s) {
+    const Strand& strand = level.curve.strands[s];
+    const std::size_t count = strand.nodes.size();
+    std::size_t from = 0;
+    const auto is_held = [&](std::size_t k) {
+      const std::size_t node = strand.nodes[k % count];
+      return node >= net.moving && net.tangent_given(node);
+    };
+    for (std::size_t to = 1; to < (strand.closed ? count + 1 : count); ++to) {
+      const std::size_t node = strand.nodes[to % count];
+      if (node < net.moving && net.given[node] == 0) continue;
+      if (is_held(from) && is_held(to) && to > from + 2 && !look(s, from, to)) return false;
+      from = to;
+    }
+  }
+  return true;
+}
+
+/// Places from to to of a strand, every stride-th of them, where `positions` has the nodes.
+Piece piece_of(const CurveLevel& level, std::span<const Vector3> positions, std::size_t s, std::size_t from,
+               std::size_t to, std::size_t stride) {
+  const Net& net = level.curve.net;
+  const auto& nodes = level.curve.strands[s].nodes;
+  const std::size_t end = nodes[to % nodes.size()];
+  std::vector<Vector3> places;
+  std::vector<double> at;
+  for (std::size_t k = from; k < to; k += stride) {
+    places.push_back(positions[nodes[k]]);
+    at.push_back(level.along[s][k]);
+  }
+  places.push_back(positions[end]);
+  at.push_back(level.along[s][to]);
+  return {std::move(places), net.tangents[nodes[from]], net.tangents[end], at};
+}
+
+std::size_t stride_for(std::size_t from, std::size_t to, std::size_t nodes) { return (to - from) / nodes + 1; }
+
+}  // namespace
+
+bool has_unwound(const CurveLevel& level, std::span<const Vector3> input) {
+  return !for_each_piece(level, [&](std::size_t s, std::size_t from, std::size_t to) {
+    const std::size_t stride = stride_for(from, to, enough_to_count);
+    const Piece before = piece_of(level, input, s, from, to, stride);
+    return !before.winds() || !before.unwinds_to(piece_of(level, level.curve.net.positions, s, from, to, stride));
+  });
+}
+
+bool wind(CurveLevel& level) {
+  Net& net = level.curve.net;
+  std::vector<Vector3> positions = net.positions;
+  bool winds = false;
+  const bool all = for_each_piece(level, [&](std::size_t s, std::size_t from, std::size_t to) {
+    const Piece coarse = piece_of(level, net.positions, s, from, to, stride_for(from, to, enough_nodes));
+    if (!coarse.winds()) return true;
+    const auto turns = coarse.nearest();
+    Piece piece = piece_of(level, net.positions, s, from, to, 1);
+    if (!turns || !piece.bend(*turns)) return false;
+    winds = true;
+    const auto& nodes = level.curve.strands[s].nodes;
+    for (std::size_t k = from + 1; k < to; ++k) positions[nodes[k]] = piece.places()[k - from];
+    return true;
+  });
+  if (winds && all) net.positions = std::move(positions);
+  return winds && all;
+}
+
+}  // namespace vspring

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "spring/curve_net.hpp"
+
+namespace vspring {
+
+/// A row of what a strand bends by: a curvature as a sum over places of the strand, times the root of half the length
+/// that it stands for.
+struct CurveBendingRow {
+  std::span<const std::pair<std::size_t, double>> entries;  ///< places of the strand and what their nodes count
+  bool across_seam;  ///< whether it joins the end of a closed strand to its start
+  /// The place with a given direction, beside which the edge between both entries should lie along it.
+  std::optional<std::size_t> given;
+};
+
+/// Calls row(CurveBendingRow) in the order of places: with h = ℓ₋ + ℓ₊, √(h/4) κ, κ = (2/h) (Δy₊/ℓ₊ − Δy₋/ℓ₋), at every
+/// node with two edges; one on each side of a node with a given direction; none at other ends. Cost: linear.
+template <typename Row>
+void for_each_bending_row(const Net& net, const Strand& strand, const Row& row) {
+  const auto& nodes = strand.nodes;
+  const std::size_t count = nodes.size();
+  const auto edge = [&](std::size_t a, std::size_t b) {
+    const Vector3 d = net.positions[nodes[b]] - net.positions[nodes[a]];
+    return std::sqrt(d.dot(d) + net.tiny);
+  };
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = nodes[k];
+    const bool has_before = k > 0 || strand.closed;
+    const bool has_after = k + 1 < count || strand.closed;
+    const std::size_t before = (k + count - 1) % count;
+    const std::size_t after = (k + 1) % count;
+    const double length_before = has_before ? edge(before, k) : 0;
+    const double length_after = has_after ? edge(k, after) : 0;
+    // The first place of a closed strand comes after its last.
+    const bool before_seam = has_after && after == 0 && nodes[0] < net.moving;
+    if (net.given[i] != 0) {
+      if (has_before) {
+        const double entry = 1 / (length_before * std::sqrt(length_before));
+        row(CurveBendingRow{std::array{std::pair(before, -entry), std::pair(k, entry)}, k == 0, k});
+      }
+      if (has_after) {
+        const double entry = 1 / (length_after * std::sqrt(length_after));
+        row(CurveBendingRow{std::array{std::pair(k, -entry), std::pair(after, entry)}, before_seam, k});
+      }
+    } else if (has_before && has_after) {
+      const double scale = 1 / std::sqrt(length_before + length_after);
+      const double entry_before = scale / length_before;
+      const double entry_after = scale / length_after;
+      row(CurveBendingRow{std::array{std::pair(before, entry_before), std::pair(k, -entry_before - entry_after),
+                                     std::pair(after, entry_after)},
+                          k == 0 || before_seam, std::nullopt});
+    }
+  }
+}
+
+}  // namespace vspring

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "base/threads.hpp"
+#include "spring/net.hpp"
+
+namespace vspring {
+
+/// Takes out of the moving nodes of a surface the noise that folds it, and leaves it as it is where fewer than one edge
+/// in 200 turns by more than 90°, or most go on to: some steps of Taubin's λ|μ filter (G. Taubin, "A signal processing
+/// approach to fair surface design", SIGGRAPH 1995). Held nodes stay. Cost: linear; the same result on any number of
+/// threads.
+void unfold(Net& net, ThreadTeam& team);
+
+}  // namespace vspring

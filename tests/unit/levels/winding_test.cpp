@@ -1,0 +1,208 @@
+#include "levels/winding.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "support/curves.hpp"
+
+namespace vspring::winding_test {
+namespace {
+
+using namespace support;
+
+constexpr double pi = std::numbers::pi;
+
+struct Wound {
+  std::vector<Vector3> nodes;
+  Vector3 start;
+  Vector3 end;
+
+  [[nodiscard]] Constraints constraints() const { return held_ends(nodes, start, end); }
+  [[nodiscard]] CurveLevel level(const std::vector<Vector3>& positions) const {
+    return curve_levels(gather_net(PolygonCurve(positions), constraints()), Distribution::even).back();
+  }
+  [[nodiscard]] CurveLevel level() const { return level(nodes); }
+};
+
+/// Its curvature falls to half, so that a fair curve with its ends and turns is known.
+reference::Clothoid clothoid(double turns) {
+  const double length = 2 * pi * turns;
+  return {.start = {0, 0}, .angle = 0, .curvature = 4.0 / 3, .curvature_rate = -2.0 / 3 / length, .length = length};
+}
+
+Wound spiral(double turns, int edges = 240) {
+  const reference::Clothoid curve = clothoid(turns);
+  return {sampled(curve, places(Spacing::even, edges)), heading(0), heading(curve.angle_at(curve.length))};
+}
+
+Wound helix(double turns, double pitch, int edges = 240) {
+  Wound helix;
+  const double turn = 2 * pi * turns;
+  const Vector3 up(0, 0, pitch / (2 * pi));
+  for (const double at : places(Spacing::even, edges)) helix.nodes.emplace_back(heading(at * turn) + at * turn * up);
+  helix.start = (heading(pi / 2) + up).normalized();
+  helix.end = (heading(turn + pi / 2) + up).normalized();
+  return helix;
+}
+
+/// From the given tangent at the start over all edges to that at the end, in the plane z = 0.
+std::vector<double> turns_of(const CurveLevel& level) {
+  const Net& net = level.curve.net;
+  const auto& strand = level.curve.strands[0].nodes;
+  std::vector<Vector3> ways = {net.tangents[strand.front()]};
+  for (std::size_t k = 0; k + 1 < strand.size(); ++k)
+    ways.emplace_back(net.positions[strand[k + 1]] - net.positions[strand[k]]);
+  ways.push_back(net.tangents[strand.back()]);
+  std::vector<double> turns;
+  for (std::size_t k = 0; k + 1 < ways.size(); ++k)
+    turns.push_back(std::atan2(ways[k].cross(ways[k + 1]).z(), ways[k].dot(ways[k + 1])));
+  return turns;
+}
+
+double sum(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum;
+}
+
+/// The sum of all turns of the polygon, whichever way.
+double turned(const CurveLevel& level) {
+  const Net& net = level.curve.net;
+  const auto& strand = level.curve.strands[0].nodes;
+  double sum = 0;
+  for (std::size_t k = 1; k + 1 < strand.size(); ++k) {
+    const Vector3 before = net.positions[strand[k]] - net.positions[strand[k - 1]];
+    const Vector3 after = net.positions[strand[k + 1]] - net.positions[strand[k]];
+    sum += std::atan2(before.cross(after).norm(), before.dot(after));
+  }
+  return sum;
+}
+
+TEST(HasUnwound, TellsAStraightenedCurveFromTheCurve) {
+  for (const Wound& wound : {spiral(3), spiral(1.5), helix(4, 0.2)}) {
+    CurveLevel level = wound.level();
+    const std::vector<Vector3> input = level.curve.net.positions;
+    EXPECT_FALSE(has_unwound(level, input));
+    straighten(level);
+    EXPECT_TRUE(has_unwound(level, input));
+  }
+}
+
+TEST(HasUnwound, CountsSingleWindings) {
+  // From one place to another, up at both, by two, three and four turns.
+  const auto wound = [](double turns) {
+    Wound wound{.nodes = {}, .start = heading(pi / 2), .end = heading(pi / 2)};
+    for (const double at : places(Spacing::even, 240))
+      wound.nodes.emplace_back((1 + at) * heading(at * 2 * pi * turns));
+    return wound;
+  };
+  const Wound three = wound(3);
+  const std::vector<Vector3> input = three.level().curve.net.positions;
+  EXPECT_FALSE(has_unwound(three.level(), input));
+  for (const double turns : {2.0, 4.0}) EXPECT_TRUE(has_unwound(three.level(wound(turns).nodes), input)) << turns;
+}
+
+TEST(HasUnwound, NoiseDoesNotCount) {
+  for (const Wound& wound : {spiral(3), helix(4, 0.2), helix(4, 0.2, 48)}) {
+    CurveLevel clean = wound.level();
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      // Of half an edge.
+      const double noise = 0.5 * (wound.nodes[1] - wound.nodes[0]).norm();
+      const bool planar = wound.nodes.back().z() == 0;
+      const CurveLevel rough = wound.level(noisy(wound.nodes, wound.constraints(), noise, seed, planar));
+      EXPECT_GT(turned(rough), 1.4 * turned(clean)) << "or it would show nothing";
+      // In the same coordinates.
+      std::vector<Vector3> input;
+      for (const Vector3& position : rough.curve.net.positions)
+        input.emplace_back(position / rough.curve.net.frame.scale() * clean.curve.net.frame.scale());
+      EXPECT_FALSE(has_unwound(clean, input));
+      const std::vector<Vector3> own = rough.curve.net.positions;
+      EXPECT_FALSE(has_unwound(rough, own));
+    }
+  }
+}
+
+TEST(HasUnwound, PiecesWithoutTangentsDoNotCount) {
+  const Wound wound = spiral(3);
+  const CurveNet net = gather_net(PolygonCurve(wound.nodes), held_ends(wound.nodes));
+  CurveLevel level = curve_levels(net, Distribution::even).back();
+  const std::vector<Vector3> input = level.curve.net.positions;
+  straighten(level);
+  EXPECT_FALSE(has_unwound(level, input));
+}
+
+TEST(Wind, GivesASpiralOfLinearCurvatureWithAllTurnsInThePlane) {
+  for (const double windings : {1.5, 3.0, 4.5}) {
+    const Wound wound = spiral(windings, 160);
+    for (const std::uint64_t seed : {0U, 1U}) {
+      const double noise = seed == 0 ? 0 : 0.3 * (wound.nodes[1] - wound.nodes[0]).norm();
+      CurveLevel level = wound.level(noisy(wound.nodes, wound.constraints(), noise, seed, true));
+      const Net before = level.curve.net;
+      const double all = sum(turns_of(level));
+      EXPECT_GT(all, 2 * pi * windings - 0.1);
+      ASSERT_TRUE(wind(level));
+      const Net& net = level.curve.net;
+      for (std::size_t i = 0; i < net.positions.size(); ++i) {
+        EXPECT_EQ(net.positions[i].z(), 0);
+        if (i >= net.moving) EXPECT_EQ(net.positions[i], before.positions[i]);
+      }
+      const std::vector<double> turns = turns_of(level);
+      EXPECT_NEAR(sum(turns), all, 1e-6);
+      // Between the ends, whose nodes have half the length.
+      for (std::size_t k = 2; k + 2 < turns.size() - 1; ++k)
+        EXPECT_NEAR(turns[k + 1] - turns[k], turns[k] - turns[k - 1], 1e-6) << k;
+      EXPECT_FALSE(has_unwound(level, before.positions));
+    }
+  }
+}
+
+TEST(Wind, KeepsTheTurnsOfAHelixOfSmallPitch) {
+  // Of whole turns there is none nearby.
+  const Wound wound = helix(4.25, 0.1, 80);
+  CurveLevel level = wound.level();
+  const Net before = level.curve.net;
+  const double all = turned(level);
+  ASSERT_TRUE(wind(level));
+  EXPECT_NE(level.curve.net.positions, before.positions);
+  EXPECT_NEAR(turned(level), all, 0.01 * all);
+  EXPECT_FALSE(has_unwound(level, before.positions));
+  EXPECT_LT(greatest_distance(level.curve.net.positions, before.positions), 0.1);
+  for (std::size_t i = before.moving; i < before.positions.size(); ++i)
+    EXPECT_EQ(level.curve.net.positions[i], before.positions[i]);
+}
+
+TEST(Wind, LeavesPiecesOfLessThanHalfATurnAlone) {
+  CurveLevel level = spiral(0.4).level();
+  const std::vector<Vector3> before = level.curve.net.positions;
+  EXPECT_FALSE(wind(level));
+  EXPECT_EQ(level.curve.net.positions, before);
+  straighten(level);
+  EXPECT_FALSE(has_unwound(level, before));
+}
+
+TEST(Wind, WindsOnlyThePiecesThatDo) {
+  // Three turns, and a straight piece from there on.
+  Wound wound = spiral(3);
+  for (std::size_t k = 1; k < 240; ++k) wound.nodes[k].x() += 0.01;
+  const Vector3 corner = wound.nodes.back();
+  for (int k = 1; k <= 40; ++k) wound.nodes.emplace_back(corner + 0.05 * k * wound.end);
+  wound.nodes[260].x() += 0.01;
+  Constraints constraints = held_ends(wound.nodes, wound.start, wound.end);
+  hold(constraints, wound.nodes, 240);
+  constraints.fix_tangent(240, wound.end);
+  CurveLevel level = curve_levels(gather_net(PolygonCurve(wound.nodes), constraints), Distribution::even).back();
+  const Net before = level.curve.net;
+  ASSERT_TRUE(wind(level));
+  for (std::size_t i = 0; i < before.moving; ++i) {
+    if (before.node[i] > 240)
+      EXPECT_EQ(level.curve.net.positions[i], before.positions[i]);
+    else
+      EXPECT_NE(level.curve.net.positions[i], before.positions[i]);
+  }
+}
+
+}  // namespace
+}  // namespace vspring::winding_test

@@ -26,9 +26,9 @@ class FitToTolerance {
   explicit FitToTolerance(FitRun<Subject>& run)
       : run_(run), tolerance_(run.options.within ? *run.options.within : *run.options.rms) {}
 
-  /// smooth: by some edges, instead of to the tolerance.
-  void fit(LoosePoints points, ProgressReporter& progress, bool smooth) {
-    if (!smooth && plain_fairing_is_within()) return;
+  /// only_smooth: by some edges, instead of to the tolerance.
+  void fit(LoosePoints points, ProgressReporter& progress, bool only_smooth) {
+    if (!only_smooth && plain_fairing_is_within()) return;
     FitReport& report = run_.result.report;
     Context& context = run_.context;
     auto gathered = run_.gather_start();
@@ -39,14 +39,12 @@ class FitToTolerance {
     options.tolerance = std::min(options.tolerance, precision * tolerance_ * scale / diagonal(net_of(gathered)));
     PulledShape shape(std::move(gathered), options, std::move(points), length, run_.team);
     // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
-    const std::vector<Vector3> start = shape.net().positions;
     const auto nodes = static_cast<double>(shape.net().moving);
     const double most_work = std::max(least_most_work, most_work_a_node * nodes);
     const auto& lengths =
         shape.net().tangents.empty() && !shape.net().homes.empty() ? first_lengths_on_surfaces : first_lengths;
     for (const double first : lengths) {
       *length = first * edge;
-      shape.net().positions = start;
       shape.find(context, progress, report.fair);
       if (report.fair.outcome == Outcome::converged || context.cancelled()) break;
     }
@@ -55,7 +53,7 @@ class FitToTolerance {
       run_.finish(shape.net());
       report.smoothing_length = found / scale;
     };
-    if (smooth || context.cancelled()) {
+    if (only_smooth || context.cancelled()) {
       finish_with(*length);
       return;
     }
@@ -63,9 +61,9 @@ class FitToTolerance {
     ToleranceFitTask task;
     task.net = &shape.net();
     task.length = length;
-    task.follow = [&] {
+    task.follow = [&](bool or_find) {
       FairReport one;
-      shape.follow(context, progress, one);
+      shape.follow(context, progress, one, or_find);
       report.fair.iterations += one.iterations;
       report.fair.work += one.work;
       report.fair.history.insert(report.fair.history.end(), one.history.begin(), one.history.end());
@@ -85,31 +83,13 @@ class FitToTolerance {
       return all;
     };
     task.energy = [&] { return run_.subject.fairness(run_.result.positions).vspring_energy; };
-    const auto figure = [&](const std::vector<double>& all) { return figure_of(all); };
-    // The interior-point method needs room.
-    const auto sides = run_.options.within ? Sides::of(shape.net()) : std::nullopt;
-    if (sides) task.close_share = any_start;
-    ToleranceFitResult found = smooth_within(task, (sides ? room : 1) * tolerance_ * scale, figure);
-    if (run_.options.within && !task.ended()) {
-      const ToleranceFitResult smooth_shape = found;
-      const double length_before = *length;
-      const std::vector<Vector3> places = shape.net().positions;
-      if (sides) found = hold_between(task, *sides, tolerance_ * scale, found);
-      if (!sides || (!found.settled && !task.ended())) {
-        if (!found.within) {
-          shape.net().positions = places;
-          *length = length_before;
-          task.close_share = ToleranceFitTask().close_share;
-          found = sides ? smooth_within(task, tolerance_ * scale, figure) : smooth_shape;
-        }
-        found = hold_within(task, tolerance_ * scale, found);
-        // Both ways have been gone to their ends.
-        if (sides) found.settled = found.within && !task.ended();
-      }
-    }
+    const ToleranceFitResult found =
+        run_.options.within ? fit_within(task, tolerance_ * scale) : smooth(task, tolerance_ * scale);
     // Tries that led nowhere tell nothing of the shape that is kept.
-    if (found.settled && last_error) report.fair.residual = *last_error;
-    if (found.settled && last_error) report.fair.expected_error = last_error;
+    if (found.settled && last_error) {
+      report.fair.residual = *last_error;
+      report.fair.expected_error = last_error;
+    }
     finish_with(found.length);
     report.active_points = found.active;
     conclude(found);
@@ -128,6 +108,32 @@ class FitToTolerance {
   static constexpr double any_start = 0.5;
   // Of a tolerance, to which equilibria are found.
   static constexpr double precision = 1e-3;
+
+  /// tolerance: in the coordinates of the net.
+  ToleranceFitResult smooth(const ToleranceFitTask& task, double tolerance) const {
+    return smooth_within(task, tolerance, [&](const std::vector<double>& all) { return figure_of(all); });
+  }
+
+  /// By the interior-point method, from a smooth shape that leaves it room. Where that does not apply, or finds
+  /// nothing, by Lawson's algorithm.
+  ToleranceFitResult fit_within(ToleranceFitTask& task, double tolerance) const {
+    Net& net = *task.net;
+    const double close_share = task.close_share;
+    if (const auto sides = Sides::of(net)) {
+      task.close_share = any_start;
+      const ToleranceFitResult start = smooth(task, room * tolerance);
+      if (task.ended()) return start;
+      const std::vector<Vector3> places = net.positions;
+      const ToleranceFitResult found = hold_between(task, *sides, tolerance, start);
+      if (found.settled || task.ended()) return found;
+      if (found.within) return hold_within(task, tolerance, found);
+      net.positions = places;
+      *task.length = start.length;
+    }
+    task.close_share = close_share;
+    const ToleranceFitResult start = smooth(task, tolerance);
+    return task.ended() ? start : hold_within(task, tolerance, start);
+  }
 
   /// What is to be within the tolerance. distances: 0 for points left out.
   [[nodiscard]] double figure_of(const std::vector<double>& distances) const {

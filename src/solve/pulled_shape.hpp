@@ -82,17 +82,22 @@ class PulledShape {
 
   Net& net() { return hierarchy_.net(hierarchy_.count() - 1); }
 
+  /// From its start.
   void find(Context& context, ProgressReporter& progress, FairReport& report) {
-    if (found_before_) levels_.tie(hierarchy_.count() - 1);
-    found_before_ = true;
+    if (start_.empty()) {
+      start_ = net().positions;
+    } else {
+      net().positions = start_;
+      levels_.tie(hierarchy_.count() - 1);
+    }
     (void)start_from_points();
     run_equilibrium(hierarchy_, *model_, options_, *team_, context, progress, report, nullptr,
                     net().points.empty() ? nullptr : &levels_);
   }
 
-  /// From the last shape, where points or what they pull by have changed a little; by plain iterations where the solver
-  /// of the equilibrium finds nothing.
-  void follow(Context& context, ProgressReporter& progress, FairReport& report) {
+  /// From the last shape, where points or what they pull by have changed a little. Where the solver of the equilibrium
+  /// finds nothing there, it goes on from the start if that may be far off (or_find), else by plain iterations.
+  void follow(Context& context, ProgressReporter& progress, FairReport& report, bool or_find) {
     const std::size_t last = hierarchy_.count() - 1;
     levels_.tie(last);
     const std::vector<Vector3> start = net().positions;
@@ -104,6 +109,12 @@ class PulledShape {
     if (start_from_points()) {
       run_equilibrium_from_near(hierarchy_, hierarchy_.preconditioner(last), *model_, options_, *team_, context,
                                 progress, report, &levels_);
+      if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
+      net().positions = start;
+      levels_.tie(last);
+    }
+    if (or_find) {
+      find(context, progress, report);
       if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
       net().positions = start;
       levels_.tie(last);
@@ -147,7 +158,7 @@ class PulledShape {
                         std::declval<ThreadTeam&>())) hierarchy_;
   PointTies ties_;
   PointLevels levels_;
-  bool found_before_ = false;
+  std::vector<Vector3> start_;  ///< empty before find()
 };
 
 }  // namespace vspring

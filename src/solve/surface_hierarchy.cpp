@@ -34,18 +34,6 @@ double greatest_length(std::span<const Vector3> vectors) {
   return std::sqrt(square);
 }
 
-/// The mean of a node's neighbours.
-Vector3 mean_place(const Net& net, std::size_t i) {
-  Vector3 mean = Vector3::Zero();
-  double spokes = 0;
-  for (const Link link : net.rings.links(i)) {
-    if (!link.spoke()) continue;
-    mean += net.positions[link.node()];
-    spokes += 1;
-  }
-  return spokes > 0 ? Vector3(mean / spokes) : net.positions[i];
-}
-
 }  // namespace
 
 void SurfaceHierarchy::limit(std::size_t levels) {
@@ -85,7 +73,7 @@ void SurfaceHierarchy::start() {
     for (std::size_t i = 0; i < coarse.net.moving; ++i) {
       const std::size_t at = coarse.finer[i];
       coarse.net.positions[i] =
-          coarse.places.empty() ? Vector3(0.5 * (fine.positions[at] + mean_place(fine, at))) : coarse.places[i];
+          coarse.places.empty() ? Vector3(0.5 * (fine.positions[at] + mean_of_neighbours(fine, at))) : coarse.places[i];
     }
   }
 }
@@ -93,7 +81,7 @@ void SurfaceHierarchy::start() {
 void SurfaceHierarchy::forget_shape(std::size_t level) {
   Net& net = levels_[level].net;
   for (int pass = 0; pass < film_passes; ++pass) {
-    for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = mean_place(net, i);
+    for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = mean_of_neighbours(net, i);
   }
 }
 

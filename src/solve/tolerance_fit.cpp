@@ -79,7 +79,7 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
       *task.length = a * std::pow(b / a, std::clamp(share, 0.1, 0.9));
     }
     if (inside) net.positions = best;
-    const bool found = task.follow();
+    const bool found = task.follow(true);
     if (task.ended()) break;
     lost = found ? 0 : lost + 1;
     look(found);
@@ -136,7 +136,7 @@ ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, T
       points.weights[k] =
           std::clamp(points.weights[k] * change, least_point_weight * weights[k], most_weight * weights[k]);
     }
-    (void)task.follow();
+    (void)task.follow(false);
     if (task.ended()) break;
   }
   points.weights = weights;

@@ -20,7 +20,8 @@ namespace vspring {
 struct ToleranceFitTask {
   Net* net = nullptr;
   std::shared_ptr<double> length;  ///< the smoothing length that points pull by, in the coordinates of the net
-  std::function<bool()> follow;    ///< false where that leads nowhere
+  /// or_find: where nothing is found from there, it may be looked for anew. False where that leads nowhere.
+  std::function<bool(bool or_find)> follow;
   std::function<bool()> ended;     ///< cancelled, or out of work: the best so far stays
   std::function<std::vector<double>()> measure;
   std::function<double()> energy;
@@ -39,10 +40,10 @@ struct ToleranceFitResult {
 ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
                                  const std::function<double(const std::vector<double>&)>& tolerated);
 
-/// For curves in space, others see interior_fit.hpp. From there, points inside the distance come to pull at less and
-/// less, others just enough: each counts by a power of its distance over the tolerance more than the turn before (C. L.
-/// Lawson's algorithm; J. R. Rice, K. H. Usow, "The Lawson algorithm and extensions", Math. Comp. 22, 1968). Of all
-/// shapes on the way that are within, the one of least energy is left in the net.
+/// For curves in space, and where interior_fit.hpp finds nothing. From there, points inside the distance come to pull
+/// at less and less, others just enough: each counts by a power of its distance over the tolerance more than the turn
+/// before (C. L. Lawson's algorithm; J. R. Rice, K. H. Usow, "The Lawson algorithm and extensions", Math. Comp. 22,
+/// 1968). Of all shapes on the way that are within, the one of least energy is left in the net.
 ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, ToleranceFitResult smooth);
 
 }  // namespace vspring

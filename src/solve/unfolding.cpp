@@ -27,17 +27,8 @@ void unfold(Net& net, ThreadTeam& team) {
   std::vector<Vector3> next = net.positions;
   const auto step = [&](double share) {
     parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        Vector3 mean = Vector3::Zero();
-        double spokes = 0;
-        for (const Link link : net.rings.links(i)) {
-          if (!link.spoke()) continue;
-          mean += net.positions[link.node()];
-          spokes += 1;
-        }
-        next[i] =
-            spokes > 0 ? Vector3(net.positions[i] + share * (mean / spokes - net.positions[i])) : net.positions[i];
-      }
+      for (std::size_t i = begin; i < end; ++i)
+        next[i] = net.positions[i] + share * (mean_of_neighbours(net, i) - net.positions[i]);
     });
     net.positions.swap(next);
   };

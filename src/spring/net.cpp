@@ -207,6 +207,17 @@ std::vector<Vector3> scatter_places(const Net& net, std::span<const Vector3> pla
   return positions;
 }
 
+Vector3 mean_of_neighbours(const Net& net, std::size_t node) {
+  Vector3 mean = Vector3::Zero();
+  double spokes = 0;
+  for (const Link link : net.rings.links(node)) {
+    if (!link.spoke()) continue;
+    mean += net.positions[link.node()];
+    spokes += 1;
+  }
+  return spokes > 0 ? Vector3(mean / spokes) : net.positions[node];
+}
+
 double mean_edge(const Net& net) {
   double sum = 0;
   double edges = 0;

@@ -51,6 +51,9 @@ struct Net {
 /// The mean length of the edges of the moving nodes, in the coordinates of the net. Cost: linear.
 double mean_edge(const Net& net);
 
+/// The mean of the places of a node's neighbours; its own where it has none.
+Vector3 mean_of_neighbours(const Net& net, std::size_t node);
+
 /// Gathers the net of a mesh under constraints. The mesh must have passed check_constraints(). Cost: linear in the
 /// mesh, once, and in the moving nodes.
 Net gather_net(const PolygonMesh& mesh, const Constraints& constraints);

@@ -28,14 +28,25 @@ Json optional(const std::optional<double>& value) { return value ? Json(*value) 
 
 bool asks_to_fit(const PullArguments& arguments) {
   const int given = (arguments.weight ? 1 : 0) + (arguments.smoothing_length ? 1 : 0) + (arguments.within ? 1 : 0) +
-                    (arguments.rms ? 1 : 0);
+                    (arguments.rms ? 1 : 0) + (arguments.noise ? 1 : 0);
   if (given > 1)
     throw Error(ErrorCode::invalid_argument,
-                "only one of --weight, --smoothing-length, --within and --rms can be given");
+                "only one of --weight, --smoothing-length, --within, --rms and --noise can be given");
   if (given == 0 && arguments.outliers > 0)
     throw Error(ErrorCode::invalid_argument,
-                "--outliers needs one of --weight, --smoothing-length, --within and --rms");
+                "--outliers needs one of --weight, --smoothing-length, --within, --rms and --noise");
   return given == 1;
+}
+
+void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise) {
+  if (!(noise.deviation > 0))
+    throw Error(ErrorCode::unusable_shape,
+                arguments.automatic + " auto: this shape has no noise, or too few nodes to tell; give a number");
+  constexpr double times_within = 3;
+  arguments.estimate = noise;
+  if (arguments.automatic == "--within") arguments.within = times_within * noise.deviation;
+  if (arguments.automatic == "--rms") arguments.rms = noise.deviation;
+  if (arguments.automatic == "--noise") arguments.noise = noise.deviation;
 }
 
 FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing) {
@@ -45,6 +56,7 @@ FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairin
   options.smoothing_length = arguments.smoothing_length;
   options.within = arguments.within;
   options.rms = arguments.rms;
+  options.noise = arguments.noise;
   options.outliers = arguments.outliers;
   return options;
 }
@@ -69,6 +81,8 @@ Json FitAccount::figures() const {
         {"smoothing_length", optional(report_.smoothing_length)},
         {"within", optional(arguments_.within)},
         {"rms", optional(arguments_.rms)},
+        {"noise", optional(arguments_.noise)},
+        {"estimated_noise", arguments_.estimate ? Json(arguments_.estimate->deviation) : Json()},
         {"weights", weights_ ? Json{{"least", weights_->first}, {"greatest", weights_->second}} : Json()},
         {"normals", normals_},
         {"count", report_.points},
@@ -95,6 +109,9 @@ std::string FitAccount::lines() const {
   const auto line = [&](const char* name, double before, double after) {
     text += fmt::format("{}{:.4g} → {:.4g} units\n", name, before, after);
   };
+  if (arguments_.estimate)
+    text += fmt::format("noise estimated  {:.4g} units ({:.2g} median edges) in each coordinate\n",
+                        arguments_.estimate->deviation, arguments_.estimate->edges);
   line("rms distance     ", report_.before.all.rms, report_.after.all.rms);
   line("99 % within      ", report_.before.percentile99, report_.after.percentile99);
   line("greatest         ", report_.before.all.greatest, report_.after.all.greatest);

@@ -8,6 +8,7 @@
 
 #include "fairing_arguments.hpp"
 #include "vspring/fit.hpp"
+#include "vspring/noise.hpp"
 
 namespace vspring::cli {
 
@@ -17,8 +18,20 @@ struct PullArguments {
   std::optional<double> smoothing_length;
   std::optional<double> within;
   std::optional<double> rms;
+  std::optional<double> noise;
   double outliers = 0;
+  std::string automatic = {};                            ///< the option whose value is "auto"; empty: none
+  std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that it was set by
 };
+
+/// Gives the option that is "auto" its value, by the noise of the nodes as they came: --within three times its standard
+/// deviation, --rms and --noise once. Throws Error(unusable_shape) where that cannot be told.
+void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise);
+
+template <typename Shape>
+void settle_by_noise(PullArguments& arguments, const Shape& shape) {
+  if (!arguments.automatic.empty()) settle_by_noise(arguments, estimate_noise(shape));
+}
 
 /// Throws Error(invalid_argument) where more than one of the four is given, or --outliers without any.
 [[nodiscard]] bool asks_to_fit(const PullArguments& arguments);

@@ -36,6 +36,7 @@ int run_fair(FairArguments arguments) {
   refuse_views(arguments, false);
   Fairing fairing(arguments);
   const SurfaceFile file = read_surface(arguments.input, arguments.format);
+  settle_by_noise(arguments.pull, file.mesh);
   const Constraints constraints =
       make_constraints(arguments, file.mesh, {.groups = &file.groups, .normals = &file.normals});
   const FairedOrFitted done =

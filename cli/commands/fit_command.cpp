@@ -115,6 +115,9 @@ int run_fit(FitArguments arguments) {
     throw Error(ErrorCode::invalid_argument, arguments.deviation + ": deviations of points go to PLY; name it .ply");
   if (!asks_to_fit(arguments.pull))
     throw Error(ErrorCode::invalid_argument, "one of --weight, --smoothing-length, --within and --rms has to be given");
+  if (!arguments.pull.automatic.empty())
+    throw Error(ErrorCode::invalid_argument,
+                arguments.pull.automatic + " auto is for shapes whose own nodes are the points (vspring fair, curve)");
   if (arguments.points == "-" && arguments.input == "-")
     throw Error(ErrorCode::invalid_argument, "--points: standard input is the shape already");
   Fairing fairing(arguments);

@@ -1,10 +1,34 @@
 #include "commands/pull_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
 
 #include "fitting.hpp"
 
 namespace vspring::cli {
+
+namespace {
+
+/// A number of more than 0, or auto, which settle_by_noise() gives a value.
+CLI::Option* add_amount(CLI::App& command, const std::string& name, std::optional<double>& value,
+                        PullArguments& arguments, const std::string& text) {
+  return command
+      .add_option_function<std::string>(
+          name,
+          [&value, &arguments, name](const std::string& given) {
+            double number = 1;
+            if (given == "auto")
+              arguments.automatic = name;
+            else if (!CLI::detail::lexical_cast(given, number) || !(number > 0))
+              throw CLI::ValidationError(name, "a number greater than 0, or auto, is needed, not " + given);
+            value = number;
+          },
+          text + "; auto: by the noise that the nodes seem to have")
+      ->type_name("D|auto");
+}
+
+}  // namespace
 
 void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading) {
   command
@@ -20,17 +44,15 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
       ->type_name("L")
       ->check(CLI::PositiveNumber)
       ->group(heading);
-  command
-      .add_option("--within", arguments.within,
-                  "The fairest shape from which no point is further away than this (units of the input)")
-      ->type_name("D")
-      ->check(CLI::PositiveNumber)
+  add_amount(command, "--within", arguments.within, arguments,
+             "The fairest shape from which no point is further away than this (units of the input)")
       ->group(heading);
-  command
-      .add_option("--rms", arguments.rms,
-                  "The fairest shape from which points are this far away, root mean square (units of the input)")
-      ->type_name("D")
-      ->check(CLI::PositiveNumber)
+  add_amount(command, "--rms", arguments.rms, arguments,
+             "The fairest shape from which points are this far away, root mean square (units of the input)")
+      ->group(heading);
+  add_amount(command, "--noise", arguments.noise, arguments,
+             "Surfaces whose own nodes are the points: take noise of this standard deviation off, smooth where nothing "
+             "else is there, and keep what more than noise says (in each coordinate, units of the input)")
       ->group(heading);
   command
       .add_option("--outliers", arguments.outliers,

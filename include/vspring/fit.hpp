@@ -18,7 +18,7 @@ struct FitOptions {
   /// spaced curve with one point per node waves of angular frequency ω keep 1/(1 + (λω)⁴) of their height, where k =
   /// (ℓ/λ)⁴/8 and ℓ is the length of the edges.
   double weight = 0.01;
-  // Of these three at most one may be given; it takes the place of `weight`.
+  // Of these four at most one may be given; it takes the place of `weight`.
   /// A weight that means the same at every resolution: a length λ, in the units of the input, more than 0. The shape is
   /// about the one for which ∫ (curvature)² + λ⁻⁴ (share of each point) Σ (distance)² is least, every point standing
   /// for an equal share of the length (area) that moves, times its own weight: of dense points, waves of angular
@@ -30,6 +30,11 @@ struct FitOptions {
   /// The largest smoothing length for which the root mean square of the distances is not above this, in the units of
   /// the input, more than 0. Not by Method::sweep.
   std::optional<double> rms = std::nullopt;
+  /// Surfaces whose own nodes are the points, with Distribution::keep: takes noise of this standard deviation in each
+  /// coordinate off, in the units of the input, more than 0. The shape smooths where nothing but noise is there, and
+  /// keeps what more than noise says: over each node, its neighbours and theirs the mean distance of the points from it
+  /// is about what is left of noise. Not by Method::sweep. See estimate_noise().
+  std::optional<double> noise = std::nullopt;
   /// The share of the points, from 0 to less than 1, that is left out: those furthest from the shape, found in turns
   /// with it.
   double outliers = 0;

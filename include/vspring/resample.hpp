@@ -31,10 +31,10 @@ struct Resampled {
   std::vector<Index> from;  ///< for every node its number in the input, −1 for new ones
 };
 
-/// New nodes along a curve. Ends, nodes where chains meet, and nodes that `constraints` says anything of are
-/// kept, where the constraints have them; pieces between them are replaced by nodes on the cubics
-/// through the nodes with the tangents of estimate_tangents(). A closed chain without kept nodes keeps its first. Nodes
-/// come in the order of the chains; those of no chain are left out.
+/// New nodes along a curve. Ends, nodes where chains meet, and nodes that `constraints` says anything of are kept,
+/// where the constraints have them; pieces between them are replaced by nodes on the cubics through the nodes with the
+/// tangents of estimate_tangents(). A closed chain without kept nodes keeps its first. Nodes come in the order of the
+/// chains; those of no chain are left out.
 ///
 /// Throws Error(invalid_argument) unless one of the two is given, greater than 0, asks for no more than 100 million
 /// nodes, and for a number of nodes too small for the pieces; Error(unusable_shape) for a chain with a coordinate that

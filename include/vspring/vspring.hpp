@@ -14,6 +14,7 @@
 #include "vspring/fit.hpp"
 #include "vspring/generate.hpp"
 #include "vspring/model.hpp"
+#include "vspring/noise.hpp"
 #include "vspring/output_file.hpp"
 #include "vspring/point_file.hpp"
 #include "vspring/polygon_curve.hpp"

@@ -7,8 +7,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "base/dense_algebra.hpp"
+#include "constraints/immovable_held.hpp"
 #include "shape/fan.hpp"
 #include "shape/frame.hpp"
 #include "shape/node_graph.hpp"
@@ -56,11 +58,11 @@ class Holding {
     std::string text;
     for (const std::string& fault : faults_) text += (text.empty() ? "" : "; ") + fault;
     if (fault_count_ > faults_.size()) text += fmt::format("; and {} more", fault_count_ - faults_.size());
+    if (!broken_) throw ImmovableNodes(text, std::move(immovable_));
     throw Error(
         ErrorCode::unusable_shape,
         fmt::format("{}. Such places cannot move: mend the mesh, hold them by a rule (--constraints) such as "
-                    "{{\"nodes\": [{}], \"position\": \"fixed\"}} or {{\"nodes\": \"non-manifold\", \"position\": "
-                    "\"fixed\"}}, or let only a region without them move (--region)",
+                    "{{\"nodes\": [{}], \"position\": \"fixed\"}}, or let only a region without them move (--region)",
                     text, fault_node_));
   }
 
@@ -183,6 +185,10 @@ class Holding {
   [[nodiscard]] bool pulled(Index i) const { return !pulled_.empty() && pulled_[static_cast<std::size_t>(i)] != 0; }
 
   void add_fault(const Defect& defect, Index node) {
+    if (defect.kind == Defect::Kind::too_few_nodes || defect.kind == Defect::Kind::not_finite)
+      broken_ = true;
+    else
+      immovable_.push_back(node);
     ++fault_count_;
     if (fault_node_ < 0) fault_node_ = node;
     const std::string message = defect.message();
@@ -247,12 +253,16 @@ class Holding {
   std::vector<std::string> faults_;
   std::size_t fault_count_ = 0;
   Index fault_node_ = -1;
+  bool broken_ = false;  ///< by what holding nodes does not mend
+  std::vector<Index> immovable_;
 };
 
 }  // namespace
 
 std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints) {
-  return check_constraints(mesh, constraints, {});
+  const auto check = [&](const Constraints& held) { return check_constraints(mesh, held, {}); };
+  return ImmovableHeld(mesh).run(
+      constraints, check, [](std::vector<std::string> & warnings) -> auto& { return warnings; });
 }
 
 std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints,

@@ -3,14 +3,28 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "vspring/constraints.hpp"
+#include "vspring/error.hpp"
 
 namespace vspring {
 
+/// Nodes that would have to move and cannot, as their faces form several fans or more than two meet at an edge: all of
+/// them, by number. See ImmovableHeld.
+class ImmovableNodes : public Error {
+ public:
+  ImmovableNodes(const std::string& message, std::vector<Index> nodes)
+      : Error(ErrorCode::unusable_shape, message), nodes_(std::move(nodes)) {}
+  [[nodiscard]] const std::vector<Index>& nodes() const noexcept { return nodes_; }
+
+ private:
+  std::vector<Index> nodes_;
+};
+
 /// As the public ones, where scattered points hold a shape too. pulled: one entry per node, 1 where points are tied to
-/// it; empty: none.
+/// it; empty: none. Throws ImmovableNodes for them.
 std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints,
                                            std::span<const std::uint8_t> pulled);
 std::vector<std::string> check_constraints(const PolygonCurve& curve, const Constraints& constraints,

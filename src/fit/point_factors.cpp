@@ -85,6 +85,13 @@ PointFactors pull_by_sums() {
   };
 }
 
+PointFactors pull_by_edges(std::shared_ptr<const double> length) {
+  return [length = std::move(length)](Net& net) {
+    const double factor = bending_factor(net) * std::pow(mean_edge(net) / *length, 4) / 16;
+    set_factors(net, [&](std::size_t /*node*/, double count) { return factor * count; });
+  };
+}
+
 PointFactors pull_by_smoothing(std::shared_ptr<const double> length, std::size_t points) {
   return [length = std::move(length), points](Net& net) {
     const bool surface = net.tangents.empty();

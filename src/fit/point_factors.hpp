@@ -19,4 +19,8 @@ double pull_power(const Net& net);
 /// points. length: λ in the coordinates of the net, which may be changed. points: N; 0: those that moving nodes have.
 PointFactors pull_by_smoothing(std::shared_ptr<const double> length, std::size_t points = 0);
 
+/// The same of points that are the nodes of a surface themselves, by lengths that go with its edges, as scans have
+/// shorter ones where there is more to see: κ ē⁴ / (16 λ⁴) at every node, ē the mean edge of all.
+PointFactors pull_by_edges(std::shared_ptr<const double> length);
+
 }  // namespace vspring

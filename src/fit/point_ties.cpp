@@ -90,6 +90,14 @@ void PointTies::find_same_nodes() {
 }
 
 void PointTies::tie_anew(ThreadTeam& team) {
+  if (!net_->points.are_nodes) tie_to_nearest(team);
+  look_for_turned();
+  group();
+  net_->points.factors.clear();
+  (void)renew_factors();
+}
+
+void PointTies::tie_to_nearest(ThreadTeam& team) {
   std::vector<std::uint8_t> first(same_.size());
   for (std::size_t i = 0; i < same_.size(); ++i) first[i] = same_[i] == i ? 1 : 0;
   const TiedPoints& tied = net_->points;
@@ -98,10 +106,6 @@ void PointTies::tie_anew(ThreadTeam& team) {
     alike = {[&](std::size_t k, std::size_t node) { return may_pull(k, node, 0); }, reach_in_edges * mean_edge(*net_)};
   const std::vector<Index> nearest = nearest_places(tied.positions, net_->positions, first, team, alike);
   node_.assign(nearest.begin(), nearest.end());
-  look_for_turned();
-  group();
-  net_->points.factors.clear();
-  (void)renew_factors();
 }
 
 Vector3 PointTies::side(std::size_t node) const {
@@ -152,6 +156,11 @@ void PointTies::gather_around(std::size_t node, std::vector<std::uint32_t>& arou
 }
 
 bool PointTies::renew(ThreadTeam& team, double margin) {
+  const bool changed = !net_->points.are_nodes && change_over(team, margin);
+  return renew_factors() || changed;
+}
+
+bool PointTies::change_over(ThreadTeam& team, double margin) {
   constexpr std::size_t searches_per_task = 256;
   std::atomic<bool> changed = false;
   const TiedPoints& tied = net_->points;
@@ -181,7 +190,7 @@ bool PointTies::renew(ThreadTeam& team, double margin) {
     }
   });
   if (changed) group();
-  return renew_factors() || changed;
+  return changed;
 }
 
 bool PointTies::renew_factors() {

@@ -33,9 +33,13 @@ class PointTies {
 
   /// Ties each point to the nearest of all nodes of the net that face as it does. Cost: n log n.
   void tie_anew(ThreadTeam& team);
+  // Points that are the nodes' own stay where they are (TiedPoints::are_nodes).
 
  private:
   void find_same_nodes();
+  void tie_to_nearest(ThreadTeam& team);
+  /// True where any point has changed over.
+  bool change_over(ThreadTeam& team, double margin);
   /// Neighbours share a face, as across an n-gon the nearest node may be many edges away; on curves an edge. Looked at
   /// from both ends, since rings of held nodes know less.
   void join_neighbours();

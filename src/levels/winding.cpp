@@ -27,7 +27,10 @@ constexpr double sharpest_turn = 1.8;
 // Nodes that tell how often it winds: between more of them noise may turn the curve around.
 constexpr std::size_t enough_to_count = 64;
 constexpr int most_corrections = 40;
+// Corrections after which the gap must have become small, or it stays.
+constexpr int enough_corrections = 12;
 // Of the gap at the end, in sizes of the piece, and of the tangent there.
+constexpr double small = 0.1;
 constexpr double closed = 1e-10;
 constexpr double nearly_closed = 1e-7;
 // In the plane the sum of all turns tells how often a piece winds.
@@ -245,6 +248,7 @@ class Piece {
     Eigen::VectorXd now = gap(unknowns);
     const auto count = static_cast<Eigen::Index>(free_.size());
     for (int k = 0; k < corrections && now.norm() > closed; ++k) {
+      if (k == enough_corrections && now.norm() > small) break;
       Eigen::MatrixXd slopes(6, count);
       for (Eigen::Index j = 0; j < count; ++j) {
         Unknowns moved = unknowns;

@@ -16,7 +16,8 @@ bool has_unwound(const CurveLevel& level, std::span<const Vector3> input);
 /// are linear in its length, as those of a fair curve are, that ends as they do and comes nearest to them; in the
 /// plane, the nearest clothoid with as many windings (E. Bertolazzi, M. Frego, "G1 fitting with clothoids", Math.
 /// Methods Appl. Sci. 38, 2015, for those with less than one). False, and the curve as it was, where there is no such
-/// piece or no such curve was found. Cost: linear, and up to some 20 ms for a piece.
+/// piece or no such curve was found. Cost: linear, and up to some 10 ms
+/// for a piece in the plane, 100 ms in space.
 bool wind(CurveLevel& level);
 
 }  // namespace vspring

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/threads.hpp"
+#include "constraints/holding.hpp"
 #include "fairness/measure.hpp"
 #include "vspring/topology.hpp"
 
@@ -65,7 +66,7 @@ FairResult fair_boundary_first(const PolygonMesh& mesh, const Constraints& const
   BoundaryTask task = boundary_task(mesh, constraints);
   // What the surface would be refused for comes before the work on its boundary.
   hold(task, mesh.positions());
-  (void)check_constraints(mesh, task.of_surface);
+  (void)check_constraints(mesh, task.of_surface, {});
 
   const double strength = std::exchange(options.strength, 1);
   options.fair_boundary = false;

@@ -1,5 +1,6 @@
 #include <chrono>
 
+#include "constraints/immovable_held.hpp"
 #include "solve/fair_boundary.hpp"
 #include "solve/surface_fairing.hpp"
 #include "vspring/fair.hpp"
@@ -9,9 +10,12 @@ namespace vspring {
 FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const FairOptions& options, Context& context) {
   const auto begin = std::chrono::steady_clock::now();
   options.validate();
-  if (!options.fair_boundary)
-    return SurfaceFairing(mesh, options, context.thread_count()).fair_once(constraints, context);
-  FairResult result = fair_boundary_first(mesh, constraints, options, context);
+  const auto fair_held = [&](const Constraints& held) {
+    return options.fair_boundary ? fair_boundary_first(mesh, held, options, context)
+                                 : SurfaceFairing(mesh, options, context.thread_count()).fair_once(held, context);
+  };
+  FairResult result = ImmovableHeld(mesh).run(
+      constraints, fair_held, [](FairResult & faired) -> auto& { return faired.report.warnings; });
   result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

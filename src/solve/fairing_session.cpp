@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "constraints/immovable_held.hpp"
 #include "solve/surface_fairing.hpp"
 
 namespace vspring {
@@ -18,11 +19,18 @@ FairOptions of_session(FairOptions options) {
 
 struct FairingSession::State {
   State(PolygonMesh the_mesh, const FairOptions& the_options, int threads)
-      : mesh(std::move(the_mesh)), options(of_session(the_options)), fairing(mesh, options, threads) {}
+      : mesh(std::move(the_mesh)), options(of_session(the_options)), fairing(mesh, options, threads), immovable(mesh) {}
+
+  template <typename Fair>
+  FairResult with_immovable_held(const Constraints& constraints, const Fair& fair) {
+    return immovable.run(
+        constraints, fair, [](FairResult & result) -> auto& { return result.report.warnings; });
+  }
 
   PolygonMesh mesh;
   FairOptions options;
   SurfaceFairing fairing;
+  ImmovableHeld immovable;
 };
 
 FairingSession::FairingSession(PolygonMesh mesh, const FairOptions& options, int threads) {
@@ -37,7 +45,9 @@ FairingSession::FairingSession(FairingSession&&) noexcept = default;
 FairingSession& FairingSession::operator=(FairingSession&&) noexcept = default;
 
 FairResult FairingSession::fair(const Constraints& constraints, Context& context) {
-  if (!state_->options.fair_boundary) return state_->fairing.fair_again(constraints, context);
+  if (!state_->options.fair_boundary)
+    return state_->with_immovable_held(
+        constraints, [&](const Constraints& held) { return state_->fairing.fair_again(held, context); });
   return vspring::fair(state_->mesh, constraints, state_->options, context);
 }
 
@@ -45,7 +55,9 @@ FairResult FairingSession::follow(const Constraints& constraints, double toleran
   FairOptions options = state_->options;
   options.tolerance = tolerance;
   options.validate();
-  if (!options.fair_boundary) return state_->fairing.fair_again(constraints, context, tolerance);
+  if (!options.fair_boundary)
+    return state_->with_immovable_held(
+        constraints, [&](const Constraints& held) { return state_->fairing.fair_again(held, context, tolerance); });
   return vspring::fair(state_->mesh, constraints, options, context);
 }
 
@@ -54,7 +66,7 @@ std::optional<std::vector<Vector3>> FairingSession::foresee(const Constraints& c
   options.tolerance = tolerance;
   options.validate();
   if (options.fair_boundary) return std::nullopt;
-  return state_->fairing.foresee(constraints, tolerance);
+  return state_->fairing.foresee(state_->immovable.held(constraints), tolerance);
 }
 
 FairResult FairingSession::fair(const Constraints& constraints) {

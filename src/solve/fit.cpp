@@ -9,15 +9,18 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "base/stopwatch.hpp"
+#include "constraints/immovable_held.hpp"
 #include "fit/point_factors.hpp"
 #include "fit/point_ties.hpp"
 #include "solve/fit_points.hpp"
 #include "solve/fit_run.hpp"
 #include "solve/fit_to_tolerance.hpp"
+#include "solve/noise_fit.hpp"
 #include "solve/soundness.hpp"
 #include "solve/sweep_method.hpp"
 
@@ -136,6 +139,12 @@ class Fitting {
       sweep(std::move(points), options_.fair, progress);
       return;
     }
+    if constexpr (std::is_same_v<Subject, FitSurface>) {
+      if (options_.noise) {
+        NoiseFit(run_).fit(std::move(points), progress);
+        return;
+      }
+    }
     if (options_.within || options_.rms) {
       FitToTolerance<Subject>(run_).fit(std::move(points), progress, smooth);
       return;
@@ -229,7 +238,11 @@ FitResult fit_shape(const typename Subject::Shape& shape, const Constraints& con
 
 FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {
-  return fit_shape<FitSurface>(mesh, constraints, points, options, context);
+  const auto fit_held = [&](const Constraints& held) {
+    return fit_shape<FitSurface>(mesh, held, points, options, context);
+  };
+  return ImmovableHeld(mesh).run(
+      constraints, fit_held, [](FitResult & fitted) -> auto& { return fitted.report.fair.warnings; });
 }
 
 FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,

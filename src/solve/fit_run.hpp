@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -60,7 +61,7 @@ class FitRun {
     if constexpr (std::is_same_v<Subject, FitCurve>)
       smooth_noise(gathered);
     else
-      unfold(gathered, team);
+      unfold(gathered, options.noise ? Unfold::where_any_edge_turns : Unfold::where_many_edges_turn, team);
     // Else the nodes slide along a shape that noise has crumpled until it comes apart.
     net.homes.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
     return gathered;
@@ -70,13 +71,16 @@ class FitRun {
   LoosePoints loose_points() {
     std::vector<double> weights = points.weights;
     weights.resize(points.positions.size(), 1);
-    const double weight = options.smoothing_length || options.within || options.rms ? 1 : options.weight;
+    const double weight =
+        options.smoothing_length || options.within || options.rms || options.noise ? 1 : options.weight;
     for (std::size_t j = 0; j < weights.size(); ++j) weights[j] *= kept[j] * weight;
     if (start_.nearest.empty()) find_start();
     if (start_.turned)
       result.report.fair.warnings.emplace_back(
           "normals of points are against the sense of the faces: they are all taken the other way round");
-    return {points.positions, std::move(weights), start_.nearest, start_.normals};
+    const bool are_nodes = points_are_nodes();
+    if (are_nodes) std::iota(start_.nearest.begin(), start_.nearest.end(), 0);
+    return {points.positions, std::move(weights), start_.nearest, start_.normals, are_nodes};
   }
 
   /// Of the points from the result.
@@ -103,6 +107,12 @@ class FitRun {
   std::vector<std::uint8_t> kept;  ///< of every point, 0 for those left out
 
  private:
+  /// Whether they are those of a surface which keep their places.
+  [[nodiscard]] bool points_are_nodes() const {
+    return std::is_same_v<Subject, FitSurface> && options.fair.distribution == Distribution::keep &&
+           points.positions == subject.shape().positions();
+  }
+
   void find_start() {
     const Constraints& constraints = subject.constraints();
     std::vector<Vector3> places = subject.shape().positions();

@@ -61,6 +61,7 @@ class FitToTolerance {
     ToleranceFitTask task;
     task.net = &shape.net();
     task.length = length;
+    task.found = report.fair.outcome == Outcome::converged;
     task.follow = [&](bool or_find) {
       FairReport one;
       shape.follow(context, progress, one, or_find);
@@ -99,7 +100,7 @@ class FitToTolerance {
   // The smoothing lengths that tolerances are looked for from, in mean edges.
   static constexpr std::array<double, 4> first_lengths = {3, 1, 0.3, 0.1};
   // The same of surfaces whose nodes keep their place, and whose details may be few edges wide.
-  static constexpr std::array<double, 4> first_lengths_on_surfaces = {1, 0.3, 3, 0.1};
+  static constexpr std::array<double, 4> first_lengths_on_surfaces = {1, 1.4, 2, 0.7};
   // What may be done for one tolerance, in iterations of one moving node: as much as for four equilibria.
   static constexpr double least_most_work = 1.2e6;
   static constexpr double most_work_a_node = 1600;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,6 +16,7 @@
 #include "levels/surface_levels.hpp"
 #include "solve/curve_hierarchy.hpp"
 #include "solve/equilibrium_method.hpp"
+#include "solve/even_residuals.hpp"
 #include "solve/point_levels.hpp"
 #include "solve/smooth_start.hpp"
 #include "solve/surface_hierarchy.hpp"
@@ -50,17 +52,23 @@ struct LoosePoints {
   std::vector<double> weights;
   std::vector<Index> nearest;
   std::span<const Vector3> normals = {};
+  bool are_nodes = false;  ///< the places that the nodes of a surface have in the input, in their order
+  /// Smoothing lengths are those at places of mean edges, elsewhere as many edges.
+  bool by_edges = false;
 };
 
 /// smoothing: the smoothing length in the coordinates of the net, see pull_by_smoothing(); null for Eq. 9.
 inline PointTies tie_points(Net& net, const Model& model, const LoosePoints& points,
                             std::shared_ptr<const double> smoothing, ThreadTeam& team) {
   if (!points.normals.empty()) update_directions(net, model, team);
+  net.points.are_nodes = points.are_nodes;
   return {net,
           points.positions,
           points.weights,
           points.nearest,
-          smoothing ? pull_by_smoothing(std::move(smoothing)) : PointFactors(),
+          !smoothing        ? PointFactors()
+          : points.by_edges ? pull_by_edges(std::move(smoothing))
+                            : pull_by_smoothing(std::move(smoothing)),
           points.normals};
 }
 
@@ -104,6 +112,8 @@ class PulledShape {
     run_equilibrium_from_near(hierarchy_, hierarchy_.preconditioner(last), *model_, options_, *team_, context, progress,
                               report, &levels_);
     if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
+    // Where ties do not change nothing else leads further.
+    if (net().points.are_nodes) return;
     net().positions = start;
     levels_.tie(last);
     if (start_from_points()) {
@@ -127,6 +137,31 @@ class PulledShape {
     report.expected_error.reset();
     report.work += work_of_sweep * static_cast<double>(swept.iterations) * static_cast<double>(net().moving);
     update_directions(net(), *model_, *team_);
+  }
+
+  /// How far each moving node is displaced, in its mean edges.
+  [[nodiscard]] std::vector<double> displacements() {
+    model_->prepare(net());
+    update_directions(net(), *model_, *team_);
+    std::vector<double> result(net().moving, 0);
+    parallel_ranges(*team_, net().moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      std::vector<NodeForce> forces(end - begin);
+      model_->find_forces(net(), {begin, end}, forces);
+      for (std::size_t k = 0; k < forces.size(); ++k)
+        result[begin + k] = (forces[k].spring + forces[k].regularisation).norm() / forces[k].mean_edge;
+    });
+    return result;
+  }
+
+  double rms_residual() {
+    update_directions(net(), *model_, *team_);
+    return vspring::rms_residual(net());
+  }
+
+  /// See even_residuals().
+  void even_out(double noise) {
+    update_directions(net(), *model_, *team_);
+    even_residuals(net(), noise, *team_);
   }
 
  private:

@@ -13,7 +13,7 @@ constexpr double shortest_length = 0.02;
 constexpr double longest_length = 10;
 constexpr double stride = 2;
 // Lengths in a row for which nothing was found: shorter ones lead nowhere either.
-constexpr int most_lost = 2;
+constexpr int most_lost = 3;
 constexpr int most_trials = 60;
 // Aimed at less than the tolerance, so that what is left of a correction does not go beyond.
 constexpr double aimed_share = 0.995;
@@ -51,7 +51,8 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
       inside = {*task.length, figure};
       best = net.positions;
     } else if (!within) {
-      if (!outside || *task.length < outside->first) outside = {*task.length, figure};
+      // Where shorter ones lead nowhere, nothing is known of those between.
+      if (!outside || (*task.length < outside->first && (found || inside))) outside = {*task.length, figure};
       if (!inside && figure < least) {
         best = net.positions;
         nearest = *task.length;
@@ -59,15 +60,19 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
     }
     least = std::min(least, figure);
   };
-  look(true);
+  look(task.found);
   int lost = 0;
+  double step = stride;
   for (int turn = 0; turn < most_trials; ++turn) {
     if (!outside) {
       if (*task.length >= longest) break;
       *task.length *= stride;
     } else if (!inside) {
       if (*task.length <= shortest || lost == most_lost) break;
-      *task.length /= stride;
+      // Nearer to the last one that was found.
+      if (lost > 0) *task.length *= step;
+      step = lost > 0 ? std::sqrt(step) : stride;
+      *task.length /= step;
     } else {
       const auto& [a, at_a] = *inside;
       const auto& [b, at_b] = *outside;
@@ -79,7 +84,9 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
       *task.length = a * std::pow(b / a, std::clamp(share, 0.1, 0.9));
     }
     if (inside) net.positions = best;
+    const std::vector<Vector3> start = net.positions;
     const bool found = task.follow(true);
+    if (!found && net.points.are_nodes) net.positions = start;
     if (task.ended()) break;
     lost = found ? 0 : lost + 1;
     look(found);

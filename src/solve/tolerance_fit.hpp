@@ -22,9 +22,10 @@ struct ToleranceFitTask {
   std::shared_ptr<double> length;  ///< the smoothing length that points pull by, in the coordinates of the net
   /// or_find: where nothing is found from there, it may be looked for anew. False where that leads nowhere.
   std::function<bool(bool or_find)> follow;
-  std::function<bool()> ended;     ///< cancelled, or out of work: the best so far stays
+  std::function<bool()> ended;  ///< cancelled, or out of work: the best so far stays
   std::function<std::vector<double>()> measure;
   std::function<double()> energy;
+  bool found = true;          ///< whether the net is at an equilibrium
   double close_share = 0.01;  ///< of the tolerance: smooth_within() need not come nearer
 };
 
@@ -36,7 +37,7 @@ struct ToleranceFitResult {
 };
 
 /// By the largest smoothing length whose shape is within: tolerated(distances) is the figure that may be at most
-/// `tolerance`. The net must be at the equilibrium for the length in the task. Leaves the shape in the net.
+/// `tolerance`. Begins with the shape of the net and the length in the task. Leaves the shape in the net.
 ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
                                  const std::function<double(const std::vector<double>&)>& tolerated);
 

@@ -17,6 +17,7 @@ struct TiedPoints {
   std::vector<std::uint32_t> order;    ///< the points, node by node of the net
   std::vector<std::uint32_t> begin;    ///< where each node's begin in that order, and at last their number
   std::vector<std::uint32_t> end;      ///< where those of them end that pull at the node; empty: all do
+  bool are_nodes = false;              ///< each is the place of a node in the input, to which it stays tied
   std::vector<double> factors;         ///< of every node: what the average of its k_j is multiplied by; empty: 1
 
   [[nodiscard]] bool empty() const noexcept { return order.empty(); }

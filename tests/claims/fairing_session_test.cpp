@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
@@ -258,6 +259,41 @@ TEST(FairingSession, CancelledItGoesOnTheNextTime) {
   EXPECT_EQ(result.report.levels.size(), 1U) << "from the shape before";
   const FairResult anew = fair(one.mesh, one.constraints, to(1e-6));
   EXPECT_LT(greatest_distance(result.positions, anew.positions), 1e-5 * diagonal(one.mesh));
+}
+
+TEST(FairingSession, HoldsNodesThatCannotMoveAndFollowsAllTheSame) {
+  Dragged one = dragged(800);
+  MeshBuilder builder;
+  for (const Vector3& p : one.mesh.positions()) builder.add_node(p);
+  for (Index f = 0; f < one.mesh.face_count(); ++f) builder.add_face(one.mesh.face(f));
+  // A fin on an edge far from what is dragged.
+  const auto face = [&] {
+    for (Index f = 0;; ++f) {
+      const auto nodes = one.mesh.face(f);
+      if (one.mesh.position(nodes[0]).x() < -0.6 && !one.constraints.position_fixed(nodes[0]) &&
+          !one.constraints.position_fixed(nodes[1]))
+        return nodes;
+    }
+  }();
+  const Index tip = builder.add_node(one.mesh.position(face[0]) + Vector3(0, 0, 1));
+  const std::vector<Index> fin = {face[0], face[1], tip};
+  builder.add_face(fin);
+  const PolygonMesh mesh = builder.take();
+  Constraints constraints = clamped_boundary(mesh);
+  constraints.free_position(face[0]);
+  constraints.free_position(face[1]);
+  constraints.fix_position(tip, mesh.position(tip));
+  constraints.fix_position(one.node, one.constraints.position(one.node));
+  FairingSession session(mesh, to(1e-6));
+  for (int step = 0; step < 3; ++step) {
+    constraints.fix_position(one.node, constraints.position(one.node) + Vector3(0.002, 0.001, 0.004));
+    const FairResult result = session.fair(constraints);
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    ASSERT_EQ(result.report.warnings.size(), 1U);
+    EXPECT_EQ(result.report.warnings[0].substr(0, 33), "2 nodes cannot move and are held:");
+    EXPECT_EQ(result.positions[static_cast<std::size_t>(face[0])], mesh.position(face[0]));
+    if (step > 0) EXPECT_EQ(result.report.levels.size(), 1U) << "no coarser level is needed";
+  }
 }
 
 TEST(FairingSession, OtherMethodsFairAnewEveryTime) {

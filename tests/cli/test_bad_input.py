@@ -100,16 +100,13 @@ class BadFiles(Case):
         self.refuse(path)
         self.assertEqual((self.folder / "out.obj").read_text(), "what was there before")
 
-    def test_defects_are_named_where_they_would_move_and_left_elsewhere(self):
+    def test_nodes_that_cannot_move_are_held_and_counted(self):
         # A fin on edge 1–2. Its nodes are of the boundary, so they are held unless a rule frees them.
         fin = self.write("fin.obj", hat() + "v 0 0 3\nf 2 3 50\n")
-        free = '{"nodes": [1, 2], "position": "free"}'
-        line = self.refuse(fin, "--constraints", self.write("rules.json", '{"rules": [' + free + "]}"))
-        self.assertIn("edge 1–2", line)
-        self.assertIn("non-manifold", line)
-        rules = self.write("rules.json", '{"rules": [' + free + ', {"nodes": "non-manifold", "position": "fixed"}]}')
-        result = run("fair", fin, "-o", self.folder / "out.obj", "--constraints", rules)
+        free = self.write("rules.json", '{"rules": [{"nodes": [1, 2], "position": "free"}]}')
+        result = run("fair", fin, "-o", self.folder / "out.obj", "--constraints", free)
         self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("2 nodes cannot move and are held: edge 1–2: more than two faces share it", result.stderr)
         lone = self.write("lone.obj", hat() + "v 5 5 5\n")
         self.assertEqual(run("fair", lone, "-o", self.folder / "out.obj").returncode, 0)
         self.assertIn("v 5 5 5\n", (self.folder / "out.obj").read_text())

@@ -1,0 +1,30 @@
+#include "constraints/immovable_held.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace vspring {
+
+Constraints ImmovableHeld::held(const Constraints& constraints) const {
+  Constraints held = constraints;
+  for (const Index node : nodes_) {
+    if (!held.position_fixed(node)) held.fix_position(node, mesh_->position(node));
+  }
+  return held;
+}
+
+void ImmovableHeld::add(const ImmovableNodes& found) {
+  nodes_.insert(nodes_.end(), found.nodes().begin(), found.nodes().end());
+  message_ = found.what();
+}
+
+std::string ImmovableHeld::warning(const Constraints& constraints) const {
+  const auto count =
+      std::count_if(nodes_.begin(), nodes_.end(), [&](Index node) { return !constraints.position_fixed(node); });
+  if (count == 0) return {};
+  return fmt::format("{} node{} cannot move and {} held: {}", count, count == 1 ? "" : "s", count == 1 ? "is" : "are",
+                     message_);
+}
+
+}  // namespace vspring

@@ -61,7 +61,7 @@ nlohmann::ordered_json to_json(const FairReport& report) {
     json["boundary"] = {
         {"outcome", name(report.boundary->outcome)},
         {"iterations", report.boundary->iterations},
-        {"expected_error", *report.boundary->expected_error},
+        {"expected_error", report.boundary->expected_error ? Json(*report.boundary->expected_error) : Json()},
         {"moving_nodes", report.boundary->moving_nodes},
         {"fairness", {{"before", to_json(report.boundary->before)}, {"after", to_json(report.boundary->after)}}}};
   }

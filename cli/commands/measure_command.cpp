@@ -75,12 +75,14 @@ std::string distance_lines(const Apart& apart, const Terminal& terminal) {
   return text;
 }
 
-std::string noise_line(const NoiseEstimate& noise, const Terminal& terminal) {
-  if (noise.nodes == 0) return {};
-  return fmt::format(
-      "{} {:.3g} units, {:.2g} median edges: estimated standard deviation in each coordinate; --noise, "
-      "--rms or --within auto go by it\n",
-      terminal.bold("noise"), noise.deviation, noise.edges);
+/// With the noise that a shape seems to have, which is nobody's measure of fairness.
+template <typename Shape>
+std::vector<Figure> with_noise(std::vector<Figure> figures, const Shape& shape) {
+  const NoiseEstimate noise = estimate_noise(shape);
+  figures.push_back({"noise", "noise", "units", "as estimated, standard deviation in each coordinate; see --noise auto",
+                     noise.deviation, false});
+  figures.push_back({"noise_in_edges", "noise in edges", "", "the same in median edges", noise.edges, false});
+  return figures;
 }
 
 /// The file's name; both with their folders where they have the same.
@@ -168,8 +170,7 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
   };
 
   std::vector<FigureColumn> columns;
-  columns.push_back({arguments.input, figures_of(shape_of(file), held(file), context)});
-  const NoiseEstimate noise = estimate_noise(shape_of(file));
+  columns.push_back({arguments.input, with_noise(figures_of(shape_of(file), held(file), context), shape_of(file))});
   std::optional<Apart> apart;
   std::vector<std::string> warnings = file.warnings;
   if (other) {
@@ -177,7 +178,7 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
     const auto& second = shape_of(*other);
     const auto names = titles(arguments.input, arguments.compare);
     columns.front().title = names[0];
-    columns.push_back({names[1], figures_of(second, held(*other), context)});
+    columns.push_back({names[1], with_noise(figures_of(second, held(*other), context), second)});
     apart.emplace();
     if (shape.node_count() == second.node_count()) apart->nodes = node_distance(second.positions(), shape.positions());
     apart->to_other = distance(shape.positions(), second, context);
@@ -191,7 +192,6 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
     json = {{"shape", arguments.input}, {"kind", std::is_same_v<File, SurfaceFile> ? "surface" : "curve"}};
     json.update(counts_of(shape_of(file)));
     json["figures"] = values_of(columns.front().figures);
-    json["noise"] = {{"deviation", noise.deviation}, {"edges", noise.edges}, {"nodes", noise.nodes}};
     if (other) {
       json["compared_with"] = counts_of(shape_of(*other));
       json["compared_with"]["shape"] = arguments.compare;
@@ -213,8 +213,8 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
   if (arguments.quiet) return exit_converged;
   // What people read goes to standard output unless the report itself goes there.
   const Terminal messages(arguments.report == "-" || arguments.html == "-" ? 2 : 1, arguments.colour);
-  const std::string text = figure_table(columns, messages) + noise_line(noise, messages) +
-                           (apart ? "\n" + distance_lines(*apart, messages) : std::string());
+  const std::string text =
+      figure_table(columns, messages) + (apart ? "\n" + distance_lines(*apart, messages) : std::string());
   if (!messages.write(text)) throw Error(ErrorCode::unusable_file, "standard output: takes no more");
   return exit_converged;
 }

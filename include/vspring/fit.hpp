@@ -11,7 +11,8 @@
 namespace vspring {
 
 struct FitOptions {
-  /// Its method, where given, must be equilibrium or sweep, and fair_boundary must be false. Where it is not given:
+  /// Its method, where given, must be equilibrium or sweep. With fair_boundary, for a surface whose own nodes are the
+  /// points, its boundary is fitted to them first, as a curve, and the surface then holds it. Where no method is given:
   /// equilibrium; where that finds none and max_iterations is not given, the shape of sweep, with a warning.
   FairOptions fair = {};
   /// The paper's k (Eq. 9), for points of weight 1: 0 to 1e50. Small ones smooth, large ones interpolate. On an evenly

@@ -38,10 +38,10 @@ double expected_square(double freedom) {
   return root * root * root;
 }
 
-/// The variance of the heights of points over their best quadratic, in unknowns of what noise of variance 1 is expected to
-/// have; none where they are too few or one is no place. axes: of the directions in which that is a quadratic in the
-/// first ones, the number of them.
-std::optional<double> variance_of(std::span<const Vector3> points, int first_axes, int heights) {
+/// The root mean square height of points over their best quadratic, as a multiple of what noise of deviation 1 has;
+/// none where they are too few, or one is no place. first_axes: in how many directions that is a quadratic, 1 or 2;
+/// heights: in how many it is one.
+std::optional<double> deviation_of(std::span<const Vector3> points, int first_axes, int heights) {
   const auto count = static_cast<Eigen::Index>(points.size());
   const Eigen::Index unknowns = first_axes == 2 ? 6 : 3;
   if (count < unknowns + static_cast<Eigen::Index>(least_freedom)) return std::nullopt;
@@ -75,7 +75,7 @@ std::optional<double> variance_of(std::span<const Vector3> points, int first_axe
     squares += (matrix * *solution - right).squaredNorm();
   }
   const double freedom = static_cast<double>((count - unknowns) * heights);
-  return squares * size * size / freedom / expected_square(freedom);
+  return size * std::sqrt(squares / freedom / expected_square(freedom));
 }
 
 double at_share(std::vector<double>& values, double part) {
@@ -84,14 +84,14 @@ double at_share(std::vector<double>& values, double part) {
   return *place;
 }
 
-NoiseEstimate summary(std::vector<double> variances, std::vector<double> edges) {
+NoiseEstimate summary(std::vector<double> deviations, std::vector<double> edges) {
   const auto unusable = [](double value) { return !std::isfinite(value); };
-  variances.erase(std::remove_if(variances.begin(), variances.end(), unusable), variances.end());
+  deviations.erase(std::remove_if(deviations.begin(), deviations.end(), unusable), deviations.end());
   edges.erase(std::remove_if(edges.begin(), edges.end(), unusable), edges.end());
   NoiseEstimate result;
-  if (variances.empty() || edges.empty()) return result;
-  result.nodes = static_cast<Index>(variances.size());
-  result.deviation = std::sqrt(at_share(variances, share));
+  if (deviations.empty() || edges.empty()) return result;
+  result.nodes = static_cast<Index>(deviations.size());
+  result.deviation = at_share(deviations, share);
   const double edge = at_share(edges, 0.5);
   result.edges = edge > 0 ? result.deviation / edge : 0;
   return result;
@@ -103,7 +103,7 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
   const Incidence incidence(mesh);
   const NodeGraph graph(mesh, incidence);
   const auto nodes = static_cast<std::size_t>(mesh.node_count());
-  std::vector<double> variances(nodes, std::nan(""));
+  std::vector<double> deviations(nodes, std::nan(""));
   ThreadTeam team(context.thread_count());
   parallel_ranges(team, nodes, places_per_task, [&](std::size_t begin, std::size_t end) {
     std::vector<Index> around;
@@ -121,7 +121,7 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
       around.erase(std::unique(around.begin(), around.end()), around.end());
       places.clear();
       for (const Index j : around) places.push_back(mesh.position(j));
-      if (const auto variance = variance_of(places, 2, 1)) variances[i] = *variance;
+      if (const auto deviation = deviation_of(places, 2, 1)) deviations[i] = *deviation;
     }
   });
   std::vector<double> edges;
@@ -130,12 +130,12 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
       if (j > i) edges.push_back((mesh.position(j) - mesh.position(i)).norm());
     });
   }
-  return summary(std::move(variances), std::move(edges));
+  return summary(std::move(deviations), std::move(edges));
 }
 
 NoiseEstimate estimate_noise(const PolygonCurve& curve) {
   const int heights = plane_normal(curve.positions()) ? 1 : 2;
-  std::vector<double> variances;
+  std::vector<double> deviations;
   std::vector<double> edges;
   std::vector<Vector3> places;
   for (const auto& chain : curve.chains()) {
@@ -146,10 +146,10 @@ NoiseEstimate estimate_noise(const PolygonCurve& curve) {
     for (std::size_t k = 0; k < (chain.closed ? count : count - nodes_in_a_row + 1); ++k) {
       places.clear();
       for (std::size_t n = 0; n < nodes_in_a_row; ++n) places.push_back(at(k + n));
-      if (const auto variance = variance_of(places, 1, heights)) variances.push_back(*variance);
+      if (const auto deviation = deviation_of(places, 1, heights)) deviations.push_back(*deviation);
     }
   }
-  return summary(std::move(variances), std::move(edges));
+  return summary(std::move(deviations), std::move(edges));
 }
 
 }  // namespace vspring

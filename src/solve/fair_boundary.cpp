@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <utility>
 
 #include "base/threads.hpp"
 #include "constraints/holding.hpp"
 #include "fairness/measure.hpp"
+#include "vspring/error.hpp"
 #include "vspring/topology.hpp"
 
 namespace vspring {
@@ -24,8 +26,18 @@ struct BoundaryTask {
 BoundaryTask boundary_task(const PolygonMesh& mesh, const Constraints& constraints) {
   BoundaryTask task{boundary_curve(mesh), Constraints(mesh.node_count()), constraints, {}};
   const std::vector<std::uint8_t> on_boundary = boundary_nodes(mesh);
+  std::vector<int> passed(on_boundary.size(), 0);
+  for (const auto& chain : task.curve.chains()) {
+    for (const Index node : chain.nodes) ++passed[static_cast<std::size_t>(node)];
+  }
   for (Index i = 0; i < mesh.node_count(); ++i) {
     if (on_boundary[static_cast<std::size_t>(i)] == 0) continue;
+    if (passed[static_cast<std::size_t>(i)] > 1 && !constraints.position_fixed(i)) {
+      // Loops meet there.
+      task.of_curve.fix_position(i, mesh.position(i));
+      task.of_surface.fix_position(i, mesh.position(i));
+      continue;
+    }
     if (constraints.position_fixed(i)) task.of_curve.fix_position(i, constraints.position(i));
     if (constraints.tangent_fixed(i)) task.of_curve.fix_tangent(i, constraints.tangent(i));
     if (!constraints.position_fixed(i)) task.free.push_back(i);
@@ -38,12 +50,12 @@ void hold(BoundaryTask& task, const std::vector<Vector3>& positions) {
 }
 
 /// Goes the share `strength` of the way from the input, and tells of that way.
-void account_for_moves(const PolygonMesh& mesh, const Constraints& constraints, double strength, FairResult& result) {
-  FairReport& report = result.report;
+void account_for_moves(const PolygonMesh& mesh, const Constraints& constraints, double strength,
+                       std::vector<Vector3>& positions, FairReport& report) {
   std::vector<double> moves;
   report.fixed_positions = 0;
   for (Index i = 0; i < mesh.node_count(); ++i) {
-    Vector3& position = result.positions[static_cast<std::size_t>(i)];
+    Vector3& position = positions[static_cast<std::size_t>(i)];
     if (constraints.position_fixed(i)) ++report.fixed_positions;
     if (constraints.position_fixed(i) || position == mesh.position(i)) continue;
     const Vector3 move = strength * (position - mesh.position(i));
@@ -57,6 +69,13 @@ void account_for_moves(const PolygonMesh& mesh, const Constraints& constraints, 
   double squares = 0;
   for (const double move : moves) squares += move / report.greatest_move * (move / report.greatest_move);
   report.mean_move = report.greatest_move * std::sqrt(squares / static_cast<double>(moves.size()));
+}
+
+/// Says of the surface what is to be said of its boundary.
+void join(FairReport boundary, FairReport& report) {
+  if (report.outcome == Outcome::converged) report.outcome = boundary.outcome;
+  report.warnings.insert(report.warnings.begin(), boundary.warnings.begin(), boundary.warnings.end());
+  report.boundary = std::make_shared<const FairReport>(std::move(boundary));
 }
 
 }  // namespace
@@ -79,14 +98,44 @@ FairResult fair_boundary_first(const PolygonMesh& mesh, const Constraints& const
   FairResult result = fair(bounded, task.of_surface, options, context);
 
   FairReport& report = result.report;
-  if (report.outcome == Outcome::converged) report.outcome = curve.report.outcome;
-  report.warnings.insert(report.warnings.begin(), curve.report.warnings.begin(), curve.report.warnings.end());
-  account_for_moves(mesh, constraints, strength, result);
+  join(std::move(curve.report), report);
+  account_for_moves(mesh, constraints, strength, result.positions, report);
   ThreadTeam team(context.thread_count());
   report.before = measure(mesh, &constraints, team);
   bounded.set_positions(result.positions);
   report.after = measure(bounded, &constraints, team);
-  report.boundary = std::make_shared<const FairReport>(std::move(curve.report));
+  return result;
+}
+
+FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                             FitOptions options, Context& context) {
+  if (points.positions != mesh.positions())
+    throw Error(ErrorCode::invalid_argument,
+                "the boundary can be faired first where the nodes of the input are the points only; fair it before");
+  options.fair.fair_boundary = false;
+  BoundaryTask task = boundary_task(mesh, constraints);
+  if (task.free.empty()) return fit(mesh, constraints, points, options, context);
+  hold(task, mesh.positions());
+  (void)check_constraints(mesh, task.of_surface, std::vector<std::uint8_t>(mesh.positions().size(), 1));
+
+  FitOptions of_curve = options;
+  if (options.noise) {
+    // Across a curve in space noise has two directions.
+    of_curve.rms = std::sqrt(2.0) * *options.noise;
+    of_curve.noise.reset();
+  }
+  ScatteredPoints on_curve;
+  for (const auto& chain : task.curve.chains()) {
+    for (const Index node : chain.nodes) {
+      on_curve.positions.push_back(mesh.position(node));
+      if (!points.weights.empty()) on_curve.weights.push_back(points.weights[static_cast<std::size_t>(node)]);
+    }
+  }
+  FitResult curve = fit(task.curve, task.of_curve, on_curve, of_curve, context);
+  hold(task, curve.positions);
+  FitResult result = fit(mesh, task.of_surface, points, options, context);
+  join(std::move(curve.report.fair), result.report.fair);
+  account_for_moves(mesh, constraints, 1, result.positions, result.report.fair);
   return result;
 }
 

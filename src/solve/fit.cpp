@@ -17,6 +17,7 @@
 #include "constraints/immovable_held.hpp"
 #include "fit/point_factors.hpp"
 #include "fit/point_ties.hpp"
+#include "solve/fair_boundary.hpp"
 #include "solve/fit_points.hpp"
 #include "solve/fit_run.hpp"
 #include "solve/fit_to_tolerance.hpp"
@@ -239,7 +240,10 @@ FitResult fit_shape(const typename Subject::Shape& shape, const Constraints& con
 FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {
   const auto fit_held = [&](const Constraints& held) {
-    return fit_shape<FitSurface>(mesh, held, points, options, context);
+    if (!options.fair.fair_boundary) return fit_shape<FitSurface>(mesh, held, points, options, context);
+    options.validate();
+    check_points(points);
+    return fit_boundary_first(mesh, held, points, options, context);
   };
   return ImmovableHeld(mesh).run(
       constraints, fit_held, [](FitResult & fitted) -> auto& { return fitted.report.fair.warnings; });
@@ -253,6 +257,10 @@ FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const Sca
 
 FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {
+  if (options.noise)
+    throw Error(
+        ErrorCode::invalid_argument,
+        "noise can be taken off surfaces only: of a curve ask for the root mean square of its points' distances");
   return fit_shape<FitCurve>(curve, constraints, points, options, context);
 }
 

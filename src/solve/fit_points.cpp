@@ -114,7 +114,6 @@ void FitOptions::validate() const {
     refuse("points can be fitted to a tolerance at full strength only");
   if (fair.method == Method::multigrid)
     refuse("points can be fitted by the methods equilibrium and sweep, not by multigrid");
-  if (fair.fair_boundary) refuse("points cannot be fitted while the boundary is faired: fair the boundary first");
 }
 
 }  // namespace vspring

@@ -57,7 +57,9 @@ class FitToTolerance {
       finish_with(*length);
       return;
     }
-    std::optional<double> last_error = report.fair.expected_error;
+    // Of the last equilibrium that was found.
+    std::optional<double> last_error;
+    if (report.fair.outcome == Outcome::converged) last_error = report.fair.expected_error;
     ToleranceFitTask task;
     task.net = &shape.net();
     task.length = length;
@@ -84,10 +86,11 @@ class FitToTolerance {
       return all;
     };
     task.energy = [&] { return run_.subject.fairness(run_.result.positions).vspring_energy; };
-    const ToleranceFitResult found =
+    ToleranceFitResult found =
         run_.options.within ? fit_within(task, tolerance_ * scale) : smooth(task, tolerance_ * scale);
     // Tries that led nowhere tell nothing of the shape that is kept.
-    if (found.settled && last_error) {
+    found.settled = found.settled && last_error;
+    if (found.settled) {
       report.fair.residual = *last_error;
       report.fair.expected_error = last_error;
     }

@@ -75,7 +75,7 @@ class NoiseFit {
 
  private:
   // Equilibria with weights that follow each other, and turns to find them.
-  static constexpr int enough_turns = 3;
+  static constexpr int enough_turns = 4;
   static constexpr int most_turns = 20;
   static constexpr int most_global = 4;
   static constexpr double left_of_noise = 0.97;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "support/surfaces.hpp"
@@ -56,6 +57,114 @@ TEST(FitNoisyScan, NoFoldIsLeftWhateverIsAskedFor) {
     EXPECT_LT(greatest_turn(noisy, result.positions), 60);
     EXPECT_LT(rms_from_torus(result.positions), before / 2);
   }
+}
+
+FitOptions without_noise(double deviation) {
+  FitOptions options;
+  options.fair.distribution = Distribution::keep;
+  options.noise = deviation;
+  return options;
+}
+
+FitResult fit_to_itself(const PolygonMesh& mesh, const FitOptions& options) {
+  return fit(mesh, Constraints(mesh.node_count()), {.positions = mesh.positions()}, options);
+}
+
+/// Of each coordinate of a point in a ball.
+double deviation_in_ball(double radius) { return radius / std::sqrt(5.0); }
+
+TEST(FitNoisyScan, NoiseIsTakenOffOnEveryKindOfFace) {
+  for (const generate::Faces faces : every_kind) {
+    for (const double radius : {0.05, 0.15}) {
+      SCOPED_TRACE(::testing::Message() << static_cast<int>(faces) << " " << radius);
+      const PolygonMesh torus = generate::torus({.columns = 32, .rows = 16, .faces = faces}, 1, minor_radius);
+      const PolygonMesh noisy = generate::add_noise(torus, radius, 1);
+      const FitResult result = fit_to_itself(noisy, without_noise(deviation_in_ball(radius)));
+      EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+      EXPECT_EQ(result.report.pulled_nodes, noisy.node_count()) << "points stay with their nodes";
+      EXPECT_LT(greatest_turn(noisy, result.positions), 60);
+      // Bricks have three neighbours a node, which tell less of noise.
+      const double left = faces == generate::Faces::hexagons ? 0.75 : 0.45;
+      EXPECT_LT(rms_from_torus(result.positions), left * rms_from_torus(noisy.positions()));
+    }
+  }
+}
+
+TEST(FitNoisyScan, WhatIsMoreThanNoiseStays) {
+  // A bump of a few edges on a plane. Smoothed alike everywhere to the same distance the shape loses more of it.
+  PolygonMesh exact_bump = generate::plane({.columns = 30, .rows = 30, .faces = generate::Faces::quads});
+  std::vector<Vector3> positions = exact_bump.positions();
+  for (Vector3& p : positions) p.z() = 0.1 * std::exp(-(p - Vector3(0.5, 0.5, 0)).squaredNorm() / 0.005);
+  exact_bump.set_positions(positions);
+  constexpr double radius = 0.006;
+  const PolygonMesh noisy = generate::add_noise(exact_bump, radius, 1);
+  const ScatteredPoints points{.positions = noisy.positions()};
+  const Constraints held = held_boundary(noisy);
+  const FitResult kept = fit(noisy, held, points, without_noise(deviation_in_ball(radius)));
+  ASSERT_EQ(kept.report.fair.outcome, Outcome::converged);
+  FitOptions alike;
+  alike.fair.distribution = Distribution::keep;
+  alike.rms = kept.report.after.all.rms;
+  const FitResult smoothed = fit(noisy, held, points, alike);
+  const auto off = [&](const std::vector<Vector3>& places) { return distance(places, exact_bump); };
+  EXPECT_LT(off(kept.positions).greatest, 0.7 * off(smoothed.positions).greatest);
+  EXPECT_LT(off(kept.positions).rms, 0.8 * off(smoothed.positions).rms);
+  EXPECT_LT(off(kept.positions).rms, 0.5 * off(noisy.positions()).rms);
+}
+
+TEST(FitNoisyScan, TheSameBitsOnAnyNumberOfThreads) {
+  const PolygonMesh noisy = folded();
+  const auto run = [&](int threads) {
+    Context context;
+    context.threads = threads;
+    return fit(noisy, Constraints(noisy.node_count()), {.positions = noisy.positions()},
+               without_noise(deviation_in_ball(0.15)), context);
+  };
+  const FitResult one = run(1);
+  EXPECT_EQ(one.positions, run(3).positions);
+  Context alone;
+  alone.threads = 1;
+  EXPECT_EQ(estimate_noise(noisy).deviation, estimate_noise(noisy, alone).deviation);
+}
+
+TEST(FitNoisyScan, ARimIsFittedFirstWhereThatIsAskedFor) {
+  const PolygonMesh cap = generate::cap({.nodes = 900});
+  const PolygonMesh noisy = generate::add_noise(cap, 0.03, 1, true);
+  FitOptions options = without_noise(deviation_in_ball(0.03));
+  options.fair.fair_boundary = true;
+  const FitResult result = fit_to_itself(noisy, options);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  ASSERT_NE(result.report.fair.boundary, nullptr);
+  EXPECT_EQ(result.report.fair.moving_nodes, noisy.node_count());
+  const std::vector<std::uint8_t> on_rim = boundary_nodes(cap);
+  const auto off_rim = [&](const std::vector<Vector3>& positions) {
+    double squares = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      if (on_rim[i] == 0) continue;
+      const Vector3& p = positions[i];
+      const double radial = std::hypot(p.x(), p.y()) - std::sqrt(0.75);
+      squares += radial * radial + (p.z() - 0.5) * (p.z() - 0.5);
+    }
+    return std::sqrt(squares);
+  };
+  EXPECT_LT(off_rim(result.positions), 0.5 * off_rim(noisy.positions()));
+  EXPECT_LT(distance(result.positions, cap).rms, 0.5 * distance(noisy.positions(), cap).rms);
+}
+
+TEST(FitNoisyScan, RefusesWhatHasNoNodesOfItsOwn) {
+  const PolygonMesh torus = exact();
+  ScatteredPoints others{.positions = torus.positions()};
+  others.positions[3].x() += 0.01;
+  const Constraints none(torus.node_count());
+  EXPECT_THROW((void)fit(torus, none, others, without_noise(0.01)), Error);
+  FitOptions spread = without_noise(0.01);
+  spread.fair.distribution = Distribution::even;
+  EXPECT_THROW((void)fit_to_itself(torus, spread), Error);
+  FitOptions rim = without_noise(0.01);
+  rim.fair.fair_boundary = true;
+  EXPECT_THROW((void)fit(torus, none, others, rim), Error);
+  const PolygonCurve curve(torus.positions(), true);
+  EXPECT_THROW((void)fit(curve, none, {.positions = torus.positions()}, without_noise(0.01)), Error);
 }
 
 }  // namespace

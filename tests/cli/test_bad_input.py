@@ -106,7 +106,7 @@ class BadFiles(Case):
         free = self.write("rules.json", '{"rules": [{"nodes": [1, 2], "position": "free"}]}')
         result = run("fair", fin, "-o", self.folder / "out.obj", "--constraints", free)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("2 nodes cannot move and are held: edge 1–2: more than two faces share it", result.stderr)
+        self.assertIn("2 nodes cannot move and are held: edge 1–2: more than two faces share it", result.stderr.decode())
         lone = self.write("lone.obj", hat() + "v 5 5 5\n")
         self.assertEqual(run("fair", lone, "-o", self.folder / "out.obj").returncode, 0)
         self.assertIn("v 5 5 5\n", (self.folder / "out.obj").read_text())

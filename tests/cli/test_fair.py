@@ -109,6 +109,32 @@ class Fair(Case):
         report = self.read_json("report.json")
         self.assertEqual((report["fixed_positions"], report["fixed_normals"]), (14, 12))
 
+    def test_noise_is_taken_off_by_what_the_nodes_say(self):
+        noisy = support.sphere(12, noise=0.02)
+        off = lambda text: max(abs(math.hypot(*map(float, line.split()[1:])) - 2) for line in vertex_lines(text))
+        for options, share in (("--noise", 0.6), ("--rms", 0.6), ("--within", 1.5)):
+            with self.subTest(options):
+                result = self.fair(options, "auto", "--report", self.folder / "report.json", text=noisy)
+                points = self.read_json("report.json")["points"]
+                self.assertAlmostEqual(points["estimated_noise"], 0.02 / math.sqrt(3), delta=0.002)
+                self.assertEqual(points[options[2:]], points["estimated_noise"] * (3 if options == "--within" else 1))
+                self.assertIn(b"noise estimated", result.stdout)
+                self.assertLess(off((self.folder / "out.obj").read_text()), share * off(noisy))
+        for wrong in ("0", "-1", "much", "nan"):
+            self.assertIn(b"--noise: a number greater than 0, or auto, is needed, not " + wrong.encode(),
+                          self.fair("--noise", wrong, text=noisy, status=1).stderr)
+        self.assertIn(b"only one of", self.fair("--noise", "auto", "--rms", "1", text=noisy, status=1).stderr)
+
+    def test_a_noisy_rim_is_fitted_first(self):
+        noisy = grid(14, lambda x, y: 0.02 * math.sin(37 * x + 53 * y))
+        held = self.fair("--noise", "0.01", text=noisy)
+        first = vertex_lines((self.folder / "out.obj").read_text())[0]
+        self.assertEqual(first, vertex_lines(noisy)[0], held.stdout)
+        self.fair("--noise", "0.01", "--fair-boundary", "--report", self.folder / "report.json", text=noisy)
+        report = self.read_json("report.json")
+        self.assertEqual(report["boundary"]["outcome"], "converged")
+        self.assertNotEqual(first, vertex_lines((self.folder / "out.obj").read_text())[0])
+
     def test_same_bytes_for_every_number_of_threads(self):
         outputs = []
         for threads in (1, 2, 3):

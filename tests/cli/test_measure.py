@@ -44,6 +44,13 @@ class Measure(Case):
         path = self.write("in.obj", grid(40))
         self.assertEqual(self.report(path, "--threads", "1")["figures"], self.report(path, "--threads", "3")["figures"])
 
+    def test_noise_is_estimated(self):
+        exact = self.report(self.write("exact.obj", support.sphere(16)))["figures"]
+        noisy = self.report(self.write("noisy.obj", support.sphere(16, noise=0.02)))
+        self.assertLess(exact["noise_in_edges"], 0.02)
+        self.assertGreater(noisy["figures"]["noise"], 5 * exact["noise"])
+        self.assertEqual(noisy["definitions"]["noise"]["unit"], "units")
+
     def test_a_curve_by_its_extension(self):
         path = self.write("circle.csv", circle())
         report = self.report(path, "--closed")

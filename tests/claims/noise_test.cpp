@@ -1,0 +1,82 @@
+// How noisy shapes seem to be.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "support/surfaces.hpp"
+#include "vspring/vspring.hpp"
+
+namespace vspring::noise_test {
+namespace {
+
+using namespace support;
+
+/// With Gaussian noise of that standard deviation in each coordinate.
+std::vector<Vector3> disturbed(std::vector<Vector3> positions, double deviation, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal(0, deviation);
+  for (Vector3& p : positions) p += Vector3(normal(generator), normal(generator), normal(generator));
+  return positions;
+}
+
+TEST(Noise, OfSurfacesIsEstimated) {
+  for (const generate::Faces faces : every_kind) {
+    SCOPED_TRACE(static_cast<int>(faces));
+    PolygonMesh mesh = generate::torus({.columns = 60, .rows = 28, .faces = faces}, 1, 0.4);
+    const std::vector<Vector3> exact = mesh.positions();
+    EXPECT_LT(estimate_noise(mesh).edges, 0.02);
+    for (const double deviation : {0.005, 0.02, 0.05}) {
+      mesh.set_positions(disturbed(exact, deviation, 7));
+      const NoiseEstimate estimate = estimate_noise(mesh);
+      EXPECT_NEAR(estimate.deviation, deviation, 0.15 * deviation);
+      EXPECT_EQ(estimate.nodes, mesh.node_count());
+    }
+  }
+}
+
+TEST(Noise, GoesWithTheSizeOfTheShape) {
+  PolygonMesh mesh = generate::add_noise(generate::torus({.columns = 40, .rows = 16}), 0.03, 1);
+  const NoiseEstimate small = estimate_noise(mesh);
+  std::vector<Vector3> positions = mesh.positions();
+  for (Vector3& p : positions) p *= 1e100;
+  mesh.set_positions(positions);
+  const NoiseEstimate large = estimate_noise(mesh);
+  EXPECT_NEAR(large.deviation / 1e100, small.deviation, 1e-9 * small.deviation);
+  EXPECT_NEAR(large.edges, small.edges, 1e-9 * small.edges);
+}
+
+TEST(Noise, OfCurvesIsEstimatedInThePlaneAndInSpace) {
+  for (const double rise : {0.0, 0.5}) {
+    std::vector<Vector3> nodes;
+    for (int k = 0; k < 600; ++k) {
+      const double angle = 4 * std::numbers::pi * k / 600;
+      nodes.emplace_back(std::cos(angle), std::sin(angle), rise * angle);
+    }
+    EXPECT_LT(estimate_noise(PolygonCurve(nodes)).edges, 0.01);
+    std::vector<Vector3> noisy = disturbed(nodes, 0.003, 3);
+    if (rise == 0) {
+      for (Vector3& p : noisy) p.z() = 0;
+    }
+    EXPECT_NEAR(estimate_noise(PolygonCurve(noisy)).deviation, 0.003, 0.0006) << rise;
+  }
+}
+
+TEST(Noise, IsNothingWhereNothingIsKnown) {
+  EXPECT_EQ(estimate_noise(PolygonMesh(std::vector<Vector3>(4, Vector3::Zero()), {0, 3}, {0, 1, 2})).nodes, 0);
+  EXPECT_EQ(estimate_noise(PolygonCurve(std::vector<Vector3>{{0, 0, 0}, {1, 0, 0}, {2, 1, 0}})).deviation, 0);
+  PolygonMesh mesh = generate::plane({.columns = 8, .rows = 8});
+  std::vector<Vector3> positions = mesh.positions();
+  positions[40].x() = std::nan("");
+  mesh.set_positions(positions);
+  EXPECT_TRUE(std::isfinite(estimate_noise(mesh).deviation));
+  positions.assign(30, Vector3(0, std::nan(""), 0));
+  EXPECT_EQ(estimate_noise(PolygonCurve(positions)).nodes, 0);
+}
+
+}  // namespace
+}  // namespace vspring::noise_test

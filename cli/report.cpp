@@ -16,6 +16,12 @@ nlohmann::ordered_json to_json(const Fairness& fairness) {
           {"rms_turn", fairness.mean_turn}};
 }
 
+/// The step of the plain iteration says nothing about the distance from the final place.
+nlohmann::ordered_json error_of(const FairReport& report) {
+  if (!report.expected_error) return nullptr;
+  return *report.expected_error;
+}
+
 std::string outcome_line(const FairReport& report, const Terminal& terminal) {
   switch (report.outcome) {
     case Outcome::converged:
@@ -42,8 +48,7 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   json["method"] = name(report.method);
   json["iterations"] = report.iterations;
   json["residual"] = report.residual;
-  // The step of the plain iteration says nothing about the distance from the final place.
-  json["expected_error"] = report.expected_error ? nlohmann::ordered_json(*report.expected_error) : nullptr;
+  json["expected_error"] = error_of(report);
   json["nodes"] = report.nodes;
   json["faces"] = report.faces;
   json["moving_nodes"] = report.moving_nodes;
@@ -61,7 +66,7 @@ nlohmann::ordered_json to_json(const FairReport& report) {
     json["boundary"] = {
         {"outcome", name(report.boundary->outcome)},
         {"iterations", report.boundary->iterations},
-        {"expected_error", report.boundary->expected_error ? Json(*report.boundary->expected_error) : Json()},
+        {"expected_error", error_of(*report.boundary)},
         {"moving_nodes", report.boundary->moving_nodes},
         {"fairness", {{"before", to_json(report.boundary->before)}, {"after", to_json(report.boundary->after)}}}};
   }

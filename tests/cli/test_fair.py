@@ -252,6 +252,10 @@ class FairBoundary(Case):
         report = self.read_json("r.json")
         self.assertEqual(report["boundary"]["moving_nodes"], 8)
         self.assertEqual(report["fixed_positions"], 4)
+        none = run("fair", before, "-o", self.folder / "no.obj", "--fair-boundary", "--constraints", rules, "--max-iterations", "0",
+                   "--report", self.folder / "r.json")
+        self.assertEqual(none.returncode, 3, none.stderr.decode())
+        self.assertIsNone(self.read_json("r.json")["boundary"]["expected_error"])
         for option in ([], ["--constraints", self.write("none.json", '{"rules": []}')]):
             refused = run("fair", before, "-o", self.folder / "no.obj", "--fair-boundary", *option)
             self.assertEqual(refused.returncode, 2)

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "regions.hpp"
-#include "run_driver.hpp"
+#include "smoothers.hpp"
 
 namespace {
 
@@ -25,8 +25,6 @@ namespace fs = std::filesystem;
 
 constexpr double noise = 0.3;  ///< radius of the ball that nodes move in, in mean edges
 constexpr double smoothing_lengths[] = {0.3, 0.5, 0.7, 1, 1.5, 2, 3};  ///< in mean edges
-constexpr int iterations[] = {10, 20, 50, 100, 200};
-constexpr double pass_bands[] = {0.001, 0.003, 0.01, 0.03, 0.1, 0.2, 0.3, 0.5, 0.8, 1.2};
 
 double mean_edge(const PolygonMesh& mesh) {
   double sum = 0;
@@ -56,18 +54,12 @@ struct Smoothed {
 
 template <typename DistanceOf>
 Smoothed best_of_vtk(const PolygonMesh& noisy, const fs::path& driver, const DistanceOf& distance_of) {
-  const TemporaryFolder folder;
-  const std::string start = folder.file("start.ply");
-  const std::string result = folder.file("result.ply");
-  write_surface(start, noisy);
   Smoothed best;
-  for (const int count : iterations) {
-    for (const double pass_band : pass_bands) {
-      if (!run_driver(driver, start, result, 1, fmt::format("{},{}", count, pass_band))) continue;
-      const double reached = distance_of(read_surface(result).mesh.positions());
-      if (reached < best.distance) best = {reached, fmt::format("{}, {}", count, pass_band)};
-    }
-  }
+  for_each_variant(driver, noisy, sinc_variants(),
+                   [&](const std::string& variant, const std::vector<Vector3>& positions, const Cost& /*cost*/) {
+                     const double reached = distance_of(positions);
+                     if (reached < best.distance) best = {reached, variant};
+                   });
   return best;
 }
 

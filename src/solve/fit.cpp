@@ -142,7 +142,7 @@ class Fitting {
     }
     if constexpr (std::is_same_v<Subject, FitSurface>) {
       if (options_.noise) {
-        NoiseFit(run_).fit(std::move(points), progress);
+        fit_without_noise(run_, std::move(points), progress);
         return;
       }
     }

@@ -1,0 +1,141 @@
+// Scans smoothed: made shapes, and every mesh of the folder that is named, get Gaussian noise of three levels, and it
+// is taken off by fair with FitOptions::noise as estimated, by VTK's windowed sinc and by Taubin's filter, which are
+// told nothing and of whose settings the best counts. Boundaries and non-manifold spots stay. Prints the table of
+// docs/fit.md: root mean square distances between result and true shape, of the nodes of either from the other, the
+// greater of both, in per cent of the median edge; the greatest turn; how far the noisy nodes are from the result, in
+// noise; time on one thread, also in plain iterations of the same mesh.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "smoothers.hpp"
+
+namespace {
+
+using namespace vspring;
+using namespace bench;
+
+namespace fs = std::filesystem;
+
+constexpr double levels[] = {0.1, 0.25, 0.5};  ///< standard deviations in each coordinate, in median edges
+constexpr int iterations_timed = 20;
+// Of deviations that are called the same.
+constexpr double alike = 0.1;
+
+double median_edge(const PolygonMesh& mesh) {
+  std::vector<double> lengths;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t k = 0; k < face.size(); ++k)
+      lengths.push_back((mesh.position(face[k]) - mesh.position(face[(k + 1) % face.size()])).norm());
+  }
+  const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+  std::nth_element(lengths.begin(), middle, lengths.end());
+  return *middle;
+}
+
+PolygonMesh with_noise(PolygonMesh mesh, double deviation) {
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal(0, deviation);
+  std::vector<Vector3> positions = mesh.positions();
+  for (Vector3& p : positions) {
+    for (int c = 0; c < 3; ++c) p[c] += normal(generator);
+  }
+  mesh.set_positions(std::move(positions));
+  return mesh;
+}
+
+/// What is told of a result.
+struct Result {
+  double off = std::numeric_limits<double>::infinity();
+  double turn = 0;
+  double deviation = 0;
+  std::string variant = {};
+};
+
+std::string cell(const Result& result) {
+  return std::isfinite(result.off) ? fmt::format("{:.1f}, {:.0f}°", result.off, result.turn) : "none";
+}
+
+void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drivers) {
+  if (mesh.face_count() == 0) return;  // a curve
+  const double edge = median_edge(mesh);
+  for (const double level : levels) {
+    const PolygonMesh noisy = with_noise(mesh, level * edge);
+    const auto look = [&](const std::vector<Vector3>& positions) {
+      PolygonMesh shape = mesh;
+      shape.set_positions(positions);
+      Result result;
+      result.off = 100 * std::max(distance(positions, mesh).rms, distance(mesh.positions(), shape).rms) / edge;
+      result.turn = measure(shape).greatest_turn;
+      result.deviation = distance(noisy.positions(), shape).rms / (level * edge);
+      return result;
+    };
+    Constraints held(mesh.node_count());
+    fix_boundary_positions(held, noisy);
+    Context context;
+    context.threads = 1;
+    FitOptions options;
+    options.fair.distribution = Distribution::keep;
+    options.noise = estimate_noise(noisy, context).deviation;
+    const FitResult fitted = fit(noisy, held, {noisy.positions()}, options, context);
+    const Result ours = look(fitted.positions);
+    FairOptions plain{.method = Method::sweep, .step_tolerance = 0, .max_iterations = iterations_timed};
+    const double iteration = fair(noisy, held, plain, context).report.seconds / iterations_timed;
+    Result best;
+    Result same;
+    for_each_variant(drivers / "peer_vtk", noisy, sinc_variants(),
+                     [&](const std::string& variant, const std::vector<Vector3>& positions, const Cost& /*cost*/) {
+                       Result one = look(positions);
+                       one.variant = variant;
+                       if (one.off < best.off) best = one;
+                       if (std::abs(one.deviation / ours.deviation - 1) < alike && one.off < same.off) same = one;
+                     });
+    Result taubin;
+    for_each_variant(drivers / "peer_taubin", noisy, {"3", "5", "10", "20", "40", "80"},
+                     [&](const std::string& /*variant*/, const std::vector<Vector3>& positions, const Cost& /*cost*/) {
+                       const Result one = look(positions);
+                       if (one.off < taubin.off) taubin = one;
+                     });
+    fmt::print("| {} | {} | {} | {} | {}{} | {:.2f} | {:.2f} | {:.0f} | {} | {} ({}) | {} |\n", name, mesh.node_count(),
+               level, cell(look(noisy.positions())), cell(ours),
+               fitted.report.fair.outcome == Outcome::converged ? "" : " †", ours.deviation, fitted.report.fair.seconds,
+               fitted.report.fair.seconds / iteration, cell(same), cell(best), best.variant, cell(taubin));
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  fmt::print(
+      "| mesh | nodes | noise | noisy | `--noise auto` | deviation | seconds | iterations' worth | sinc, same "
+      "deviation | sinc "
+      "at its best | Taubin at its best |\n|---|---|---|---|---|---|---|---|---|---|---|\n");
+  const fs::path drivers = fs::path(argv[0]).parent_path();
+  run("torus", generate::torus({.columns = 64, .rows = 48, .jitter = 0.2}, 1, 0.5), drivers);
+  run("block", generate::genus({.holes = 1, .cells = 8}), drivers);
+  run("blend of pipes", generate::pipe_blend(), drivers);
+  if (argc < 2) return 0;
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(argv[1])) {
+    if (surface_format(entry.path().extension().string())) paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  for (const fs::path& path : paths) {
+    try {
+      run(path.filename().string(), read_surface(path.string()).mesh, drivers);
+    } catch (const std::exception& error) {
+      fmt::print("| {} | refused: {} | | | | | | | | | |\n", path.filename().string(), error.what());
+    }
+  }
+  return 0;
+}

@@ -1,0 +1,126 @@
+#include "solve/noise_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "solve/account.hpp"
+#include "solve/even_residuals.hpp"
+#include "spring/bending_factor.hpp"
+#include "vspring/error.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Turns with weights that follow what is left, and all turns.
+constexpr int enough_turns = 4;
+constexpr int most_turns = 20;
+// Before them, with weights that change alike, until this is left of the noise: the shape follows some of it.
+constexpr int most_turns_alike = 4;
+constexpr double left_of_noise = 0.97;
+constexpr double near_enough = 0.03;
+constexpr double most_change = 16;
+// Of weights, for what is left, as measured on scans: the root mean square falls by about their root of fourth order.
+constexpr double power_of_excess = 4;
+// Of weights, where no equilibrium was found.
+constexpr double stronger = 4;
+// Of an edge, and of the greatest displacement there.
+constexpr double unsettled = 0.02;
+constexpr double most_displaced = 0.3;
+// What may be done, in iterations of one moving node.
+constexpr double least_most_work = 1.2e6;
+constexpr double most_work_a_node = 400;
+
+/// About that which takes such noise off: k = 0.006 (noise/edge)^−1.5, as measured on scans.
+double first_length(const Net& net, double noise) {
+  const double edge = mean_edge(net);
+  const double weight = std::clamp(0.006 * std::pow(noise / edge, -1.5), 1e-3, 10.0);
+  return edge * std::pow(bending_factor(net) / (16 * weight), 0.25);
+}
+
+/// Has those nodes that are displaced most, and their neighbours, go back to these places.
+void keep(Net& net, const std::vector<Vector3>& places, const std::vector<double>& displacements) {
+  const double greatest = *std::max_element(displacements.begin(), displacements.end());
+  const double share = std::min(unsettled, most_displaced * greatest);
+  std::vector<std::uint8_t> kept(net.moving, 0);
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const auto links = net.rings.links(i);
+    kept[i] = displacements[i] > share || std::any_of(links.begin(), links.end(), [&](Link link) {
+                return link.node() < net.moving && displacements[link.node()] > share;
+              });
+  }
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    if (kept[i] == 0) continue;
+    for (const std::uint32_t k : net.points.of(i)) {
+      net.points.positions[k] = places[i];
+      net.points.weights[k] *= stronger;
+    }
+  }
+}
+
+}  // namespace
+
+void fit_without_noise(FitRun<FitSurface>& run, LoosePoints points, ProgressReporter& progress) {
+  if (!points.are_nodes)
+    throw Error(ErrorCode::invalid_argument,
+                "noise can be taken off a surface whose own nodes are the points and keep their places only");
+  const FairOptions& options = run.options.fair;
+  FairReport& report = run.result.report.fair;
+  Net gathered = run.gather_start();
+  const double noise = *run.options.noise * gathered.frame.scale();
+  const auto length = std::make_shared<double>(first_length(gathered, noise));
+  points.by_edges = true;
+  PulledShape shape(std::move(gathered), options, std::move(points), length, run.team);
+  Net& net = shape.net();
+  if (!options.max_iterations)
+    report.most_work = std::max(least_most_work, most_work_a_node * static_cast<double>(net.moving));
+  const auto ended = [&] {
+    return run.context.cancelled() || (options.max_iterations && report.iterations >= *options.max_iterations) ||
+           (report.most_work > 0 && report.work >= report.most_work);
+  };
+  const std::vector<Vector3> start = net.positions;
+  // The last equilibrium, and what was known there.
+  std::optional<std::vector<Vector3>> best;
+  FairReport of_best;
+  int turns_of_weights = 0;
+  for (int turn = 0; turn < most_turns && !ended(); ++turn) {
+    FairReport one;
+    shape.follow(run.context, progress, one, false);
+    report.iterations += one.iterations;
+    report.work += one.work;
+    report.history.insert(report.history.end(), one.history.begin(), one.history.end());
+    const bool found = one.outcome == Outcome::converged;
+    if (found) best = net.positions;
+    if (found || !best) of_best = std::move(one);
+    if (ended()) break;
+    const double excess = shape.rms_residual() / (left_of_noise * noise);
+    if (!found) {
+      keep(net, start, shape.displacements());
+      net.positions = best ? *best : start;
+    } else if (turns_of_weights > 0 || std::abs(excess - 1) < near_enough || turn >= most_turns_alike) {
+      if (turns_of_weights++ == enough_turns) break;
+      shape.even_out(noise);
+    } else {
+      const double change = std::clamp(std::pow(excess, power_of_excess), 1 / most_change, most_change);
+      for (double& weight : net.points.weights) weight *= change;
+    }
+  }
+  if (best) net.positions = *best;
+  run.finish(net);
+  report.residual = of_best.residual;
+  report.expected_error = of_best.expected_error;
+  report.outcome = run.context.cancelled()  ? Outcome::cancelled
+                   : best                   ? Outcome::converged
+                   : options.max_iterations ? Outcome::iteration_limit
+                                            : Outcome::work_limit;
+  if (report.outcome == Outcome::work_limit)
+    report.warnings.emplace_back(
+        "no equilibrium was found: this is the nearest shape; the noise may be larger than edges are long");
+}
+
+}  // namespace vspring

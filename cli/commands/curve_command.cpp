@@ -11,6 +11,7 @@
 #include "closed_chains.hpp"
 #include "commands/choice.hpp"
 #include "commands/fairing_options.hpp"
+#include "commands/numbers.hpp"
 #include "commands/picture_options.hpp"
 #include "commands/pull_options.hpp"
 #include "fairing.hpp"
@@ -98,14 +99,14 @@ void add_node_options(CLI::App& command, CurveArguments& arguments) {
           .add_option("--resample", arguments.resampling.nodes,
                       "New nodes between those that are held, N in all (default: the nodes of the input)")
           ->type_name("N")
-          ->check(CLI::PositiveNumber)
+          ->check(positive_number())
           ->group(group);
   command
       .add_option("--spacing", arguments.resampling.spacing,
                   "New nodes between those that are held, on average about H apart, units of the input (default: the "
                   "nodes of the input)")
       ->type_name("H")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->excludes(number)
       ->group(group);
   add_choice(

@@ -36,6 +36,9 @@ int run_fair(FairArguments arguments) {
   refuse_views(arguments, false);
   Fairing fairing(arguments);
   const SurfaceFile file = read_surface(arguments.input, arguments.format);
+  if (file.mesh.face_count() == 0)
+    throw Error(ErrorCode::unusable_file,
+                arguments.input + ": no face in it; lines are faired by vspring curve, points have no shape");
   settle_by_noise(arguments.pull, file.mesh);
   const Constraints constraints =
       make_constraints(arguments, file.mesh, {.groups = &file.groups, .normals = &file.normals});

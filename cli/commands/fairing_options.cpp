@@ -7,6 +7,7 @@
 #include <map>
 
 #include "commands/choice.hpp"
+#include "commands/numbers.hpp"
 #include "fairing_arguments.hpp"
 
 namespace vspring::cli {
@@ -64,7 +65,7 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments) {
                               "this share of the diagonal of the box around the moving nodes (default: {})",
                               options.tolerance))
       ->type_name("X")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->group(fairing_group);
   command
       .add_option(
@@ -74,7 +75,7 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments) {
               "length (default: {})",
               options.step_tolerance))
       ->type_name("E")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->group(fairing_group);
   command
       .add_option("--levels", options.levels,
@@ -91,13 +92,13 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments) {
           "--pre-smoothing", options.pre_smoothing,
           fmt::format("multigrid: iterations on each level on the way down (default: {})", options.pre_smoothing))
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber)
+      ->check(non_negative_number())
       ->group(fairing_group);
   command
       .add_option("--max-iterations", options.max_iterations,
                   "Stop after this many iterations (default: on each level 200 for equilibrium, 10000 for the others)")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber)
+      ->check(non_negative_number())
       ->group(fairing_group);
 }
 

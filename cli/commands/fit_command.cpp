@@ -18,6 +18,7 @@
 #include "closed_chains.hpp"
 #include "commands/choice.hpp"
 #include "commands/fairing_options.hpp"
+#include "commands/numbers.hpp"
 #include "commands/picture_options.hpp"
 #include "commands/pull_options.hpp"
 #include "fairing.hpp"
@@ -149,20 +150,20 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
                               "this share of the diagonal of the box around the moving nodes (default: {})",
                               arguments.options.tolerance))
       ->type_name("X")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->group(fairing_group);
   command
       .add_option("--step-tolerance", arguments.step_tolerance,
                   "sweep: stop when no node moves further in an iteration than this share of its mean edge length "
                   "(default: 0.001, or K/10 where that is less)")
       ->type_name("E")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->group(fairing_group);
   command
       .add_option("--max-iterations", arguments.options.max_iterations,
                   "Stop after this many iterations (default: on each level 200 for equilibrium, 10000 for sweep)")
       ->type_name("N")
-      ->check(CLI::NonNegativeNumber)
+      ->check(non_negative_number())
       ->group(fairing_group);
   command
       .add_flag("--paper", arguments.paper,

@@ -1,10 +1,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <exception>
 #include <functional>
 #include <new>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "commands/curve_command.hpp"
 #include "commands/edit_command.hpp"
@@ -40,10 +46,42 @@ int run_command(const std::function<int()>& run) {
   }
 }
 
+/// How many letters have to be put in, left out or exchanged (V. I. Levenshtein 1966).
+std::size_t letters_apart(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t exchanged = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({exchanged, diagonal + 1, row[j] + 1});
+    }
+  }
+  return row.back();
+}
+
+/// Which commands there are, and the one that a word comes near to.
+std::string no_command(const CLI::App& app, const std::string& word) {
+  std::string names;
+  std::string nearest;
+  std::size_t least = 1 + word.size() / 2;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names += (names.empty() ? "" : ", ") + command->get_name();
+    const std::size_t apart = letters_apart(word, command->get_name());
+    if (apart >= least) continue;
+    least = apart;
+    nearest = command->get_name();
+  }
+  return fmt::format("\"{}\" is none of the commands {}{}", word, names,
+                     nearest.empty() ? "" : "; did you mean " + nearest + "?");
+}
+
 /// Help and version are answers; all else is wrong use, in one line.
-int answer_or_refuse(const CLI::App& app, const CLI::ParseError& outcome) {
+int answer_or_refuse(const CLI::App& app, const CLI::ParseError& outcome, const std::string& first_word) {
   if (outcome.get_exit_code() == 0) return app.exit(outcome);
-  std::string what = outcome.what();
+  const bool names_no_command = app.get_subcommands().empty() && !first_word.empty() && first_word[0] != '-';
+  std::string what = names_no_command ? no_command(app, first_word) : outcome.what();
   for (char& c : what) c = c == '\n' ? ' ' : c;
   std::string command = "vspring";
   for (auto used = app.get_subcommands(); !used.empty(); used = used.front()->get_subcommands())
@@ -69,7 +107,7 @@ int run_program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& outcome) {
-    return answer_or_refuse(app, outcome);
+    return answer_or_refuse(app, outcome, argc > 1 ? argv[1] : "");
   }
   return run_command(run);
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "commands/numbers.hpp"
 #include "fitting.hpp"
 
 namespace vspring::cli {
@@ -36,13 +37,13 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
                   "The paper's k: how much a point counts against the springs of its node; 0.01 takes away waves of "
                   "some 12 edges, 0.00001 of some 66, large ones interpolate")
       ->type_name("K")
-      ->check(CLI::NonNegativeNumber)
+      ->check(non_negative_number())
       ->group(heading);
   command
       .add_option("--smoothing-length", arguments.smoothing_length,
                   "Take away what is shorter than about 6 times this, whatever the mesh (units of the input)")
       ->type_name("L")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->group(heading);
   add_amount(command, "--within", arguments.within, arguments,
              "The fairest shape from which no point is further away than this (units of the input)")

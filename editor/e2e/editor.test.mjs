@@ -106,11 +106,11 @@ test('the shape follows while the button is down', async () => {
 });
 
 test('a long solution is cancelled with the best shape so far', async () => {
-  session.generated('large.ply', 'annulus', '--nodes', '60000', '--noise', '0.02');
+  session.generated('large.ply', 'annulus', '--nodes', '150000', '--noise', '0.02');
   await page.goto(`${session.address}?file=files/large.ply`);
   await page.getByRole('button', { name: 'Cancel' }).click();
   await page.locator('#status', { hasText: 'cancelled' }).waitFor();
-  assert.match(await page.locator('#size').textContent(), /60,000 nodes/);
+  assert.match(await page.locator('#size').textContent(), /150,000 nodes/);
 });
 
 test('boundary normals change the shape; the boundary set free is refused in the words of the library, and undone', async () => {

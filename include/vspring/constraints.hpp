@@ -146,9 +146,11 @@ void apply_rules(Constraints& constraints, const PolygonCurve& curve, std::strin
 
 /// Refuses what would shrink, drift or vanish: throws Error(unusable_constraint), with the reason and the ways out, for
 /// a component with moving nodes that nothing holds, and for one with a boundary loop of which fewer than three nodes
-/// are fixed; Error(unusable_shape) for a defect (see check()) at a place that would have to move. Returns warnings,
-/// one line each, for constraints that leave a family of shapes (a closed surface held by too little to tell one sphere
-/// from another) and for boundary nodes that are free to be drawn in. Cost: linear.
+/// are fixed; Error(unusable_shape) where a face of a moving node has fewer than three nodes or a coordinate is not
+/// finite. Returns warnings, one line each, for nodes that cannot move (edges of more than two faces, faces in several
+/// fans, repeated nodes and faces) and are held where they are, for constraints that leave a family of shapes (a closed
+/// surface held by too little to tell one sphere from another) and for boundary nodes that are free to be drawn in.
+/// Cost: linear.
 std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints);
 
 /// The same for a curve: refuses ends that are free to be drawn in and closed chains of which nothing is held, with

@@ -17,7 +17,7 @@ constexpr double greatest_excess = 4;
 // Of the noise: what is further away is an outlier.
 constexpr double most_of_noise = 3;
 // Of the weight, a power of the excess.
-constexpr double pace = 0.8;
+constexpr double weight_power = 0.8;
 
 /// Distances of the points across the shape, of nodes that have one; else not a number.
 std::vector<double> residuals_of(const Net& net) {
@@ -89,7 +89,7 @@ void even_residuals(Net& net, double noise, ThreadTeam& team) {
         count += 1;
       }
       const double now = std::clamp(std::sqrt(sum / count) / left, least_excess, greatest_excess);
-      for (const std::uint32_t k : net.points.of(i)) net.points.weights[k] *= std::pow(now, pace);
+      for (const std::uint32_t k : net.points.of(i)) net.points.weights[k] *= std::pow(now, weight_power);
     }
   });
 }

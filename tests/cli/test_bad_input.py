@@ -94,6 +94,23 @@ class BadFiles(Case):
             with self.subTest(region):
                 self.assertIn(region, self.refuse(path, "--region", region))
 
+    def test_numbers_and_commands_that_are_none_are_refused_in_words(self):
+        path = self.write("in.obj", hat())
+        for option, given, words in (("--tolerance", "0", "a number greater than 0 is needed, not 0;"),
+                                     ("--tolerance", "much", "a number greater than 0 is needed, not much;"),
+                                     ("--smoothing-length", "inf", "a number greater than 0 is needed, not inf;"),
+                                     ("--weight", "-1", "a number of 0 or more is needed, not -1;")):
+            result = run("fair", path, "-o", self.folder / "out.obj", option, given)
+            self.assertEqual((result.returncode, words in result.stderr.decode()), (1, True), result.stderr)
+        result = run("measur", path)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn('"measur" is none of the commands fair, curve, fit, edit, generate, measure; did you mean measure?',
+                      result.stderr.decode())
+        self.assertNotIn("did you mean", run("polish", path).stderr.decode())
+
+    def test_a_surface_without_a_face_is_refused(self):
+        self.assertIn("no face in it", self.refuse(self.write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n")))
+
     def test_a_failed_run_leaves_the_old_output(self):
         path = self.write("in.obj", hat().replace("v 0 0 1\n", "v 0 0 nan\n"))
         self.write("out.obj", "what was there before")

@@ -66,6 +66,9 @@ class FitAccount {
   std::int64_t normals_;                              ///< points that have one
 };
 
+/// Says where a tolerance that was not reached is smaller than the noise seems to be.
+void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, std::vector<std::string>& warnings);
+
 struct FairedOrFitted {
   FairResult faired;
   std::optional<FitAccount> account;  ///< where points pulled
@@ -82,6 +85,8 @@ FairedOrFitted fair_or_fit(const Shape& shape, const Constraints& constraints, c
                            const FairingArguments& arguments, const PullArguments& pull, Context& context) {
   if (!asks_to_fit(pull)) return {fair(shape, constraints, arguments.options, context), std::nullopt};
   FitResult fitted = fit(shape, constraints, {.positions = nodes}, fit_options(pull, arguments.options), context);
+  if (fitted.report.fair.outcome != Outcome::converged && fitted.report.fair.outcome != Outcome::cancelled)
+    warn_of_noise(pull, estimate_noise(shape), fitted.report.fair.warnings);
   FitAccount account(fitted.report, pull, arguments.input, {});
   return {{std::move(fitted.positions), std::move(fitted.report.fair)}, std::move(account)};
 }

@@ -33,8 +33,8 @@ constexpr double stronger = 4;
 constexpr double unsettled = 0.02;
 constexpr double most_displaced = 0.3;
 // What may be done, in iterations of one moving node.
-constexpr double least_most_work = 1.2e6;
-constexpr double most_work_a_node = 400;
+constexpr double least_work_allowed = 1.2e6;
+constexpr double most_work_of_a_node = 400;
 
 /// About that which takes such noise off: k = 0.006 (noise/edge)^−1.5, as measured on scans.
 double first_length(const Net& net, double noise) {
@@ -78,7 +78,7 @@ void fit_without_noise(FitRun<FitSurface>& run, LoosePoints points, ProgressRepo
   PulledShape shape(std::move(gathered), options, std::move(points), length, run.team);
   Net& net = shape.net();
   if (!options.max_iterations)
-    report.most_work = std::max(least_most_work, most_work_a_node * static_cast<double>(net.moving));
+    report.most_work = std::max(least_work_allowed, most_work_of_a_node * static_cast<double>(net.moving));
   const auto ended = [&] {
     return run.context.cancelled() || (options.max_iterations && report.iterations >= *options.max_iterations) ||
            (report.most_work > 0 && report.work >= report.most_work);

@@ -125,6 +125,11 @@ class Fair(Case):
                           self.fair("--noise", wrong, text=noisy, status=1).stderr)
         self.assertIn(b"only one of", self.fair("--noise", "auto", "--rms", "1", text=noisy, status=1).stderr)
 
+    def test_a_tolerance_smaller_than_the_noise_is_told_so(self):
+        result = self.fair("--within", "0.05", text=support.sphere(6, noise=0.5), status=3)
+        self.assertIn(b"the noise of the nodes seems to be larger than the tolerance", result.stderr)
+        self.assertNotIn(b"noise of the nodes", self.fair("--within", "0.05", text=support.sphere(6, noise=0.02)).stderr)
+
     def test_a_noisy_rim_is_fitted_first(self):
         noisy = grid(14, lambda x, y: 0.02 * math.sin(37 * x + 53 * y))
         held = self.fair("--noise", "0.01", text=noisy)

@@ -53,10 +53,10 @@ void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, s
   const bool is_larger = (arguments.within && noise.deviation > *arguments.within / 2) ||
                          (arguments.rms && noise.deviation > *arguments.rms);
   if (!is_larger) return;
-  warnings.push_back(
-      fmt::format("the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
-                  "{:.3g} in each coordinate; --noise auto takes that off, --within auto allows for three times as much",
-                  noise.deviation));
+  warnings.push_back(fmt::format(
+      "the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
+      "{:.3g} in each coordinate; --noise auto takes that off, --within auto allows for three times as much",
+      noise.deviation));
 }
 
 FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing) {

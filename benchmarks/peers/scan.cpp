@@ -88,8 +88,14 @@ void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drive
     options.noise = estimate_noise(noisy, context).deviation;
     const FitResult fitted = fit(noisy, held, {noisy.positions()}, options, context);
     const Result ours = look(fitted.positions);
-    FairOptions plain{.method = Method::sweep, .step_tolerance = 0, .max_iterations = iterations_timed};
-    const double iteration = fair(noisy, held, plain, context).report.seconds / iterations_timed;
+    FitOptions plain = options;
+    plain.noise.reset();
+    plain.weight = 0.1;
+    plain.fair.method = Method::sweep;
+    plain.fair.step_tolerance = 1e-12;
+    plain.fair.max_iterations = iterations_timed;
+    const double iteration =
+        fit(noisy, held, {noisy.positions()}, plain, context).report.fair.seconds / iterations_timed;
     Result best;
     Result same;
     for_each_variant(drivers / "peer_vtk", noisy, sinc_variants(),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -18,15 +19,12 @@ namespace vspring {
 namespace {
 
 // Turns with weights that follow what is left, and all turns.
-constexpr int enough_turns = 4;
-constexpr int most_turns = 20;
-// Before them, with weights that change alike, until this is left of the noise: the shape follows some of it.
-constexpr int most_turns_alike = 4;
-constexpr double left_of_noise = 0.97;
-constexpr double near_enough = 0.03;
-constexpr double most_change = 16;
-// Of weights, for what is left, as measured on scans: the root mean square falls by about their root of fourth order.
-constexpr double power_of_excess = 4;
+constexpr int enough_turns = 3;
+constexpr int most_turns = 24;
+// Before them weights change alike, by this factor, as long as less of the true shape is expected to be missed.
+constexpr double change_alike = 4;
+// Of a node, in squared edges, a half more than on a lattice: weights that follow what is left follow noise, too.
+constexpr double area_of_edges = 1.3;
 // Of weights, where no equilibrium was found.
 constexpr double stronger = 4;
 // Of an edge, and of the greatest displacement there.
@@ -41,6 +39,23 @@ double first_length(const Net& net, double noise) {
   const double edge = mean_edge(net);
   const double weight = std::clamp(0.006 * std::pow(noise / edge, -1.5), 1e-3, 10.0);
   return edge * std::pow(bending_factor(net) / (16 * weight), 0.25);
+}
+
+/// How far off the true shape a fit is expected to be, in mean squares and but for a constant: what is left, and twice
+/// the noise that the shape follows (C. M. Stein, "Estimation of the mean of a multivariate normal distribution", Ann.
+/// Stat. 9, 1981). Of waves of all directions 1/(1 + (λω)⁴) lets by 1/(8 λ²) an area.
+double expected_risk(const Net& net, double residual, double noise) {
+  const double kappa = bending_factor(net);
+  double followed = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    for (const std::uint32_t k : net.points.of(i)) {
+      const double weight = net.points.weights[k] * net.points.factor(i);
+      followed += std::min(1.0, area_of_edges / 8 * std::sqrt(16 * weight / kappa));
+      count += 1;
+    }
+  }
+  return residual * residual + 2 * noise * noise * followed / std::max(count, 1.0);
 }
 
 /// Has those nodes that are displaced most, and their neighbours, go back to these places.
@@ -87,6 +102,12 @@ void fit_without_noise(FitRun<FitSurface>& run, LoosePoints points, ProgressRepo
   // The last equilibrium, and what was known there.
   std::optional<std::vector<Vector3>> best;
   FairReport of_best;
+  // Weights first change alike, by a factor as long as that is better.
+  bool alike = true;
+  double factor = 1 / change_alike;
+  double least_risk = std::numeric_limits<double>::infinity();
+  std::vector<Vector3> best_alike;
+  int better = 0;
   int turns_of_weights = 0;
   for (int turn = 0; turn < most_turns && !ended(); ++turn) {
     FairReport one;
@@ -98,16 +119,31 @@ void fit_without_noise(FitRun<FitSurface>& run, LoosePoints points, ProgressRepo
     if (found) best = net.positions;
     if (found || !best) of_best = std::move(one);
     if (ended()) break;
-    const double excess = shape.rms_residual() / (left_of_noise * noise);
-    if (!found) {
+    if (alike && best) {
+      const double risk =
+          found ? expected_risk(net, shape.rms_residual(), noise) : std::numeric_limits<double>::infinity();
+      if (risk < least_risk) {
+        least_risk = risk;
+        best_alike = *best;
+        ++better;
+      } else {
+        best = best_alike;
+        net.positions = best_alike;
+        for (double& weight : net.points.weights) weight /= factor;
+        alike = better == 1 && factor < 1;
+        factor = 1 / factor;
+      }
+      if (alike) {
+        for (double& weight : net.points.weights) weight *= factor;
+      } else {
+        shape.even_out(noise);
+      }
+    } else if (!found) {
       keep(net, start, shape.displacements());
       net.positions = best ? *best : start;
-    } else if (turns_of_weights > 0 || std::abs(excess - 1) < near_enough || turn >= most_turns_alike) {
+    } else {
       if (turns_of_weights++ == enough_turns) break;
       shape.even_out(noise);
-    } else {
-      const double change = std::clamp(std::pow(excess, power_of_excess), 1 / most_change, most_change);
-      for (double& weight : net.points.weights) weight *= change;
     }
   }
   if (best) net.positions = *best;

@@ -146,17 +146,22 @@ void fit_without_noise(FitRun<FitSurface>& run, LoosePoints points, ProgressRepo
       shape.even_out(noise);
     }
   }
+  const bool found_none = !best && !run.context.cancelled();
   if (best) net.positions = *best;
+  // The filter alone may be far from what was given.
+  if (found_none) net.positions = run.subject.gather().positions;
   run.finish(net);
   report.residual = of_best.residual;
-  report.expected_error = of_best.expected_error;
+  if (!found_none) report.expected_error = of_best.expected_error;
   report.outcome = run.context.cancelled()  ? Outcome::cancelled
                    : best                   ? Outcome::converged
                    : options.max_iterations ? Outcome::iteration_limit
                                             : Outcome::work_limit;
   if (report.outcome == Outcome::work_limit)
     report.warnings.emplace_back(
-        "no equilibrium was found: this is the nearest shape; the noise may be larger than edges are long");
+        "no equilibrium was found: this is the input with its constraints; the noise may be larger than edges are "
+        "long, or "
+        "faces may be folded without it");
 }
 
 }  // namespace vspring

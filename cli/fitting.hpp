@@ -28,9 +28,12 @@ struct PullArguments {
 /// deviation, --rms and --noise once. Throws Error(unusable_shape) where that cannot be told.
 void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise);
 
+inline NoiseEstimate noise_of(const PolygonMesh& mesh, const Context& context) { return estimate_noise(mesh, context); }
+inline NoiseEstimate noise_of(const PolygonCurve& curve, const Context& /*context*/) { return estimate_noise(curve); }
+
 template <typename Shape>
-void settle_by_noise(PullArguments& arguments, const Shape& shape) {
-  if (!arguments.automatic.empty()) settle_by_noise(arguments, estimate_noise(shape));
+void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context& context) {
+  if (!arguments.automatic.empty()) settle_by_noise(arguments, noise_of(shape, context));
 }
 
 /// Throws Error(invalid_argument) where more than one of the four is given, or --outliers without any.
@@ -86,7 +89,7 @@ FairedOrFitted fair_or_fit(const Shape& shape, const Constraints& constraints, c
   if (!asks_to_fit(pull)) return {fair(shape, constraints, arguments.options, context), std::nullopt};
   FitResult fitted = fit(shape, constraints, {.positions = nodes}, fit_options(pull, arguments.options), context);
   if (fitted.report.fair.outcome != Outcome::converged && fitted.report.fair.outcome != Outcome::cancelled)
-    warn_of_noise(pull, estimate_noise(shape), fitted.report.fair.warnings);
+    warn_of_noise(pull, noise_of(shape, context), fitted.report.fair.warnings);
   FitAccount account(fitted.report, pull, arguments.input, {});
   return {{std::move(fitted.positions), std::move(fitted.report.fair)}, std::move(account)};
 }

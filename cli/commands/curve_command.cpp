@@ -42,7 +42,7 @@ int run_curve(CurveArguments arguments) {
   std::vector<std::string> warnings = file.warnings;
   const std::vector<Repeat> repeats = arguments.closed ? close_chains(file.curve) : std::vector<Repeat>{};
   const PolygonCurve before = file.curve;
-  settle_by_noise(arguments.pull, before);
+  settle_by_noise(arguments.pull, before, fairing.context());
   Constraints constraints = make_constraints(arguments, file.curve, {.groups = &file.groups});
 
   if (arguments.resampling.nodes || arguments.resampling.spacing) {

@@ -39,7 +39,7 @@ int run_fair(FairArguments arguments) {
   if (file.mesh.face_count() == 0)
     throw Error(ErrorCode::unusable_file,
                 arguments.input + ": no face in it; lines are faired by vspring curve, points have no shape");
-  settle_by_noise(arguments.pull, file.mesh);
+  settle_by_noise(arguments.pull, file.mesh, fairing.context());
   const Constraints constraints =
       make_constraints(arguments, file.mesh, {.groups = &file.groups, .normals = &file.normals});
   const FairedOrFitted done =

@@ -18,6 +18,7 @@
 #include "exit_status.hpp"
 #include "fairing.hpp"
 #include "figures.hpp"
+#include "fitting.hpp"
 #include "html_page.hpp"
 #include "measure_table.hpp"
 #include "page_scene.hpp"
@@ -77,8 +78,8 @@ std::string distance_lines(const Apart& apart, const Terminal& terminal) {
 
 /// With the noise that a shape seems to have, which is nobody's measure of fairness.
 template <typename Shape>
-std::vector<Figure> with_noise(std::vector<Figure> figures, const Shape& shape) {
-  const NoiseEstimate noise = estimate_noise(shape);
+std::vector<Figure> with_noise(std::vector<Figure> figures, const Shape& shape, const Context& context) {
+  const NoiseEstimate noise = noise_of(shape, context);
   figures.push_back({"noise", "noise", "units", "as estimated, standard deviation in each coordinate; see --noise auto",
                      noise.deviation, false});
   figures.push_back({"noise_in_edges", "noise in edges", "", "the same in median edges", noise.edges, false});
@@ -170,7 +171,8 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
   };
 
   std::vector<FigureColumn> columns;
-  columns.push_back({arguments.input, with_noise(figures_of(shape_of(file), held(file), context), shape_of(file))});
+  columns.push_back(
+      {arguments.input, with_noise(figures_of(shape_of(file), held(file), context), shape_of(file), context)});
   std::optional<Apart> apart;
   std::vector<std::string> warnings = file.warnings;
   if (other) {
@@ -178,7 +180,7 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
     const auto& second = shape_of(*other);
     const auto names = titles(arguments.input, arguments.compare);
     columns.front().title = names[0];
-    columns.push_back({names[1], with_noise(figures_of(second, held(*other), context), second)});
+    columns.push_back({names[1], with_noise(figures_of(second, held(*other), context), second, context)});
     apart.emplace();
     if (shape.node_count() == second.node_count()) apart->nodes = node_distance(second.positions(), shape.positions());
     apart->to_other = distance(shape.positions(), second, context);

@@ -16,13 +16,19 @@ class ImmovableHeld {
   /// The mesh must outlive it.
   explicit ImmovableHeld(const PolygonMesh& mesh) : mesh_(&mesh) {}
 
-  /// work(constraints), with those held that have been found; once more where that throws ImmovableNodes.
-  /// Warnings(result) are the warnings of what it returns: one comes first that counts such nodes.
+  /// work(constraints), with those nodes held that have been found so far.
+  template <typename Work>
+  auto use(const Constraints& constraints, const Work& work) const {
+    return nodes_.empty() ? work(constraints) : work(held(constraints));
+  }
+
+  /// The same, and again where that throws ImmovableNodes. warnings(result): the list of them in what it returns, in
+  /// which one comes first that counts such nodes.
   template <typename Work, typename Warnings>
   auto run(const Constraints& constraints, const Work& work, const Warnings& warnings) {
     for (;;) {
       try {
-        auto result = nodes_.empty() ? work(constraints) : work(held(constraints));
+        auto result = use(constraints, work);
         const std::string text = warning(constraints);
         auto& list = warnings(result);
         if (!text.empty()) list.insert(list.begin(), text);
@@ -33,9 +39,8 @@ class ImmovableHeld {
     }
   }
 
-  [[nodiscard]] Constraints held(const Constraints& constraints) const;
-
  private:
+  [[nodiscard]] Constraints held(const Constraints& constraints) const;
   void add(const ImmovableNodes& found);
   [[nodiscard]] std::string warning(const Constraints& constraints) const;
 

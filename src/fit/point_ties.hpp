@@ -31,9 +31,9 @@ class PointTies {
   /// anything changed, but for factors by under 0.1 %. Cost: linear.
   bool renew(ThreadTeam& team, double margin = 0);
 
-  /// Ties each point to the nearest of all nodes of the net that face as it does. Cost: n log n.
+  /// Ties each point to the nearest of all nodes of the net that face as it does; points that are nodes
+  /// (TiedPoints::are_nodes) stay with these, here and in renew(). Cost: n log n.
   void tie_anew(ThreadTeam& team);
-  // Points that are the nodes' own stay where they are (TiedPoints::are_nodes).
 
  private:
   void find_same_nodes();

@@ -95,9 +95,9 @@ class Piece {
     double length = 0;
     for (std::size_t k = 0; k + 1 < places_.size(); ++k) {
       const Vector3 edge = places_[k + 1] - places_[k];
-      lengths_.push_back(edge.norm());
-      length += lengths_.back();
-      turns_.push_back(lengths_.back() > 0 ? frame.turn_to(edge / lengths_.back()) : Turn::Zero());
+      const double edge_length = edge.norm();
+      length += edge_length;
+      turns_.push_back(edge_length > 0 ? frame.turn_to(edge / edge_length) : Turn::Zero());
       winding_ += frame.axis_of(turns_.back());
       frame.turn(turns_.back());
     }
@@ -277,7 +277,6 @@ class Piece {
   Vector3 start_;
   Vector3 end_;
   Vector3 across_;  ///< the normal of its plane, or any direction across its first tangent
-  std::vector<double> lengths_;
   std::vector<Turn> turns_;
   std::vector<double> even_;           ///< lengths to end with, of the same sum
   std::vector<double> shares_;         ///< of the length at each node

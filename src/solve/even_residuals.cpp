@@ -19,6 +19,9 @@ constexpr double most_of_noise = 3;
 // Of the weight, a power of the excess.
 constexpr double weight_power = 0.8;
 
+// Around a hub of many faces everybody is everybody's neighbour of second order.
+constexpr std::size_t most_links = 200;
+
 /// Distances of the points across the shape, of nodes that have one; else not a number.
 std::vector<double> residuals_of(const Net& net) {
   std::vector<double> residual(net.positions.size(), std::nan(""));
@@ -68,7 +71,7 @@ void even_residuals(Net& net, double noise, ThreadTeam& team) {
       const double near = excess_of();
       const std::size_t neighbours = around.size();
       for (std::size_t k = 1; k < neighbours; ++k) {
-        if (around[k] >= net.computed) continue;
+        if (around[k] >= net.computed || net.rings.links(around[k]).size() > most_links) continue;
         for (const Link next : net.rings.links(around[k])) {
           if (next.spoke()) around.push_back(next.node());
         }

@@ -111,7 +111,8 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
                              FitOptions options, Context& context) {
   if (points.positions != mesh.positions())
     throw Error(ErrorCode::invalid_argument,
-                "the boundary can be faired first where the nodes of the input are the points only; fair it before");
+                "the boundary can be fitted first only where the points are the nodes of the shape; else fair it "
+                "before, and hold it");
   options.fair.fair_boundary = false;
   BoundaryTask task = boundary_task(mesh, constraints);
   if (task.free.empty()) return fit(mesh, constraints, points, options, context);

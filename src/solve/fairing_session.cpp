@@ -66,7 +66,8 @@ std::optional<std::vector<Vector3>> FairingSession::foresee(const Constraints& c
   options.tolerance = tolerance;
   options.validate();
   if (options.fair_boundary) return std::nullopt;
-  return state_->fairing.foresee(state_->immovable.held(constraints), tolerance);
+  return state_->immovable.use(constraints,
+                               [&](const Constraints& held) { return state_->fairing.foresee(held, tolerance); });
 }
 
 FairResult FairingSession::fair(const Constraints& constraints) {

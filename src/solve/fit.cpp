@@ -35,6 +35,8 @@ constexpr double step_share = 0.1;
 constexpr int most_turns_of_outliers = 12;
 // Where nodes have homes, waves are short and decay soon.
 constexpr int most_sweeps_of_homes = 2000;
+// In standard deviations of the noise that is to be taken off.
+constexpr double far_off = 1.5;
 
 template <typename Subject>
 class Fitting {
@@ -66,12 +68,25 @@ class Fitting {
     result.distances = run_.distances();
     report.after = summary(result.distances, run_.kept);
     report.outliers = report.points - report.after.all.count;
+    if (options_.noise) say_if_far_off();
     report.outside_points = count_outside(result.distances);
     report.fair.seconds = stopwatch.seconds();
     return std::move(result);
   }
 
  private:
+  /// A shape that is further from its nodes than noise explains is not what was asked for.
+  void say_if_far_off() {
+    FairReport& report = run_.result.report.fair;
+    const double distance = run_.result.report.after.all.rms;
+    if (report.outcome != Outcome::converged || !(distance > far_off * *options_.noise)) return;
+    report.outcome = Outcome::stalled;
+    report.warnings.push_back(fmt::format(
+        "nodes were {:.2g} times the noise away from the shape in the root mean square: it could not follow "
+        "them everywhere; they may be too few for their features, or faces folded without noise",
+        distance / *options_.noise));
+  }
+
   /// Where the shape is worse than it came, it stays as it came, unless it is wanted as found.
   void stay_sound() {
     FairReport& report = run_.result.report.fair;

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -105,18 +104,7 @@ int main(int argc, char** argv) {
   run("sphere patch", generate::sphere_patch(grid, 1, 90), driver);
   run("saddle", generate::saddle(grid, 2), driver);
   run("torus", generate::torus(grid, 1, 0.5), driver);
-  if (argc < 2) return 0;
-  std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(argv[1])) {
-    if (surface_format(entry.path().extension().string())) paths.push_back(entry.path());
-  }
-  std::sort(paths.begin(), paths.end());
-  for (const fs::path& path : paths) {
-    try {
-      run(path.filename().string(), read_surface(path.string()).mesh, driver);
-    } catch (const std::exception& error) {
-      fmt::print("| {} | refused: {} | | | |\n", path.filename().string(), error.what());
-    }
-  }
+  if (argc > 1)
+    for_each_surface(argv[1], [&](const std::string& name, const PolygonMesh& mesh) { run(name, mesh, driver); });
   return 0;
 }

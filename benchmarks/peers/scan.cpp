@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <filesystem>
 #include <limits>
 #include <random>
@@ -130,18 +129,7 @@ int main(int argc, char** argv) {
   run("torus", generate::torus({.columns = 64, .rows = 48, .jitter = 0.2}, 1, 0.5), drivers);
   run("block", generate::genus({.holes = 1, .cells = 8}), drivers);
   run("blend of pipes", generate::pipe_blend(), drivers);
-  if (argc < 2) return 0;
-  std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(argv[1])) {
-    if (surface_format(entry.path().extension().string())) paths.push_back(entry.path());
-  }
-  std::sort(paths.begin(), paths.end());
-  for (const fs::path& path : paths) {
-    try {
-      run(path.filename().string(), read_surface(path.string()).mesh, drivers);
-    } catch (const std::exception& error) {
-      fmt::print("| {} | refused: {} | | | | | | | | | |\n", path.filename().string(), error.what());
-    }
-  }
+  if (argc > 1)
+    for_each_surface(argv[1], [&](const std::string& name, const PolygonMesh& mesh) { run(name, mesh, drivers); });
   return 0;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,6 +33,23 @@ void for_each_variant(const std::filesystem::path& driver, const PolygonMesh& me
   for (const std::string& variant : variants) {
     const auto cost = run_driver(driver, start, result, 1, variant);
     if (cost) use(variant, read_surface(result).mesh.positions(), *cost);
+  }
+}
+
+/// run(name, mesh) for each surface of a folder, by name. One that is refused gets a row of the table that says why.
+template <typename Run>
+void for_each_surface(const std::filesystem::path& folder, const Run& run) {
+  std::vector<std::filesystem::path> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (surface_format(entry.path().extension().string())) paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  for (const std::filesystem::path& path : paths) {
+    try {
+      run(path.filename().string(), read_surface(path.string()).mesh);
+    } catch (const std::exception& error) {
+      fmt::print("| {} | refused: {} |\n", path.filename().string(), error.what());
+    }
   }
 }
 

@@ -58,6 +58,7 @@ int run_fair(FairArguments arguments) {
                                      {.shape = write, .picture = {}, .figures = done.figures(), .lines = done.lines()});
 }
 
+const std::map<std::string, Springs> springs = {{"edge", Springs::edge}, {"sphere", Springs::sphere}};
 const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNormals::link},
                                                              {"average", PseudoNormals::average},
                                                              {"area", PseudoNormals::area},
@@ -73,6 +74,11 @@ void add_surface_method(CLI::App& command, FairArguments& arguments, const Fairi
       "plain iteration (default: equilibrium; where it finds none, sweep)")
       ->group(fairing_group);
   add_stopping_options(command, arguments);
+  add_choice(
+      command, "--springs", options.springs, springs,
+      "What neighbouring springs agree in: their mean-curvature spheres, the same on every mesh, or their lengths "
+      "along every edge, as in the paper (default: edge)")
+      ->group(fairing_group);
   CLI::Option* kind = add_choice(command, "--pseudo-normals", options.pseudo_normals, pseudo_normals,
                                  "Normals of nodes: Max's weights around the link; the paper's plain average of face "
                                  "normals; weighted by area; by angle (default: link)")

@@ -26,6 +26,9 @@ struct FairOptions {
   std::optional<Method> method = std::nullopt;
   /// Of surfaces.
   PseudoNormals pseudo_normals = PseudoNormals::link;
+  /// Of surfaces, by the method equilibrium; others take edge. Where sphere springs find no equilibrium, edge springs
+  /// do, and a warning says so.
+  Springs springs = Springs::edge;
   /// Of curves.
   CurveRules curve = {};
   /// Where not given: smooth; of curves, and of multigrid and sweep if they are asked for, even.
@@ -94,6 +97,8 @@ struct LevelReport {
 struct FairReport {
   Outcome outcome = Outcome::converged;
   Method method = Method::sweep;
+  /// Of surfaces.
+  Springs springs = Springs::edge;
   int iterations = 0;
   /// Multigrid and sweep: largest displacement of the last iteration, relative to the mean edge length at its node
   /// (§4.6). Equilibrium: predicted largest distance of a node from its final place, relative to the diagonal of the

@@ -20,6 +20,12 @@ enum class Distribution {
            ///< back along its tangent to where it was, and nothing else
 };
 
+/// What the springs of neighbouring nodes of a surface agree in.
+enum class Springs {
+  edge,   ///< the difference of their lengths along every edge (Eq. 4), which sees which way edges run
+  sphere  ///< the radii of their mean-curvature spheres: the same shape on every mesh, see docs/springs.md
+};
+
 /// The tangent of a curve at a node (§4.8).
 enum class CurveTangents {
   circle,  ///< of the circle through the node and its neighbours: exact on circles however uneven the spacing

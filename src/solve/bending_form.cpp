@@ -16,6 +16,10 @@ constexpr double least_weight = 0.1;
 // Of the sum of a node's weights, what has to be left of it where they are made to take linear functions to zero.
 constexpr double least_left = 0.3;
 
+// Of a node's share of area, in its row of curvature.
+constexpr double least_mass = 0.2;
+constexpr double greatest_mass = 8;
+
 double edge_weight(const Net& net, std::size_t i, std::size_t j) {
   const Vector3 d = net.positions[j] - net.positions[i];
   return 1 / std::sqrt(d.dot(d) + net.tiny);
@@ -61,6 +65,36 @@ double curvature_row(const Net& net, std::size_t i, const Wanted& wanted, Sparse
   return sum;
 }
 
+/// The row of a node with sphere springs, over all of its link: its curvature times 2 √(Σ K |e|²).
+void sphere_row(const Net& net, std::size_t i, SparseRows::Row& row) {
+  const auto links = net.rings.links(i);
+  const SphereSprings& spheres = net.spheres;
+  row.clear();
+  if (!(spheres.spreads[i] > 0)) return;
+  const double* stiffness = spheres.stiffness.data() + net.rings.begin(i);
+  double plain = 0;
+  double raised = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    plain += stiffness[k];
+    raised += stiffness[k] + spheres.raised[i];
+  }
+  // Forces have the plain entries, curvatures the raised ones: the symmetric form between has their geometric mean.
+  const double area = std::clamp(raised > 0 ? spheres.spreads[i] / 4 * plain / raised : 0,
+                                 least_mass * spheres.areas[i], greatest_mass * spheres.areas[i]);
+  const double scale = 4 * std::sqrt(area) / spheres.spreads[i];
+  double sum = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const double value = scale * (stiffness[k] + spheres.raised[i]);
+    row.push_back({static_cast<std::uint32_t>(links[k].node()), value});
+    sum += value;
+  }
+  row.push_back({static_cast<std::uint32_t>(i), -sum});
+}
+
+bool has_spokes_only(std::span<const Link> links) {
+  return std::all_of(links.begin(), links.end(), [](Link link) { return link.spoke(); });
+}
+
 bool on_boundary(std::span<const Link> links) { return !links.empty() && links.front().start(); }
 
 }  // namespace
@@ -73,7 +107,7 @@ void weigh_edges(const Net& net, ThreadTeam& team, std::vector<float>& sums) {
       for (const Link link : net.rings.links(i)) {
         if (link.spoke()) sum += edge_weight(net, i, link.node());
       }
-      sums[i] = static_cast<float>(sum);
+      sums[i] = static_cast<float>(net.spheres.on() && !on_boundary(net.rings.links(i)) ? sphere_weight(net, i) : sum);
     }
   });
 }
@@ -102,6 +136,12 @@ class Extra {
     rows_.push_back({i, std::move(row)});
   }
 
+  void add_sphere(std::size_t i) {
+    SparseRows::Row row;
+    sphere_row(*net_, i, row);
+    rows_.push_back({i, std::move(row)});
+  }
+
   /// √w (h_j − h_i).
   void add_edge(std::size_t centre, std::size_t i, std::size_t j) {
     const double root = std::sqrt(edge_weight(*net_, i, j));
@@ -126,6 +166,10 @@ std::vector<BendingRow> extra_rows(const Net& net, std::span<const double> pull)
     const auto links = net.rings.links(i);
     const bool moves = i < net.moving;
     const bool open = on_boundary(links);
+    if (net.spheres.on() && !(moves && open)) {
+      if ((moves || !open || net.normal_given(i)) && !(moves && has_spokes_only(links))) extra.add_sphere(i);
+      continue;
+    }
     if (moves && net.normal_given(i)) {
       for (const Link link : links) {
         if (link.spoke()) extra.add_edge(i, i, link.node());
@@ -147,7 +191,11 @@ std::vector<BendingRow> extra_rows(const Net& net, std::span<const double> pull)
   return std::move(extra).take();
 }
 
-bool bends_evenly(const Net& net, std::size_t i) { return !net.normal_given(i) && !on_boundary(net.rings.links(i)); }
+bool bends_evenly(const Net& net, std::size_t i) {
+  const auto links = net.rings.links(i);
+  if (net.spheres.on()) return !on_boundary(links) && has_spokes_only(links);
+  return !net.normal_given(i) && !on_boundary(links);
+}
 
 /// The row of G of a moving node: with_node(its own entry), and with_spoke(k, entry) for its links to neighbours. room:
 /// for the row.
@@ -155,6 +203,13 @@ template <typename WithNode, typename WithSpoke>
 void for_bending_row(const Net& net, std::size_t i, SparseRows::Row& room, const WithNode& with_node,
                      const WithSpoke& with_spoke) {
   if (!bends_evenly(net, i)) return;
+  if (net.spheres.on()) {
+    sphere_row(net, i, room);
+    if (room.empty()) return;
+    with_node(room.back().value);
+    for (std::size_t k = 0; k + 1 < room.size(); ++k) with_spoke(k, room[k].value);
+    return;
+  }
   const double sum = curvature_row(
       net, i, [](std::size_t) { return true; }, room);
   if (!(sum > 0)) return;

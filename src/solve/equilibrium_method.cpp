@@ -123,8 +123,8 @@ class Run {
     const int limit = options_.max_iterations.value_or(default_limit);
     const std::size_t last = hierarchy_.count() - 1;
     const Net& finest = hierarchy_.net(last);
-    const bool may_follow_flow =
-        !points_ && !options_.max_iterations && finest.tangents.empty() && !leaves_a_family(finest);
+    const bool may_follow_flow = !points_ && !options_.max_iterations && finest.tangents.empty() &&
+                                 !finest.spheres.on() && !leaves_a_family(finest);
     // Where noise has folded the finest level, its own start is no help.
     const bool is_folded = !finest.shares.empty() && caught_in_a_fold(last);
     hierarchy_.start();

@@ -5,9 +5,10 @@
 
 namespace vspring {
 
-Net gather_part(const PolygonMesh& whole, const std::optional<MovingPart>& part, const Constraints& constraints) {
-  if (!part) return gather_net(whole, constraints);
-  Net net = gather_net(part->mesh, part->constraints);
+Net gather_part(const PolygonMesh& whole, const std::optional<MovingPart>& part, const Constraints& constraints,
+                bool for_spheres) {
+  if (!part) return gather_net(whole, constraints, for_spheres);
+  Net net = gather_net(part->mesh, part->constraints, for_spheres);
   for (Index& node : net.node) node = part->node[static_cast<std::size_t>(node)];
   return net;
 }

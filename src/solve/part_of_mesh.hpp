@@ -15,7 +15,8 @@ namespace vspring {
 // those of the whole mesh.
 
 /// As gather_net() of the whole, in what the part costs.
-Net gather_part(const PolygonMesh& whole, const std::optional<MovingPart>& part, const Constraints& constraints);
+Net gather_part(const PolygonMesh& whole, const std::optional<MovingPart>& part, const Constraints& constraints,
+                bool for_spheres = false);
 
 /// As check_constraints() of the whole; in what the part costs where nothing is to be said.
 std::vector<std::string> check_part(const PolygonMesh& whole, const std::optional<MovingPart>& part,

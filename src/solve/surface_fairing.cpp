@@ -31,6 +31,10 @@ bool hold_the_same(const Constraints& a, const Constraints& b) {
   return true;
 }
 
+bool was_found(const FairReport& report) {
+  return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
+}
+
 /// While somebody drags: what leads nowhere in so many iterations on each level is for later.
 FairOptions in_a_hurry(FairOptions options) {
   constexpr int enough = 40;
@@ -124,26 +128,46 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   ProgressReporter progress(context);
   progress.report("preparing", 0);
   report.threads = team_.size();
-  Net net = gather_part(*whole_, part_, constraints);
   before_ = measure(mesh(), &held(constraints), team_);
-  soundness_.emplace(net, *model_, team_);
-  if (report.method != Method::sweep) {
-    hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
-    if (report.method == Method::multigrid) {
-      run_multigrid(*hierarchy_, *model_, options, team_, context, progress, report);
-      say_if_worse(*soundness_, hierarchy_->net(hierarchy_->count() - 1), report);
-    } else {
-      run_equilibrium(*hierarchy_, *model_, options, team_, context, progress, report, &*soundness_);
-    }
-    const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
-    if (found || options.method || options.max_iterations || options.as_found) return {};
+  if (report.method == Method::equilibrium) {
+    run_with(options.springs, constraints, context, progress, report, options);
+    if (was_found(report) || options.method || options.max_iterations || options.as_found) return {};
     try_sweeps(constraints, context, progress, report);
+    return {};
+  }
+  Net net = gather_part(*whole_, part_, constraints);
+  soundness_.emplace(net, *model_, team_);
+  if (report.method == Method::multigrid) {
+    hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
+    run_multigrid(*hierarchy_, *model_, options, team_, context, progress, report);
+    say_if_worse(*soundness_, hierarchy_->net(hierarchy_->count() - 1), report);
     return {};
   }
   distribute(net, *model_, options.distribution_taken(), team_);
   run_sweeps(net, *model_, options, team_, context, progress, report);
   say_if_worse(*soundness_, net, report);
   return net;
+}
+
+void SurfaceFairing::run_with(Springs springs, const Constraints& constraints, Context& context,
+                              ProgressReporter& progress, FairReport& report, const FairOptions& options) {
+  Net net = gather_part(*whole_, part_, constraints, springs == Springs::sphere);
+  hierarchy_.reset();
+  soundness_.emplace(net, *model_, team_);
+  hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
+  FairReport one = report;
+  run_equilibrium(*hierarchy_, *model_, options, team_, context, progress, one, &*soundness_);
+  one.springs = springs;
+  if (springs == Springs::edge || was_found(one) || options.as_found) {
+    one.iterations += report.iterations;
+    one.work += report.work;
+    report = std::move(one);
+    return;
+  }
+  report.iterations += one.iterations;
+  report.work += one.work;
+  run_with(Springs::edge, constraints, context, progress, report, options);
+  report.warnings.emplace_back("sphere springs have no equilibrium here: these are edge springs");
 }
 
 void SurfaceFairing::try_sweeps(const Constraints& constraints, Context& context, ProgressReporter& progress,

@@ -39,6 +39,9 @@ class SurfaceFairing {
   [[nodiscard]] bool fits_last(const Constraints& constraints) const;
   /// Leaves the shape in the net that it returns, or in hierarchy_.
   Net run(const Constraints& constraints, Context& context, FairReport& report, const FairOptions& options);
+  /// The same by the method equilibrium with such springs.
+  void run_with(Springs springs, const Constraints& constraints, Context& context, ProgressReporter& progress,
+                FairReport& report, const FairOptions& options);
   /// Where no equilibrium was found and nobody asked for the method: the paper's iteration may lead somewhere. The
   /// fairer of both stays.
   void try_sweeps(const Constraints& constraints, Context& context, ProgressReporter& progress, FairReport& report);

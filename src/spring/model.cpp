@@ -7,6 +7,12 @@ namespace vspring {
 void update_directions(Net& net, const Model& model, ThreadTeam& team) {
   parallel_ranges(team, net.computed, nodes_per_task,
                   [&](std::size_t begin, std::size_t end) { model.update_directions(net, begin, end); });
+  if (!net.spheres.on()) return;
+  parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (net.normal_given(i)) find_given_curvature(net, i);
+    }
+  });
 }
 
 void distribute(Net& net, const Model& model, Distribution distribution, ThreadTeam& team) {

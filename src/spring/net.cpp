@@ -109,7 +109,7 @@ void agree_on_given_normals(Net& net) {
 
 }  // namespace
 
-Net gather_net(const PolygonMesh& mesh, const Constraints& constraints) {
+Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for_spheres) {
   Net net;
   const Incidence incidence(mesh);
   FanWalker walker(mesh, incidence);
@@ -120,6 +120,9 @@ Net gather_net(const PolygonMesh& mesh, const Constraints& constraints) {
   const NodeGraph graph(mesh, incidence);
   Numbering number(order_for_locality(graph, moving), mesh.node_count());
   net.moving = number.count();
+  for (std::size_t i = 0; i < net.moving && for_spheres; ++i) {
+    for (const Link link : walker.walk(number.node(i)).links) number(static_cast<Index>(link.node()));
+  }
   for (std::size_t i = 0; i < net.moving; ++i) {
     graph.for_each_neighbour(number.node(i), [&](Index j) {
       if (constraints.position_fixed(j) && !constraints.normal_fixed(j)) number(j);
@@ -144,6 +147,7 @@ Net gather_net(const PolygonMesh& mesh, const Constraints& constraints) {
   if (flipped) agree_on_sides(net);
   place_net(net, mesh.positions(), constraints);
   agree_on_given_normals(net);
+  if (for_spheres) use_sphere_springs(net);
   return net;
 }
 

@@ -6,6 +6,7 @@
 
 #include "shape/frame.hpp"
 #include "spring/rings.hpp"
+#include "spring/sphere_springs.hpp"
 #include "spring/tied_points.hpp"
 #include "vspring/constraints.hpp"
 #include "vspring/polygon_mesh.hpp"
@@ -35,6 +36,7 @@ struct Net {
   std::vector<Vector3> input;
   std::vector<double> shares;  ///< what links count in the regularisation; empty: all the same
   std::vector<Vector3> homes;  ///< to where the regularisation draws moving nodes, on surfaces too; empty: nowhere
+  SphereSprings spheres;       ///< of surfaces; empty where springs are those of Eq. 4
   TiedPoints points;           ///< scattered points that pull at nodes; empty where there are none
   std::vector<Index> node;     ///< number in the shape of every local node
   Frame frame;
@@ -56,7 +58,8 @@ Vector3 mean_of_neighbours(const Net& net, std::size_t node);
 
 /// Gathers the net of a mesh under constraints. The mesh must have passed check_constraints(). Cost: linear in the
 /// mesh, once, and in the moving nodes.
-Net gather_net(const PolygonMesh& mesh, const Constraints& constraints);
+/// for_spheres: with rings of all held nodes of the faces around moving ones, also where their normal is given.
+Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for_spheres = false);
 
 /// The part of gathering that no longer looks at connectivity: places nodes, takes given directions over and sets
 /// `tiny`. Needs node, rings, moving and computed.

@@ -16,6 +16,12 @@ struct SurfaceRules {
   static void prepare(Net& /*net*/) {}
 
   void update_direction(Net& net, std::size_t i) const {
+    if (net.spheres.on()) {
+      update_sphere(
+          net, i,
+          net.normal_given(i) ? Vector3::Zero() : Normal()(net.positions[i], net.rings.links(i), net.positions));
+      return;
+    }
     if (!net.normal_given(i)) net.normals[i] = Normal()(net.positions[i], net.rings.links(i), net.positions);
   }
 

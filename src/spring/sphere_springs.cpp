@@ -1,0 +1,334 @@
+#include "spring/sphere_springs.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "shape/direction.hpp"
+#include "spring/bending_factor.hpp"
+#include "spring/net.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of angles of slivers.
+constexpr double greatest_cotangent = 100;
+// Of the normal equations' diagonal: what four neighbours leave open, and slopes that so few nodes tell nothing of.
+constexpr double ridge_of_forms = 1e-4;
+constexpr double ridge_of_slopes = 1e-6;
+// Of 4 M, to which the Laplacian's entries times squared edges add up in the plane.
+constexpr double least_spread = 2;
+// Of heights over a given normal's tangent plane, what those over the neighbours' planes count: takes the terms of
+// third order out where the neighbours' normals are computed.
+constexpr double of_neighbours = 0.5;
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+double cotangent(const Vector3& a, const Vector3& b) {
+  const double cosine = a.dot(b);
+  const double sine = a.cross(b).norm();
+  if (!(sine * greatest_cotangent > std::abs(cosine))) return cosine < 0 ? -greatest_cotangent : greatest_cotangent;
+  return cosine / sine;
+}
+
+/// Calls use(first, last) for every face around a node: the places in the walk of its nodes beside the centre, first to
+/// last, from spoke to spoke.
+template <typename Use>
+void for_faces(std::span<const Link> links, const Use& use) {
+  const std::size_t count = links.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    if (!links[k].spoke()) continue;
+    std::size_t last = k;
+    bool is_face = false;
+    do {
+      ++last;
+      if (links[last % count].start()) break;
+      is_face = links[last % count].spoke();
+    } while (!is_face && last < k + count);
+    if (is_face) use(k, last);
+  }
+}
+
+/// The row of the Laplacian, and the node's share of area.
+void find_row(Net& net, std::size_t i) {
+  SphereSprings& spheres = net.spheres;
+  const auto links = net.rings.links(i);
+  const std::size_t count = links.size();
+  double* row = spheres.stiffness.data() + net.rings.begin(i);
+  std::fill_n(row, count, 0.0);
+  spheres.areas[i] = 0;
+  const Vector3& centre = net.positions[i];
+  const auto edge = [&](std::size_t k) -> Vector3 { return net.positions[links[k % count].node()] - centre; };
+  for_faces(links, [&](std::size_t first, std::size_t last) {
+    const std::size_t nodes = last - first + 2;
+    const Vector3 a = edge(first);
+    const Vector3 b = edge(last);
+    if (nodes == 3) {
+      row[first] += 0.5 * cotangent(-b, a - b);
+      row[last % count] += 0.5 * cotangent(-a, b - a);
+      spheres.areas[i] += a.cross(b).norm() / 6;
+      return;
+    }
+    // Nodes of the face: 0 is the centre, k + 1 the place first + k of the walk.
+    const auto place = [&](std::size_t k) -> Vector3 {
+      k %= nodes;
+      return k == 0 ? Vector3::Zero() : edge(first + k - 1);
+    };
+    Vector3 middle = Vector3::Zero();
+    Vector3 area = Vector3::Zero();
+    for (std::size_t k = 1; k < nodes; ++k) {
+      middle += place(k);
+      area += place(k).cross(place(k + 1));
+    }
+    middle /= static_cast<double>(nodes);
+    spheres.areas[i] += 0.5 * area.norm() / static_cast<double>(nodes);
+    // Weights of the edges from each node to the middle, and their sum.
+    const auto to_middle = [&](std::size_t k) {
+      const Vector3 before = place(k + nodes - 1);
+      const Vector3 here = place(k);
+      const Vector3 after = place(k + 1);
+      return 0.5 * (cotangent(here - before, middle - before) + cotangent(here - after, middle - after));
+    };
+    double sum = 0;
+    for (std::size_t k = 0; k < nodes; ++k) sum += to_middle(k);
+    const double share = 1 / static_cast<double>(nodes);
+    const double own = to_middle(0);
+    for (std::size_t k = 1; k < nodes; ++k)
+      row[(first + k - 1) % count] += share * (own + to_middle(k)) - share * share * sum;
+    row[first] += 0.5 * cotangent(middle, middle - a);
+    row[last % count] += 0.5 * cotangent(middle, middle - b);
+  });
+}
+
+/// x of a x = b for a symmetric positive definite a, which is replaced by its Cholesky factor.
+template <int n>
+Eigen::Matrix<double, n, 1> solve_in_place(Eigen::Matrix<double, n, n>& a, Eigen::Matrix<double, n, 1> b) {
+  for (int j = 0; j < n; ++j) {
+    for (int k = 0; k < j; ++k) {
+      double sum = a(j, k);
+      for (int m = 0; m < k; ++m) sum -= a(j, m) * a(k, m);
+      a(j, k) = sum / a(k, k);
+    }
+    double pivot = a(j, j);
+    for (int m = 0; m < j; ++m) pivot -= a(j, m) * a(j, m);
+    // What nothing tells of gets nothing.
+    a(j, j) = pivot > 0 ? std::sqrt(pivot) : std::numeric_limits<double>::infinity();
+    double value = b[j];
+    for (int m = 0; m < j; ++m) value -= a(j, m) * b[m];
+    b[j] = value / a(j, j);
+  }
+  for (int j = n; j-- > 0;) {
+    for (int m = j + 1; m < n; ++m) b[j] -= a(m, j) * b[m];
+    b[j] /= a(j, j);
+  }
+  return b;
+}
+
+/// Least squares of heights over a node's link, by x and y in its tangent plane: height(k, e) for link k against the n
+/// unknowns of row(x, y), both weighed by |e|⁻². ridges: of each unknown, of the sum of its squares with weights 1 or
+/// |e|⁻², whichever units it has.
+template <int n, typename Height, typename Row>
+Eigen::Matrix<double, n, 1> fit_heights(const Net& net, std::size_t i, const Vector3& t1, const Vector3& t2,
+                                        const Eigen::Matrix<double, n, 1>& forms_ridge,
+                                        const Eigen::Matrix<double, n, 1>& slopes_ridge, const Height& height,
+                                        const Row& row_of) {
+  Eigen::Matrix<double, n, n> a = Eigen::Matrix<double, n, n>::Zero();
+  Eigen::Matrix<double, n, 1> b = Eigen::Matrix<double, n, 1>::Zero();
+  double inverses = 0;
+  double count = 0;
+  const auto links = net.rings.links(i);
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const Vector3 e = net.positions[links[k].node()] - net.positions[i];
+    const double length2 = e.dot(e);
+    if (!(length2 > 0)) continue;
+    const double inverse = 1 / length2;
+    inverses += inverse;
+    count += 1;
+    const Eigen::Matrix<double, n, 1> row = inverse * row_of(e.dot(t1), e.dot(t2));
+    a += row * row.transpose();
+    b += height(k, e) * inverse * row;
+  }
+  a.diagonal() += count * forms_ridge + inverses * slopes_ridge;
+  return solve_in_place<n>(a, b);
+}
+
+/// The form q of heights without its trace, and the slopes by which the plane is to tilt.
+struct HeightFit {
+  double q1 = 0;
+  double q2 = 0;
+  double slope1 = 0;
+  double slope2 = 0;
+};
+
+HeightFit fit_inside(const Net& net, std::size_t i, const Vector3& normal, const Vector3& t1, const Vector3& t2) {
+  using Unknowns = Eigen::Matrix<double, 5, 1>;
+  const Unknowns x = fit_heights<5>(
+      net, i, t1, t2, (Unknowns() << ridge_of_forms, ridge_of_forms, 0, 0, 0).finished(),
+      (Unknowns() << 0, 0, ridge_of_slopes, ridge_of_slopes, 0).finished(),
+      [&](std::size_t, const Vector3& e) { return e.dot(normal); },
+      [](double u, double v) { return (Unknowns() << u * u - v * v, 2 * u * v, -u, -v, u * u + v * v).finished(); });
+  return {x[0], x[1], x[2], x[3]};
+}
+
+template <typename Height>
+HeightFit fit_given(const Net& net, std::size_t i, const Vector3& t1, const Vector3& t2, const Height& height) {
+  const Vector3 x = fit_heights<3>(net, i, t1, t2, Vector3(ridge_of_forms, ridge_of_forms, 0), Vector3::Zero(), height,
+                                   [](double u, double v) { return Vector3(u * u - v * v, 2 * u * v, u * u + v * v); });
+  return {x[0], x[1], 0, 0};
+}
+
+/// At a rim, along which t1 goes: not curved across it.
+HeightFit fit_rim(const Net& net, std::size_t i, const Vector3& normal, const Vector3& t1, const Vector3& t2) {
+  using Unknowns = Eigen::Matrix<double, 4, 1>;
+  const Unknowns x = fit_heights<4>(
+      net, i, t1, t2, Unknowns(0, ridge_of_forms, 0, 0), Unknowns(0, 0, ridge_of_slopes, ridge_of_slopes),
+      [&](std::size_t, const Vector3& e) { return e.dot(normal); },
+      [](double u, double v) { return Unknowns(2 * u * u, 2 * u * v, -u, -v); });
+  return {x[0], x[1], x[2], x[3]};
+}
+
+/// Two directions across a normal.
+std::pair<Vector3, Vector3> tangents_of(const Vector3& normal) {
+  const Vector3 t1 = normal.unitOrthogonal();
+  return {t1, normal.cross(t1)};
+}
+
+/// The sum of the Laplacian's entries, raised where that is too little, times squared edges.
+void find_spread(Net& net, std::size_t i) {
+  SphereSprings& spheres = net.spheres;
+  const auto links = net.rings.links(i);
+  const double* row = spheres.stiffness.data() + net.rings.begin(i);
+  double spread = 0;
+  double squares = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const double square = (net.positions[links[k].node()] - net.positions[i]).squaredNorm();
+    spread += row[k] * square;
+    squares += square;
+  }
+  const double least = least_spread * spheres.areas[i];
+  spheres.raised[i] = spread < least && squares > 0 ? (least - spread) / squares : 0;
+  spheres.spreads[i] = std::max(spread, least);
+}
+
+/// The curvature from the row: Σ K (height − q) / Σ K |e|².
+template <typename Height>
+double curvature_by_row(const Net& net, std::size_t i, const Vector3& t1, const Vector3& t2, const HeightFit& fit,
+                        const Height& height) {
+  const SphereSprings& spheres = net.spheres;
+  const auto links = net.rings.links(i);
+  const double* row = spheres.stiffness.data() + net.rings.begin(i);
+  double sum = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const Vector3 e = net.positions[links[k].node()] - net.positions[i];
+    const double x = e.dot(t1);
+    const double y = e.dot(t2);
+    sum += (row[k] + spheres.raised[i]) * (height(k, e) - fit.q1 * (x * x - y * y) - 2 * fit.q2 * x * y);
+  }
+  return spheres.spreads[i] > 0 ? sum / spheres.spreads[i] : unknown;
+}
+
+bool has_rim(std::span<const Link> links) { return !links.empty() && links.front().start(); }
+
+}  // namespace
+
+void use_sphere_springs(Net& net) {
+  net.spheres.curvatures.assign(net.positions.size(), unknown);
+  net.spheres.stiffness.assign(net.rings.link_count(), 0);
+  net.spheres.areas.assign(net.computed, 0);
+  net.spheres.spreads.assign(net.computed, 0);
+  net.spheres.factor = bending_factor(net);
+  net.spheres.raised.assign(net.computed, 0);
+}
+
+void update_sphere(Net& net, std::size_t i, const Vector3& first) {
+  find_row(net, i);
+  find_spread(net, i);
+  if (net.normal_given(i)) return;
+  const auto links = net.rings.links(i);
+  net.spheres.curvatures[i] = unknown;
+  net.normals[i] = first;
+  if (first.isZero(0)) return;
+  const auto tilt = [&](const HeightFit& fit, const Vector3& t1, const Vector3& t2) {
+    const Vector3 tilted = first + fit.slope1 * t1 + fit.slope2 * t2;
+    const double length = tilted.norm();
+    net.normals[i] = tilted / length;
+    return length;
+  };
+  const Vector3& normal = net.normals[i];
+  if (has_rim(links)) {
+    const auto along = [&](std::size_t k) -> Vector3 { return net.positions[links[k].node()] - net.positions[i]; };
+    const Vector3 before = along(0);
+    const Vector3 after = along(links.size() - 1);
+    const Vector3 chord = after - before;
+    const Vector3 t1 = direction(chord - chord.dot(first) * first, chord.norm());
+    if (t1.isZero(0)) return;
+    const Vector3 t2 = first.cross(t1);
+    (void)tilt(fit_rim(net, i, first, t1, t2), t1, t2);
+    net.spheres.curvatures[i] = 0.25 * (before.dot(normal) / std::max(before.squaredNorm(), net.tiny) +
+                                        after.dot(normal) / std::max(after.squaredNorm(), net.tiny));
+    return;
+  }
+  const auto [t1, t2] = tangents_of(first);
+  HeightFit fit = fit_inside(net, i, first, t1, t2);
+  const double length = tilt(fit, t1, t2);
+  fit.q1 /= length;
+  fit.q2 /= length;
+  net.spheres.curvatures[i] =
+      curvature_by_row(net, i, t1, t2, fit, [&](std::size_t, const Vector3& e) { return e.dot(normal); });
+}
+
+void find_given_curvature(Net& net, std::size_t i) {
+  const Vector3& normal = net.normals[i];
+  const auto links = net.rings.links(i);
+  const auto [t1, t2] = tangents_of(normal);
+  const auto height = [&](std::size_t k, const Vector3& e) {
+    const Vector3& other = net.normals[links[k].node()];
+    const double own = e.dot(normal);
+    if (other.isZero(0)) return own;
+    const double theirs = other.dot(normal) < 0 ? -e.dot(other) : e.dot(other);
+    return (1 + of_neighbours) * own + of_neighbours * theirs;
+  };
+  const HeightFit fit = fit_given(net, i, t1, t2, height);
+  net.spheres.curvatures[i] = curvature_by_row(net, i, t1, t2, fit, height);
+}
+
+namespace {
+
+double mean_square_edge(const Net& net, std::size_t i) {
+  double squares = 0;
+  double spokes = 0;
+  for (const Link link : net.rings.links(i)) {
+    if (!link.spoke()) continue;
+    squares += (net.positions[link.node()] - net.positions[i]).squaredNorm();
+    spokes += 1;
+  }
+  return spokes > 0 ? squares / spokes : 0;
+}
+
+}  // namespace
+
+double sphere_weight(const Net& net, std::size_t i) {
+  const double square = mean_square_edge(net, i);
+  return 16 * net.spheres.areas[i] / std::max(square * square, net.tiny * net.tiny);
+}
+
+double sphere_force(const Net& net, std::size_t i) {
+  const auto links = net.rings.links(i);
+  const SphereSprings& spheres = net.spheres;
+  const double own = spheres.curvatures[i];
+  if (!(own == own)) return 0;
+  const double* row = spheres.stiffness.data() + net.rings.begin(i);
+  double sum = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const std::size_t j = links[k].node();
+    const double theirs = spheres.curvatures[j];
+    if (!(theirs == theirs)) continue;
+    sum += row[k] * ((net.normals[i].dot(net.normals[j]) < 0 ? -theirs : theirs) - own);
+  }
+  const double weight = sphere_weight(net, i);
+  return weight > 0 ? -4 * spheres.factor * sum / weight : 0;
+}
+
+}  // namespace vspring

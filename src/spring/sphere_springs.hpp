@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "shape/fan.hpp"
+#include "vspring/types.hpp"
+
+namespace vspring {
+
+struct Net;
+
+/// Springs of a surface that do not see which way edges run: that of a node is the radius of its mean-curvature sphere,
+/// and neighbours' springs agree when their mean curvatures do. Of Eq. 4's difference along an edge, which is
+/// ½|d|² (c_i − c_j) + ½(q_i − q_j)(d) where heights over a tangent plane are c|e|² + q(e), q without trace, this is
+/// the first part.
+struct SphereSprings {
+  /// Half the mean curvature of every node, by its normal: what lies to the normal's side of the tangent plane is
+  /// positive. Not a number where it is not known. Empty: springs are those of Eq. 4.
+  std::vector<double> curvatures;
+  /// Entries of the cotangent Laplacian, aligned with the links of the net. An n-gon counts as n triangles around the
+  /// mean of its nodes.
+  std::vector<double> stiffness;
+  std::vector<double> areas;  ///< the node's share of the faces around it
+  /// What stiffness times squared edges adds up to; of entries that were raised, see `raised`.
+  std::vector<double> spreads;
+  double factor = 1;           ///< bending_factor() of the net
+  std::vector<double> raised;  ///< by how much entries are raised, all alike, where a curvature is taken from them
+
+  [[nodiscard]] bool on() const noexcept { return !curvatures.empty(); }
+};
+
+/// Makes room in the net for sphere springs, which switches them on.
+void use_sphere_springs(Net& net);
+
+/// Normal (where not given; `first` is a guess) and curvature of a node with a ring, from its link by least squares,
+/// and its row of the Laplacian. Curvatures of nodes with given normals are left to find_given_curvature().
+void update_sphere(Net& net, std::size_t i, const Vector3& first);
+
+/// Of a node whose normal is given; needs normals of its neighbours.
+void find_given_curvature(Net& net, std::size_t i);
+
+/// The force on a moving node inside, along its normal, as Eq. 8's but of sphere springs:
+/// κ ρ⁴/(4 M) Σ K (c_i − c_j).
+double sphere_force(const Net& net, std::size_t i);
+
+/// What the force is divided by in the linear equations, Σ 1/ℓ for springs of Eq. 4: 16 M/ρ⁴.
+double sphere_weight(const Net& net, std::size_t i);
+
+}  // namespace vspring

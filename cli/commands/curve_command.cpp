@@ -24,6 +24,7 @@ namespace {
 
 struct CurveArguments : FairingArguments {
   std::optional<CurveFormat> format;
+  ColumnChoice columns;
   bool closed = false;
   Resampling resampling;
   PullArguments pull;
@@ -38,7 +39,7 @@ int run_curve(CurveArguments arguments) {
   check_outputs(arguments);
   refuse_views(arguments, true);
   Fairing fairing(arguments);
-  CurveFile file = read_curve(arguments.input, arguments.format);
+  CurveFile file = read_curve(arguments.input, arguments.format, arguments.columns);
   std::vector<std::string> warnings = file.warnings;
   const std::vector<Repeat> repeats = arguments.closed ? close_chains(file.curve) : std::vector<Repeat>{};
   const PolygonCurve before = file.curve;
@@ -153,6 +154,7 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
   add_choice(command, "--format", arguments->format, curve_formats,
              "Format of - (default: found from the content; the input's). svg, with its curvature comb, only for the "
              "output");
+  add_columns(command, "--columns", arguments->columns, columns_of_curves);
   add_constraint_options(command, *arguments, words);
   add_node_options(command, *arguments);
   add_pull_options(command, arguments->pull, pull_of_own_nodes);

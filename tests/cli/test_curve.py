@@ -99,6 +99,26 @@ class Curve(Case):
         refused = run("curve", self.folder / "in.csv", "-o", self.folder / "no.csv", "--closed")
         self.assertEqual(refused.returncode, 2)
 
+    def test_columns_by_name_and_by_choice(self):
+        points = arc(20, noise=0.02)
+        text = "index,X [mm],Y [mm]\n" + "".join(f"{k},{x!r},{y!r}\n" for k, (x, y) in enumerate(points))
+        self.assertNotIn(b"warning", self.curve(text).stderr)
+        named = (self.folder / "out.csv").read_text()
+        rows = [line.split(",") for line in named.splitlines()]
+        self.assertEqual(rows[0], ["index", "X [mm]", "Y [mm]"])
+        self.assertEqual([row[0] for row in rows[1:]], [str(k) for k in range(20)])
+        self.assertEqual(tuple(map(float, rows[-1][1:])), points[-1])
+        self.assertNotEqual(named, text)
+        other = text.replace("X [mm],Y [mm]", "a,b")
+        self.assertIn("choose columns, such as --columns 2,3", self.assert_one_line(self.curve(other, status=2)))
+        for columns in ("2,3", "a,B", "a, 3"):
+            self.curve(other, "--columns", columns)
+            self.assertEqual((self.folder / "out.csv").read_text(), named.replace("X [mm],Y [mm]", "a,b"))
+        self.assertIn("column 1 counts rows and is taken for x", self.curve(text.split("\n", 1)[1]).stderr.decode())
+        for columns, status in (("2", 1), ("2,", 1), ("1,2,3,1", 1), ("2,2", 1), ("0,1", 1), ("2,7", 2), ("a,c", 2)):
+            self.assert_one_line(self.curve(other, "--columns", columns, status=status))
+        self.assert_one_line(self.curve("v 0 0 0\nv 1 0 0\nl 1 2\n", "--columns", "1,2", name="in.obj", status=1))
+
     def test_resample_and_spacing(self):
         points = [(math.cos(2 * (k / 30) ** 2), math.sin(2 * (k / 30) ** 2)) for k in range(31)]
         rules = self.write("held.json", json.dumps({"rules": [{"nodes": [0, 30], "tangent": "fixed"}]}))

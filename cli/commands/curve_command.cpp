@@ -41,10 +41,12 @@ int run_curve(CurveArguments arguments) {
   Fairing fairing(arguments);
   CurveFile file = read_curve(arguments.input, arguments.format, arguments.columns);
   std::vector<std::string> warnings = file.warnings;
+  const std::string note = arguments.closed ? std::string() : note_of_repeats(file.curve);
   const std::vector<Repeat> repeats = arguments.closed ? close_chains(file.curve) : std::vector<Repeat>{};
   const PolygonCurve before = file.curve;
   settle_by_noise(arguments.pull, before, fairing.context());
   Constraints constraints = make_constraints(arguments, file.curve, {.groups = &file.groups});
+  hold_repeated(constraints, repeats);
 
   if (arguments.resampling.nodes || arguments.resampling.spacing) {
     Resampled resampled = resample(file.curve, constraints, arguments.resampling);
@@ -72,7 +74,7 @@ int run_curve(CurveArguments arguments) {
   after.set_positions(result.positions);
   return fairing.finish<PolygonCurve>(
       {file.curve, after, constraints, result.report}, before.positions(), std::move(warnings),
-      {.shape = write, .picture = draw, .figures = done.figures(), .lines = done.lines()});
+      {.shape = write, .picture = draw, .figures = done.figures(), .lines = done.lines() + note});
 }
 
 const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj},

@@ -44,6 +44,8 @@ struct FitArguments : FairingArguments {
 
 std::vector<Repeat> close_fitted(SurfaceFile& /*file*/) { return {}; }
 std::vector<Repeat> close_fitted(CurveFile& file) { return close_chains(file.curve); }
+std::string note_of_fitted(const SurfaceFile& /*file*/) { return {}; }
+std::string note_of_fitted(const CurveFile& file) { return note_of_repeats(file.curve); }
 
 std::vector<std::string> write(const FitArguments& arguments, const SurfaceFile& file,
                                const std::vector<Vector3>& positions) {
@@ -74,8 +76,10 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   using Shape = std::remove_cvref_t<decltype(shape_of(file))>;
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
   const std::vector<Repeat> repeats = arguments.closed ? close_fitted(file) : std::vector<Repeat>{};
+  const std::string note = arguments.closed ? std::string() : note_of_fitted(file);
   const Shape& shape = shape_of(file);
-  const Constraints constraints = make_constraints(arguments, shape, rule_input(file));
+  Constraints constraints = make_constraints(arguments, shape, rule_input(file));
+  hold_repeated(constraints, repeats);
   FairOptions fairing_options = arguments.options;
   if (arguments.paper) {
     fairing_options.pseudo_normals = PseudoNormals::average;
@@ -117,7 +121,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
                                 .points = cloud.positions(),
                                 .scalars = point_deviation,
                                 .figures = account.figures(),
-                                .lines = account.lines()});
+                                .lines = account.lines() + note});
 }
 
 int run_fit(FitArguments arguments) {

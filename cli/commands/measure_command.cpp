@@ -158,6 +158,8 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
   const auto begin = std::chrono::steady_clock::now();
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
   if (arguments.picture.shows("deviation")) refuse_deviation(file, other ? &*other : nullptr);
+  std::string note;
+  if constexpr (std::is_same_v<File, CurveFile>) note = arguments.closed ? "" : note_of_repeats(file.curve);
   if (arguments.closed) {
     close_measured(file);
     if (other) close_measured(*other);
@@ -217,7 +219,7 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
   // What people read goes to standard output unless the report itself goes there.
   const Terminal messages(arguments.report == "-" || arguments.html == "-" ? 2 : 1, arguments.colour);
   const std::string text =
-      figure_table(columns, messages) + (apart ? "\n" + distance_lines(*apart, messages) : std::string());
+      figure_table(columns, messages) + (apart ? "\n" + distance_lines(*apart, messages) : std::string()) + note;
   if (!messages.write(text)) throw Error(ErrorCode::unusable_file, "standard output: takes no more");
   return exit_converged;
 }

@@ -99,6 +99,29 @@ class Curve(Case):
         refused = run("curve", self.folder / "in.csv", "-o", self.folder / "no.csv", "--closed")
         self.assertEqual(refused.returncode, 2)
 
+    def test_a_curve_that_ends_where_it_begins_says_how_it_is_closed(self):
+        points = [(1.2 * math.cos(k * math.pi / 12), math.sin(k * math.pi / 12)) for k in range(24)]
+        rules = {"rules": [{"nodes": [6, 12, 18], "position": "fixed"}]}
+        fixed = self.write("fixed.json", json.dumps(rules))
+        said = self.curve(csv(points + points[:1]), "--constraints", fixed).stdout.decode()
+        self.assertIn("note: node 24 is where node 0 is, and the curve stays open there", said)
+        self.assertIn("--closed", said)
+        after = read(self.folder / "out.csv")
+        self.assertEqual((after[0], after[-1]), (points[0], points[0]))
+        for text, options in ((csv(points), []), (csv(points + points[:1]), ["--closed"]), (csv(points + points[:1]), ["--quiet"])):
+            self.assertNotIn("note", self.curve(text, "--constraints", fixed, *options).stdout.decode())
+        # A rule for the last row holds both.
+        rules["rules"].append({"nodes": [24], "position": [1.3, 0]})
+        fixed = self.write("fixed.json", json.dumps(rules))
+        for name in ("xyz", "dat", "csv"):
+            text = csv(points + points[:1]).replace(",", " " if name != "csv" else ",")
+            self.curve(text, "--closed", "--constraints", fixed, name=f"in.{name}", output=f"out.{name}")
+            rows = [tuple(map(float, line.replace(",", " ").split())) for line in (self.folder / f"out.{name}").read_text().splitlines()]
+            self.assertEqual((len(rows), rows[0], rows[-1]), (25, (1.3, 0), (1.3, 0)))
+        rules["rules"].append({"nodes": [0], "position": "fixed"})
+        result = self.curve(csv(points + points[:1]), "--closed", "--constraints", self.write("fixed.json", json.dumps(rules)), status=2)
+        self.assertIn("nodes 0 and 24 are one", self.assert_one_line(result))
+
     def test_columns_by_name_and_by_choice(self):
         points = arc(20, noise=0.02)
         text = "index,X [mm],Y [mm]\n" + "".join(f"{k},{x!r},{y!r}\n" for k, (x, y) in enumerate(points))

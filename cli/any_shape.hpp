@@ -17,7 +17,15 @@ using AnyFormat = std::variant<SurfaceFormat, CurveFormat>;
 
 /// Reads a surface or a curve: as `curve` says, else as the format or the extension says; an OBJ file is a curve where
 /// it has no faces. Of standard input and of unknown extensions, a surface.
-[[nodiscard]] AnyShape read_shape(const std::string& path, std::optional<AnyFormat> format, bool curve);
+/// columns: as in read_curve(); looked at only where may_be_table().
+[[nodiscard]] AnyShape read_shape(const std::string& path, std::optional<AnyFormat> format, bool curve,
+                                  const ColumnChoice& columns);
+
+/// Whether read_shape() would take a file for a curve of columns, or has to look into it.
+[[nodiscard]] bool may_be_table(const std::string& path, std::optional<AnyFormat> format, bool curve);
+
+/// Whether read_points() would take a file for points in columns, or has to look into it.
+[[nodiscard]] bool may_be_point_table(const std::string& path);
 
 /// A format where it is of this kind.
 template <typename Format>

@@ -1,6 +1,11 @@
 #include "closed_chains.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <utility>
+
+#include "vspring/error.hpp"
 
 namespace vspring::cli {
 
@@ -17,6 +22,43 @@ std::vector<Repeat> close_chains(PolygonCurve& curve) {
   }
   curve = PolygonCurve(curve.positions(), std::move(chains));
   return repeats;
+}
+
+void hold_repeated(Constraints& constraints, const std::vector<Repeat>& repeats) {
+  for (const auto& [node, of] : repeats) {
+    if (constraints.position_fixed(node)) {
+      if (constraints.position_fixed(of) && constraints.position(of) != constraints.position(node))
+        throw Error(ErrorCode::unusable_constraint,
+                    fmt::format("nodes {} and {} are one in the closed curve, but are held at different places; hold "
+                                "one of them",
+                                of, node));
+      constraints.fix_position(of, constraints.position(node));
+      constraints.free_position(node);
+    }
+    if (constraints.normal_fixed(node) && !constraints.normal_fixed(of))
+      constraints.fix_normal(of, constraints.normal(node));
+    if (constraints.tangent_fixed(node) && !constraints.tangent_fixed(of))
+      constraints.fix_tangent(of, constraints.tangent(node));
+    constraints.free_normal(node);
+    constraints.free_tangent(node);
+  }
+}
+
+std::string note_of_repeats(const PolygonCurve& curve) {
+  constexpr std::size_t fewest = 4;
+  const auto repeats = [&](const PolygonCurve::Chain& chain) {
+    return !chain.closed && chain.nodes.size() >= fewest && chain.nodes.front() != chain.nodes.back() &&
+           curve.position(chain.nodes.front()) == curve.position(chain.nodes.back());
+  };
+  const auto& chains = curve.chains();
+  const auto first = std::find_if(chains.begin(), chains.end(), repeats);
+  if (first == chains.end()) return {};
+  const auto others = std::count_if(first + 1, chains.end(), repeats);
+  return fmt::format(
+      "note: node {} is where node {} is{}, and the curve stays open there: with a corner, as at the trailing edge of "
+      "an "
+      "aerofoil, that is right; --closed makes the two one node of a smooth closed curve\n",
+      first->nodes.back(), first->nodes.front(), others > 0 ? fmt::format(" (and so in {} more chains)", others) : "");
 }
 
 }  // namespace vspring::cli

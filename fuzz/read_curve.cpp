@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <string>
+#include <utility>
 
 #include "io/curve_sniff.hpp"
 #include "io/curve_source.hpp"
@@ -61,7 +62,10 @@ bool is_taken(const Action& action) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  constexpr std::array readers = {read_obj_curve, read_csv_curve, read_dat_curve, read_xyz_curve};
+  using Reader = CurveFile (*)(InputFile);
+  constexpr std::array<Reader, 4> readers = {
+      read_obj_curve, [](InputFile file) { return read_csv_curve(std::move(file), {}); }, read_dat_curve,
+      [](InputFile file) { return read_xyz_curve(std::move(file), {}); }};
   if (size < 2) return 0;
   const auto reader = readers[data[0] % readers.size()];
   const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);

@@ -5,7 +5,8 @@
 namespace vspring {
 
 Points::Points(const val& bytes, const std::string& name) {
-  forwarding_errors([&] { points_ = read_from(bytes, name, read_points); });
+  forwarding_errors(
+      [&] { points_ = read_from(bytes, name, [](const std::string& path) { return read_points(path); }); });
 }
 
 Points Points::at(const val& positions) { return Points(ScatteredPoints{.positions = vectors_of(positions)}); }

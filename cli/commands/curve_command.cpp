@@ -24,6 +24,7 @@ namespace {
 
 struct CurveArguments : FairingArguments {
   std::optional<CurveFormat> format;
+  ColumnChoice columns;
   bool closed = false;
   Resampling resampling;
   PullArguments pull;
@@ -38,12 +39,14 @@ int run_curve(CurveArguments arguments) {
   check_outputs(arguments);
   refuse_views(arguments, true);
   Fairing fairing(arguments);
-  CurveFile file = read_curve(arguments.input, arguments.format);
+  CurveFile file = read_curve(arguments.input, arguments.format, arguments.columns);
   std::vector<std::string> warnings = file.warnings;
+  const std::string note = arguments.closed ? std::string() : note_of_repeats(file.curve);
   const std::vector<Repeat> repeats = arguments.closed ? close_chains(file.curve) : std::vector<Repeat>{};
   const PolygonCurve before = file.curve;
   settle_by_noise(arguments.pull, before, fairing.context());
   Constraints constraints = make_constraints(arguments, file.curve, {.groups = &file.groups});
+  hold_repeated(constraints, repeats);
 
   if (arguments.resampling.nodes || arguments.resampling.spacing) {
     Resampled resampled = resample(file.curve, constraints, arguments.resampling);
@@ -71,7 +74,7 @@ int run_curve(CurveArguments arguments) {
   after.set_positions(result.positions);
   return fairing.finish<PolygonCurve>(
       {file.curve, after, constraints, result.report}, before.positions(), std::move(warnings),
-      {.shape = write, .picture = draw, .figures = done.figures(), .lines = done.lines()});
+      {.shape = write, .picture = draw, .figures = done.figures(), .lines = done.lines() + note});
 }
 
 const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj},
@@ -153,6 +156,7 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
   add_choice(command, "--format", arguments->format, curve_formats,
              "Format of - (default: found from the content; the input's). svg, with its curvature comb, only for the "
              "output");
+  add_columns(command, "--columns", arguments->columns, columns_of_curves);
   add_constraint_options(command, *arguments, words);
   add_node_options(command, *arguments);
   add_pull_options(command, arguments->pull, pull_of_own_nodes);

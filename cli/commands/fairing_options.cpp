@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <cctype>
 #include <map>
+#include <sstream>
 
 #include "commands/choice.hpp"
 #include "commands/numbers.hpp"
@@ -55,6 +56,24 @@ void add_constraint_options(CLI::App& command, FairingArguments& arguments, cons
                               words.rim))
       ->type_name("SPEC")
       ->group(holding_group);
+}
+
+void add_columns(CLI::App& command, const std::string& flag, std::vector<std::string>& columns,
+                 const std::string& whose) {
+  command
+      .add_option_function<std::string>(
+          flag,
+          [&columns, flag](const std::string& given) {
+            std::istringstream rest(given);
+            columns.clear();
+            for (std::string column; std::getline(rest, column, ',');) columns.push_back(CLI::detail::trim(column));
+            if (given.ends_with(',')) columns.emplace_back();
+            if (columns.size() != 2 && columns.size() != 3)
+              throw CLI::ValidationError(
+                  flag, fmt::format("two or three columns are needed, such as 2,3 or X,Y, not \"{}\"", given));
+          },
+          whose)
+      ->type_name("X,Y[,Z]");
 }
 
 void add_stopping_options(CLI::App& command, FairingArguments& arguments) {

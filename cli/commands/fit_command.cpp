@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <optional>
@@ -32,6 +33,8 @@ namespace {
 struct FitArguments : FairingArguments {
   std::optional<AnyFormat> format;
   std::string points;
+  ColumnChoice columns;
+  ColumnChoice point_columns;
   PullArguments pull;
   std::optional<double> step_tolerance;
   bool ignore_normals = false;
@@ -41,6 +44,8 @@ struct FitArguments : FairingArguments {
 
 std::vector<Repeat> close_fitted(SurfaceFile& /*file*/) { return {}; }
 std::vector<Repeat> close_fitted(CurveFile& file) { return close_chains(file.curve); }
+std::string note_of_fitted(const SurfaceFile& /*file*/) { return {}; }
+std::string note_of_fitted(const CurveFile& file) { return note_of_repeats(file.curve); }
 
 std::vector<std::string> write(const FitArguments& arguments, const SurfaceFile& file,
                                const std::vector<Vector3>& positions) {
@@ -60,13 +65,21 @@ std::string picture_of_fit(const CurveFile& file, const Positions& positions, co
   return draw_curve(file, positions, {.before = &file.curve, .points = points});
 }
 
+/// The columns of POINTS; none where it is no table.
+ColumnChoice columns_of_points(const FitArguments& arguments) {
+  if (!arguments.point_columns.empty()) return arguments.point_columns;
+  return may_be_point_table(arguments.points) ? arguments.columns : ColumnChoice{};
+}
+
 template <typename File>
 int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   using Shape = std::remove_cvref_t<decltype(shape_of(file))>;
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
   const std::vector<Repeat> repeats = arguments.closed ? close_fitted(file) : std::vector<Repeat>{};
+  const std::string note = arguments.closed ? std::string() : note_of_fitted(file);
   const Shape& shape = shape_of(file);
-  const Constraints constraints = make_constraints(arguments, shape, rule_input(file));
+  Constraints constraints = make_constraints(arguments, shape, rule_input(file));
+  hold_repeated(constraints, repeats);
   FairOptions fairing_options = arguments.options;
   if (arguments.paper) {
     fairing_options.pseudo_normals = PseudoNormals::average;
@@ -78,7 +91,9 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   const double weight = arguments.pull.weight.value_or(0);
   step_tolerance =
       arguments.step_tolerance.value_or(weight > 0 ? std::min(step_tolerance, weight / 10) : step_tolerance);
-  ScatteredPoints points = read_points(arguments.points);
+  ScatteredPoints points = read_points(arguments.points, columns_of_points(arguments));
+  std::vector<std::string> read_warnings = file.warnings;
+  std::ranges::copy(points.warnings, std::back_inserter(read_warnings));
   if (arguments.ignore_normals) points.normals.clear();
   FitResult result = fit(shape, constraints, points, fit_options(arguments.pull, fairing_options), fairing.context());
   const FitAccount account(result.report, arguments.pull, arguments.points, points);
@@ -99,13 +114,14 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
     return {
         {"point_deviation", node_deviations(result.positions, cloud.positions(), result.distances, fairing.context())}};
   };
-  return fairing.finish<Shape>({shape, after, constraints, result.report.fair}, shape.positions(), file.warnings,
+  return fairing.finish<Shape>({shape, after, constraints, result.report.fair}, shape.positions(),
+                               std::move(read_warnings),
                                {.shape = write_shape,
                                 .picture = [&] { return picture_of_fit(file, result.positions, cloud.positions()); },
                                 .points = cloud.positions(),
                                 .scalars = point_deviation,
                                 .figures = account.figures(),
-                                .lines = account.lines()});
+                                .lines = account.lines() + note});
 }
 
 int run_fit(FitArguments arguments) {
@@ -121,9 +137,12 @@ int run_fit(FitArguments arguments) {
                 arguments.pull.automatic + " auto is for shapes whose own nodes are the points (vspring fair, curve)");
   if (arguments.points == "-" && arguments.input == "-")
     throw Error(ErrorCode::invalid_argument, "--points: standard input is the shape already");
+  if (!arguments.columns.empty() && !may_be_table(arguments.input, arguments.format, arguments.curve) &&
+      (!arguments.point_columns.empty() || !may_be_point_table(arguments.points)))
+    throw Error(ErrorCode::invalid_argument, "--columns: neither shape nor points are CSV or XYZ; leave it out");
   Fairing fairing(arguments);
   return std::visit([&](auto&& file) { return fit_file(arguments, std::forward<decltype(file)>(file), fairing); },
-                    read_shape(arguments.input, arguments.format, arguments.curve));
+                    read_shape(arguments.input, arguments.format, arguments.curve, arguments.columns));
 }
 
 const std::map<std::string, Method> fit_methods = {{"equilibrium", Method::equilibrium}, {"sweep", Method::sweep}};
@@ -181,6 +200,9 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
   command.add_flag("--curve", arguments.curve, "SHAPE is a curve (default: found from the file; - is a surface)");
   command.add_flag("--closed", arguments.closed,
                    "Curves: the last node of every chain joins the first (default: from the file)");
+  add_columns(command, "--columns", arguments.columns, columns_of_curves);
+  add_columns(command, "--point-columns", arguments.point_columns,
+              "The same of POINTS, where they are others (default: those of --columns)");
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ namespace {
 struct MeasureArguments : FairingArguments {
   std::optional<AnyFormat> format;
   std::string compare;
+  ColumnChoice columns;
   bool curve = false;
   bool closed = false;
   bool constrained = false;  // any option of what holds the shape was given
@@ -157,6 +158,8 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
   const auto begin = std::chrono::steady_clock::now();
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
   if (arguments.picture.shows("deviation")) refuse_deviation(file, other ? &*other : nullptr);
+  std::string note;
+  if constexpr (std::is_same_v<File, CurveFile>) note = arguments.closed ? "" : note_of_repeats(file.curve);
   if (arguments.closed) {
     close_measured(file);
     if (other) close_measured(*other);
@@ -216,17 +219,20 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
   // What people read goes to standard output unless the report itself goes there.
   const Terminal messages(arguments.report == "-" || arguments.html == "-" ? 2 : 1, arguments.colour);
   const std::string text =
-      figure_table(columns, messages) + (apart ? "\n" + distance_lines(*apart, messages) : std::string());
+      figure_table(columns, messages) + (apart ? "\n" + distance_lines(*apart, messages) : std::string()) + note;
   if (!messages.write(text)) throw Error(ErrorCode::unusable_file, "standard output: takes no more");
   return exit_converged;
 }
 
 int run_measure(const MeasureArguments& arguments) {
   check_outputs(arguments, {{"--compare", arguments.compare}});
-  AnyShape shape = read_shape(arguments.input, arguments.format, arguments.curve);
+  if (!arguments.columns.empty() && !may_be_table(arguments.input, arguments.format, arguments.curve) &&
+      (arguments.compare.empty() || !may_be_table(arguments.compare, std::nullopt, false)))
+    throw Error(ErrorCode::invalid_argument, "--columns: no curve of CSV or XYZ is measured; leave it out");
+  AnyShape shape = read_shape(arguments.input, arguments.format, arguments.curve, arguments.columns);
   std::optional<AnyShape> other;
   if (!arguments.compare.empty())
-    other = read_shape(arguments.compare, std::nullopt, std::holds_alternative<CurveFile>(shape));
+    other = read_shape(arguments.compare, std::nullopt, std::holds_alternative<CurveFile>(shape), arguments.columns);
   if (other && other->index() != shape.index())
     throw Error(ErrorCode::unusable_file, fmt::format("{}: a curve, and {} is a surface; compare shapes of one kind",
                                                       arguments.compare, arguments.input));
@@ -255,6 +261,7 @@ void add_shape_options(CLI::App& command, MeasureArguments& arguments) {
   command.add_flag("--curve", arguments.curve, "SHAPE is a curve (default: found from the file; - is a surface)");
   command.add_flag("--closed", arguments.closed,
                    "Curves: the last node of every chain joins the first (default: from the file)");
+  add_columns(command, "--columns", arguments.columns, columns_of_curves);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vspring/column_choice.hpp"
 #include "vspring/polygon_curve.hpp"
 
 namespace vspring {
@@ -39,18 +40,21 @@ struct CurveFile {
 ///
 /// OBJ: `l` elements, several curves in one file, in any order of segments (see chains_of_segments()); nodes are all
 /// `v`, in file order; a segment given twice counts once; everything else is kept. CSV: one node per row, 2 or 3
-/// columns x, y[, z] (found by a header that names them, else the first ones that hold numbers), separated by commas,
-/// semicolons, tabs or spaces; other columns, comments (#) and the header are kept; an empty row begins another chain.
-/// XYZ: the same without header, separated by white space, the coordinates first. DAT: aerofoils, Selig (name, then x y
-/// around from the trailing edge) or Lednicer (name, numbers of points of upper and lower side, each from the leading
-/// edge on: one chain from the trailing edge over the upper side and back; nodes in file order, the leading edge one
-/// node where both sides give it). A chain whose last node repeats the position of the first stays open; only the same
-/// number (OBJ) closes it.
+/// columns x, y[, z] (those in `columns`, else those that a header names, with or without units, else the first ones
+/// that hold numbers; refused where they cannot be told from others), separated by commas, semicolons, tabs or spaces;
+/// other columns, comments (#) and the header are kept; an empty row begins another chain. XYZ: the same without
+/// header, separated by white space, the coordinates first. DAT: aerofoils, Selig (name, then x y around from the
+/// trailing edge) or Lednicer (name, numbers of points of upper and lower side, each from the leading edge on: one
+/// chain from the trailing edge over the upper side and back; nodes in file order, the leading edge one node where both
+/// sides give it). A chain whose last node repeats the position of the first stays open; only the same number (OBJ)
+/// closes it.
 ///
 /// The format is `format`, else the extension's; for "-" or an unknown extension it is found from the content. Throws
-/// Error(unusable_file) naming path and line for anything that cannot be read whole, and for a file without a curve.
+/// Error(unusable_file) naming path and line for anything that cannot be read whole, and for a file without a curve;
+/// Error(invalid_argument) where `columns` is given and is no choice of columns, or the file is neither CSV nor XYZ.
 /// Cost: linear; the bytes of the file stay in memory.
-[[nodiscard]] CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format = std::nullopt);
+[[nodiscard]] CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format = std::nullopt,
+                                   const ColumnChoice& columns = {});
 
 /// What a written picture shows.
 struct CurvePicture {

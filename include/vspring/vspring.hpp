@@ -1,6 +1,7 @@
 #pragma once
 
 /// All of the library.
+#include "vspring/column_choice.hpp"
 #include "vspring/constraints.hpp"
 #include "vspring/context.hpp"
 #include "vspring/curvature.hpp"

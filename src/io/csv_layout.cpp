@@ -5,15 +5,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <span>
+#include <utility>
 
 namespace vspring {
 namespace {
 
 /// The rows that a delimiter is found from.
 constexpr std::size_t rows_looked_at = 20;
-
-using Cells = std::vector<std::string_view>;
 
 std::vector<TableLine> first_rows(std::string_view bytes) {
   std::vector<TableLine> rows;
@@ -64,26 +63,6 @@ CellCutter find_cutter(const InputFile& file, const std::vector<TableLine>& rows
   return {best, true};
 }
 
-/// The column of the name, or the number of cells.
-std::size_t column_named(const Cells& header, std::string_view name) {
-  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
-  const auto found = std::find_if(header.begin(), header.end(), [&](std::string_view cell) {
-    return std::equal(cell.begin(), cell.end(), name.begin(), name.end(), same);
-  });
-  return static_cast<std::size_t>(found - header.begin());
-}
-
-/// The columns that a header names, or none.
-std::vector<std::size_t> named_columns(const Cells& header) {
-  std::vector<std::size_t> columns;
-  for (const std::string_view name : {"x", "y", "z"}) {
-    const std::size_t column = column_named(header, name);
-    if (column < header.size()) columns.push_back(column);
-    if (column == header.size() && name != "z") return {};
-  }
-  return columns;
-}
-
 std::optional<std::size_t> weight_column(const Cells& header) {
   for (const std::string_view name : {"weight", "confidence"}) {
     const std::size_t column = column_named(header, name);
@@ -99,37 +78,126 @@ std::vector<std::size_t> normal_columns(const Cells& header) {
   return columns;
 }
 
+/// The cells of a header between blanks, of which a unit in brackets is none of its own.
+Cells with_units(const Cells& cells) {
+  Cells header;
+  bool open = false;
+  for (const std::string_view cell : cells) {
+    const bool opens = cell.starts_with('[') || cell.starts_with('(');
+    if ((opens || open) && !header.empty())
+      header.back() = {header.back().data(),
+                       static_cast<std::size_t>(cell.data() + cell.size() - header.back().data())};
+    else
+      header.push_back(cell);
+    open = (opens || open) && !cell.ends_with(']') && !cell.ends_with(')');
+  }
+  return header;
+}
+
 std::vector<std::size_t> number_columns(const Cells& cells) {
   std::vector<std::size_t> columns;
-  for (std::size_t column = 0; column < cells.size() && columns.size() < 3; ++column) {
+  for (std::size_t column = 0; column < cells.size(); ++column) {
     if (number_of(cells[column])) columns.push_back(column);
   }
   return columns;
 }
 
+/// Whether the cells of a column count the rows, from 0 or 1.
+bool counts_rows(std::span<const TableLine> rows, CellCutter cutter, std::size_t column) {
+  constexpr std::size_t fewest = 3;
+  if (rows.size() < fewest) return false;
+  double first = 0;
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    const Cells& cells = cutter.cut(rows[row].text);
+    const std::optional<double> number = column < cells.size() ? number_of(cells[column]) : std::nullopt;
+    if (row == 0) first = number.value_or(-1);
+    if (number != first + static_cast<double>(row)) return false;
+  }
+  return first == 0 || first == 1;
+}
+
+/// "2,3" of columns 1 and 2.
+std::string numbers_of(std::span<const std::size_t> columns, const char* between) {
+  std::string text;
+  for (const std::size_t column : columns) text += (text.empty() ? "" : between) + fmt::to_string(column + 1);
+  return text;
+}
+
+/// Takes the first two or three columns of numbers for coordinates, where nothing speaks against it.
+void guess_columns(const InputFile& file, std::span<const TableLine> rows, CsvLayout& layout) {
+  std::vector<std::size_t> columns = number_columns(layout.cutter.cut(rows.front().text));
+  if (columns.size() > 3)
+    std::erase_if(columns, [&](std::size_t column) {
+      return column == layout.weight || std::count(layout.normal.begin(), layout.normal.end(), column) > 0;
+    });
+  if (columns.size() < 2)
+    file.refuse_line(rows.front().offset,
+                     "a node needs two or three numbers, this row has fewer; repair it, or choose another file");
+  const std::size_t where = layout.header.value_or(rows.front().offset);
+  const std::size_t others = std::min<std::size_t>(columns.size() - 1, 3);
+  const std::string choice = "--columns " + numbers_of(std::span(columns).subspan(1, others), ",");
+  const bool counts = columns.size() > 2 && counts_rows(rows, layout.cutter, columns.front());
+  const bool many = columns.size() > 3;
+  if (layout.header ? many || counts : many && counts)
+    file.refuse_line(
+        where, fmt::format("{}{}{}, so columns {} cannot be told apart; {}choose columns, such as {}",
+                           counts ? fmt::format("column {} counts rows", columns.front() + 1) : "",
+                           counts && layout.header ? " and " : "", layout.header ? "no columns are named x and y" : "",
+                           numbers_of(columns, ", "), layout.header ? "name them x, y and z, or " : "", choice));
+  if (many) columns.resize(3);
+  if (layout.header)
+    layout.warning = fmt::format("{}:{}: no columns are named x and y; taken are columns {}", file.name,
+                                 file.line_of(where), numbers_of(columns, " and "));
+  else if (counts)
+    layout.warning = fmt::format("{}:{}: column {} counts rows and is taken for x; if it is none, choose {}", file.name,
+                                 file.line_of(where), columns.front() + 1, choice);
+  layout.columns = std::move(columns);
+}
+
+/// Whether the first row is a header, with columns that were chosen.
+bool is_header(const Cells& first, const std::vector<std::size_t>& columns, const ColumnChoice& choice) {
+  const auto is_name = [](const std::string& chosen) { return !number_of(chosen); };
+  const auto holds_number = [&](std::size_t column) { return column < first.size() && number_of(first[column]); };
+  const auto is_there = [&](std::size_t column) { return column < first.size(); };
+  if (std::any_of(choice.begin(), choice.end(), is_name)) return true;
+  if (std::any_of(columns.begin(), columns.end(), holds_number)) return false;
+  return count_numbers(first) == 0 || std::any_of(columns.begin(), columns.end(), is_there);
+}
+
 }  // namespace
 
-CsvLayout find_csv_layout(const InputFile& file) {
-  const std::vector<TableLine> rows = first_rows(file.bytes);
-  if (rows.empty()) file.refuse("no row of two or three numbers is in it; choose another file");
-  CsvLayout layout{find_cutter(file, rows), {}, {}, {}, {}, {}};
-  const Cells first = layout.cutter.cut(rows.front().text);
-  layout.columns = named_columns(first);
-  const bool named = !layout.columns.empty();
-  if (named || count_numbers(first) == 0) layout.header = rows.front().offset;
-  if (layout.header && rows.size() == 1) file.refuse("no row of two or three numbers is in it; choose another file");
-  const TableLine& row = rows[layout.header ? 1 : 0];
-  if (!named) layout.columns = number_columns(layout.cutter.cut(row.text));
-  if (layout.columns.size() < 2)
-    file.refuse_line(row.offset,
-                     "a node needs two or three numbers, this row has fewer; repair it, or choose another file");
-  if (!layout.header) return layout;
-  layout.weight = weight_column(first);
-  layout.normal = normal_columns(first);
-  if (!named)
-    layout.warning = fmt::format("{}:{}: no columns are named x and y; taken are columns {} and {}{}", file.name,
-                                 file.line_of(*layout.header), layout.columns[0] + 1, layout.columns[1] + 1,
-                                 layout.columns.size() == 3 ? fmt::format(" and {}", layout.columns[2] + 1) : "");
+CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
+  const char* const no_rows = "no row of two or three numbers is in it; choose another file";
+  const std::vector<TableLine> all_rows = first_rows(file.bytes);
+  std::span<const TableLine> rows = all_rows;
+  if (rows.empty()) file.refuse(no_rows);
+  CsvLayout layout{find_cutter(file, all_rows), {}, {}, {}, {}, {}};
+  const std::size_t cells_below = rows.size() > 1 ? layout.cutter.cut(rows[1].text).size() : 0;
+  Cells first = layout.cutter.cut(rows.front().text);
+  if (layout.cutter.cuts_at_blanks() && first.size() > cells_below) first = with_units(first);
+  const std::size_t offset = rows.front().offset;
+  NamedCoordinates named;
+  if (choice.empty())
+    named = find_coordinates(first);
+  else
+    layout.columns = chosen_columns(file, first, offset, choice);
+  if (!named.doubt.empty())
+    file.refuse_line(offset, named.doubt + "; rename one, or choose columns by number, such as --columns 2,3");
+  if (choice.empty() ? !named.columns.empty() || count_numbers(first) == 0 : is_header(first, layout.columns, choice)) {
+    layout.header = offset;
+    layout.weight = weight_column(first);
+    layout.normal = normal_columns(first);
+    rows = rows.subspan(1);
+    if (rows.empty()) file.refuse(no_rows);
+  }
+  if (!choice.empty()) {
+    require_columns(file, layout.cutter.cut(rows.front().text), rows.front().offset, layout.columns);
+  } else if (named.columns.empty()) {
+    guess_columns(file, rows, layout);
+  } else {
+    layout.columns = std::move(named.columns);
+    if (!named.remark.empty()) layout.warning = fmt::format("{}:{}: {}", file.name, file.line_of(offset), named.remark);
+  }
   return layout;
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/column_names.hpp"
 #include "io/input_file.hpp"
 #include "io/table_rows.hpp"
 
@@ -20,8 +21,9 @@ struct CsvLayout {
   std::string warning;                ///< of columns that had to be guessed; empty without
 };
 
-/// Finds the delimiter and the columns of coordinates: those that a header names, else the first ones of numbers.
-/// Throws Error(unusable_file).
-CsvLayout find_csv_layout(const InputFile& file);
+/// Finds the delimiter and the columns of coordinates: those that are chosen, else those that a header names, see
+/// find_coordinates(), else the first ones of numbers, where these can be told from others. Throws
+/// Error(unusable_file), and Error(invalid_argument) for a choice that is none.
+CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice);
 
 }  // namespace vspring

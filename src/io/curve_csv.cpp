@@ -4,8 +4,8 @@
 
 namespace vspring {
 
-CurveFile read_csv_curve(InputFile file) {
-  const CsvLayout layout = find_csv_layout(file);
+CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice) {
+  const CsvLayout layout = find_csv_layout(file, choice);
   const std::vector<TableLine> lines = table_lines(file.bytes);
   TableReader reader(file, layout.cutter, layout.columns);
   std::span<const TableLine> body = lines;

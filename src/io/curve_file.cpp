@@ -6,6 +6,7 @@
 #include <array>
 #include <filesystem>
 
+#include "io/column_names.hpp"
 #include "io/curve_sniff.hpp"
 #include "io/curve_source.hpp"
 #include "io/format_choice.hpp"
@@ -59,18 +60,20 @@ std::string converted(CurveFormat format, const CurveFile& file, const std::vect
 
 std::optional<CurveFormat> curve_format(std::string_view extension) { return curve_formats.of_extension(extension); }
 
-CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format) {
+CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format, const ColumnChoice& columns) {
   InputFile file = read_input(path);
   const std::optional<CurveFormat> said = format ? format : curve_format(extension_of(path));
-  switch (said ? *said : curve_format_of_content(file)) {
+  const CurveFormat taken = said ? *said : curve_format_of_content(file);
+  if (taken != CurveFormat::csv && taken != CurveFormat::xyz) refuse_choice(file, columns);
+  switch (taken) {
     case CurveFormat::obj:
       return read_obj_curve(std::move(file));
     case CurveFormat::csv:
-      return read_csv_curve(std::move(file));
+      return read_csv_curve(std::move(file), columns);
     case CurveFormat::dat:
       return read_dat_curve(std::move(file));
     case CurveFormat::xyz:
-      return read_xyz_curve(std::move(file));
+      return read_xyz_curve(std::move(file), columns);
     case CurveFormat::svg:
       break;
   }

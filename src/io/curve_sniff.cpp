@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "io/column_names.hpp"
 #include "io/sniff.hpp"
 #include "io/table_rows.hpp"
 
@@ -34,7 +35,8 @@ CurveFormat curve_format_of_content(const InputFile& file) {
   const bool text_first = !begins_with_numbers(cutter.cut(first->text));
   // Names of columns are cut like the rows below them; the name of an aerofoil may hold anything.
   if (!text_first) return CurveFormat::xyz;
-  if (names_x(cutter.cut(first->text)) || second == lines.end()) return CurveFormat::csv;
+  const Cells& names = cutter.cut(first->text);
+  if (names_x(names) || !find_coordinates(names).columns.empty() || second == lines.end()) return CurveFormat::csv;
   return begins_with_numbers(cutter.cut(second->text)) ? CurveFormat::dat : CurveFormat::csv;
 }
 

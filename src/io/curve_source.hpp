@@ -29,10 +29,11 @@ class CurveSource {
 /// What is carried where a file names its curve, which DAT can hold.
 inline constexpr const char* name_carried = "the name";
 
-/// Each reads the whole of a file that is said to be of its format. They throw Error(unusable_file).
+/// Each reads the whole of a file that is said to be of its format. They throw Error(unusable_file), and
+/// Error(invalid_argument) for a choice of columns that is none.
 CurveFile read_obj_curve(InputFile file);
-CurveFile read_csv_curve(InputFile file);
+CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice);
 CurveFile read_dat_curve(InputFile file);
-CurveFile read_xyz_curve(InputFile file);
+CurveFile read_xyz_curve(InputFile file, const ColumnChoice& choice);
 
 }  // namespace vspring

@@ -1,239 +1,255 @@
-// Object File Format (Geomview), with normals, colours and texture coordinates at the nodes: one line per node.
+// Object File Format (Geomview), with normals, colours and texture coordinates at the nodes. It is a stream of words,
+// in which lines have no say; but nearly all files have a line for each node and each face, and many end lines with
+// colours that the keyword does not tell of. So lines are believed where they fit, and else the stream.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "io/face_list.hpp"
 #include "io/file_normals.hpp"
+#include "io/off_header.hpp"
 #include "io/off_source.hpp"
-#include "io/text_cursor.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
 namespace {
 
-struct OffHeader {
-  bool normals = false;
-  bool colours = false;
-  bool textures = false;
-  bool colours_first = false;  ///< NCOFF as MeshLab writes it has them before the normals, CNOFF behind
-  std::int64_t nodes = 0;
-  std::int64_t faces = 0;
+enum class NodeLayout {
+  by_line,
+  in_stream,
+  in_stream_behind_edges  ///< the number of edges stands on another line than that of faces
 };
 
-class OffReader {
+/// Readings of the same words, of which the first one that fits is taken.
+class Readings {
  public:
-  explicit OffReader(const InputFile& file) : file_(file), cursor_(file) {}
+  /// read(progress) may throw, and counts what it could read.
+  template <typename Read>
+  bool fits(const Read& read) {
+    std::int64_t progress = 0;
+    try {
+      read(progress);
+      return true;
+    } catch (const Error& error) {
+      if (!fault_ || progress > furthest_) fault_.emplace(error);
+      furthest_ = std::max(furthest_, progress);
+      return false;
+    }
+  }
+  [[nodiscard]] std::int64_t furthest() const { return furthest_; }
+  /// Throws the fault of the reading that came furthest.
+  [[noreturn]] void refuse() const { throw *fault_; }
 
-  void read();
+ private:
+  std::optional<Error> fault_;
+  std::int64_t furthest_ = -1;
+};
+
+/// What follows the counts.
+class OffBody {
+ public:
+  OffBody(const OffHeader& header, const OffCursor& cursor) : header_(header), cursor_(cursor) {}
+
+  /// progress: nodes and faces that were read.
+  void read(NodeLayout layout, std::int64_t& progress);
   SurfaceFile take(InputFile file);
 
  private:
-  void skip_to_word();
-  void read_keyword();
-  std::int64_t count(const char* what);
-  void read_counts();
-  void read_nodes();
-  int count_words() const;
+  void require_node(std::int64_t node);
   void set_columns(int words);
-  void read_faces();
+  void read_node_lines();
+  void read_node_stream();
+  void add_node(std::size_t row, const std::array<Vector3, 2>& position_and_normal);
+  void read_faces(bool by_line, std::int64_t& count);
+  void read_corners(std::int64_t count, std::optional<OffCursor>& broken);
 
-  const InputFile& file_;
-  TextCursor cursor_;
   OffHeader header_;
-  std::shared_ptr<OffSource> source_ = std::make_shared<OffSource>();
+  OffCursor cursor_;
+  std::vector<std::size_t> rows_;
+  int normal_column_ = 0;
   std::vector<Vector3> positions_;
   std::vector<Vector3> normals_;
   FaceList faces_;
-  std::set<std::string> carried_;
+  bool coloured_ = false;
 };
 
-/// To the next word that is not in a comment.
-void OffReader::skip_to_word() {
-  for (cursor_.skip_space(); cursor_.peek() == '#'; cursor_.skip_space()) {
-    carried_.insert("comments");
-    cursor_.skip_comment();
-  }
+void OffBody::require_node(std::int64_t node) {
+  cursor_.skip_to_word();
+  if (cursor_.at_end())
+    cursor_.refuse(fmt::format("the file ends after {} of {} nodes; it is cut off", node, header_.nodes));
 }
 
-void OffReader::read_keyword() {
-  skip_to_word();
-  const std::size_t begin = cursor_.offset();
-  TextCursor ahead = cursor_;
-  const std::string_view word = ahead.word();
-  const std::size_t end = word.find("OFF");
-  // Without the keyword the counts come first.
-  if (end == std::string_view::npos) return;
-  std::string_view letters = word.substr(0, end);
-  const auto take = [&](std::string_view prefix) {
-    if (!letters.starts_with(prefix)) return false;
-    letters.remove_prefix(prefix.size());
-    return true;
-  };
-  while (!letters.empty()) {
-    if (take("ST")) {
-      header_.textures = true;
-    } else if (take("C")) {
-      header_.colours = true;
-      header_.colours_first = header_.normals;
-    } else if (take("N")) {
-      header_.normals = true;
-    } else if (take("4") || take("n")) {
-      cursor_.refuse(
-          fmt::format("{} has nodes in another space than three dimensions; convert it to OFF", in_quotes(word)));
-    } else {
-      cursor_.refuse(fmt::format("{} is not a kind of OFF; correct the first line", in_quotes(word)));
-    }
-  }
-  // Some files have the counts right behind the keyword, without a blank.
-  cursor_.skip(end + 3);
-  if (!cursor_.at_word_end() && !(cursor_.peek() >= '0' && cursor_.peek() <= '9'))
-    file_.refuse_line(begin, fmt::format("{} is not a kind of OFF; correct the first line", in_quotes(word)));
-  cursor_.skip_blanks();
-  ahead = cursor_;
-  if (ahead.word() == "BINARY") cursor_.refuse("binary OFF is not read; convert it to text or to PLY");
+void OffBody::add_node(std::size_t row, const std::array<Vector3, 2>& position_and_normal) {
+  rows_.push_back(row);
+  positions_.push_back(position_and_normal[0]);
+  if (header_.normals) normals_.push_back(unit_or_zero(position_and_normal[1]));
 }
 
-std::int64_t OffReader::count(const char* what) {
-  skip_to_word();
-  const std::size_t where = cursor_.offset();
-  const std::int64_t number = cursor_.whole_word(what);
-  if (number < 0) file_.refuse_line(where, fmt::format("{} stands where {} belongs; correct it", number, what));
-  return number;
-}
-
-void OffReader::read_counts() {
-  header_.nodes = count("the number of nodes");
-  header_.faces = count("the number of faces");
-  cursor_.skip_blanks();
-  if (!cursor_.at_line_end() && cursor_.peek() != '#') static_cast<void>(count("the number of edges"));
-  cursor_.skip_blanks();
-  if (cursor_.peek() == '#') {
-    carried_.insert("comments");
-    cursor_.skip_comment();
-  }
-  if (!cursor_.at_line_end()) cursor_.refuse_word("the end of the line");
-  if (header_.nodes == 0) file_.refuse("it has no nodes; choose the file of a surface");
-  // A node takes three digits and three blanks, a face two of each; the last blank may be missing.
-  const auto left = static_cast<std::int64_t>(cursor_.bytes_left()) + 1;
-  if (header_.nodes > most_nodes || header_.nodes > left / 6)
-    cursor_.refuse(
-        fmt::format("{} nodes are promised, but the file is too short for them; correct the count or restore "
-                    "what is missing",
-                    header_.nodes));
-  if (header_.faces > most_nodes || header_.faces > left / 4)
-    cursor_.refuse(
-        fmt::format("{} faces are promised, but the file is too short for them; correct the count or restore "
-                    "what is missing",
-                    header_.faces));
-}
-
-/// Words from here to the end of the line or to a comment.
-int OffReader::count_words() const {
-  TextCursor ahead = cursor_;
-  int words = 0;
-  for (; !ahead.at_line_end() && ahead.peek() != '#'; ahead.skip_blanks(), ++words) static_cast<void>(ahead.word());
-  return words;
-}
-
-void OffReader::set_columns(int words) {
+void OffBody::set_columns(int words) {
   const int wanted = 3 + (header_.normals ? 3 : 0) + (header_.colours ? 1 : 0) + (header_.textures ? 2 : 0);
   if (words < wanted)
     cursor_.refuse(fmt::format("a node needs {} numbers, this line has {}; correct it", wanted, words));
-  if (header_.normals) source_->normal_column = header_.colours_first ? words - 3 - (header_.textures ? 2 : 0) : 3;
-  if (header_.textures) carried_.insert("texture coordinates");
+  if (header_.normals) normal_column_ = header_.colours_first ? words - 3 - (header_.textures ? 2 : 0) : 3;
   // Many files give colours without saying so in the first line.
-  if (header_.colours || words > wanted) carried_.insert("colours");
+  coloured_ = header_.colours || words > wanted;
 }
 
-void OffReader::read_nodes() {
-  positions_.reserve(static_cast<std::size_t>(header_.nodes));
-  source_->rows.reserve(static_cast<std::size_t>(header_.nodes));
+void OffBody::read_node_lines() {
   int words = 0;
   for (std::int64_t node = 0; node < header_.nodes; ++node) {
-    skip_to_word();
-    if (cursor_.at_end())
-      cursor_.refuse(fmt::format("the file ends after {} of {} nodes; it is cut off", node, header_.nodes));
-    source_->rows.push_back(cursor_.offset());
-    if (node == 0) set_columns(words = count_words());
-    Vector3 position = Vector3::Zero();
-    Vector3 normal = Vector3::Zero();
+    require_node(node);
+    const std::size_t row = cursor_.offset();
+    if (node == 0) set_columns(words = cursor_.count_words());
+    std::array<Vector3, 2> vectors = {Vector3::Zero(), Vector3::Zero()};
     int column = 0;
-    for (; !cursor_.at_line_end() && cursor_.peek() != '#'; cursor_.skip_blanks(), ++column) {
+    for (; !cursor_.skip_to_row_end(); ++column) {
       const double value = cursor_.number(column < 3 ? "a coordinate" : "a number");
-      if (column < 3) position[column] = value;
-      const int component = column - source_->normal_column;
-      if (source_->normal_column > 0 && component >= 0 && component < 3) normal[component] = value;
+      if (column < 3) vectors[0][column] = value;
+      const int component = column - normal_column_;
+      if (normal_column_ > 0 && component >= 0 && component < 3) vectors[1][component] = value;
     }
-    // A file with several nodes on a line, or with too few, would be misread from here on without a word.
+    // A line with a number too many or too few would shift all that follow without a word.
     if (column != words)
       cursor_.refuse(
           fmt::format("node {} has {} numbers, those before it have {}; correct the line or the number of nodes", node,
                       column, words));
-    positions_.push_back(position);
-    if (header_.normals) normals_.push_back(unit_or_zero(normal));
+    add_node(row, vectors);
   }
 }
 
-void OffReader::read_faces() {
-  faces_.reserve(static_cast<std::size_t>(header_.faces), static_cast<std::size_t>(header_.faces) * 3);
-  for (std::int64_t face = 0; face < header_.faces; ++face) {
-    skip_to_word();
-    if (cursor_.at_end())
-      cursor_.refuse(fmt::format("the file ends after {} of {} faces; it is cut off", face, header_.faces));
-    const std::int64_t corners = cursor_.whole_word("the number of nodes of a face");
-    if (corners < 1) cursor_.refuse(fmt::format("face {} has {} nodes; correct it", face, corners));
-    if (faces_.full()) cursor_.refuse("too many faces; split the file");
-    for (std::int64_t k = 0; k < corners; ++k) {
-      cursor_.skip_blanks();
-      const std::size_t where = cursor_.offset();
-      const std::int64_t node = cursor_.whole_word("the number of a node");
-      if (node < 0 || node >= header_.nodes)
-        file_.refuse_line(where, fmt::format("node {} does not exist, nodes go from 0 to {}; correct the face", node,
-                                             header_.nodes - 1));
-      faces_.add_corner(node, where);
+void OffBody::read_node_stream() {
+  constexpr int words_of_colour = 4;
+  const int colours = header_.colours ? words_of_colour : 0;
+  const int words = 3 + (header_.normals ? 3 : 0) + colours + (header_.textures ? 2 : 0);
+  if (header_.normals) normal_column_ = header_.colours_first ? 3 + colours : 3;
+  coloured_ = header_.colours;
+  for (std::int64_t node = 0; node < header_.nodes; ++node) {
+    require_node(node);
+    const std::size_t row = cursor_.offset();
+    std::array<Vector3, 2> vectors = {Vector3::Zero(), Vector3::Zero()};
+    for (int column = 0; column < words; ++column) {
+      cursor_.skip_to_word();
+      const double value = cursor_.number(column < 3 ? "a coordinate" : "a number");
+      if (column < 3) vectors[0][column] = value;
+      const int component = column - normal_column_;
+      if (normal_column_ > 0 && component >= 0 && component < 3) vectors[1][component] = value;
     }
-    faces_.end_face();
-    cursor_.skip_blanks();
-    if (!cursor_.at_line_end() && cursor_.peek() != '#') {
-      carried_.insert("colours");
-      cursor_.skip_comment();
-    }
+    add_node(row, vectors);
   }
-  skip_to_word();
+}
+
+/// broken: gets the end of the first line behind which corners go on.
+void OffBody::read_corners(std::int64_t count, std::optional<OffCursor>& broken) {
+  const char* const what = "the number of a node";
+  for (std::int64_t k = 0; k < count; ++k) {
+    if (cursor_.skip_to_row_end()) {
+      const OffCursor line_end = cursor_;
+      cursor_.skip_to_word();
+      if (cursor_.at_end()) line_end.refuse_word(what);
+      if (!broken) broken = line_end;
+    }
+    const std::size_t where = cursor_.offset();
+    const std::int64_t node = cursor_.whole_word(what);
+    if (node < 0 || node >= header_.nodes)
+      cursor_.file().refuse_line(
+          where,
+          fmt::format(
+              "node {} does not exist, nodes go from 0 to {}; correct the face{}", node, header_.nodes - 1,
+              broken ? fmt::format(", which goes on from line {}", cursor_.file().line_of(broken->offset())) : ""));
+    faces_.add_corner(node, where);
+  }
+}
+
+/// by_line: what stands behind a face in its last line are colours; else the next face.
+void OffBody::read_faces(bool by_line, std::int64_t& count) {
+  faces_ = {};
+  faces_.reserve(static_cast<std::size_t>(header_.faces), static_cast<std::size_t>(header_.faces) * 3);
+  // Where a line that ends inside a face is not meant to, the next one has more words than its face takes from it.
+  std::optional<OffCursor> cut_off;
+  for (count = 0; count < header_.faces; ++count) {
+    cursor_.skip_to_word();
+    if (cursor_.at_end()) {
+      if (cut_off) cut_off->refuse_word("the number of a node");
+      cursor_.refuse(fmt::format("the file ends after {} of {} faces; it is cut off", count, header_.faces));
+    }
+    const std::int64_t corners = cursor_.whole_word("the number of nodes of a face");
+    if (corners < 1) cursor_.refuse(fmt::format("face {} has {} nodes; correct it", count, corners));
+    if (faces_.full()) cursor_.refuse("too many faces; split the file");
+    std::optional<OffCursor> broken;
+    read_corners(corners, broken);
+    faces_.end_face();
+    if (!by_line || cursor_.skip_to_row_end()) continue;
+    coloured_ = true;
+    if (!cut_off) cut_off = broken;
+    cursor_.skip_comment();
+  }
+  cursor_.skip_to_word();
   if (!cursor_.at_end())
     cursor_.refuse(fmt::format(
         "the file goes on after its {} faces; correct the number of nodes or faces in its header", header_.faces));
 }
 
-void OffReader::read() {
-  read_keyword();
-  read_counts();
-  read_nodes();
-  read_faces();
+void OffBody::read(NodeLayout layout, std::int64_t& progress) {
+  positions_.reserve(static_cast<std::size_t>(header_.nodes));
+  rows_.reserve(static_cast<std::size_t>(header_.nodes));
+  // A line of another length is the fault, unless the stream goes on to the second half of the faces.
+  if (layout == NodeLayout::by_line) progress = header_.nodes + header_.faces / 2;
+  if (layout == NodeLayout::in_stream_behind_edges) static_cast<void>(cursor_.count("the number of edges"));
+  if (layout == NodeLayout::by_line)
+    read_node_lines();
+  else
+    read_node_stream();
+  const OffCursor behind_nodes = cursor_;
+  const bool coloured_nodes = coloured_;
+  Readings readings;
+  for (const bool by_line : {true, false}) {
+    cursor_ = behind_nodes;
+    coloured_ = coloured_nodes;
+    if (readings.fits([&](std::int64_t& faces) { read_faces(by_line, faces); })) return;
+  }
+  progress = header_.nodes + readings.furthest();
+  readings.refuse();
 }
 
-SurfaceFile OffReader::take(InputFile file) {
+SurfaceFile OffBody::take(InputFile file) {
+  std::set<std::string> carried;
+  if (cursor_.saw_comments()) carried.insert("comments");
+  if (header_.textures) carried.insert("texture coordinates");
+  if (coloured_) carried.insert("colours");
   SurfaceFile surface;
   surface.format = SurfaceFormat::off;
   surface.normals = std::move(normals_);
-  source_->positions = positions_;
-  source_->corner_count = faces_.corner_count();
-  source_->carried.assign(carried_.begin(), carried_.end());
+  const auto source = std::make_shared<OffSource>();
+  source->rows = std::move(rows_);
+  source->normal_column = normal_column_;
+  source->positions = positions_;
+  source->corner_count = faces_.corner_count();
+  source->carried.assign(carried.begin(), carried.end());
   surface.mesh = faces_.take(std::move(positions_));
-  source_->file = std::move(file);
-  surface.source = std::move(source_);
+  source->file = std::move(file);
+  surface.source = source;
   return surface;
 }
 
 }  // namespace
 
 SurfaceFile read_off(InputFile file) {
-  OffReader reader(file);
-  reader.read();
-  return reader.take(std::move(file));
+  OffCursor cursor(file);
+  const OffHeader header = read_off_header(cursor);
+  std::vector<NodeLayout> layouts;
+  if (cursor.skip_to_row_end()) layouts.push_back(NodeLayout::by_line);
+  if (!header.edges) layouts.push_back(NodeLayout::in_stream_behind_edges);
+  layouts.push_back(NodeLayout::in_stream);
+  Readings readings;
+  for (const NodeLayout layout : layouts) {
+    OffBody body(header, cursor);
+    if (readings.fits([&](std::int64_t& progress) { body.read(layout, progress); })) return body.take(std::move(file));
+  }
+  readings.refuse();
 }
 
 }  // namespace vspring

@@ -11,7 +11,7 @@ std::string OffSource::rewritten(Rewrite& rewrite) const {
   if (normal_column > 0 && surface.normals.size() == rows.size())
     fresh = compute_normals(surface.mesh, surface.mesh.corners(), surface.normals, positions, rewrite.positions,
                             rewrite.moved);
-  TextRewriter out(file.bytes);
+  TextRewriter out(file.bytes, /*commented=*/true);
   std::vector<NewNumber> numbers;
   for (std::size_t node = 0; node < rows.size(); ++node) {
     numbers.clear();

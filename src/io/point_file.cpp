@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/column_names.hpp"
 #include "io/curve_sniff.hpp"
 #include "io/curve_source.hpp"
 #include "io/format_choice.hpp"
@@ -81,22 +82,27 @@ bool is_point_weight(double weight) { return std::isfinite(weight) && weight >= 
 
 ScatteredPoints read_obj_points(const InputFile& file) { return ObjPoints(file).take(); }
 
-ScatteredPoints read_points(const std::string& path) {
+ScatteredPoints read_points(const std::string& path, const ColumnChoice& columns) {
   InputFile file = read_input(path);
   const std::string extension = extension_of(path);
   std::optional<CurveFormat> curve = curve_format(extension);
   if (!curve || *curve == CurveFormat::obj) {
-    if (const auto surface = format_of_content(file.bytes)) return read_surface_points(std::move(file), *surface);
-    if (const auto surface = surface_format(extension)) return read_surface_points(std::move(file), *surface);
+    std::optional<SurfaceFormat> surface = format_of_content(file.bytes);
+    if (!surface) surface = surface_format(extension);
+    if (surface) {
+      refuse_choice(file, columns);
+      return read_surface_points(std::move(file), *surface);
+    }
     curve = curve_format_of_content(file);
   }
+  if (*curve != CurveFormat::csv && *curve != CurveFormat::xyz) refuse_choice(file, columns);
   switch (*curve) {
     case CurveFormat::csv:
-      return read_csv_points(file);
+      return read_csv_points(file, columns);
     case CurveFormat::dat:
       return {read_dat_curve(std::move(file)).curve.positions()};
     case CurveFormat::xyz:
-      return read_xyz_points(file);
+      return read_xyz_points(file, columns);
     default:
       break;
   }

@@ -5,11 +5,12 @@
 
 namespace vspring {
 
-/// Each reads the points of a file that is said to be of its format. They throw Error(unusable_file).
+/// Each reads the points of a file that is said to be of its format. They throw Error(unusable_file), and
+/// Error(invalid_argument) for a choice of columns that is none.
 ScatteredPoints read_obj_points(const InputFile& file);
 ScatteredPoints read_ply_points(const InputFile& file);
-ScatteredPoints read_csv_points(const InputFile& file);
-ScatteredPoints read_xyz_points(const InputFile& file);
+ScatteredPoints read_csv_points(const InputFile& file, const ColumnChoice& choice);
+ScatteredPoints read_xyz_points(const InputFile& file, const ColumnChoice& choice);
 
 /// Whether a point may have this weight.
 bool is_point_weight(double weight);

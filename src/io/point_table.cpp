@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "io/column_names.hpp"
 #include "io/csv_layout.hpp"
 #include "io/face_list.hpp"
 #include "io/point_source.hpp"
@@ -69,26 +70,35 @@ bool is_unit_or_zero(const std::vector<std::string_view>& cells) {
 
 }  // namespace
 
-ScatteredPoints read_csv_points(const InputFile& file) {
-  const CsvLayout layout = find_csv_layout(file);
-  return read_rows(file, layout.cutter, {layout.columns, layout.weight, layout.normal},
-                   layout.header ? *layout.header + 1 : 0, [](const TableLine&, const auto&) {});
+ScatteredPoints read_csv_points(const InputFile& file, const ColumnChoice& choice) {
+  const CsvLayout layout = find_csv_layout(file, choice);
+  ScatteredPoints points = read_rows(file, layout.cutter, {layout.columns, layout.weight, layout.normal},
+                                     layout.header ? *layout.header + 1 : 0, [](const TableLine&, const auto&) {});
+  if (!layout.warning.empty()) points.warnings.push_back(layout.warning);
+  return points;
 }
 
-ScatteredPoints read_xyz_points(const InputFile& file) {
+ScatteredPoints read_xyz_points(const InputFile& file, const ColumnChoice& choice) {
   CellCutter cutter(' ', false);
   std::size_t numbers = 0;
   std::size_t cells_of_first = 0;
   bool faces = false;
+  std::vector<std::size_t> chosen;
   walk_lines(file.bytes, [&](const TableLine& line) {
     if (line.kind != TableLine::Kind::row) return true;
     const std::vector<std::string_view>& cells = cutter.cut(line.text);
     numbers = count_leading_numbers(cells);
     cells_of_first = cells.size();
+    if (!choice.empty()) {
+      chosen = chosen_columns(file, cells, line.offset, choice);
+      require_columns(file, cells, line.offset, chosen);
+    }
     faces = (numbers == 6 || numbers == 7) && numbers == cells_of_first && is_unit_or_zero(cells);
     return false;
   });
   if (cells_of_first == 0) file.refuse("no row of two or three numbers is in it; choose another file");
+  // Where a person says what is what, nothing is guessed.
+  if (!choice.empty()) return read_rows(file, cutter, {chosen, std::nullopt}, 0, [](const TableLine&, const auto&) {});
   const bool planar = numbers < 3;
   Columns columns{{0, 1}, std::nullopt};
   if (!planar) columns.coordinates.push_back(2);

@@ -47,6 +47,7 @@ class CellCutter {
 
   /// The cells of a row, without the blanks and quotes around them; valid until the next call.
   const std::vector<std::string_view>& cut(std::string_view row);
+  [[nodiscard]] bool cuts_at_blanks() const { return delimiter_ == ' '; }
 
  private:
   [[nodiscard]] std::size_t cell_end(std::string_view row, std::size_t begin) const;

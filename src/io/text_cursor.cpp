@@ -15,11 +15,12 @@ const char* parse_number(const char* begin, const char* end, double& value) {
   return fault == std::errc() || fault == std::errc::result_out_of_range ? stop : nullptr;
 }
 
-TextCursor::TextCursor(const InputFile& file, std::size_t begin, bool continued)
+TextCursor::TextCursor(const InputFile& file, std::size_t begin, bool continued, bool commented)
     : file_(&file),
       at_(file.bytes.data() + begin),
       end_(file.bytes.data() + file.bytes.size()),
       continued_(continued),
+      commented_(commented),
       // Lines end with LF, or with CR in files that have no LF; in CR LF the CR is a blank.
       line_end_(file.bytes.find('\n') == std::string::npos ? '\r' : '\n') {}
 

@@ -29,8 +29,8 @@ const char* parse_number(const char* begin, const char* end, double& value);
 /// Walks the words and lines of a file. Numbers mean the same in every locale.
 class TextCursor {
  public:
-  /// continued: a backslash before a line end joins the next line to this one.
-  explicit TextCursor(const InputFile& file, std::size_t begin = 0, bool continued = false);
+  /// continued: a backslash before a line end joins the next line to this one. commented: # ends a word.
+  explicit TextCursor(const InputFile& file, std::size_t begin = 0, bool continued = false, bool commented = false);
 
   [[nodiscard]] std::size_t offset() const { return static_cast<std::size_t>(at_ - file_->bytes.data()); }
   [[nodiscard]] std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - at_); }
@@ -61,10 +61,11 @@ class TextCursor {
   /// Goes to the next line end, even where a backslash stands before it, as at the end of a comment.
   void skip_comment();
 
-  /// Up to the next white space; empty at white space and at the end.
+  /// Up to the end of a word; empty at white space and at the end.
   [[nodiscard]] std::string_view word();
   [[nodiscard]] bool at_word_end() const {
-    return at_ == end_ || is_space(*at_) || (continued_ && continuation_length(at_, end_) > 0);
+    return at_ == end_ || is_space(*at_) || (continued_ && continuation_length(at_, end_) > 0) ||
+           (commented_ && *at_ == '#');
   }
 
   /// A number, up to the end of a word. what: what it is, for the message.
@@ -84,6 +85,7 @@ class TextCursor {
   const char* at_;
   const char* end_;
   bool continued_;
+  bool commented_;
   char line_end_;
 };
 

@@ -28,7 +28,8 @@ inline std::array<NewNumber, 3> row_of(const Vector3& vector) {
 /// Copies bytes and puts numbers in the place of words. Places have to ascend.
 class TextRewriter {
  public:
-  explicit TextRewriter(std::string_view bytes);
+  /// commented: # ends a word, and what follows it on its line is passed over.
+  explicit TextRewriter(std::string_view bytes, bool commented = false);
 
   /// row: offset of the first word of a row; a row may go over line ends. numbers: ascending in column.
   void replace_words(std::size_t row, std::span<const NewNumber> numbers);
@@ -37,7 +38,11 @@ class TextRewriter {
   [[nodiscard]] std::string finish();
 
  private:
+  /// Of what stands between words here; 0 where a word or the end of the bytes is.
+  [[nodiscard]] std::size_t gap_at(std::size_t at) const;
+
   std::string_view bytes_;
+  char comment_end_ = '\0';  ///< where comments are passed over
   std::string text_;
   std::size_t copied_ = 0;
 };

@@ -99,6 +99,49 @@ class Curve(Case):
         refused = run("curve", self.folder / "in.csv", "-o", self.folder / "no.csv", "--closed")
         self.assertEqual(refused.returncode, 2)
 
+    def test_a_curve_that_ends_where_it_begins_says_how_it_is_closed(self):
+        points = [(1.2 * math.cos(k * math.pi / 12), math.sin(k * math.pi / 12)) for k in range(24)]
+        rules = {"rules": [{"nodes": [6, 12, 18], "position": "fixed"}]}
+        fixed = self.write("fixed.json", json.dumps(rules))
+        said = self.curve(csv(points + points[:1]), "--constraints", fixed).stdout.decode()
+        self.assertIn("note: node 24 is where node 0 is, and the curve stays open there", said)
+        self.assertIn("--closed", said)
+        after = read(self.folder / "out.csv")
+        self.assertEqual((after[0], after[-1]), (points[0], points[0]))
+        for text, options in ((csv(points), []), (csv(points + points[:1]), ["--closed"]), (csv(points + points[:1]), ["--quiet"])):
+            self.assertNotIn("note", self.curve(text, "--constraints", fixed, *options).stdout.decode())
+        # A rule for the last row holds both.
+        rules["rules"].append({"nodes": [24], "position": [1.3, 0]})
+        fixed = self.write("fixed.json", json.dumps(rules))
+        for name in ("xyz", "dat", "csv"):
+            text = csv(points + points[:1]).replace(",", " " if name != "csv" else ",")
+            self.curve(text, "--closed", "--constraints", fixed, name=f"in.{name}", output=f"out.{name}")
+            rows = [tuple(map(float, line.replace(",", " ").split())) for line in (self.folder / f"out.{name}").read_text().splitlines()]
+            self.assertEqual((len(rows), rows[0], rows[-1]), (25, (1.3, 0), (1.3, 0)))
+        rules["rules"].append({"nodes": [0], "position": "fixed"})
+        result = self.curve(csv(points + points[:1]), "--closed", "--constraints", self.write("fixed.json", json.dumps(rules)), status=2)
+        self.assertIn("nodes 0 and 24 are one", self.assert_one_line(result))
+
+    def test_columns_by_name_and_by_choice(self):
+        points = arc(20, noise=0.02)
+        text = "index,X [mm],Y [mm]\n" + "".join(f"{k},{x!r},{y!r}\n" for k, (x, y) in enumerate(points))
+        self.assertNotIn(b"warning", self.curve(text).stderr)
+        named = (self.folder / "out.csv").read_text()
+        rows = [line.split(",") for line in named.splitlines()]
+        self.assertEqual(rows[0], ["index", "X [mm]", "Y [mm]"])
+        self.assertEqual([row[0] for row in rows[1:]], [str(k) for k in range(20)])
+        self.assertEqual(tuple(map(float, rows[-1][1:])), points[-1])
+        self.assertNotEqual(named, text)
+        other = text.replace("X [mm],Y [mm]", "a,b")
+        self.assertIn("choose columns, such as --columns 2,3", self.assert_one_line(self.curve(other, status=2)))
+        for columns in ("2,3", "a,B", "a, 3"):
+            self.curve(other, "--columns", columns)
+            self.assertEqual((self.folder / "out.csv").read_text(), named.replace("X [mm],Y [mm]", "a,b"))
+        self.assertIn("column 1 counts rows and is taken for x", self.curve(text.split("\n", 1)[1]).stderr.decode())
+        for columns, status in (("2", 1), ("2,", 1), ("1,2,3,1", 1), ("2,2", 1), ("0,1", 1), ("2,7", 2), ("a,c", 2)):
+            self.assert_one_line(self.curve(other, "--columns", columns, status=status))
+        self.assert_one_line(self.curve("v 0 0 0\nv 1 0 0\nl 1 2\n", "--columns", "1,2", name="in.obj", status=1))
+
     def test_resample_and_spacing(self):
         points = [(math.cos(2 * (k / 30) ** 2), math.sin(2 * (k / 30) ** 2)) for k in range(31)]
         rules = self.write("held.json", json.dumps({"rules": [{"nodes": [0, 30], "tangent": "fixed"}]}))

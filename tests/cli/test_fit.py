@@ -56,6 +56,33 @@ class Fit(Case):
                 outputs.add((self.folder / "out.obj").read_bytes())
         self.assertEqual(len(outputs), 1)
 
+    def test_columns_of_shape_and_points(self):
+        shape = self.write("flat.obj", grid(6, lambda x, y: 0))
+        cloud = self.cloud(200)
+        self.fit(shape, self.write("plain.xyz", xyz(cloud)), "--weight", "0.1")
+        expected = (self.folder / "out.obj").read_bytes()
+        rows = [(k, *point) for k, point in enumerate(cloud)]
+        numbered = self.write("numbered.csv", "".join(",".join(repr(v) for v in row) + "\n" for row in rows))
+        named = self.write("named.csv", "no;X [m];Y [m];Z [m]\n" + "".join(";".join(repr(v) for v in row) + "\n" for row in rows))
+        refused = run("fit", shape, "--points", numbered, "-o", self.folder / "no.obj", "--weight", "0.1")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("--columns 2,3,4", self.assert_one_line(refused))
+        for points, options in ((named, []), (numbered, ["--columns", "2,3,4"]), (numbered, ["--point-columns", "2,3,4"]),
+                                (named, ["--columns", "x,y,z"])):
+            self.fit(shape, points, "--weight", "0.1", *options)
+            self.assertEqual((self.folder / "out.obj").read_bytes(), expected)
+        guessed = self.write("guessed.csv", "a,b,c\n" + "".join(",".join(repr(v) for v in point) + "\n" for point in cloud))
+        self.assertIn(b"no columns are named x and y; taken are columns 1 and 2 and 3", self.fit(shape, guessed, "--weight", "0.1").stderr)
+        # A curve and its points may have their coordinates in different columns.
+        wave = self.write("wave.csv", "".join(f"{k / 20!r},{0.1 * math.sin(k / 4)!r}\n" for k in range(21)))
+        points = self.write("points.csv", "".join(f"{k},{k / 40!r},{0.1 * math.sin(k / 8) + 0.01!r}\n" for k in range(41)))
+        self.fit(wave, points, "--weight", "0.1", "--point-columns", "2,3", output="out.csv")
+        once = (self.folder / "out.csv").read_text()
+        self.assertEqual(once.count(","), 21)
+        wave = self.write("wave.csv", "".join(f"{k},{k / 20!r},{0.1 * math.sin(k / 4)!r}\n" for k in range(21)))
+        self.fit(wave, points, "--weight", "0.1", "--columns", "2,3", output="out.csv")
+        self.assertEqual([line.split(",", 1)[1] for line in (self.folder / "out.csv").read_text().splitlines()], once.splitlines())
+
     def test_normals_of_points(self):
         shape = self.write("flat.obj", grid(6, lambda x, y: 0))
         # Those that face down, of the other side of a wall, would draw the surface down.
@@ -275,6 +302,10 @@ class Fit(Case):
                                         ([*good, "--deviation", self.folder / "no" / "d.ply"], 2, "no"),
                                         ([*good, "--deviation", points], 1, "--points"),
                                         (["-", "--points", "-", "--weight", "1"], 1, "standard input"),
+                                        ([*good, "--columns", "1"], 1, "two or three columns"),
+                                        ([*good, "--columns", "2,9"], 2, "points.xyz:1: column 9 is chosen"),
+                                        ([shape, "--points", shape, "--weight", "1", "--columns", "1,2"], 1, "--columns"),
+                                        ([shape, "--points", shape, "--weight", "1", "--point-columns", "1,2"], 1, "columns"),
                                         ([ball, "--points", points, "--weight", "0"], 2, "nothing holds"),
                                         ([shape, "--points", points, "--weight", "1", "--fix", "none"], 2, "boundary")):
             with self.subTest(arguments=arguments):

@@ -60,6 +60,17 @@ class Measure(Case):
         self.assertEqual((report["figures"]["curvature_extrema"], report["figures"]["inflections"]), (0, 0))
         self.assertLess(self.report(path)["figures"]["length"], report["figures"]["length"])
 
+    def test_columns_and_ends_that_meet(self):
+        plain = self.report(self.write("circle.csv", circle()))["figures"]
+        numbered = self.write("numbered.csv", "n,p,q\n" + "".join(f"{k},{line}\n" for k, line in enumerate(circle().splitlines())))
+        self.assertIn("--columns 2,3", self.assert_one_line(self.measure(numbered, status=2)))
+        self.assertEqual(self.report(numbered, "--columns", "p,q")["figures"], plain)
+        self.assertEqual(self.report(numbered, "--columns", "2,3", "--compare", numbered)["distance"]["nodes"]["greatest"], 0)
+        self.assert_one_line(self.measure(self.write("in.obj", hat()), "--columns", "1,2", status=1))
+        ring = self.write("ring.csv", circle() + circle().splitlines()[0] + "\n")
+        self.assertIn("note: node 40 is where node 0 is", self.measure(ring).stdout.decode())
+        self.assertNotIn("note", self.measure(ring, "--closed").stdout.decode())
+
     def test_obj_is_a_curve_where_it_has_lines_and_no_faces(self):
         text = "v 0 0 0\nv 1 0 0\nv 2 1 0\nv 3 1 0\nl 1 2 3 4\n"
         path = self.write("line.obj", text)

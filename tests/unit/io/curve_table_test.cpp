@@ -51,8 +51,104 @@ TEST_F(CurveTable, TakesTheFirstColumnsOfNumbersWhereNoneAreNamed) {
   EXPECT_EQ(headed.curve.position(1), Vector3(2, 3, 0));
   ASSERT_EQ(headed.warnings.size(), 1U);
   EXPECT_NE(headed.warnings[0].find(":1: no columns are named x and y; taken are columns 2 and 3"), std::string::npos);
+  EXPECT_EQ(read("height,weight\n1,2\n3,4\n", "csv").curve.position(1), Vector3(3, 4, 0));
   // Of x and y named, nothing else is a coordinate.
   EXPECT_TRUE(read("x,y,speed\n0,1,2\n3,4,5\n", "csv").planar);
+}
+
+TEST_F(CurveTable, FindsNamesWithUnits) {
+  // The header, and the columns of x, y and z in it.
+  const std::vector<std::pair<std::string, std::vector<int>>> headers = {
+      {"index,X [mm],Y [mm]", {1, 2}},
+      {"index,X [mm],Y [mm],Z [mm]", {1, 2, 3}},
+      {"n,\"y (m)\",\"x (m)\",t", {2, 1}},
+      {"id,x_mm,y_mm,z_mm", {1, 2, 3}},
+      {"id,X mm,Y mm", {1, 2}},
+      {"id,x/c,y/c", {1, 2}},
+      {"id,x / m, y/mm", {1, 2}},
+      {"Y-coordinate [in],no,X-coordinate [in]", {2, 0}},
+      {"label,X position,Y position,Z position,x_velocity", {1, 2, 3}},
+      {"x,y,z [mm],x [m/s]", {0, 1, 2}},
+      {"x [in],x,y,y [in]", {1, 2}},
+      {"t,Points:0,Points:1,Points:2", {1, 2, 3}},
+      {"no,Station [m],y [m],z [m]", {1, 2, 3}},
+      {"station,x,y,note", {1, 2}},
+  };
+  for (const auto& [header, columns] : headers) {
+    const std::string text = header + "\n0,10,20,30,40\n1,11,21,31,41\n2,12,22,32,42\n3,13,23,33,43\n";
+    const CurveFile file = read(text, "csv");
+    SCOPED_TRACE(header);
+    EXPECT_EQ(file.planar, columns.size() == 2);
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      EXPECT_EQ(file.curve.position(2)[static_cast<int>(k)], columns[k] == 0 ? 2 : 10 * columns[k] + 2);
+    EXPECT_TRUE(file.warnings.empty());
+    EXPECT_EQ(unmoved(text, "csv"), text);
+  }
+  EXPECT_EQ(moved("index,X [mm],Y [mm]\n1,0.50,2\n2,3,4\n", "csv", {{1, {0.25, 4, 0}}}),
+            "index,X [mm],Y [mm]\n1,0.50,2\n2,0.25,4\n");
+  // Between blanks a unit is no name of another column.
+  EXPECT_EQ(read("index X [mm] Y (US ft)\n1 5 6\n2 7 8\n", "csv").curve.position(1), Vector3(7, 8, 0));
+}
+
+TEST_F(CurveTable, TakesTwoOfThreeNamesForAPlane) {
+  const CurveFile file = read("id,x/c,z/c\n1,0.5,6\n2,7,8\n3,8,9\n", "csv");
+  EXPECT_EQ(file.curve.position(1), Vector3(7, 8, 0));
+  EXPECT_TRUE(file.planar);
+  ASSERT_EQ(file.warnings.size(), 1U);
+  EXPECT_NE(file.warnings[0].find(":1: the columns 'x/c' and 'z/c' are taken for x and y"), std::string::npos);
+}
+
+TEST_F(CurveTable, SaysWhereAColumnOfThreeCountsRows) {
+  const CurveFile file = read("1,5,6\n2,7,8\n3,9,9\n", "csv");
+  EXPECT_EQ(file.curve.position(1), Vector3(2, 7, 8));
+  ASSERT_EQ(file.warnings.size(), 1U);
+  EXPECT_NE(file.warnings[0].find(":1: column 1 counts rows and is taken for x; if it is none, choose --columns 2,3"),
+            std::string::npos);
+  for (const std::string plain :
+       {"0,5\n1,6\n2,7\n", "1,5,6\n2,7,8\n4,9,9\n", "2,5,6\n3,7,8\n4,9,9\n", "5,1,6\n7,2,8\n9,3,9\n"})
+    EXPECT_TRUE(read(plain, "csv").warnings.empty()) << plain;
+  // Of more columns than coordinates, the first ones, as ever.
+  EXPECT_EQ(read("0.5,1,2,255\n1,3,4,255\n2,5,6,0\n", "csv").curve.position(1), Vector3(1, 3, 4));
+}
+
+TEST_F(CurveTable, TakesTheColumnsThatAreChosen) {
+  const std::string text = "no,east [m],north [m],up [m]\n1,10,20,30\n2,11,21,31\n3,12,22,32\n";
+  const auto chosen = [&](const ColumnChoice& columns) {
+    return read_curve(put("in.csv", text), std::nullopt, columns);
+  };
+  EXPECT_EQ(chosen({"2", "3", "4"}).curve.position(2), Vector3(12, 22, 32));
+  EXPECT_EQ(chosen({"East", "north [M]", "up"}).curve.position(0), Vector3(10, 20, 30));
+  EXPECT_EQ(chosen({"up", "2"}).curve.position(0), Vector3(30, 10, 0));
+  EXPECT_TRUE(chosen({"2", "3"}).warnings.empty());
+  const CurveFile file = chosen({"north", "east"});
+  std::vector<Vector3> positions = file.curve.positions();
+  positions[1] = {0.5, 0.25, 0};
+  write_curve(path("out.csv"), file, positions);
+  EXPECT_EQ(get("out.csv"), replaced(text, "2,11,21,31", "2,0.25,0.5,31"));
+  EXPECT_EQ(read_curve(put("in.csv", "0,5,6\n1,7,8\n"), std::nullopt, {"2", "3"}).curve.position(0), Vector3(5, 6, 0));
+  EXPECT_EQ(read_curve(put("in.xyz", "0 5 6\n1 7 8\n"), std::nullopt, {"2", "3"}).curve.position(1), Vector3(7, 8, 0));
+}
+
+TEST_F(CurveTable, RefusesAChoiceThatIsNone) {
+  const auto refusal = [&](const std::string& name, const std::string& text, const ColumnChoice& columns,
+                           ErrorCode code = ErrorCode::unusable_file) {
+    return message_of([&] { std::ignore = read_curve(put(name, text), std::nullopt, columns); }, code);
+  };
+  const std::string text = "no,a,b\n1,5,6\n2,7,8\n";
+  EXPECT_EQ(refusal("a.csv", text, {"a", "c"}),
+            "a.csv:1: no column is called 'c', this row has 'no', 'a', 'b'; correct --columns");
+  EXPECT_EQ(refusal("a.csv", text, {"2", "4"}), "a.csv:2: column 4 is chosen, this row has 3; correct --columns");
+  EXPECT_EQ(refusal("a.csv", "a [m],a [ft],b\n1,5,6\n2,7,8\n", {"a", "b"}),
+            "a.csv:1: 'a [m]' and 'a [ft]' may both be a; choose columns by number");
+  EXPECT_EQ(refusal("a.csv", "no,a,b\n1,5,none\n2,7,8\n", {"2", "3"}),
+            "a.csv:2: 'none' stands where y belongs; repair the line");
+  EXPECT_EQ(refusal("a.xyz", "0 5 6\n1 7 8\n", {"x", "y"}),
+            "a.xyz:1: no column is called 'x', this row has '0', '5', '6'; correct --columns");
+  for (const ColumnChoice& columns :
+       {ColumnChoice{"1"}, {"1", "2", "3", "2"}, {"2", "2"}, {"a", "2"}, {"0", "1"}, {"", "1"}})
+    EXPECT_NE(refusal("a.csv", text, columns, ErrorCode::invalid_argument), "");
+  EXPECT_EQ(refusal("a.dat", "0 1\n1 2\n", {"1", "2"}, ErrorCode::invalid_argument),
+            "a.dat: columns can be chosen in CSV and XYZ only; leave --columns out, or name the format");
 }
 
 TEST_F(CurveTable, BeginsAChainBehindEmptyRows) {

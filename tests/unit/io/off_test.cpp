@@ -63,5 +63,57 @@ TEST_F(OffFile, EveryKindKeepsItsBytesButThoseOfMovedNodes) {
   }
 }
 
+// A square of two triangles, with the words where Geomview allows them. {0} and {1}: x and y of node 2.
+const std::string streams[] = {
+    "OFF 4 2 5 0 0 0 1 0 0 {0} {1} 0 0 1 0 3 0 1 2 3 0 2 3\n",
+    "OFF\n4 2 5\n0 0 0 1 0 0\n{0} {1} 0 0 1 0\n3 0 1 2 3 0 2 3\n",
+    "OFF\n4 2 5\n0 0 0 1 0 0 {0}\n{1} 0 0 1 0 3 0\n1 2 3 0 2 3",
+    "OFF\n4\n2\n5\n0\n0\n0\n1\n0\n0\n{0}\n{1}\n0\n0\n1\n0\n3\n0\n1\n2\n3\n0\n2\n3\n",
+    "OFF # a square\n4 2 # counts\n5\n0 0 # of node\n0\n1 0 0# and\n{0} {1} 0\n0 1 0\n3 # corners\n0 1 2\n3 0 2 3# end",
+    "OFF\n4 2 5\n0 0 0\n1 0 0\n{0} {1} 0\n0 1 0\n3 0\n1 2 255 0 0\n3\n0\n2 3\t0.5 0.5 0.5\n",
+    "OFF\r4 2\r0 0 0\r1 0 0\r{0} {1} 0\r0 1 0\r3 0 1 2 3 0 2 3\r",
+    // What could be another face is a colour where every line has a face.
+    "OFF\n4 2 5\n\n0 0 0\n1 0 0\n{0} {1} 0\n0 1 0\n\n3 0 1 2 3 0 2 3\n3 0 2 3 9\n",
+    "COFF 4 2 5 0 0 0 9 9 9 9 1 0 0 9 9 9 9\n{0} {1} 0 9 9 9 9 0 1 0 9 9 9 9 3 0 1 2 3 0 2 3\n",
+    "STOFF 4 2 5 0 0 0 9 9 1 0 0 9 9\n{0} {1} 0 9 9 0 1 0 9 9\n3 0 1 2 3 0 2 3\n",
+};
+
+TEST_F(OffFile, IsAStreamOfWords) {
+  for (const std::string& stream : streams) {
+    const std::string text = fmt::format(fmt::runtime(stream), "1", "1");
+    SCOPED_TRACE(text);
+    const SurfaceFile surface = read(text);
+    ASSERT_EQ(surface.mesh.positions(), (std::vector<Vector3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+    EXPECT_EQ(surface.mesh.corners(), (std::vector<Index>{0, 1, 2, 0, 2, 3}));
+    std::vector<Vector3> positions = surface.mesh.positions();
+    EXPECT_TRUE(write_surface(path("out.off"), surface, positions).empty());
+    EXPECT_EQ(get("out.off"), text);
+    positions[2] = {1.5, 1.25, 0};
+    write_surface(path("out.off"), surface, positions);
+    EXPECT_EQ(get("out.off"), fmt::format(fmt::runtime(stream), "1.5", "1.25"));
+  }
+}
+
+TEST_F(OffFile, KeepsCommentsInsideNodes) {
+  const std::string text = "OFF 3 1 0\n0 # x\n0 0 1 0 0# y\n0 1\n# z\n0 3 0 1 2\n";
+  const SurfaceFile surface = read(text);
+  write_surface(path("out.off"), surface, {{7, 8, 9}, {1, 0, 5}, {0, 1, 6}});
+  EXPECT_EQ(get("out.off"), "OFF 3 1 0\n7 # x\n8 9 1 0 5# y\n0 1\n# z\n6 3 0 1 2\n");
+}
+
+TEST_F(OffFile, WritesNormalsIntoAStream) {
+  for (const std::string kind : {"NOFF", "NCOFF", "CNOFF"}) {
+    const auto text = [&](const std::string& x, const std::string& normal) {
+      const std::string more = kind == "NOFF" ? normal : kind == "NCOFF" ? "9 9\n9 9 " + normal : normal + " 9 9 9\n9";
+      return fmt::format("{0} 3 1 0 {1} 0 0 {2} 1 0 0 {2}\n0 1 0 {2} 3 0 1 2\n", kind, x, more);
+    };
+    const SurfaceFile surface = read(text("0", "0 0 4"));
+    ASSERT_EQ(surface.normals.size(), 3U);
+    EXPECT_EQ(surface.normals[2], Vector3(0, 0, 1));
+    write_surface(path("out.off"), surface, {{-0.5, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+    EXPECT_EQ(get("out.off"), text("-0.5", "0 0 1"));
+  }
+}
+
 }  // namespace
 }  // namespace vspring::off_test

@@ -73,6 +73,37 @@ TEST_F(PointFile, CsvHasTheColumnsThatTheHeaderNames) {
             "a.csv:6: 'light' stands where the weight belongs; repair the line");
 }
 
+TEST_F(PointFile, CsvColumnsAreNamedWithUnitsOrChosen) {
+  const std::vector<Vector3> expected = {{1, 2, 3}, {4, 5, 6}};
+  const ScatteredPoints named = read("a.csv", "no,weight,X [mm],Y [mm],Z [mm]\n1,2,1,2,3\n2,2,4,5,6\n");
+  EXPECT_EQ(named.positions, expected);
+  EXPECT_EQ(named.weights, (Weights{2, 2}));
+  EXPECT_TRUE(named.warnings.empty());
+  const std::string text = "0,1,2,3\n1,4,5,6\n2,7,8,9\n";
+  EXPECT_EQ(refusal("a.csv", text),
+            "a.csv:1: column 1 counts rows, so columns 1, 2, 3, 4 cannot be told apart; choose columns, such as "
+            "--columns 2,3,4");
+  for (const std::string name : {"a.csv", "a.xyz"}) {
+    const std::string rows = name == "a.csv" ? text : "0 1 2 3\n1 4 5 6\n2 7 8 9\n";
+    const ScatteredPoints chosen = read_points(put(name, rows), {"2", "3", "4"});
+    EXPECT_EQ(chosen.positions[1], expected[1]);
+    EXPECT_TRUE(chosen.weights.empty());
+  }
+  // What is no coordinate by its name is not guessed to be one.
+  const ScatteredPoints guessed = read("a.csv", "east,weight,north,up\n1,7,2,3\n4,7,5,6\n");
+  EXPECT_EQ(guessed.positions, expected);
+  ASSERT_EQ(guessed.warnings.size(), 1U);
+  EXPECT_NE(guessed.warnings[0].find("taken are columns 1 and 3 and 4"), std::string::npos);
+  for (const std::string name : {"a.obj", "a.dat"}) {
+    const std::string message = message_of(
+        [&] {
+          std::ignore = read_points(put(name, name == "a.obj" ? "v 1 2 3\n" : "0 1\n1 2\n"), {"1", "2"});
+        },
+        ErrorCode::invalid_argument);
+    EXPECT_EQ(message.substr(0, 40), name + ": columns can be chosen in CSV and ");
+  }
+}
+
 TEST_F(PointFile, XyzHasWeightsInRowsOfFourOrSevenNumbers) {
   EXPECT_EQ(read("a.xyz", "1 2 3 0.5\n4 5 6 2\n").weights, (Weights{0.5, 2}));
   EXPECT_EQ(read("a.xyz", "1 2 3 0 0 1 0.5\n").weights, Weights{0.5});

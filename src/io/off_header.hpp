@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+
+#include "io/text_cursor.hpp"
+
+namespace vspring {
+
+/// Walks the words of an OFF file, over comments.
+class OffCursor : public TextCursor {
+ public:
+  explicit OffCursor(const InputFile& file) : TextCursor(file, 0, /*continued=*/false, /*commented=*/true) {}
+
+  /// To the next word, over line ends and comments.
+  void skip_to_word();
+  /// To the next word of this line, or to its end or a comment.
+  bool skip_to_row_end() {
+    skip_blanks();
+    return at_line_end() || peek() == '#';
+  }
+  /// The words from here to the end of the line or to a comment.
+  [[nodiscard]] int count_words() const;
+  /// The next whole number, not negative.
+  [[nodiscard]] std::int64_t count(const char* what);
+
+  [[nodiscard]] bool saw_comments() const { return saw_comments_; }
+
+ private:
+  bool saw_comments_ = false;
+};
+
+/// What stands before the nodes of an OFF file.
+struct OffHeader {
+  bool normals = false;
+  bool colours = false;
+  bool textures = false;
+  bool colours_first = false;  ///< NCOFF as MeshLab writes it has them before the normals, CNOFF behind
+  bool edges = false;          ///< the number of edges stands behind that of faces
+  std::int64_t nodes = 0;
+  std::int64_t faces = 0;
+};
+
+/// Reads the keyword, if there is one, and the counts up to the end of their line.
+OffHeader read_off_header(OffCursor& cursor);
+
+}  // namespace vspring

@@ -42,8 +42,4 @@ inline const std::map<std::string, AnyFormat> any_formats = {
 inline const PolygonMesh& shape_of(const SurfaceFile& file) { return file.mesh; }
 inline const PolygonCurve& shape_of(const CurveFile& file) { return file.curve; }
 
-/// What rules may refer to; the file must outlive it.
-inline RuleInput rule_input(const SurfaceFile& file) { return {.groups = &file.groups, .normals = &file.normals}; }
-inline RuleInput rule_input(const CurveFile& file) { return {.groups = &file.groups}; }
-
 }  // namespace vspring::cli

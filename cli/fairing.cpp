@@ -4,9 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <type_traits>
+#include <utility>
 
 #include "exit_status.hpp"
 #include "figures.hpp"
@@ -51,6 +53,18 @@ void restrict_boundary(Constraints& constraints, const PolygonMesh& mesh, const 
   if (arguments.options.fair_boundary) restrict_to_region(constraints, boundary_curve(mesh), region);
 }
 
+/// With the nodes that are one with some of the region, and those that belong to no face any more, which stay anyway.
+std::vector<Index> whole_region(const std::vector<Index>& region, const Welded& welded) {
+  const auto first = [&](std::size_t node) { return static_cast<std::size_t>(welded.stands_for[node]); };
+  std::vector<std::uint8_t> inside(welded.stands_for.size(), 0);
+  for (const Index node : region) inside[first(static_cast<std::size_t>(node))] = 1;
+  std::vector<Index> whole;
+  for (std::size_t node = 0; node < inside.size(); ++node) {
+    if (inside[first(node)] != 0 || first(node) != node) whole.push_back(static_cast<Index>(node));
+  }
+  return whole;
+}
+
 void restrict_boundary(Constraints& /*constraints*/, const PolygonCurve& /*curve*/,
                        const std::vector<Index>& /*region*/, const FairingArguments& /*arguments*/) {}
 
@@ -68,7 +82,8 @@ Constraints constraints_of(const FairingArguments& arguments, const Shape& shape
     }
   }
   if (!arguments.region.empty()) {
-    const auto region = select_region(shape.positions(), arguments.region, *input.groups);
+    auto region = select_region(shape.positions(), arguments.region, *input.groups);
+    if (input.welded != nullptr) region = whole_region(region, *input.welded);
     restrict_boundary(constraints, shape, region, arguments);
     restrict_to_region(constraints, shape, region);
   }
@@ -214,7 +229,10 @@ std::string Fairing::write_views(const Faired<Shape>& faired, const FigurePair& 
   if (writers.scalars) std::ranges::move(writers.scalars(), std::back_inserter(scalars));
   if (context_.cancelled()) return arguments_->scalars;
   const UninterruptedWhileWriting guard;
-  write_scalars(arguments_->scalars, faired.after, scalars);
+  if (writers.welding != nullptr)
+    writers.welding->write_scalars(arguments_->scalars, faired.after, std::move(scalars));
+  else
+    write_scalars(arguments_->scalars, faired.after, scalars);
   return {};
 }
 

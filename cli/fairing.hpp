@@ -16,6 +16,7 @@
 #include "vspring/fair.hpp"
 #include "vspring/figures.hpp"
 #include "vspring/scalar_file.hpp"
+#include "welding.hpp"
 
 namespace vspring::cli {
 
@@ -47,6 +48,8 @@ class Fairing {
     std::span<const Vector3> points = {};
     /// What the command adds to --scalars.
     std::function<std::vector<NodeScalar>()> scalars = {};
+    /// Of surfaces: what the shape has become of the file's.
+    const Welding* welding = nullptr;
     /// What the command adds to the report.
     nlohmann::ordered_json figures = nlohmann::ordered_json::object();
     /// What it adds to what people read, in lines.

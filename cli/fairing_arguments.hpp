@@ -19,6 +19,7 @@ struct FairingArguments {
   Hold fix = Hold::boundary;
   Hold fix_directions = Hold::none;
   std::string region;
+  std::optional<double> weld;  ///< nodes nearer than this share of the diagonal are one; else what the format needs
   FairOptions options;
   std::optional<Distribution> distribution;  ///< else what the command takes by itself
   bool paper = false;

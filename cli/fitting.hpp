@@ -84,10 +84,10 @@ struct FairedOrFitted {
 
 /// Fairs a shape, and draws it towards points where that is asked for: its own nodes, as the input has them.
 template <typename Shape>
-FairedOrFitted fair_or_fit(const Shape& shape, const Constraints& constraints, const std::vector<Vector3>& nodes,
+FairedOrFitted fair_or_fit(const Shape& shape, const Constraints& constraints, const ScatteredPoints& nodes,
                            const FairingArguments& arguments, const PullArguments& pull, Context& context) {
   if (!asks_to_fit(pull)) return {fair(shape, constraints, arguments.options, context), std::nullopt};
-  FitResult fitted = fit(shape, constraints, {.positions = nodes}, fit_options(pull, arguments.options), context);
+  FitResult fitted = fit(shape, constraints, nodes, fit_options(pull, arguments.options), context);
   if (fitted.report.fair.outcome != Outcome::converged && fitted.report.fair.outcome != Outcome::cancelled)
     warn_of_noise(pull, noise_of(shape, context), fitted.report.fair.warnings);
   FitAccount account(fitted.report, pull, arguments.input, {});

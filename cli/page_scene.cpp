@@ -119,20 +119,33 @@ std::size_t common_length(const PolygonMesh& mesh) {
 
 Json shape_of(const PolygonMesh& mesh, const Frame& frame, double diagonal, const Context& context) {
   const std::size_t length = common_length(mesh);
-  RunEncoder faces(length);
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const auto nodes = mesh.face(f);
-    if (std::all_of(nodes.begin(), nodes.end(), [&](Index node) { return mesh.position(node).allFinite(); }))
-      faces.add(nodes);
-  }
+  // Nodes of no face are not seen, and have no say in charts and colours.
+  std::vector<Index> number(static_cast<std::size_t>(mesh.node_count()), -1);
+  for (const Index node : mesh.corners()) number[static_cast<std::size_t>(node)] = 0;
+  std::vector<Vector3> positions;
   std::vector<double> mean;
   std::vector<double> gaussian;
   const auto finite = [](double value) { return std::isfinite(value) ? value : 0; };
-  for (const NodeCurvature& curvature : curvatures(mesh, context)) {
-    mean.push_back(finite(curvature.mean() * diagonal));
-    gaussian.push_back(finite(curvature.gaussian() * diagonal * diagonal));
+  const std::vector<NodeCurvature> bent = curvatures(mesh, context);
+  for (std::size_t node = 0; node < bent.size(); ++node) {
+    if (number[node] < 0) continue;
+    number[node] = static_cast<Index>(positions.size());
+    positions.push_back(mesh.positions()[node]);
+    mean.push_back(finite(bent[node].mean() * diagonal));
+    gaussian.push_back(finite(bent[node].gaussian() * diagonal * diagonal));
   }
-  return {{"nodes", encode_coordinates(frame.inside(mesh.positions()))},
+  RunEncoder faces(length);
+  std::vector<Index> renumbered;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto nodes = mesh.face(f);
+    if (nodes.empty() ||
+        !std::all_of(nodes.begin(), nodes.end(), [&](Index node) { return mesh.position(node).allFinite(); }))
+      continue;
+    renumbered.clear();
+    for (const Index node : nodes) renumbered.push_back(number[static_cast<std::size_t>(node)]);
+    faces.add(renumbered);
+  }
+  return {{"nodes", encode_coordinates(frame.inside(positions))},
           {"length", length},
           {"runs", faces.take()},
           {"mean", encode_halves(mean)},

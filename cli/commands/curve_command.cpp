@@ -56,8 +56,8 @@ int run_curve(CurveArguments arguments) {
     file.source = nullptr;
     file.groups.clear();
   }
-  FairedOrFitted done =
-      fair_or_fit(file.curve, constraints, before.positions(), arguments, arguments.pull, fairing.context());
+  FairedOrFitted done = fair_or_fit(file.curve, constraints, {.positions = before.positions()}, arguments,
+                                    arguments.pull, fairing.context());
   FairResult& result = done.faired;
   if (file.source) {
     for (const Repeat& repeat : repeats)

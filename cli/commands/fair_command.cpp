@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands/choice.hpp"
@@ -16,6 +17,7 @@
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "vspring/vspring.hpp"
+#include "welding.hpp"
 
 namespace vspring::cli {
 
@@ -39,23 +41,32 @@ int run_fair(FairArguments arguments) {
   if (file.mesh.face_count() == 0)
     throw Error(ErrorCode::unusable_file,
                 arguments.input + ": no face in it; lines are faired by vspring curve, points have no shape");
-  settle_by_noise(arguments.pull, file.mesh, fairing.context());
-  const Constraints constraints =
-      make_constraints(arguments, file.mesh, {.groups = &file.groups, .normals = &file.normals});
+  const Welding welding(file, arguments);
+  const PolygonMesh& mesh = welding.shape(file);
+  settle_by_noise(arguments.pull, mesh, fairing.context());
+  const Constraints constraints = make_constraints(arguments, mesh, welding.rules(file));
   const FairedOrFitted done =
-      fair_or_fit(file.mesh, constraints, file.mesh.positions(), arguments, arguments.pull, fairing.context());
+      fair_or_fit(mesh, constraints, {.positions = mesh.positions(), .weights = welding.weights()}, arguments,
+                  arguments.pull, fairing.context());
   const FairResult& result = done.faired;
   const auto write = [&] {
     std::vector<std::string> warnings;
-    for (const std::string& lost : write_surface(arguments.output, file, result.positions, arguments.format))
+    for (const std::string& lost :
+         write_surface(arguments.output, file, welding.positions(result.positions), arguments.format))
       warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
     return warnings;
   };
-  PolygonMesh after = file.mesh;
+  PolygonMesh after = mesh;
   after.set_positions(result.positions);
-  return fairing.finish<PolygonMesh>({file.mesh, after, constraints, result.report}, file.mesh.positions(),
-                                     file.warnings,
-                                     {.shape = write, .picture = {}, .figures = done.figures(), .lines = done.lines()});
+  auto figures = done.figures();
+  figures.update(welding.figures());
+  return fairing.finish<PolygonMesh>({mesh, after, constraints, result.report}, mesh.positions(),
+                                     welding.with_warnings(file.warnings),
+                                     {.shape = write,
+                                      .picture = {},
+                                      .welding = &welding,
+                                      .figures = std::move(figures),
+                                      .lines = welding.lines() + done.lines()});
 }
 
 const std::map<std::string, Springs> springs = {{"edge", Springs::edge}, {"sphere", Springs::sphere}};
@@ -113,6 +124,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
                 "Fair the boundary loops first, as curves between their nodes that rules hold, then the surface that "
                 "they bound; in place of --fix boundary (default: off)")
       ->group(holding_group);
+  add_weld_option(command, *arguments);
   add_pull_options(command, arguments->pull, pull_of_own_nodes);
   add_surface_method(command, *arguments, words);
   add_run_options(command, *arguments);

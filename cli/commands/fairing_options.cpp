@@ -76,6 +76,17 @@ void add_columns(CLI::App& command, const std::string& flag, std::vector<std::st
       ->type_name("X,Y[,Z]");
 }
 
+void add_weld_option(CLI::App& command, FairingArguments& arguments) {
+  command
+      .add_option("--weld", arguments.weld,
+                  "Surfaces: nodes that are no further apart than this share of the diagonal are one for fairing; the "
+                  "file keeps its nodes and faces. 0: only nodes at the same place (default: off; of STL 1e-6, or that "
+                  "share of the largest coordinate where this is more, as it was rounded so)")
+      ->type_name("EPS")
+      ->check(non_negative_number())
+      ->group(holding_group);
+}
+
 void add_stopping_options(CLI::App& command, FairingArguments& arguments) {
   FairOptions& options = arguments.options;
   command

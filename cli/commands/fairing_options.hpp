@@ -24,6 +24,7 @@ struct FairingWords {
 // Options by their groups in the help text. `arguments` must outlive the command.
 void add_files(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 void add_constraint_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
+void add_weld_option(CLI::App& command, FairingArguments& arguments);
 void add_stopping_options(CLI::App& command, FairingArguments& arguments);
 void add_shaping_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 /// An option for the columns of tables. whose: of which files, and else.

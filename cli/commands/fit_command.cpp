@@ -25,6 +25,7 @@
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "vspring/vspring.hpp"
+#include "welding.hpp"
 
 namespace vspring::cli {
 
@@ -77,8 +78,9 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
   const std::vector<Repeat> repeats = arguments.closed ? close_fitted(file) : std::vector<Repeat>{};
   const std::string note = arguments.closed ? std::string() : note_of_fitted(file);
-  const Shape& shape = shape_of(file);
-  Constraints constraints = make_constraints(arguments, shape, rule_input(file));
+  const Welding welding(file, arguments);
+  const Shape& shape = welding.shape(file);
+  Constraints constraints = make_constraints(arguments, shape, welding.rules(file));
   hold_repeated(constraints, repeats);
   FairOptions fairing_options = arguments.options;
   if (arguments.paper) {
@@ -102,7 +104,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
     result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
   const auto write_shape = [&] {
     std::vector<std::string> warnings;
-    for (const std::string& lost : write(arguments, file, result.positions))
+    for (const std::string& lost : write(arguments, file, welding.positions(result.positions)))
       warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
     if (!arguments.deviation.empty())
       write_scalars(arguments.deviation, cloud, std::vector<NodeScalar>{{"deviation", result.distances}});
@@ -111,17 +113,21 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   Shape after = shape;
   after.set_positions(result.positions);
   const auto point_deviation = [&]() -> std::vector<NodeScalar> {
-    return {
-        {"point_deviation", node_deviations(result.positions, cloud.positions(), result.distances, fairing.context())}};
+    const std::vector<Vector3> nodes = welding.positions(result.positions);
+    return {{"point_deviation",
+             welding.greatest(node_deviations(nodes, cloud.positions(), result.distances, fairing.context()))}};
   };
+  auto figures = account.figures();
+  figures.update(welding.figures());
   return fairing.finish<Shape>({shape, after, constraints, result.report.fair}, shape.positions(),
-                               std::move(read_warnings),
+                               welding.with_warnings(std::move(read_warnings)),
                                {.shape = write_shape,
                                 .picture = [&] { return picture_of_fit(file, result.positions, cloud.positions()); },
                                 .points = cloud.positions(),
                                 .scalars = point_deviation,
-                                .figures = account.figures(),
-                                .lines = account.lines() + note});
+                                .welding = &welding,
+                                .figures = std::move(figures),
+                                .lines = welding.lines() + account.lines() + note});
 }
 
 int run_fit(FitArguments arguments) {
@@ -220,6 +226,7 @@ void add_fit_command(CLI::App& app, std::function<int()>& run) {
   CLI::App& command = *app.add_subcommand("fit", "Fair a surface or curve and draw it towards scattered points");
   add_files(command, *arguments, words);
   add_constraint_options(command, *arguments, words);
+  add_weld_option(command, *arguments);
   add_fit_options(command, *arguments);
   add_shaping_options(command, *arguments, words);
   add_run_options(command, *arguments);

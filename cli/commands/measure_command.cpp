@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <type_traits>
+#include <utility>
 
 #include "any_shape.hpp"
 #include "closed_chains.hpp"
@@ -25,6 +26,7 @@
 #include "scalars.hpp"
 #include "signals.hpp"
 #include "vspring/vspring.hpp"
+#include "welding.hpp"
 
 namespace vspring::cli {
 
@@ -94,35 +96,47 @@ std::vector<std::string> titles(const std::string& first, const std::string& sec
   return a == b ? std::vector{first, second} : std::vector{a, b};
 }
 
+/// What is measured of a file.
 template <typename File>
-Constraints constraints_for(const MeasureArguments& arguments, const File& file, const File* other) {
+struct Measured {
+  File file;
+  Welding welding;
+
+  Measured(File read, const MeasureArguments& arguments) : file(std::move(read)), welding(file, arguments) {}
+  [[nodiscard]] const auto& shape() const { return welding.shape(file); }
+};
+
+template <typename File>
+Constraints constraints_for(const MeasureArguments& arguments, const Measured<File>& file,
+                            const Measured<File>* other) {
   // "As in the input" is as in the shape before, where it is given.
-  const bool before = other != nullptr && shape_of(*other).node_count() == shape_of(file).node_count();
-  const File& input = before ? *other : file;
-  return make_constraints(arguments, shape_of(input), rule_input(input));
+  const bool before = other != nullptr && other->shape().node_count() == file.shape().node_count();
+  const Measured<File>& input = before ? *other : file;
+  return make_constraints(arguments, input.shape(), input.welding.rules(input.file));
 }
 
-std::string picture_of_measured(const MeasureArguments& arguments, const SurfaceFile& /*file*/,
-                                const SurfaceFile* /*other*/, const Json& scene, const Context& context) {
+std::string picture_of_measured(const MeasureArguments& arguments, const Measured<SurfaceFile>& /*file*/,
+                                const Measured<SurfaceFile>* /*other*/, const Json& scene, const Context& context) {
   return surface_picture(arguments.picture, "vspring: " + arguments.input, scene, context);
 }
 
-std::string picture_of_measured(const MeasureArguments& arguments, const CurveFile& file, const CurveFile* other,
-                                const Json& /*scene*/, const Context& context) {
-  const PolygonCurve* before = other != nullptr ? &other->curve : nullptr;
+std::string picture_of_measured(const MeasureArguments& arguments, const Measured<CurveFile>& measured,
+                                const Measured<CurveFile>* other, const Json& /*scene*/, const Context& context) {
+  const CurveFile& file = measured.file;
+  const PolygonCurve* before = other != nullptr ? &other->shape() : nullptr;
   return curve_picture(arguments.picture, draw_curve(file, file.curve.positions(), {.before = before}), context);
 }
 
 /// Page, picture and scalars, as far as they are asked for. False where Ctrl-C prevented one.
 template <typename File>
-bool write_views(const MeasureArguments& arguments, const File& file, const File* other,
+bool write_views(const MeasureArguments& arguments, const Measured<File>& file, const Measured<File>* other,
                  const std::vector<FigureColumn>& columns, const Json& report, Context& context) {
-  using Shape = std::remove_cvref_t<decltype(shape_of(file))>;
+  using Shape = std::remove_cvref_t<decltype(file.shape())>;
   const CancelOnSignal cancelling(context);
   Json scene;
   if (!arguments.html.empty() || (std::is_same_v<File, SurfaceFile> && !arguments.picture.path.empty())) {
-    std::vector<PageShape<Shape>> shapes = {{columns[0].title, &shape_of(file), columns[0].figures}};
-    if (other != nullptr) shapes.push_back({columns[1].title, &shape_of(*other), columns[1].figures});
+    std::vector<PageShape<Shape>> shapes = {{columns[0].title, &file.shape(), columns[0].figures}};
+    if (other != nullptr) shapes.push_back({columns[1].title, &other->shape(), columns[1].figures});
     const PageRoles roles = {
         .leading = 0, .reference = other != nullptr ? std::optional(1) : std::nullopt, .view = arguments.picture.view};
     scene = scene_of(std::span<const PageShape<Shape>>(shapes), roles, context);
@@ -136,51 +150,54 @@ bool write_views(const MeasureArguments& arguments, const File& file, const File
   write(arguments.picture.path, [&] { return picture_of_measured(arguments, file, other, scene, context); });
   if (arguments.scalars.empty() || context.cancelled()) return !context.cancelled();
   const std::vector<NodeScalar> scalars =
-      scalars_of(shape_of(file), other != nullptr ? &shape_of(*other) : nullptr, context);
+      scalars_of(file.shape(), other != nullptr ? &other->shape() : nullptr, context);
   if (context.cancelled()) return false;
   const UninterruptedWhileWriting guard;
-  write_scalars(arguments.scalars, shape_of(file), scalars);
+  file.welding.write_scalars(arguments.scalars, file.shape(), scalars);
   return true;
 }
 
 /// Throws where deviations are to be shown and there is nothing that they could be from, node by node.
-void refuse_deviation(const SurfaceFile& file, const SurfaceFile* other) {
+void refuse_deviation(const PolygonMesh& mesh, const PolygonMesh* other) {
   if (other == nullptr)
     throw Error(ErrorCode::invalid_argument, "--picture-style deviation: from what? give --compare");
-  if (!same_faces(file.mesh, other->mesh))
+  if (!same_faces(mesh, *other))
     throw Error(ErrorCode::unusable_shape,
                 "--picture-style deviation: the two shapes have not the same faces; leave it out, or see --scalars");
 }
-void refuse_deviation(const CurveFile& /*file*/, const CurveFile* /*other*/) {}
+void refuse_deviation(const PolygonCurve& /*curve*/, const PolygonCurve* /*other*/) {}
 
 template <typename File>
-int measure_file(const MeasureArguments& arguments, File file, std::optional<File> other) {
+int measure_file(const MeasureArguments& arguments, File first, std::optional<File> second_file) {
   const auto begin = std::chrono::steady_clock::now();
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
-  if (arguments.picture.shows("deviation")) refuse_deviation(file, other ? &*other : nullptr);
   std::string note;
-  if constexpr (std::is_same_v<File, CurveFile>) note = arguments.closed ? "" : note_of_repeats(file.curve);
+  if constexpr (std::is_same_v<File, CurveFile>) note = arguments.closed ? "" : note_of_repeats(first.curve);
   if (arguments.closed) {
-    close_measured(file);
-    if (other) close_measured(*other);
+    close_measured(first);
+    if (second_file) close_measured(*second_file);
   }
+  const Measured<File> file(std::move(first), arguments);
+  std::optional<Measured<File>> other;
+  if (second_file) other.emplace(std::move(*second_file), arguments);
+  if (arguments.picture.shows("deviation")) refuse_deviation(file.shape(), other ? &other->shape() : nullptr);
   Context context;
   context.threads = arguments.threads;
   std::optional<Constraints> constraints;
   if (arguments.constrained) constraints = constraints_for(arguments, file, other ? &*other : nullptr);
-  const auto held = [&](const File& measured) {
-    const bool fits = constraints && constraints->node_count() == shape_of(measured).node_count();
+  const auto held = [&](const Measured<File>& measured) {
+    const bool fits = constraints && constraints->node_count() == measured.shape().node_count();
     return fits ? &*constraints : nullptr;
   };
 
   std::vector<FigureColumn> columns;
   columns.push_back(
-      {arguments.input, with_noise(figures_of(shape_of(file), held(file), context), shape_of(file), context)});
+      {arguments.input, with_noise(figures_of(file.shape(), held(file), context), file.shape(), context)});
   std::optional<Apart> apart;
-  std::vector<std::string> warnings = file.warnings;
+  std::vector<std::string> warnings = file.welding.with_warnings(file.file.warnings);
   if (other) {
-    const auto& shape = shape_of(file);
-    const auto& second = shape_of(*other);
+    const auto& shape = file.shape();
+    const auto& second = other->shape();
     const auto names = titles(arguments.input, arguments.compare);
     columns.front().title = names[0];
     columns.push_back({names[1], with_noise(figures_of(second, held(*other), context), second, context)});
@@ -188,17 +205,18 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
     if (shape.node_count() == second.node_count()) apart->nodes = node_distance(second.positions(), shape.positions());
     apart->to_other = distance(shape.positions(), second, context);
     apart->from_other = distance(second.positions(), shape, context);
-    warnings.insert(warnings.end(), other->warnings.begin(), other->warnings.end());
+    const std::vector<std::string> of_other = other->welding.with_warnings(other->file.warnings);
+    warnings.insert(warnings.end(), of_other.begin(), of_other.end());
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
 
   Json json;
   if (!arguments.report.empty() || !arguments.html.empty()) {
     json = {{"shape", arguments.input}, {"kind", std::is_same_v<File, SurfaceFile> ? "surface" : "curve"}};
-    json.update(counts_of(shape_of(file)));
+    json.update(counts_of(file.shape()));
     json["figures"] = values_of(columns.front().figures);
     if (other) {
-      json["compared_with"] = counts_of(shape_of(*other));
+      json["compared_with"] = counts_of(other->shape());
       json["compared_with"]["shape"] = arguments.compare;
       json["compared_with"]["figures"] = values_of(columns.back().figures);
       json["distance"] = {{"nodes", apart->nodes ? to_json(*apart->nodes) : Json()},
@@ -206,6 +224,7 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
                           {"from_other", to_json(apart->from_other)}};
     }
     json["definitions"] = definitions_of(columns.front().figures);
+    json.update(file.welding.figures());
     json["warnings"] = warnings;
     json["seconds"] = seconds.count();
     json["threads"] = context.thread_count();
@@ -277,6 +296,7 @@ void add_measure_command(CLI::App& app, std::function<int()>& run) {
   CLI::App& command = *app.add_subcommand("measure", "Figures of fairness of a surface or curve, nothing changed");
   add_shape_options(command, *arguments);
   add_constraint_options(command, *arguments, words);
+  add_weld_option(command, *arguments);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, true);
   command.footer(

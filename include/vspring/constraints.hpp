@@ -115,6 +115,8 @@ void restrict_to_region(Constraints& constraints, const PolygonMesh& mesh, std::
 /// The same for a curve: the rim gets the tangents of what lies outside.
 void restrict_to_region(Constraints& constraints, const PolygonCurve& curve, std::span<const Index> region);
 
+struct Welded;
+
 using Groups = std::map<std::string, std::vector<Index>>;
 
 /// The nodes that a region specification names, ascending: `sphere:x,y,z,r`, `box:x0,y0,z0,x1,y1,z1` (both include
@@ -128,6 +130,7 @@ using Groups = std::map<std::string, std::vector<Index>>;
 struct RuleInput {
   const Groups* groups = nullptr;                 ///< for {"group": NAME}
   const std::vector<Vector3>* normals = nullptr;  ///< the file's own, for "normal": "file"
+  const Welded* welded = nullptr;                 ///< of a surface whose mesh is that of weld()
 };
 
 /// Applies rules, in order, the later one winning, as a JSON text:
@@ -137,6 +140,10 @@ struct RuleInput {
 /// selection's order. N: "fixed" (estimate_normals() of the input), "file" (the file's own), "free", [x, y, z] or a
 /// list, node by node. Throws Error(unusable_constraint) naming the rule, and line or node where it can; constraints
 /// are then unchanged. Cost: linear in the mesh, once, and in the nodes named.
+///
+/// Of a welded surface, rules name nodes by their numbers before, and hold or free what each has become one with.
+/// Nodes that are one may not be told different things by one rule, or by several that name them (or their groups or
+/// regions): Error(unusable_constraint) names both.
 void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view json, const RuleInput& input = {});
 
 /// The same for a curve. "boundary" are the ends of its chains. Rules may also have "tangent": "fixed"

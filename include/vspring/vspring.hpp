@@ -27,3 +27,4 @@
 #include "vspring/topology.hpp"
 #include "vspring/types.hpp"
 #include "vspring/version.hpp"
+#include "vspring/weld.hpp"

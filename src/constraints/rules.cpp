@@ -8,6 +8,7 @@
 #include "vspring/constraints.hpp"
 #include "vspring/error.hpp"
 #include "vspring/topology.hpp"
+#include "vspring/weld.hpp"
 
 namespace vspring {
 
@@ -50,6 +51,35 @@ Flags non_manifold_nodes(const PolygonCurve& curve) {
   for (std::uint8_t& seen : times) seen = seen > 1 ? 1 : 0;
   return times;
 }
+
+/// What nodes that are welded into one are told. Whoever is told nothing agrees.
+class Agreement {
+ public:
+  struct Told {
+    Index node = -1;  ///< the one that was told last, by its own number
+    int rule = 0;
+    bool named = false;  ///< and not only one of all, of the boundary or the like
+    Vector3 value = Vector3::Zero();
+  };
+
+  /// Notes what `told.node`, for which `first` stands, is told. Returns a node that was told something else and has a
+  /// say beside it, else −1.
+  Index differing(std::size_t node_count, Index first, const Told& told, const auto& same) {
+    told_.resize(node_count);
+    Told& last = told_[static_cast<std::size_t>(first)];
+    const bool has_say =
+        last.node >= 0 && last.node != told.node && (last.rule == told.rule || (last.named && told.named));
+    const Index other = has_say && !same(last.value, told.value) ? last.node : -1;
+    last = told;
+    return other;
+  }
+  void forget(Index first) {
+    if (!told_.empty()) told_[static_cast<std::size_t>(first)] = {};
+  }
+
+ private:
+  std::vector<Told> told_;  // by the node that stands for them
+};
 
 /// Applies the rules of one text. Every fault names the rule, counted from 1.
 class RuleReader {
@@ -95,6 +125,7 @@ class RuleReader {
       throw fault(curve() ? "it has none of \"position\", \"normal\" and \"tangent\""
                           : "it has neither \"position\" nor \"normal\"");
     const std::vector<Index> nodes = select(rule["nodes"]);
+    named_ = !rule["nodes"].is_string();
     if (rule.contains("position")) apply_positions(nodes, rule["position"]);
     if (rule.contains("normal")) apply_normals(nodes, rule["normal"]);
     if (rule.contains("tangent")) apply_tangents(nodes, rule["tangent"]);
@@ -102,6 +133,28 @@ class RuleReader {
 
   [[nodiscard]] bool curve() const { return shape_.tangents != nullptr; }
   [[nodiscard]] Index node_count() const { return static_cast<Index>(positions_.size()); }
+
+  /// The node that stands for this one.
+  [[nodiscard]] Index first(Index node) const {
+    return input_.welded != nullptr ? input_.welded->stands_for[static_cast<std::size_t>(node)] : node;
+  }
+
+  /// Refuses what another node that is one with this one was told otherwise.
+  void agree(Agreement& agreement, Index node, const Vector3& value, const char* what, const auto& same) {
+    if (input_.welded == nullptr) return;
+    const Index other = agreement.differing(positions_.size(), first(node), {node, rule_, named_, value}, same);
+    if (other >= 0)
+      throw fault(
+          fmt::format("nodes {} and {} are welded into one and cannot have two {}s; give both the same, or only "
+                      "one of them, or weld within less",
+                      other, node, what));
+  }
+
+  void fix_position(Index node, const Vector3& position) {
+    agree(positions_told_, node, position, "position",
+          [&](const Vector3& a, const Vector3& b) { return (a - b).stableNorm() <= input_.welded->tolerance; });
+    constraints_.fix_position(first(node), position);
+  }
 
   [[nodiscard]] std::vector<Index> nodes_where(const auto& holds) const {
     std::vector<Index> nodes;
@@ -116,11 +169,11 @@ class RuleReader {
     if (selection == "boundary" || selection == "interior") {
       const Flags boundary = shape_.boundary();
       const std::uint8_t wanted = selection == "boundary" ? 1 : 0;
-      return nodes_where([&](Index i) { return boundary[static_cast<std::size_t>(i)] == wanted; });
+      return nodes_where([&](Index i) { return boundary[static_cast<std::size_t>(first(i))] == wanted; });
     }
     if (selection == "non-manifold") {
       const Flags wrong = shape_.non_manifold();
-      return nodes_where([&](Index i) { return wrong[static_cast<std::size_t>(i)] != 0; });
+      return nodes_where([&](Index i) { return wrong[static_cast<std::size_t>(first(i))] != 0; });
     }
     if (selection.is_object() && selection.size() == 1 && selection.contains("group") && selection["group"].is_string())
       return group(selection["group"].get<std::string>());
@@ -184,22 +237,30 @@ class RuleReader {
 
   void apply_positions(const std::vector<Index>& nodes, const json& value) {
     if (value == "free") {
-      for (const Index i : nodes) constraints_.free_position(i);
+      for (const Index i : nodes) {
+        constraints_.free_position(first(i));
+        positions_told_.forget(first(i));
+      }
     } else if (value == "fixed") {
-      for (const Index i : nodes) constraints_.fix_position(i, positions_[static_cast<std::size_t>(i)]);
+      for (const Index i : nodes) fix_position(i, positions_[static_cast<std::size_t>(first(i))]);
     } else if (value.is_string()) {
       throw fault(fmt::format("{} is no position; write \"fixed\", \"free\" or {}", value.dump(), numbers()));
     } else {
       const auto positions = vectors(value, nodes.size(), "position");
-      for (std::size_t k = 0; k < nodes.size(); ++k) constraints_.fix_position(nodes[k], positions[k]);
+      for (std::size_t k = 0; k < nodes.size(); ++k) fix_position(nodes[k], positions[k]);
     }
   }
 
   void apply_normals(const std::vector<Index>& nodes, const json& value) {
     if (value == "free") {
-      for (const Index i : nodes) constraints_.free_normal(i);
+      for (const Index i : nodes) {
+        constraints_.free_normal(first(i));
+        normals_told_.forget(first(i));
+      }
     } else if (value == "fixed") {
-      fix_normals(nodes, shape_.normals(nodes), curve() ? no_normal : "no face gives it a normal");
+      std::vector<Index> firsts = nodes;
+      for (Index& node : firsts) node = first(node);
+      fix_normals(nodes, shape_.normals(firsts), curve() ? no_normal : "no face gives it a normal");
     } else if (value == "file") {
       if (input_.normals == nullptr || input_.normals->empty()) throw fault("the file has no normals for \"file\"");
       std::vector<Vector3> normals;
@@ -233,9 +294,15 @@ class RuleReader {
   void fix_normals(const std::vector<Index>& nodes, const std::vector<Vector3>& normals, const char* without) {
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (normals[k].isZero(0)) throw fault(fmt::format("node {}: {}", nodes[k], without));
-      constraints_.fix_normal(nodes[k], normals[k]);
+      const Vector3 unit = normals[k].stableNormalized();
+      agree(normals_told_, nodes[k], unit, "normal", [](const Vector3& a, const Vector3& b) {
+        return std::min((a - b).norm(), (a + b).norm()) <= same_direction;
+      });
+      constraints_.fix_normal(first(nodes[k]), normals[k]);
     }
   }
+
+  static constexpr double same_direction = 1e-6;  // radians
 
   static constexpr const char* no_normal = "a straight run has no normal of its own; give its \"tangent\" instead";
 
@@ -244,6 +311,9 @@ class RuleReader {
   const std::vector<Vector3>& positions_;
   const RuleInput& input_;
   int rule_ = 0;
+  bool named_ = false;  ///< the rule names nodes, groups or a region
+  Agreement positions_told_;
+  Agreement normals_told_;
 };
 
 void apply(Constraints& constraints, const RuledShape& shape, std::string_view text, const RuleInput& input) {

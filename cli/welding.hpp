@@ -1,0 +1,65 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fairing_arguments.hpp"
+#include "vspring/constraints.hpp"
+#include "vspring/curve_file.hpp"
+#include "vspring/scalar_file.hpp"
+#include "vspring/surface_file.hpp"
+#include "vspring/weld.hpp"
+
+namespace vspring::cli {
+
+/// The nodes of a file that are one for fairing, as --weld says; of STL, where it says nothing, those that the rounding
+/// of single precision has parted. The file keeps all its nodes.
+class Welding {
+ public:
+  /// Throws as weld() does.
+  Welding(const SurfaceFile& file, const FairingArguments& arguments);
+  /// Throws Error(invalid_argument) where a curve is to be welded.
+  Welding(const CurveFile& file, const FairingArguments& arguments);
+
+  /// The shape that is faired or measured.
+  [[nodiscard]] const PolygonMesh& shape(const SurfaceFile& file) const { return welded_ ? welded_->mesh : file.mesh; }
+  [[nodiscard]] static const PolygonCurve& shape(const CurveFile& file) { return file.curve; }
+
+  /// What rules may refer to; file and this must outlive it.
+  [[nodiscard]] RuleInput rules(const SurfaceFile& file) const;
+  [[nodiscard]] static RuleInput rules(const CurveFile& file) { return {.groups = &file.groups}; }
+
+  /// Positions of the file's nodes, from those of the shape's.
+  [[nodiscard]] std::vector<Vector3> positions(const std::vector<Vector3>& of_shape) const;
+
+  /// Of the nodes of the shape as points: 0 for those that another stands for. Empty: 1 for all.
+  [[nodiscard]] std::vector<double> weights() const;
+
+  /// Gives the node that stands for others the greatest number of all of them.
+  [[nodiscard]] std::vector<double> greatest(std::vector<double> values) const;
+
+  /// Writes numbers at the nodes of the shape, with nodes and faces of the file.
+  void write_scalars(const std::string& path, const PolygonMesh& shape, std::vector<NodeScalar> scalars) const;
+  static void write_scalars(const std::string& path, const PolygonCurve& shape, const std::vector<NodeScalar>& scalars);
+
+  /// With what a person should know: what is welded, and what may have to be.
+  [[nodiscard]] std::vector<std::string> with_warnings(std::vector<std::string> warnings) const;
+  /// What a report says of it: nothing where nothing was to be welded.
+  [[nodiscard]] nlohmann::ordered_json figures() const;
+  /// The same for people, in lines.
+  [[nodiscard]] std::string lines() const;
+
+ private:
+  void weld_file(const SurfaceFile& file, double tolerance);
+  void weld_by_itself(const SurfaceFile& file);
+  void look_for_seams(const SurfaceFile& file, const FairingArguments& arguments);
+
+  double tolerance_ = 0;  ///< a share of the diagonal
+  std::optional<Welded> welded_;
+  PolygonMesh file_;  ///< where it is welded
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace vspring::cli

@@ -1,0 +1,87 @@
+#include "vspring/weld.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "shape/near_nodes.hpp"
+#include "vspring/error.hpp"
+
+namespace vspring {
+
+namespace {
+
+/// The corners of a face with the nodes that stand for them, without repeats of the corner before.
+std::vector<Index> welded_corners(std::span<const Index> face, const std::vector<Index>& stands_for) {
+  std::vector<Index> corners;
+  for (const Index node : face) {
+    const Index first = stands_for[static_cast<std::size_t>(node)];
+    if (corners.empty() || corners.back() != first) corners.push_back(first);
+  }
+  while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
+  return corners;
+}
+
+bool lies_at_three_places(const PolygonMesh& mesh, std::span<const Index> face) {
+  const Vector3& first = mesh.position(face[0]);
+  const auto other = std::find_if(face.begin(), face.end(), [&](Index i) { return mesh.position(i) != first; });
+  return other != face.end() && std::any_of(other, face.end(), [&](Index i) {
+           return mesh.position(i) != first && mesh.position(i) != mesh.position(*other);
+         });
+}
+
+}  // namespace
+
+Welded weld(const PolygonMesh& mesh, double tolerance) {
+  const FaceNodes used(mesh);
+  Welded result;
+  result.tolerance = used.length(tolerance);
+  NearNodes near = near_nodes(mesh.positions(), used.nodes, used.box, result.tolerance);
+  if (near.chained.first >= 0)
+    throw Error(ErrorCode::unusable_shape,
+                fmt::format("nodes {} and {} are {:.3g} apart, and nodes between them lead from one to the other, none "
+                            "further than {:.3g} from the next: they cannot all be one; weld within less (--weld)",
+                            near.chained.first, near.chained.second,
+                            (mesh.position(near.chained.first) - mesh.position(near.chained.second)).stableNorm(),
+                            result.tolerance));
+  result.stands_for = std::move(near.first);
+  for (const Index node : used.nodes)
+    result.joined += result.stands_for[static_cast<std::size_t>(node)] != node ? 1 : 0;
+
+  std::vector<Index> face_begin = {0};
+  std::vector<Index> corners;
+  face_begin.reserve(mesh.face_begin().size());
+  corners.reserve(mesh.corners().size());
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    const std::vector<Index> welded = welded_corners(face, result.stands_for);
+    if (welded.size() >= 3) {
+      corners.insert(corners.end(), welded.begin(), welded.end());
+    } else if (face.size() < 3) {
+      for (const Index node : face) corners.push_back(result.stands_for[static_cast<std::size_t>(node)]);
+    } else if (lies_at_three_places(mesh, face)) {
+      result.collapsed.push_back(f);
+    }
+    face_begin.push_back(static_cast<Index>(corners.size()));
+  }
+  result.mesh = PolygonMesh(mesh.positions(), std::move(face_begin), std::move(corners));
+  return result;
+}
+
+std::vector<Vector3> Welded::positions(const std::vector<Vector3>& of_mesh) const {
+  if (of_mesh.size() != stands_for.size())
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} positions given for {} nodes", of_mesh.size(), stands_for.size()));
+  std::vector<Vector3> result = of_mesh;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Index first = stands_for[i];
+    if (first == static_cast<Index>(i)) continue;
+    const Vector3& place = of_mesh[static_cast<std::size_t>(first)];
+    result[i] = place != mesh.position(first) ? place : mesh.position(static_cast<Index>(i));
+  }
+  return result;
+}
+
+}  // namespace vspring

@@ -153,6 +153,12 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
   bar_.clear();
   const FairReport& report = faired.report;
   std::ranges::transform(report.warnings, std::back_inserter(warnings), with_options);
+  RunFacts facts = writers.facts;
+  facts.method = report.method;
+  facts.levels = report.levels.size();
+  look_at(facts, *arguments_);
+  look_at(facts, faired.before, faired.constraints);
+  std::ranges::move(idle_options(facts), std::back_inserter(warnings));
   {
     const UninterruptedWhileWriting guard;
     for (std::string& warning : writers.shape()) warnings.push_back(std::move(warning));

@@ -11,10 +11,12 @@
 
 #include "commands/choice.hpp"
 #include "commands/fairing_options.hpp"
+#include "commands/given_options.hpp"
 #include "commands/picture_options.hpp"
 #include "commands/pull_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
+#include "stream_names.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::cli {
@@ -37,8 +39,9 @@ int run_fair(FairArguments arguments) {
   Fairing fairing(arguments);
   const SurfaceFile file = read_surface(arguments.input, arguments.format);
   if (file.mesh.face_count() == 0)
-    throw Error(ErrorCode::unusable_file,
-                arguments.input + ": no face in it; lines are faired by vspring curve, points have no shape");
+    throw Error(
+        ErrorCode::unusable_file,
+        input_name(arguments.input) + ": no face in it; lines are faired by vspring curve, points have no shape");
   settle_by_noise(arguments.pull, file.mesh, fairing.context());
   const Constraints constraints =
       make_constraints(arguments, file.mesh, {.groups = &file.groups, .normals = &file.normals});
@@ -48,14 +51,18 @@ int run_fair(FairArguments arguments) {
   const auto write = [&] {
     std::vector<std::string> warnings;
     for (const std::string& lost : write_surface(arguments.output, file, result.positions, arguments.format))
-      warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
+      warnings.push_back(fmt::format("{}: written without {}", output_name(arguments.output), lost));
     return warnings;
   };
   PolygonMesh after = file.mesh;
   after.set_positions(result.positions);
   return fairing.finish<PolygonMesh>({file.mesh, after, constraints, result.report}, file.mesh.positions(),
                                      file.warnings,
-                                     {.shape = write, .picture = {}, .figures = done.figures(), .lines = done.lines()});
+                                     {.shape = write,
+                                      .picture = {},
+                                      .figures = done.figures(),
+                                      .lines = done.lines(),
+                                      .facts = {.own_nodes_pull = done.account.has_value()}});
 }
 
 const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNormals::link},
@@ -116,7 +123,10 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
       "  vspring fair scan.ply -o fair.ply --region sphere:0.1,0.2,0.05,0.03 --report report.json\n\n"
       "Exit status: 0 converged; 1 wrong use; 2 unusable input or output; 3 written, but not converged; 130 "
       "interrupted.");
-  command.callback([arguments, &run] { run = [arguments] { return run_fair(*arguments); }; });
+  command.callback([arguments, &run, &command] {
+    arguments->given = given_options(command);
+    run = [arguments] { return run_fair(*arguments); };
+  });
 }
 
 }  // namespace vspring::cli

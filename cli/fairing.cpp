@@ -10,12 +10,14 @@
 #include <type_traits>
 #include <utility>
 
+#include "advice.hpp"
 #include "exit_status.hpp"
 #include "figures.hpp"
 #include "html_page.hpp"
 #include "page_scene.hpp"
 #include "report.hpp"
 #include "scalars.hpp"
+#include "stream_names.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
 #include "vspring/topology.hpp"
@@ -111,8 +113,8 @@ void check_outputs(const FairingArguments& arguments, const std::vector<std::pai
     const std::string& path = view.second;
     if (path.empty()) continue;
     const auto refuse = [&](const std::string& other) {
-      throw Error(ErrorCode::invalid_argument, fmt::format("{}: {} is {} already; give it a file of its own",
-                                                           view.first, path == "-" ? "standard output" : path, other));
+      throw Error(ErrorCode::invalid_argument,
+                  fmt::format("{}: {} is {} already; give it a file of its own", view.first, output_name(path), other));
     };
     // Of standard streams, only two outputs are one.
     if (path == arguments.input && path != "-") refuse("the input");
@@ -165,7 +167,13 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
                     const Writers& writers) {
   bar_.clear();
   const FairReport& report = faired.report;
-  warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
+  std::ranges::transform(report.warnings, std::back_inserter(warnings), with_options);
+  RunFacts facts = writers.facts;
+  facts.method = report.method;
+  facts.levels = report.levels.size();
+  look_at(facts, *arguments_);
+  look_at(facts, faired.before, faired.constraints);
+  std::ranges::move(idle_options(facts), std::back_inserter(warnings));
   {
     const UninterruptedWhileWriting guard;
     for (std::string& warning : writers.shape()) warnings.push_back(std::move(warning));
@@ -189,9 +197,10 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
     write_file(arguments_->report, json.dump(2) + "\n");
   }
   const std::string missing = write_views(faired, figures, json, writers);
-  if (!missing.empty()) warnings.push_back(missing + ": not written, as the run was interrupted");
-  for (const std::string& warning : warnings) (void)errors_.write(errors_.yellow("warning: ") + warning + "\n");
-  if (!arguments_->quiet && !messages_.write(summary(report, diagonal_of(input), messages_) + writers.lines))
+  if (!missing.empty()) warnings.push_back(output_name(missing) + ": not written, as the run was interrupted");
+  errors_.warn(warnings);
+  if (!arguments_->quiet &&
+      !messages_.write(summary(report, diagonal_of(input), arguments_->options, messages_) + writers.lines))
     throw Error(ErrorCode::unusable_file, "standard output: takes no more; the shape is written nonetheless");
   return context_.cancelled() ? exit_interrupted : exit_status(report.outcome);
 }
@@ -200,7 +209,7 @@ template <typename Shape>
 std::string Fairing::write_views(const Faired<Shape>& faired, const FigurePair& figures,
                                  const nlohmann::ordered_json& report, const Writers& writers) const {
   constexpr bool surface = std::is_same_v<Shape, PolygonMesh>;
-  const std::string title = "vspring: " + arguments_->input;
+  const std::string title = "vspring: " + input_name(arguments_->input);
   const PictureArguments& picture = arguments_->picture;
   nlohmann::ordered_json scene;
   if (!context_.cancelled() && (!arguments_->html.empty() || (surface && !picture.path.empty()))) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "fairing_arguments.hpp"
+#include "idle_options.hpp"
 #include "progress_bar.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
@@ -54,6 +55,8 @@ class Fairing {
     nlohmann::ordered_json figures = nlohmann::ordered_json::object();
     /// What it adds to what people read, in lines.
     std::string lines = {};
+    /// What it alone knows.
+    RunFacts facts = {};
   };
 
   /// Writes the files, says what happened, and returns the exit status. input: the nodes that were read. A run that was

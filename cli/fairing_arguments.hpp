@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 
 #include "picture.hpp"
@@ -31,6 +32,7 @@ struct FairingArguments {
   std::string deviation;
   bool quiet = false;
   Colour colour = Colour::automatic;
+  std::set<std::string> given;  ///< options that were given, by their long names
 };
 
 }  // namespace vspring::cli

@@ -11,20 +11,13 @@
 #include "browser.hpp"
 #include "html_page.hpp"
 #include "page_bytes.hpp"
+#include "stream_names.hpp"
 #include "vspring/error.hpp"
 #include "vspring/types.hpp"
 
 namespace vspring::cli {
 
 namespace {
-
-bool named_svg(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".png" && extension != ".svg")
-    throw Error(ErrorCode::invalid_argument, path + ": pictures are PNG or SVG; name it .png or .svg");
-  return extension == ".svg";
-}
 
 std::string needed_browser(const PictureArguments& arguments, bool curve) {
   if (const auto browser = find_browser()) return *browser;
@@ -53,6 +46,14 @@ std::string drawn(const PictureArguments& arguments, bool curve, nlohmann::order
 }
 
 }  // namespace
+
+bool named_svg(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension != ".png" && extension != ".svg")
+    throw Error(ErrorCode::invalid_argument, output_name(path) + ": pictures are PNG or SVG; name a file .png or .svg");
+  return extension == ".svg";
+}
 
 Eigen::Matrix3d seen_from(const Vector3& direction, const Vector3& up) {
   const Vector3 towards = direction.normalized();

@@ -27,6 +27,9 @@ struct PictureArguments {
   [[nodiscard]] bool shows(const std::string& style) const;
 };
 
+/// Whether a picture is SVG, or else PNG, by its extension. Throws Error(invalid_argument) for another.
+[[nodiscard]] bool named_svg(const std::string& path);
+
 /// Throws Error before anything long begins: invalid_argument where the extension is neither .png nor .svg or an option
 /// is for surfaces only, unusable_file where the program that draws is not installed. Nothing without --picture.
 void refuse_picture(const PictureArguments& arguments, bool curve);

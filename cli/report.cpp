@@ -22,12 +22,15 @@ nlohmann::ordered_json error_of(const FairReport& report) {
   return *report.expected_error;
 }
 
-std::string outcome_line(const FairReport& report, const Terminal& terminal) {
+std::string outcome_line(const FairReport& report, const FairOptions& options, const Terminal& terminal) {
   switch (report.outcome) {
     case Outcome::converged:
       return terminal.green("converged");
     case Outcome::iteration_limit:
-      return terminal.yellow("stopped at the limit of iterations (--max-iterations)");
+      return terminal.yellow(options.max_iterations
+                                 ? "stopped at the limit of iterations (--max-iterations)"
+                                 : "stopped at the limit of iterations that is there by default (--max-iterations "
+                                   "changes it)");
     case Outcome::work_limit:
       return terminal.yellow("stopped: what is left is not worth more time");
     case Outcome::worse_than_input:
@@ -83,9 +86,9 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   return json;
 }
 
-std::string summary(const FairReport& report, double diagonal, const Terminal& terminal) {
-  std::string text = fmt::format("{} after {} iterations, {:.2f} s", outcome_line(report, terminal), report.iterations,
-                                 report.seconds);
+std::string summary(const FairReport& report, double diagonal, const FairOptions& options, const Terminal& terminal) {
+  std::string text = fmt::format("{} after {} iterations, {:.2f} s", outcome_line(report, options, terminal),
+                                 report.iterations, report.seconds);
   if (report.expected_error) text += fmt::format(", expected error {:.1g} % of the size", 100 * *report.expected_error);
   text += "\n";
   const double share = diagonal > 0 ? 100 / diagonal : 0;

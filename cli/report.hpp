@@ -13,6 +13,8 @@ namespace vspring::cli {
 [[nodiscard]] nlohmann::ordered_json to_json(const FairReport& report);
 
 /// What a person wants to know of a run, some lines. diagonal: of the box around the shape, for moves relative to it.
-[[nodiscard]] std::string summary(const FairReport& report, double diagonal, const Terminal& terminal);
+/// options: that it was given.
+[[nodiscard]] std::string summary(const FairReport& report, double diagonal, const FairOptions& options,
+                                  const Terminal& terminal);
 
 }  // namespace vspring::cli

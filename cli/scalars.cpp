@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "stream_names.hpp"
 #include "vspring/curvature.hpp"
 #include "vspring/distance.hpp"
 #include "vspring/error.hpp"
@@ -30,8 +31,8 @@ void refuse_scalars(const std::string& path, bool curve) {
   const auto format = scalar_format(std::filesystem::path(path).extension().string());
   if (!format || (curve && format != ScalarFormat::vtp))
     throw Error(ErrorCode::invalid_argument,
-                path + (curve ? ": the numbers of a curve go to VTP; name it .vtp"
-                              : ": numbers at nodes go to VTP or PLY; name it .vtp or .ply"));
+                output_name(path) + (curve ? ": the numbers of a curve go to VTP; name a file .vtp"
+                                           : ": numbers at nodes go to VTP or PLY; name a file .vtp or .ply"));
 }
 
 bool same_faces(const PolygonMesh& mesh, const PolygonMesh& other) {

@@ -30,6 +30,10 @@ std::string Terminal::styled(const char* code, std::string_view text) const {
   return coloured_ ? fmt::format("\x1b[{}m{}\x1b[0m", code, text) : std::string(text);
 }
 
+void Terminal::warn(const std::vector<std::string>& warnings) const {
+  for (const std::string& warning : warnings) (void)write(yellow("warning: ") + warning + "\n");
+}
+
 bool Terminal::write(std::string_view text) const {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor_, text.data(), text.size());

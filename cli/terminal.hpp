@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vspring::cli {
 
@@ -22,6 +23,9 @@ class Terminal {
 
   /// Writes all of the text. False where the stream takes no more.
   [[nodiscard]] bool write(std::string_view text) const;
+
+  /// Writes a line for each.
+  void warn(const std::vector<std::string>& warnings) const;
 
  private:
   [[nodiscard]] std::string styled(const char* code, std::string_view text) const;

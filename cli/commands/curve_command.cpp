@@ -11,11 +11,13 @@
 #include "closed_chains.hpp"
 #include "commands/choice.hpp"
 #include "commands/fairing_options.hpp"
+#include "commands/given_options.hpp"
 #include "commands/numbers.hpp"
 #include "commands/picture_options.hpp"
 #include "commands/pull_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
+#include "stream_names.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::cli {
@@ -48,7 +50,8 @@ int run_curve(CurveArguments arguments) {
   Constraints constraints = make_constraints(arguments, file.curve, {.groups = &file.groups});
   hold_repeated(constraints, repeats);
 
-  if (arguments.resampling.nodes || arguments.resampling.spacing) {
+  const bool resamples = arguments.resampling.nodes || arguments.resampling.spacing;
+  if (resamples) {
     Resampled resampled = resample(file.curve, constraints, arguments.resampling);
     file.curve = std::move(resampled.curve);
     constraints = std::move(resampled.constraints);
@@ -66,15 +69,19 @@ int run_curve(CurveArguments arguments) {
   const auto write = [&] {
     std::vector<std::string> lost_warnings;
     for (const std::string& lost : write_curve(arguments.output, file, result.positions, arguments.format))
-      lost_warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
+      lost_warnings.push_back(fmt::format("{}: written without {}", output_name(arguments.output), lost));
     return lost_warnings;
   };
   const auto draw = [&] { return draw_curve(file, result.positions, {.before = &before}); };
   PolygonCurve after = file.curve;
   after.set_positions(result.positions);
-  return fairing.finish<PolygonCurve>(
-      {file.curve, after, constraints, result.report}, before.positions(), std::move(warnings),
-      {.shape = write, .picture = draw, .figures = done.figures(), .lines = done.lines() + note});
+  return fairing.finish<PolygonCurve>({file.curve, after, constraints, result.report}, before.positions(),
+                                      std::move(warnings),
+                                      {.shape = write,
+                                       .picture = draw,
+                                       .figures = done.figures(),
+                                       .lines = done.lines() + note,
+                                       .facts = {.resamples = resamples}});
 }
 
 const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj},
@@ -102,7 +109,7 @@ void add_node_options(CLI::App& command, CurveArguments& arguments) {
           .add_option("--resample", arguments.resampling.nodes,
                       "New nodes between those that are held, N in all (default: the nodes of the input)")
           ->type_name("N")
-          ->check(positive_number())
+          ->check(whole_number(1))
           ->group(group);
   command
       .add_option("--spacing", arguments.resampling.spacing,
@@ -165,10 +172,13 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
   add_picture_options(command, arguments->picture, false);
   command.footer(
       "Example: an aerofoil of 200 even nodes, its trailing edge held with the tangents that it has\n"
-      "  vspring curve SD7003.dat -o fair.dat --constraints held.json --resample 200 --picture fair.svg\n\n"
+      "  vspring curve aerofoil.dat -o fair.dat --constraints held.json --resample 200 --picture fair.svg\n\n"
       "Exit status: 0 converged; 1 wrong use; 2 unusable input or output; 3 written, but not converged; 130 "
       "interrupted.");
-  command.callback([arguments, &run] { run = [arguments] { return run_curve(*arguments); }; });
+  command.callback([arguments, &run, &command] {
+    arguments->given = given_options(command);
+    run = [arguments] { return run_curve(*arguments); };
+  });
 }
 
 }  // namespace vspring::cli

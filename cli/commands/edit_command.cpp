@@ -17,6 +17,7 @@
 #include <string>
 #include <system_error>
 
+#include "commands/numbers.hpp"
 #include "editor_server.hpp"
 #include "exit_status.hpp"
 #include "find_program.hpp"
@@ -162,7 +163,7 @@ void add_edit_command(CLI::App& app, std::function<int()>& run) {
       ->needs(shape)
       ->type_name("OUT");
   command.add_option("--port", arguments->port, "Port of 127.0.0.1 that the page is served on (default: a free one)")
-      ->check(CLI::Range(1, 65535))
+      ->check(whole_number(1, 65535))
       ->type_name("PORT");
   command.add_flag("--no-browser", arguments->no_browser, "Only print the address, open no browser (default: off)");
   command.add_flag("--quiet", arguments->quiet, "Nothing on standard error but errors (default: off)");

@@ -12,10 +12,12 @@
 
 #include "commands/choice.hpp"
 #include "commands/fairing_options.hpp"
+#include "commands/given_options.hpp"
 #include "commands/picture_options.hpp"
 #include "commands/pull_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
+#include "stream_names.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
 
@@ -39,8 +41,9 @@ int run_fair(FairArguments arguments) {
   Fairing fairing(arguments);
   const SurfaceFile file = read_surface(arguments.input, arguments.format);
   if (file.mesh.face_count() == 0)
-    throw Error(ErrorCode::unusable_file,
-                arguments.input + ": no face in it; lines are faired by vspring curve, points have no shape");
+    throw Error(
+        ErrorCode::unusable_file,
+        input_name(arguments.input) + ": no face in it; lines are faired by vspring curve, points have no shape");
   const Welding welding(file, arguments);
   const PolygonMesh& mesh = welding.shape(file);
   settle_by_noise(arguments.pull, mesh, fairing.context());
@@ -53,7 +56,7 @@ int run_fair(FairArguments arguments) {
     std::vector<std::string> warnings;
     for (const std::string& lost :
          write_surface(arguments.output, file, welding.positions(result.positions), arguments.format))
-      warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
+      warnings.push_back(fmt::format("{}: written without {}", output_name(arguments.output), lost));
     return warnings;
   };
   PolygonMesh after = mesh;
@@ -66,7 +69,8 @@ int run_fair(FairArguments arguments) {
                                       .picture = {},
                                       .welding = &welding,
                                       .figures = std::move(figures),
-                                      .lines = welding.lines() + done.lines()});
+                                      .lines = welding.lines() + done.lines(),
+                                      .facts = {.own_nodes_pull = done.account.has_value()}});
 }
 
 const std::map<std::string, Springs> springs = {{"edge", Springs::edge}, {"sphere", Springs::sphere}};
@@ -134,7 +138,10 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
       "  vspring fair scan.ply -o fair.ply --region sphere:0.1,0.2,0.05,0.03 --report report.json\n\n"
       "Exit status: 0 converged; 1 wrong use; 2 unusable input or output; 3 written, but not converged; 130 "
       "interrupted.");
-  command.callback([arguments, &run] { run = [arguments] { return run_fair(*arguments); }; });
+  command.callback([arguments, &run, &command] {
+    arguments->given = given_options(command);
+    run = [arguments] { return run_fair(*arguments); };
+  });
 }
 
 }  // namespace vspring::cli

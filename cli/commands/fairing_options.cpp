@@ -115,20 +115,20 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments) {
                   "24 to 47 "
                   "edges)")
       ->type_name("L")
-      ->check(CLI::Range(1, 64))
+      ->check(whole_number(1, 64))
       ->group(fairing_group);
   command
       .add_option(
           "--pre-smoothing", options.pre_smoothing,
           fmt::format("multigrid: iterations on each level on the way down (default: {})", options.pre_smoothing))
       ->type_name("N")
-      ->check(non_negative_number())
+      ->check(whole_number(0))
       ->group(fairing_group);
   command
       .add_option("--max-iterations", options.max_iterations,
                   "Stop after this many iterations (default: on each level 200 for equilibrium, 10000 for the others)")
       ->type_name("N")
-      ->check(non_negative_number())
+      ->check(whole_number(0))
       ->group(fairing_group);
 }
 
@@ -146,14 +146,14 @@ void add_shaping_options(CLI::App& command, FairingArguments& arguments, const F
       .add_option("--strength", options.strength,
                   "result = input + S × (fair − input) for moving nodes, 0 to 1 (default: 1)")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number_between(0, 1))
       ->group(fairing_group);
 }
 
 void add_run_options(CLI::App& command, FairingArguments& arguments) {
   command.add_option("--threads", arguments.threads, "Threads; the same bits for every number (default: all cores)")
       ->type_name("N")
-      ->check(CLI::Range(1, 1024))
+      ->check(whole_number(1, 1024))
       ->group(run_group);
   command.add_option("--report", arguments.report, "Write what happened, JSON")
       ->type_name("FILE.json")

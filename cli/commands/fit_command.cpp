@@ -19,11 +19,13 @@
 #include "closed_chains.hpp"
 #include "commands/choice.hpp"
 #include "commands/fairing_options.hpp"
+#include "commands/given_options.hpp"
 #include "commands/numbers.hpp"
 #include "commands/picture_options.hpp"
 #include "commands/pull_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
+#include "stream_names.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
 
@@ -96,6 +98,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   ScatteredPoints points = read_points(arguments.points, columns_of_points(arguments));
   std::vector<std::string> read_warnings = file.warnings;
   std::ranges::copy(points.warnings, std::back_inserter(read_warnings));
+  const bool points_face = !points.normals.empty();
   if (arguments.ignore_normals) points.normals.clear();
   FitResult result = fit(shape, constraints, points, fit_options(arguments.pull, fairing_options), fairing.context());
   const FitAccount account(result.report, arguments.pull, arguments.points, points);
@@ -105,7 +108,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   const auto write_shape = [&] {
     std::vector<std::string> warnings;
     for (const std::string& lost : write(arguments, file, welding.positions(result.positions)))
-      warnings.push_back(fmt::format("{}: written without {}", arguments.output, lost));
+      warnings.push_back(fmt::format("{}: written without {}", output_name(arguments.output), lost));
     if (!arguments.deviation.empty())
       write_scalars(arguments.deviation, cloud, std::vector<NodeScalar>{{"deviation", result.distances}});
     return warnings;
@@ -127,7 +130,8 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
                                 .scalars = point_deviation,
                                 .welding = &welding,
                                 .figures = std::move(figures),
-                                .lines = welding.lines() + account.lines() + note});
+                                .lines = welding.lines() + account.lines() + note,
+                                .facts = {.fits = true, .points_face = points_face}});
 }
 
 int run_fit(FitArguments arguments) {
@@ -135,7 +139,8 @@ int run_fit(FitArguments arguments) {
   check_outputs(arguments, {{"--points", arguments.points}});
   if (!arguments.deviation.empty() &&
       scalar_format(std::filesystem::path(arguments.deviation).extension().string()) != ScalarFormat::ply)
-    throw Error(ErrorCode::invalid_argument, arguments.deviation + ": deviations of points go to PLY; name it .ply");
+    throw Error(ErrorCode::invalid_argument,
+                output_name(arguments.deviation) + ": deviations of points go to PLY; name a file .ply");
   if (!asks_to_fit(arguments.pull))
     throw Error(ErrorCode::invalid_argument, "one of --weight, --smoothing-length, --within and --rms has to be given");
   if (!arguments.pull.automatic.empty())
@@ -188,7 +193,7 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
       .add_option("--max-iterations", arguments.options.max_iterations,
                   "Stop after this many iterations (default: on each level 200 for equilibrium, 10000 for sweep)")
       ->type_name("N")
-      ->check(non_negative_number())
+      ->check(whole_number(0))
       ->group(fairing_group);
   command
       .add_flag("--paper", arguments.paper,
@@ -236,7 +241,10 @@ void add_fit_command(CLI::App& app, std::function<int()>& run) {
       "  vspring fit mesh.obj --points scan.ply -o fitted.obj --weight 0.01 --report report.json\n\n"
       "Exit status: 0 converged; 1 wrong use; 2 unusable input or output; 3 written, but not converged; 130 "
       "interrupted.");
-  command.callback([arguments, &run] { run = [arguments] { return run_fit(*arguments); }; });
+  command.callback([arguments, &run, &command] {
+    arguments->given = given_options(command);
+    run = [arguments] { return run_fit(*arguments); };
+  });
 }
 
 }  // namespace vspring::cli

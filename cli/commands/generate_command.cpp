@@ -3,15 +3,23 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "commands/choice.hpp"
+#include "commands/given_options.hpp"
+#include "commands/numbers.hpp"
 #include "commands/shapes.hpp"
 #include "exit_status.hpp"
+#include "idle_options.hpp"
 #include "signals.hpp"
+#include "terminal.hpp"
 #include "vspring/generate.hpp"
+#include "vspring/topology.hpp"
 
 namespace vspring::cli {
 
@@ -27,15 +35,29 @@ struct GenerateArguments {
   std::uint64_t seed = 1;
 };
 
-int run_generate(const GenerateArguments& arguments, const MakeShape& make) {
+int run_generate(const GenerateArguments& arguments, const MakeShape& make, RunFacts facts) {
   PolygonMesh mesh = make(arguments.seed);
+  facts.has_noise = arguments.noise != 0;
+  facts.draws_numbers = facts.draws_numbers || facts.has_noise || arguments.shuffle;
+  const std::vector<std::uint8_t> boundary = boundary_nodes(mesh);
+  facts.boundary_moves = std::ranges::find(boundary, 1) != boundary.end();
   // Other seeds than the jitter's, so that nothing moves by the same random numbers twice.
   if (arguments.noise != 0)
     mesh = generate::add_noise(mesh, arguments.noise, arguments.seed + 1, arguments.noise_on_boundary);
   if (arguments.shuffle) mesh = generate::shuffle(mesh, arguments.seed + 2).mesh;
   const UninterruptedWhileWriting guard;
   write_surface(arguments.output, mesh, arguments.format);
+  Terminal(2, Colour::automatic).warn(idle_options(facts));
   return exit_converged;
+}
+
+/// What the options of one shape or another say.
+RunFacts facts_of(const CLI::App& command) {
+  RunFacts facts;
+  facts.given = given_options(command);
+  facts.draws_numbers = facts.given.contains("--jitter") && command["--jitter"]->as<double>() > 0;
+  facts.is_flat = facts.given.contains("--profile") && command["--profile"]->as<std::string>() == "flat";
+  return facts;
 }
 
 void add_common_options(CLI::App& command, GenerateArguments& arguments) {
@@ -49,6 +71,7 @@ void add_common_options(CLI::App& command, GenerateArguments& arguments) {
       .add_option("--noise", arguments.noise,
                   "Move every node inside by a random vector within a ball of this radius, a length (default: 0)")
       ->type_name("LENGTH")
+      ->check(non_negative_number())
       ->group(group);
   command.add_flag("--noise-on-boundary", arguments.noise_on_boundary, "Also the nodes of the boundary (default: off)")
       ->group(group);
@@ -56,6 +79,7 @@ void add_common_options(CLI::App& command, GenerateArguments& arguments) {
   command
       .add_option("--seed", arguments.seed, "Of all that is random: the same seed gives the same shape (default: 1)")
       ->type_name("N")
+      ->check(any_number<std::uint64_t>())
       ->group(group);
 }
 
@@ -75,8 +99,8 @@ void add_generate_command(CLI::App& app, std::function<int()>& run) {
     CLI::App& command = *generate.add_subcommand(name, description);
     add_common_options(command, *arguments);
     command.footer(fmt::format("Example:\n  vspring generate {} {}", name, example));
-    command.callback([arguments, make = std::move(make), &run] {
-      run = [arguments, make] { return run_generate(*arguments, make); };
+    command.callback([arguments, make = std::move(make), &run, &command] {
+      run = [arguments, make, facts = facts_of(command)] { return run_generate(*arguments, make, facts); };
     });
     return command;
   });

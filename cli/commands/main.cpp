@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "advice.hpp"
 #include "commands/curve_command.hpp"
 #include "commands/edit_command.hpp"
 #include "commands/fair_command.hpp"
@@ -38,7 +39,8 @@ int run_command(const std::function<int()>& run) {
   try {
     return run();
   } catch (const Error& error) {
-    return fail(error.what(), error.code() == ErrorCode::invalid_argument ? exit_wrong_use : exit_unusable);
+    return fail(with_options(error.what()),
+                error.code() == ErrorCode::invalid_argument ? exit_wrong_use : exit_unusable);
   } catch (const std::bad_alloc&) {
     return fail("out of memory", exit_unusable);
   } catch (const std::exception& error) {

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <initializer_list>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,16 +18,19 @@
 #include "closed_chains.hpp"
 #include "commands/choice.hpp"
 #include "commands/fairing_options.hpp"
+#include "commands/given_options.hpp"
 #include "commands/picture_options.hpp"
 #include "exit_status.hpp"
 #include "fairing.hpp"
 #include "figures.hpp"
 #include "fitting.hpp"
 #include "html_page.hpp"
+#include "idle_options.hpp"
 #include "measure_table.hpp"
 #include "page_scene.hpp"
 #include "scalars.hpp"
 #include "signals.hpp"
+#include "stream_names.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
 
@@ -38,7 +44,6 @@ struct MeasureArguments : FairingArguments {
   ColumnChoice columns;
   bool curve = false;
   bool closed = false;
-  bool constrained = false;  // any option of what holds the shape was given
 };
 
 using Json = nlohmann::ordered_json;
@@ -52,6 +57,12 @@ void close_measured(CurveFile& file) { (void)close_chains(file.curve); }
 void write_whole(const std::string& path, const std::string& bytes) {
   const UninterruptedWhileWriting guard;
   write_file(path, bytes);
+}
+
+/// Whether any option of what holds the shape was given.
+bool is_constrained(const MeasureArguments& arguments) {
+  return std::ranges::any_of(std::initializer_list<const char*>{"--fix", "--fix-normals", "--constraints", "--region"},
+                             [&](const char* option) { return arguments.given.contains(option); });
 }
 
 /// How far two shapes lie apart.
@@ -117,7 +128,7 @@ Constraints constraints_for(const MeasureArguments& arguments, const Measured<Fi
 
 std::string picture_of_measured(const MeasureArguments& arguments, const Measured<SurfaceFile>& /*file*/,
                                 const Measured<SurfaceFile>* /*other*/, const Json& scene, const Context& context) {
-  return surface_picture(arguments.picture, "vspring: " + arguments.input, scene, context);
+  return surface_picture(arguments.picture, "vspring: " + input_name(arguments.input), scene, context);
 }
 
 std::string picture_of_measured(const MeasureArguments& arguments, const Measured<CurveFile>& measured,
@@ -146,7 +157,7 @@ bool write_views(const MeasureArguments& arguments, const Measured<File>& file, 
     const std::string bytes = bytes_of();
     if (!context.cancelled()) write_whole(path, bytes);
   };
-  write(arguments.html, [&] { return html_page("vspring: " + arguments.input, report, scene); });
+  write(arguments.html, [&] { return html_page("vspring: " + input_name(arguments.input), report, scene); });
   write(arguments.picture.path, [&] { return picture_of_measured(arguments, file, other, scene, context); });
   if (arguments.scalars.empty() || context.cancelled()) return !context.cancelled();
   const std::vector<NodeScalar> scalars =
@@ -184,7 +195,7 @@ int measure_file(const MeasureArguments& arguments, File first, std::optional<Fi
   Context context;
   context.threads = arguments.threads;
   std::optional<Constraints> constraints;
-  if (arguments.constrained) constraints = constraints_for(arguments, file, other ? &*other : nullptr);
+  if (is_constrained(arguments)) constraints = constraints_for(arguments, file, other ? &*other : nullptr);
   const auto held = [&](const Measured<File>& measured) {
     const bool fits = constraints && constraints->node_count() == measured.shape().node_count();
     return fits ? &*constraints : nullptr;
@@ -192,13 +203,13 @@ int measure_file(const MeasureArguments& arguments, File first, std::optional<Fi
 
   std::vector<FigureColumn> columns;
   columns.push_back(
-      {arguments.input, with_noise(figures_of(file.shape(), held(file), context), file.shape(), context)});
+      {input_name(arguments.input), with_noise(figures_of(file.shape(), held(file), context), file.shape(), context)});
   std::optional<Apart> apart;
   std::vector<std::string> warnings = file.welding.with_warnings(file.file.warnings);
   if (other) {
     const auto& shape = file.shape();
     const auto& second = other->shape();
-    const auto names = titles(arguments.input, arguments.compare);
+    const auto names = titles(input_name(arguments.input), input_name(arguments.compare));
     columns.front().title = names[0];
     columns.push_back({names[1], with_noise(figures_of(second, held(*other), context), second, context)});
     apart.emplace();
@@ -208,6 +219,10 @@ int measure_file(const MeasureArguments& arguments, File first, std::optional<Fi
     const std::vector<std::string> of_other = other->welding.with_warnings(other->file.warnings);
     warnings.insert(warnings.end(), of_other.begin(), of_other.end());
   }
+  RunFacts facts;
+  look_at(facts, arguments);
+  look_at(facts, file.shape(), constraints.value_or(Constraints(file.shape().node_count())));
+  std::ranges::move(idle_options(facts), std::back_inserter(warnings));
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
 
   Json json;
@@ -232,8 +247,7 @@ int measure_file(const MeasureArguments& arguments, File first, std::optional<Fi
     if (!arguments.report.empty()) write_whole(arguments.report, json.dump(2) + "\n");
   }
   if (!write_views(arguments, file, other ? &*other : nullptr, columns, json, context)) return exit_interrupted;
-  const Terminal errors(2, arguments.colour);
-  for (const std::string& warning : warnings) (void)errors.write(errors.yellow("warning: ") + warning + "\n");
+  Terminal(2, arguments.colour).warn(warnings);
   if (arguments.quiet) return exit_converged;
   // What people read goes to standard output unless the report itself goes there.
   const Terminal messages(arguments.report == "-" || arguments.html == "-" ? 2 : 1, arguments.colour);
@@ -254,7 +268,7 @@ int run_measure(const MeasureArguments& arguments) {
     other = read_shape(arguments.compare, std::nullopt, std::holds_alternative<CurveFile>(shape), arguments.columns);
   if (other && other->index() != shape.index())
     throw Error(ErrorCode::unusable_file, fmt::format("{}: a curve, and {} is a surface; compare shapes of one kind",
-                                                      arguments.compare, arguments.input));
+                                                      input_name(arguments.compare), input_name(arguments.input)));
   return std::visit(
       [&]<typename File>(File& file) {
         std::optional<File> second;
@@ -306,8 +320,7 @@ void add_measure_command(CLI::App& app, std::function<int()>& run) {
       "  vspring measure fair.ply --compare scan.ply --report report.json\n\n"
       "Exit status: 0 measured; 1 wrong use; 2 unusable input or output.");
   command.callback([arguments, &run, &command] {
-    for (const char* option : {"--fix", "--fix-normals", "--constraints", "--region"})
-      arguments->constrained = arguments->constrained || command.count(option) > 0;
+    arguments->given = given_options(command);
     run = [arguments] { return run_measure(*arguments); };
   });
 }

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <type_traits>
 
 namespace vspring::cli {
 
@@ -23,6 +27,42 @@ inline CLI::Validator non_negative_number() {
             return "a number of 0 or more is needed, not " + given;
           },
           "NONNEGATIVE"};
+}
+
+inline CLI::Validator number_between(double least, double most) {
+  return {[least, most](const std::string& given) -> std::string {
+            double number = 0;
+            if (CLI::detail::lexical_cast(given, number) && number >= least && number <= most) return {};
+            return fmt::format("a number from {} to {} is needed, not {}", least, most, given);
+          },
+          fmt::format("{} to {}", least, most)};
+}
+
+inline CLI::Validator whole_number(int least, int most = std::numeric_limits<int>::max()) {
+  return {[least, most](const std::string& given) -> std::string {
+            int number = 0;
+            if (CLI::detail::lexical_cast(given, number) && number >= least && number <= most) return {};
+            return fmt::format("a whole number from {} to {} is needed, not {}", least, most, given);
+          },
+          most < std::numeric_limits<int>::max() ? fmt::format("{} to {}", least, most) : "WHOLE"};
+}
+
+/// Of this type; what is needed besides is asked elsewhere.
+template <typename Number>
+CLI::Validator any_number() {
+  return {[](const std::string& given) -> std::string {
+            Number number = 0;
+            // Of what is without a sign, CLI11 takes -1 for the largest there is.
+            const bool may_be = std::is_signed_v<Number> || !given.starts_with('-');
+            if (may_be && CLI::detail::lexical_cast(given, number) && std::isfinite(static_cast<double>(number)))
+              return {};
+            return fmt::format("a {} is needed, not {}",
+                               std::is_floating_point_v<Number> ? "number"
+                               : std::is_signed_v<Number>       ? "whole number"
+                                                                : "whole number of 0 or more",
+                               given);
+          },
+          ""};
 }
 
 }  // namespace vspring::cli

@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "commands/numbers.hpp"
 #include "picture.hpp"
 
 namespace vspring::cli {
@@ -78,7 +79,7 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments, bool su
       .add_option("--picture-size", arguments.width,
                   "Width of the picture, pixels; the height follows (default: 1600; .svg of curves scale anyway)")
       ->type_name("PIXELS")
-      ->check(CLI::Range(100, 4000))
+      ->check(whole_number(100, 4000))
       ->group(group);
   if (!surfaces) return;
   command

@@ -1,6 +1,7 @@
 #include "commands/pull_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -21,7 +22,7 @@ CLI::Option* add_amount(CLI::App& command, const std::string& name, std::optiona
             double number = 1;
             if (given == "auto")
               arguments.automatic = name;
-            else if (!CLI::detail::lexical_cast(given, number) || !(number > 0))
+            else if (!CLI::detail::lexical_cast(given, number) || !(number > 0 && std::isfinite(number)))
               throw CLI::ValidationError(name, "a number greater than 0, or auto, is needed, not " + given);
             value = number;
           },
@@ -59,7 +60,7 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
       .add_option("--outliers", arguments.outliers,
                   "Leave this share of the points out, those furthest away: 0 to less than 1 (default: 0)")
       ->type_name("P")
-      ->check(CLI::Range(0.0, 0.999999))
+      ->check(number_between(0, 0.999999))
       ->group(heading);
 }
 

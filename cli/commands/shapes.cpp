@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "commands/choice.hpp"
+#include "commands/numbers.hpp"
 #include "vspring/generate.hpp"
 
 namespace vspring::cli {
@@ -24,7 +25,9 @@ const std::map<std::string, Side> sides = {{"+x", Side::plus_x},  {"-x", Side::m
 template <typename Value>
 void add_value(CLI::App& command, const std::string& flag, Value& target, const std::string& type,
                const std::string& help) {
-  command.add_option(flag, target, fmt::format("{} (default: {})", help, target))->type_name(type);
+  command.add_option(flag, target, fmt::format("{} (default: {})", help, target))
+      ->type_name(type)
+      ->check(any_number<Value>());
 }
 
 void add_length(CLI::App& command, const std::string& flag, double& target, const std::string& help) {

@@ -1,12 +1,10 @@
-// Messages of the library that name options of the command line, in words of the editor.
+// What messages of the library advise, and what it is called in the editor.
 
 const words: [RegExp, string][] = [
-  [/,? or a rule in --constraints/g, ''],
-  [/ \(--constraints\)/g, ''],
-  [/--fix boundary/g, '“Positions fixed”'],
-  [/--region/g, '“Fair only these nodes”'],
+  [/fix the (?:boundary|ends)/g, '$& (“Positions fixed”)'],
+  [/let only a region move/g, '$& (“Fair only these nodes”)'],
 ];
 
 export function inEditorWords(message: string): string {
-  return words.reduce((text, [option, ours]) => text.replace(option, ours), message);
+  return words.reduce((text, [advice, ours]) => text.replace(advice, ours), message);
 }

@@ -40,8 +40,8 @@ test('numbers are read as people type them', () => {
   for (const wrong of [['', '', ''], ['1', 'x', '2'], ['1', '', 'Infinity']]) assert.equal(vectorOf(wrong), null);
 });
 
-test('options of the command line are said in words of the editor', () => {
-  assert.equal(inEditorWords('Hold it (--fix boundary, or a rule in --constraints), or let only a region move (--region)'),
-    'Hold it (“Positions fixed”), or let only a region move (“Fair only these nodes”)');
-  assert.equal(inEditorWords('hold it by a rule (--constraints) such as this'), 'hold it by a rule such as this');
+test('what the library advises is said in words of the editor', () => {
+  assert.equal(inEditorWords('fix the ends, hold it by a rule, or let only a region move'),
+    'fix the ends (“Positions fixed”), hold it by a rule, or let only a region move (“Fair only these nodes”)');
+  assert.equal(inEditorWords('fix the boundary to hold them'), 'fix the boundary (“Positions fixed”) to hold them');
 });

@@ -105,6 +105,11 @@ void fix_boundary_tangents(Constraints& constraints, const PolygonCurve& curve);
 /// principal normal of a space curve. Zero where a node has none. Cost: linear.
 [[nodiscard]] std::vector<Vector3> estimate_normals(const PolygonCurve& curve, std::span<const Index> nodes);
 
+/// Whether a curve, where it is held and the directions that are given lie in one plane, to 1e-9 of their extent: then
+/// it stays there, and CurveRules::normal_plane makes no difference. A straight line lies in no one plane. Coordinates
+/// that are not finite do not count. Throws Error(unusable_constraint) for constraints of fewer nodes. Cost: linear.
+[[nodiscard]] bool lies_in_a_plane(const PolygonCurve& curve, const Constraints& constraints);
+
 /// Only the nodes of `region` may move: all others are fixed where the mesh has them. Their neighbours among
 /// the fixed nodes (the rim) get the tangent planes of the faces without a moving node, to second order, so that the
 /// faired patch meets the rest smoothly. A rim node without such a face keeps its normal free: the patch turns about

@@ -73,7 +73,7 @@ struct FairOptions {
 
 enum class Outcome {
   converged,         ///< nothing is expected to be further away than the tolerance
-  iteration_limit,   ///< FairOptions::max_iterations
+  iteration_limit,   ///< FairOptions::max_iterations; of multigrid and sweep also where it was left at its default
   work_limit,        ///< FairReport::most_work, or a limit nobody gave: what is left is not worth more time
   stalled,           ///< further iterations do not lead nearer
   worse_than_input,  ///< what was found has folds, crossing or collapsed faces, places, bending or an energy that the
@@ -86,7 +86,8 @@ enum class Outcome {
 /// "converged", "iteration-limit", "work-limit", "stalled", "worse-than-input" or "cancelled".
 [[nodiscard]] const char* name(Outcome outcome) noexcept;
 
-/// The work on one level of the hierarchy, the coarsest first.
+/// The work on one level of the hierarchy, the coarsest first. Outcome: of that level's own test; `cancelled` where it
+/// was not reached.
 struct LevelReport {
   Index moving_nodes = 0;
   int iterations = 0;

@@ -122,6 +122,18 @@ std::vector<Vector3> estimate_normals(const PolygonCurve& curve, std::span<const
   return normals;
 }
 
+bool lies_in_a_plane(const PolygonCurve& curve, const Constraints& constraints) {
+  std::vector<Vector3> points;
+  for (Index i = 0; i < curve.node_count(); ++i) {
+    const Vector3& place = constraints.position_fixed(i) ? constraints.position(i) : curve.position(i);
+    if (!place.allFinite()) continue;
+    points.push_back(place);
+    if (constraints.tangent_fixed(i)) points.emplace_back(place + constraints.tangent(i));
+    if (constraints.normal_fixed(i)) points.emplace_back(place + constraints.normal(i));
+  }
+  return !points.empty() && plane_normal(points).has_value();
+}
+
 void fix_boundary_tangents(Constraints& constraints, const PolygonCurve& curve) {
   const auto boundary = boundary_nodes(curve);
   std::vector<Index> ends;

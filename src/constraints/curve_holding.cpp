@@ -46,11 +46,10 @@ class CurveHolding {
       for (const Index node : chain.nodes) {
         std::uint8_t& before = seen[static_cast<std::size_t>(node)];
         if (before != 0 && moves(node))
-          throw Error(
-              ErrorCode::unusable_shape,
-              fmt::format("node {}: chains meet there, so it cannot move; hold it by a rule (--constraints) such "
-                          "as {{\"nodes\": [{}], \"position\": \"fixed\"}}",
-                          node, node));
+          throw Error(ErrorCode::unusable_shape,
+                      fmt::format("node {}: chains meet there, so it cannot move; hold it by a rule such as "
+                                  "{{\"nodes\": [{}], \"position\": \"fixed\"}}",
+                                  node, node));
         before = 1;
       }
     }
@@ -69,11 +68,10 @@ class CurveHolding {
       for (std::size_t step = 0; step <= 4; ++step) {
         const std::size_t other = (k + count + step - 2) % count;
         if ((chain.closed || (k + step >= 2 && k + step - 2 < count)) && moves(chain.nodes[other]))
-          throw Error(
-              ErrorCode::unusable_shape,
-              fmt::format("node {}: a coordinate is not finite; give it a position by a rule (--constraints), or "
-                          "let only a region away from it move (--region)",
-                          node));
+          throw Error(ErrorCode::unusable_shape,
+                      fmt::format("node {}: a coordinate is not finite; give it a position by a rule, or let only a "
+                                  "region move, one away from it",
+                                  node));
       }
     }
   }
@@ -82,8 +80,8 @@ class CurveHolding {
     if (moves(end))
       throw Error(
           ErrorCode::unusable_constraint,
-          fmt::format("the end node {} is free, and the curve would shrink. Hold it (--fix boundary, or a rule in "
-                      "--constraints), or let only a region move (--region)",
+          fmt::format("the end node {} is free, and the curve would shrink; fix the ends, hold it by a rule, or let "
+                      "only a region move",
                       end));
   }
 
@@ -95,11 +93,10 @@ class CurveHolding {
       data += (held(node) ? 1 : 0) + (constraints_.tangent_fixed(node) || constraints_.normal_fixed(node) ? 1 : 0);
     }
     if (holding == 0)
-      throw Error(
-          ErrorCode::unusable_constraint,
-          fmt::format("nothing holds the closed curve through node {} ({} nodes). Hold some of its nodes by rules "
-                      "(--constraints), or let only a region of it move (--region)",
-                      moving, chain.nodes.size()));
+      throw Error(ErrorCode::unusable_constraint,
+                  fmt::format("nothing holds the closed curve through node {} ({} nodes); hold some of its nodes by a "
+                              "rule, or let only a region move",
+                              moving, chain.nodes.size()));
     if (data < data_for_a_circle)
       warnings_.push_back(
           fmt::format("what holds the closed curve through node {} leaves a family of shapes, and the result is one of "

@@ -61,8 +61,8 @@ class Holding {
     if (!broken_) throw ImmovableNodes(text, std::move(immovable_));
     throw Error(
         ErrorCode::unusable_shape,
-        fmt::format("{}. Such places cannot move: mend the mesh, hold them by a rule (--constraints) such as "
-                    "{{\"nodes\": [{}], \"position\": \"fixed\"}}, or let only a region without them move (--region)",
+        fmt::format("{}. Such places cannot move: mend the mesh, hold them by a rule such as {{\"nodes\": [{}], "
+                    "\"position\": \"fixed\"}}, or let only a region move, one without them",
                     text, fault_node_));
   }
 
@@ -83,9 +83,8 @@ class Holding {
       if (moves(i) && find(i) == i && held[static_cast<std::size_t>(i)] == 0)
         throw Error(
             ErrorCode::unusable_constraint,
-            fmt::format("nothing holds the component of node {} ({} nodes): it would shrink to a point. Hold some of "
-                        "its nodes by rules (--constraints), its boundary if it has one (--fix boundary), or let "
-                        "only a region of it move (--region)",
+            fmt::format("nothing holds the component of node {} ({} nodes): it would shrink to a point; hold some of "
+                        "its nodes by a rule, fix the boundary if it has one, or let only a region move",
                         i, size[static_cast<std::size_t>(i)]));
     }
   }
@@ -104,15 +103,15 @@ class Holding {
       if (held < fewest_held_of_a_loop)
         throw Error(
             ErrorCode::unusable_constraint,
-            fmt::format("the boundary loop through node {} is free: {} of its {} nodes are held, and it would shrink. "
-                        "Hold it (--fix boundary, or a rule in --constraints), or let only a region move (--region)",
+            fmt::format("the boundary loop through node {} is free: {} of its {} nodes are held, and it would shrink; "
+                        "fix the boundary, hold nodes of it by a rule, or let only a region move",
                         first, held, length));
       free_nodes += length - held;
       if (first_free < 0) first_free = first;
     }
     if (free_nodes > 0)
       warnings.push_back(
-          fmt::format("{} boundary node{} free and will be drawn in, node {} first; hold {} with --fix boundary",
+          fmt::format("{} boundary node{} free and will be drawn in, node {} first; fix the boundary to hold {}",
                       free_nodes, free_nodes == 1 ? " is" : "s are", first_free, free_nodes == 1 ? "it" : "them"));
   }
 

@@ -33,7 +33,7 @@ const char* advice(int number) {
 }  // namespace
 
 void refuse_file(const std::string& name, const char* what, int number) {
-  throw Error(ErrorCode::unusable_file, fmt::format("{}: cannot be {}: {}{}", name, what,
+  throw Error(ErrorCode::unusable_file, fmt::format("{}: cannot be {}: {}{}", name.empty() ? "\"\"" : name, what,
                                                     std::generic_category().message(number), advice(number)));
 }
 

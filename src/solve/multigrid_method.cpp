@@ -1,6 +1,9 @@
 #include "solve/multigrid_method.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <span>
 
 #include "base/stopwatch.hpp"
 #include "solve/sweep_method.hpp"
@@ -28,7 +31,7 @@ class Cycle {
     const std::size_t by_default = hierarchy_.count() - hierarchy_.first_of_use();
     hierarchy_.limit(options_.levels ? static_cast<std::size_t>(*options_.levels) : by_default);
     const std::size_t finest = hierarchy_.count() - 1;
-    report_.levels.resize(hierarchy_.count());
+    report_.levels.assign(hierarchy_.count(), {.outcome = Outcome::cancelled});
     for (std::size_t k = 0; k <= finest; ++k)
       report_.levels[k].moving_nodes = static_cast<Index>(hierarchy_.net(k).moving);
     for (std::size_t k = finest; k > 0; --k) {
@@ -42,15 +45,30 @@ class Cycle {
       const SweepResult result = iterate(k, share * options_.step_tolerance, limit);
       report_.outcome = result.outcome;
       report_.residual = result.residual;
+      report_.levels[k].outcome = result.outcome;
       if (result.lost) lost_ = true;
       if (k == finest) break;
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
     }
     if (lost_) report_.warnings.emplace_back(lost_warning);
+    say_if_cut_short(limit);
   }
 
  private:
+  /// A finer level takes away what is short and leaves what is long as it came, so it may well be still while the shape
+  /// is far from its equilibrium.
+  void say_if_cut_short(int limit) {
+    const auto coarser = std::span(report_.levels).first(report_.levels.size() - 1);
+    const auto cut_short =
+        std::ranges::find(coarser, Outcome::iteration_limit, [](const LevelReport& level) { return level.outcome; });
+    if (cut_short == coarser.end()) return;
+    report_.warnings.push_back(fmt::format(
+        "{} level, of {} moving nodes, ended at its limit of {} iterations: the shape may be far from its "
+        "equilibrium though its last steps are small; allow more iterations, or take the method equilibrium",
+        cut_short == coarser.begin() ? "the coarsest" : "a coarser", cut_short->moving_nodes, limit));
+  }
+
   SweepResult iterate(std::size_t level, double step_tolerance, int max_iterations) {
     const Stopwatch stopwatch;
     SweepTask task{.step_tolerance = step_tolerance, .max_iterations = max_iterations};

@@ -112,6 +112,25 @@ TEST(EstimateNormalsOfCurves, OfAHelixPointToItsAxis) {
   for (const Vector3& normal : estimate_normals(line, all_nodes(line))) EXPECT_EQ(normal, Vector3(0, 0, 0));
 }
 
+TEST(LiesInAPlane, WithAllThatHoldsIt) {
+  const PolygonCurve curve = tilted_arc(false).curve;
+  Constraints constraints(curve.node_count());
+  EXPECT_TRUE(lies_in_a_plane(curve, constraints));
+  Motion motion;
+  const Vector3 across = motion.turn * Vector3::UnitZ();
+  Constraints tangent = constraints;
+  tangent.fix_tangent(0, across);
+  EXPECT_FALSE(lies_in_a_plane(curve, tangent));
+  Constraints normal = constraints;
+  normal.fix_normal(3, across);
+  EXPECT_FALSE(lies_in_a_plane(curve, normal));
+  Constraints position = constraints;
+  position.fix_position(5, curve.position(5) + 0.01 * across);
+  EXPECT_FALSE(lies_in_a_plane(curve, position));
+  const PolygonCurve line(straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 10)));
+  EXPECT_FALSE(lies_in_a_plane(line, Constraints(11)));
+}
+
 TEST(RegionOfACurve, FixesTheRestAndGivesTheRimTheTangentsOutside) {
   Arc arc = tilted_arc(false);
   auto nodes = arc.curve.positions();

@@ -1,0 +1,35 @@
+#include "advice.hpp"
+
+#include <string_view>
+
+namespace vspring::cli {
+
+namespace {
+
+struct Advice {
+  std::string_view words;  ///< of the library
+  std::string_view option;
+};
+
+constexpr Advice all_advice[] = {
+    {"by a rule", "--constraints"},
+    {"fix the boundary", "--fix boundary"},
+    {"fix the ends", "--fix boundary"},
+    {"let only a region move", "--region"},
+    {"allow more iterations", "--max-iterations"},
+    {"the root mean square of its points' distances", "--rms"},
+    {"name the format", "--format"},
+};
+
+}  // namespace
+
+std::string with_options(std::string message) {
+  for (const Advice& advice : all_advice) {
+    const std::size_t place = message.find(advice.words);
+    if (place == std::string::npos) continue;
+    message.insert(place + advice.words.size(), " (" + std::string(advice.option) + ")");
+  }
+  return message;
+}
+
+}  // namespace vspring::cli

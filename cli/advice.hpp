@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace vspring::cli {
+
+/// A message of the library with the options of the command line that do what it advises.
+[[nodiscard]] std::string with_options(std::string message);
+
+}  // namespace vspring::cli

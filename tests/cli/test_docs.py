@@ -1,0 +1,152 @@
+"""Every command in README.md and docs/ runs, and options that they name are options."""
+import json
+import math
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import unittest
+
+import support
+from support import PROGRAM, Case, run
+
+ROOT = pathlib.Path(__file__).parents[2]
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PROGRAMS = ("vspring ", "build/release/vspring ")
+# In a block with commands, these make their files.
+HELPERS = ("echo ", "cat ")
+
+
+def outline():
+    points = [(math.cos(a) * 2, math.sin(a)) for a in (math.tau * k / 40 for k in range(40))]
+    return "".join(f"{x!r},{y!r}\n" for x, y in points)
+
+
+def rules(**nodes):
+    return json.dumps({"rules": [{"nodes": nodes["nodes"], "position": "fixed"}]})
+
+
+# Files that a reader would have: arguments of `vspring generate`, an example, or a text.
+STAND_INS = {
+    "part.ply": "saddle --columns 12 --rows 12 --noise 0.02",
+    "part.off": "saddle --columns 12 --rows 12 --noise 0.02",
+    "hull.obj": "annulus --nodes 300",
+    "body.obj": "pipe-blend --cells 4",
+    "funnel.obj": "funnel --nodes 300 --noise 0.02",
+    "annulus.obj": "annulus --nodes 300",
+    # With some nodes in the region of the examples.
+    "scan.ply": "cylinder-patch --radius 0.2236 --angle 150 --height 0.1 --columns 40 --rows 8 --noise 0.001",
+    "mesh.obj": "cylinder-patch --radius 0.2236 --angle 150 --height 0.1 --columns 30 --rows 6",
+    "aerofoil.dat": ROOT / "examples/naca-2412.dat",
+    "outline.csv": outline,
+    "rules.json": lambda: rules(nodes="boundary"),
+    "held.json": lambda: rules(nodes=[0, 10, 20, 30]),
+}
+# Where a document speaks of others by these names.
+OF_DOCUMENT = {
+    "fit.md": {"scan.ply": "cylinder-patch --radius 20 --angle 150 --height 40 --columns 40 --rows 30 --noise 0.08",
+               "mesh.obj": "cylinder-patch --radius 20 --angle 150 --height 40 --columns 36 --rows 28"},
+    "curves.md": {"held.json": ROOT / "examples/naca-2412.json"},
+}
+
+
+def blocks(text):
+    """Lines of code that stand together, and each piece of code within text."""
+    block, fenced = [], False
+    for line in text.splitlines():
+        if line.startswith("```"):
+            fenced = not fenced
+        elif fenced or line.startswith("    "):
+            block.append(line.strip())
+            continue
+        elif line:
+            yield from ([code] for code in re.findall(r"`([^`]+)`", line))
+        if line and block:
+            yield block
+            block = []
+    if block:
+        yield block
+
+
+def commands(text):
+    """What a reader can run, block by block."""
+    for block in blocks(text):
+        if any(line.startswith(PROGRAMS) or "| vspring " in line for line in block):
+            yield [line for line in block if line.startswith(PROGRAMS + HELPERS)]
+
+
+def is_complete(words):
+    """Whether it is a command with all that it needs, rather than the name of one, or how to write one."""
+    if any(re.fullmatch(r"\[?[A-Z][A-Z.]+\]?|\[.*", word) for word in words):
+        return False
+    if "--help" in words:
+        return True
+    least = {"measure": 3, "generate": 3}.get(words[1] if len(words) > 1 else "", 99)
+    return "-o" in words or (len(words) >= least and not words[2].startswith("-"))
+
+
+def options_of(command):
+    return set(re.findall(r"(?<![\w-])--?[a-z][a-z-]*", run(*command, "--help").stdout.decode()))
+
+
+class Docs(Case):
+    def make(self, name, document):
+        path = self.folder / name
+        kind = OF_DOCUMENT.get(document, {}).get(name) or STAND_INS.get(name)
+        if kind is None or path.exists():
+            return
+        if isinstance(kind, str):
+            self.assertEqual(run("generate", *kind.split(), "-o", path).returncode, 0, name)
+        elif isinstance(kind, pathlib.Path):
+            shutil.copy(kind, path)
+        else:
+            path.write_text(kind())
+
+    def run_line(self, line, document):
+        for word in shlex.split(line, comments=True):
+            self.make(word, document)
+        done = subprocess.run(["bash", "-c", "set -euo pipefail\n" + line], cwd=self.folder, capture_output=True, timeout=60,
+                              env={**os.environ, "PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}"})
+        said = done.stderr.decode()
+        self.assertEqual(done.returncode, 3 if "status 3" in line else 0, said)
+        self.assertNotIn("has no effect", said)
+
+    def test_every_command_runs(self):
+        for document in DOCUMENTS:
+            self.setUp()
+            (self.folder / "examples").symlink_to(ROOT / "examples")
+            for place in ("bin", "build/release"):
+                (self.folder / place).mkdir(parents=True)
+                (self.folder / place / "vspring").symlink_to(PROGRAM)
+            for block in commands(document.read_text()):
+                for line in block:
+                    if line.startswith(PROGRAMS) and not is_complete(shlex.split(line, comments=True)):
+                        continue
+                    with self.subTest(document=document.name, line=line):
+                        self.run_line(line, document.name)
+
+    def test_options_that_are_named_are_options(self):
+        known = {}
+        for document in DOCUMENTS:
+            for block in commands(document.read_text()):
+                for line in block:
+                    for words in re.findall(r"(?:^|\| )(?:build/release/)?vspring +([^|#]*)", line):
+                        command = words.split()[:1]
+                        if not command or not command[0].islower():
+                            command = []
+                        if command == ["generate"] and words.split()[1:2] and words.split()[1].islower():
+                            command.append(words.split()[1])
+                        of_it = known.setdefault(tuple(command), options_of(command))
+                        self.assertTrue(of_it, f"{document.name}: {line}: is there such a command?")
+                        for option in re.findall(r"(?<!\S)--?[a-z][a-z-]*", words):
+                            self.assertIn(option, of_it, f"{document.name}: {line}")
+
+    def test_there_are_commands(self):
+        count = sum(len(block) for document in DOCUMENTS for block in commands(document.read_text()))
+        self.assertGreater(count, 60, "the words that this looks for are still those of the documents")
+
+
+if __name__ == "__main__":
+    unittest.main()

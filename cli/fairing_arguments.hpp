@@ -30,6 +30,9 @@ struct FairingArguments {
   std::string deviation;
   bool quiet = false;
   Colour colour = Colour::automatic;
+
+  /// Whether a page, a picture or scalars are asked for.
+  [[nodiscard]] bool shows_shapes() const { return !(html.empty() && picture.path.empty() && scalars.empty()); }
 };
 
 }  // namespace vspring::cli

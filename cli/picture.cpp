@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -12,7 +11,6 @@
 #include "html_page.hpp"
 #include "page_bytes.hpp"
 #include "vspring/error.hpp"
-#include "vspring/types.hpp"
 
 namespace vspring::cli {
 
@@ -53,16 +51,6 @@ std::string drawn(const PictureArguments& arguments, bool curve, nlohmann::order
 }
 
 }  // namespace
-
-Eigen::Matrix3d seen_from(const Vector3& direction, const Vector3& up) {
-  const Vector3 towards = direction.normalized();
-  const Vector3 across = up.cross(towards).normalized();
-  Eigen::Matrix3d rows;
-  rows << across.transpose(), towards.cross(across).transpose(), towards.transpose();
-  return rows;
-}
-
-Eigen::Matrix3d default_view() { return seen_from(Vector3(1, -2, 1.5), Vector3::UnitZ()); }
 
 bool PictureArguments::shows(const std::string& style) const {
   return !path.empty() && std::find(styles.begin(), styles.end(), style) != styles.end();

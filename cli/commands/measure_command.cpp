@@ -19,6 +19,7 @@
 #include "fairing.hpp"
 #include "figures.hpp"
 #include "fitting.hpp"
+#include "framing.hpp"
 #include "html_page.hpp"
 #include "measure_table.hpp"
 #include "page_scene.hpp"
@@ -108,22 +109,26 @@ std::string picture_of_measured(const MeasureArguments& arguments, const Surface
 
 std::string picture_of_measured(const MeasureArguments& arguments, const CurveFile& file, const CurveFile* other,
                                 const Json& /*scene*/, const Context& context) {
-  const PolygonCurve* before = other != nullptr ? &other->curve : nullptr;
-  return curve_picture(arguments.picture, draw_curve(file, file.curve.positions(), {.before = before}), context);
+  CurvePicture picture;
+  if (other != nullptr) picture = {.before = &other->curve, .points = {}, .part = moved_part(other->curve, file.curve)};
+  return curve_picture(arguments.picture, draw_curve(file, file.curve.positions(), picture), context);
 }
 
 /// Page, picture and scalars, as far as they are asked for. False where Ctrl-C prevented one.
-template <typename File>
+template <typename File, typename Shape>
 bool write_views(const MeasureArguments& arguments, const File& file, const File* other,
-                 const std::vector<FigureColumn>& columns, const Json& report, Context& context) {
-  using Shape = std::remove_cvref_t<decltype(shape_of(file))>;
+                 std::vector<MeasuredShape<Shape>>& measured, const std::vector<FigureColumn>& columns,
+                 const Json& report, Context& context) {
   const CancelOnSignal cancelling(context);
   Json scene;
   if (!arguments.html.empty() || (std::is_same_v<File, SurfaceFile> && !arguments.picture.path.empty())) {
-    std::vector<PageShape<Shape>> shapes = {{columns[0].title, &shape_of(file), columns[0].figures}};
-    if (other != nullptr) shapes.push_back({columns[1].title, &shape_of(*other), columns[1].figures});
-    const PageRoles roles = {
-        .leading = 0, .reference = other != nullptr ? std::optional(1) : std::nullopt, .view = arguments.picture.view};
+    std::vector<PageShape<Shape>> shapes;
+    for (std::size_t k = 0; k < measured.size(); ++k)
+      shapes.push_back({columns[k].title, &measured[k], columns[k].figures});
+    const PageRoles roles = {.leading = 0,
+                             .reference = other != nullptr ? std::optional(1) : std::nullopt,
+                             .deviation = !arguments.html.empty() || arguments.picture.shows("deviation"),
+                             .view = arguments.picture.view};
     scene = scene_of(std::span<const PageShape<Shape>>(shapes), roles, context);
   }
   const auto write = [&](const std::string& path, const auto& bytes_of) {
@@ -134,8 +139,7 @@ bool write_views(const MeasureArguments& arguments, const File& file, const File
   write(arguments.html, [&] { return html_page("vspring: " + arguments.input, report, scene); });
   write(arguments.picture.path, [&] { return picture_of_measured(arguments, file, other, scene, context); });
   if (arguments.scalars.empty() || context.cancelled()) return !context.cancelled();
-  const std::vector<NodeScalar> scalars =
-      scalars_of(shape_of(file), other != nullptr ? &shape_of(*other) : nullptr, context);
+  const std::vector<NodeScalar> scalars = scalars_of(measured[0], other != nullptr ? &measured[1] : nullptr, context);
   if (context.cancelled()) return false;
   const UninterruptedWhileWriting guard;
   write_scalars(arguments.scalars, shape_of(file), scalars);
@@ -170,9 +174,12 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
     return fits ? &*constraints : nullptr;
   };
 
+  const bool shown = arguments.shows_shapes();
+  std::vector measured = {MeasuredShape(shape_of(file))};
+  if (other) measured.emplace_back(shape_of(*other));
   std::vector<FigureColumn> columns;
   columns.push_back(
-      {arguments.input, with_noise(figures_of(shape_of(file), held(file), context), shape_of(file), context)});
+      {arguments.input, with_noise(figures_of(measured[0], held(file), shown, context), shape_of(file), context)});
   std::optional<Apart> apart;
   std::vector<std::string> warnings = file.warnings;
   if (other) {
@@ -180,7 +187,7 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
     const auto& second = shape_of(*other);
     const auto names = titles(arguments.input, arguments.compare);
     columns.front().title = names[0];
-    columns.push_back({names[1], with_noise(figures_of(second, held(*other), context), second, context)});
+    columns.push_back({names[1], with_noise(figures_of(measured[1], held(*other), shown, context), second, context)});
     apart.emplace();
     if (shape.node_count() == second.node_count()) apart->nodes = node_distance(second.positions(), shape.positions());
     apart->to_other = distance(shape.positions(), second, context);
@@ -209,7 +216,8 @@ int measure_file(const MeasureArguments& arguments, File file, std::optional<Fil
     json["version"] = version();
     if (!arguments.report.empty()) write_whole(arguments.report, json.dump(2) + "\n");
   }
-  if (!write_views(arguments, file, other ? &*other : nullptr, columns, json, context)) return exit_interrupted;
+  if (!write_views(arguments, file, other ? &*other : nullptr, measured, columns, json, context))
+    return exit_interrupted;
   const Terminal errors(2, arguments.colour);
   for (const std::string& warning : warnings) (void)errors.write(errors.yellow("warning: ") + warning + "\n");
   if (arguments.quiet) return exit_converged;

@@ -19,6 +19,9 @@ constexpr Advice all_advice[] = {
     {"allow more iterations", "--max-iterations"},
     {"the root mean square of its points' distances", "--rms"},
     {"name the format", "--format"},
+    {"choose columns", "--columns"},
+    {"the choice of columns", "--columns"},
+    {"weld within less", "--weld"},
 };
 
 }  // namespace

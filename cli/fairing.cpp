@@ -152,12 +152,13 @@ Fairing::Fairing(const FairingArguments& arguments)
 }
 
 template <typename Shape>
-Fairing::FigurePair Fairing::measured(const Faired<Shape>& faired) {
+Fairing::FigurePair Fairing::measured(MeasuredPair<Shape>& shapes, const Constraints& constraints) {
+  const bool shown = arguments_->shows_shapes();
   progress_share_ = 0.5;
   FigurePair figures;
-  figures[0] = figures_of(faired.before, &faired.constraints, context_);
+  figures[0] = figures_of(shapes[0], &constraints, shown, context_);
   progress_begin_ = 0.5;
-  if (!context_.cancelled()) figures[1] = figures_of(faired.after, &faired.constraints, context_);
+  if (!context_.cancelled()) figures[1] = figures_of(shapes[1], &constraints, shown, context_);
   bar_.clear();
   return figures;
 }
@@ -183,9 +184,10 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
   json["input"] = arguments_->input;
   json["output"] = arguments_->output;
   json.update(writers.figures);
+  MeasuredPair<Shape> shapes = {MeasuredShape(faired.before), MeasuredShape(faired.after)};
   FigurePair figures;
   if (!context_.cancelled() && !(arguments_->report.empty() && arguments_->html.empty())) {
-    figures = measured(faired);
+    figures = measured(shapes, faired.constraints);
     if (!context_.cancelled()) {
       // Not assigned as a list: clang 14 does not destroy what such an assignment replaces.
       nlohmann::ordered_json fairness = {{"before", values_of(figures[0])}, {"after", values_of(figures[1])}};
@@ -196,7 +198,7 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
     const UninterruptedWhileWriting guard;
     write_file(arguments_->report, json.dump(2) + "\n");
   }
-  const std::string missing = write_views(faired, figures, json, writers);
+  const std::string missing = write_views(shapes, figures, json, writers);
   if (!missing.empty()) warnings.push_back(output_name(missing) + ": not written, as the run was interrupted");
   errors_.warn(warnings);
   if (!arguments_->quiet &&
@@ -206,15 +208,18 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
 }
 
 template <typename Shape>
-std::string Fairing::write_views(const Faired<Shape>& faired, const FigurePair& figures,
+std::string Fairing::write_views(MeasuredPair<Shape>& shapes, const FigurePair& figures,
                                  const nlohmann::ordered_json& report, const Writers& writers) const {
   constexpr bool surface = std::is_same_v<Shape, PolygonMesh>;
   const std::string title = "vspring: " + input_name(arguments_->input);
   const PictureArguments& picture = arguments_->picture;
   nlohmann::ordered_json scene;
   if (!context_.cancelled() && (!arguments_->html.empty() || (surface && !picture.path.empty()))) {
-    const PageShape<Shape> shapes[] = {{"before", &faired.before, figures[0]}, {"after", &faired.after, figures[1]}};
-    scene = scene_of(shapes, {.leading = 1, .reference = 0, .view = picture.view, .points = writers.points}, context_);
+    const PageShape<Shape> both[] = {{"before", &shapes[0], figures[0]}, {"after", &shapes[1], figures[1]}};
+    const bool deviation = !arguments_->html.empty() || picture.shows("deviation");
+    const PageRoles roles = {
+        .leading = 1, .reference = 0, .deviation = deviation, .view = picture.view, .points = writers.points};
+    scene = scene_of(both, roles, context_);
   }
   // What an interrupted call made is of no use.
   const auto write = [&](const std::string& path, const auto& bytes_of) {
@@ -234,14 +239,14 @@ std::string Fairing::write_views(const Faired<Shape>& faired, const FigurePair& 
     return picture.path;
   if (arguments_->scalars.empty()) return {};
   if (context_.cancelled()) return arguments_->scalars;
-  std::vector<NodeScalar> scalars = scalars_of(faired.after, &faired.before, context_);
+  std::vector<NodeScalar> scalars = scalars_of(shapes[1], &shapes[0], context_);
   if (writers.scalars) std::ranges::move(writers.scalars(), std::back_inserter(scalars));
   if (context_.cancelled()) return arguments_->scalars;
   const UninterruptedWhileWriting guard;
   if (writers.welding != nullptr)
-    writers.welding->write_scalars(arguments_->scalars, faired.after, std::move(scalars));
+    writers.welding->write_scalars(arguments_->scalars, shapes[1].shape(), std::move(scalars));
   else
-    write_scalars(arguments_->scalars, faired.after, scalars);
+    write_scalars(arguments_->scalars, shapes[1].shape(), scalars);
   return {};
 }
 

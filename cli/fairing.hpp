@@ -10,6 +10,7 @@
 
 #include "fairing_arguments.hpp"
 #include "idle_options.hpp"
+#include "measured_shape.hpp"
 #include "progress_bar.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
@@ -69,12 +70,15 @@ class Fairing {
  private:
   using FigurePair = std::array<std::vector<Figure>, 2>;
 
+  template <typename Shape>
+  using MeasuredPair = std::array<MeasuredShape<Shape>, 2>;
+
   /// Figures before and after; of no use once cancelled.
   template <typename Shape>
-  FigurePair measured(const Faired<Shape>& faired);
+  FigurePair measured(MeasuredPair<Shape>& shapes, const Constraints& constraints);
   /// Page, picture and scalars, as far as they are asked for; returns the first that an interruption prevented.
   template <typename Shape>
-  [[nodiscard]] std::string write_views(const Faired<Shape>& faired, const FigurePair& figures,
+  [[nodiscard]] std::string write_views(MeasuredPair<Shape>& shapes, const FigurePair& figures,
                                         const nlohmann::ordered_json& report, const Writers& writers) const;
 
   const FairingArguments* arguments_;

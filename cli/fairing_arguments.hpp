@@ -33,6 +33,9 @@ struct FairingArguments {
   bool quiet = false;
   Colour colour = Colour::automatic;
   std::set<std::string> given;  ///< options that were given, by their long names
+
+  /// Whether a page, a picture or scalars are asked for.
+  [[nodiscard]] bool shows_shapes() const { return !(html.empty() && picture.path.empty() && scalars.empty()); }
 };
 
 }  // namespace vspring::cli

@@ -5,12 +5,15 @@
 
 namespace vspring::cli {
 
-std::vector<Figure> figures_of(const PolygonMesh& mesh, const Constraints* constraints, const Context& context) {
-  return list_figures(measure_surface(mesh, constraints, context));
+std::vector<Figure> figures_of(MeasuredShape<PolygonMesh>& mesh, const Constraints* constraints, bool shown,
+                               const Context& context) {
+  if (!shown) return list_figures(measure_surface(mesh.shape(), constraints, context));
+  return list_figures(measure_surface(mesh.shape(), constraints, mesh.curvatures(context), context));
 }
 
-std::vector<Figure> figures_of(const PolygonCurve& curve, const Constraints* constraints, const Context& /*context*/) {
-  return list_figures(measure_curve(curve, constraints));
+std::vector<Figure> figures_of(MeasuredShape<PolygonCurve>& curve, const Constraints* constraints, bool /*shown*/,
+                               const Context& /*context*/) {
+  return list_figures(measure_curve(curve.shape(), constraints));
 }
 
 nlohmann::ordered_json values_of(const std::vector<Figure>& figures) {

@@ -7,8 +7,11 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "framing.hpp"
 #include "page_bytes.hpp"
+#include "scalars.hpp"
 #include "vspring/curvature.hpp"
+#include "vspring/distance.hpp"
 
 namespace vspring::cli {
 
@@ -108,6 +111,16 @@ Json to_json(const Eigen::Matrix3d& rows) {
   return json;
 }
 
+void add_framing(Json& json, const Framing& framing) {
+  json["view"] = to_json(framing.view);
+  Json& part = json["part"];
+  if (!framing.part) return;
+  const Vector3& middle = framing.part->middle;
+  part = {{"middle", {middle.x(), middle.y(), middle.z()}},
+          {"extents", {framing.part->width, framing.part->height}},
+          {"radius", framing.part->radius}};
+}
+
 /// The number of nodes of every face, 0 where they differ.
 std::size_t common_length(const PolygonMesh& mesh) {
   const std::size_t first = mesh.face_count() > 0 ? mesh.face(0).size() : 0;
@@ -117,22 +130,30 @@ std::size_t common_length(const PolygonMesh& mesh) {
   return first;
 }
 
-Json shape_of(const PolygonMesh& mesh, const Frame& frame, double diagonal, const Context& context) {
+/// Nodes of no face are not seen, and have no say in charts and colours.
+std::vector<bool> seen_nodes(const PolygonMesh& mesh) {
+  std::vector<bool> seen(static_cast<std::size_t>(mesh.node_count()), false);
+  for (const Index node : mesh.corners()) seen[static_cast<std::size_t>(node)] = true;
+  return seen;
+}
+
+Json shape_of(MeasuredShape<PolygonMesh>& measured, const Frame& frame, double diagonal, const Context& context) {
+  const PolygonMesh& mesh = measured.shape();
   const std::size_t length = common_length(mesh);
-  // Nodes of no face are not seen, and have no say in charts and colours.
-  std::vector<Index> number(static_cast<std::size_t>(mesh.node_count()), -1);
-  for (const Index node : mesh.corners()) number[static_cast<std::size_t>(node)] = 0;
+  const std::vector<bool> seen = seen_nodes(mesh);
+  std::vector<Index> number(seen.size(), -1);
   std::vector<Vector3> positions;
   std::vector<double> mean;
   std::vector<double> gaussian;
   const auto finite = [](double value) { return std::isfinite(value) ? value : 0; };
-  const std::vector<NodeCurvature> bent = curvatures(mesh, context);
-  for (std::size_t node = 0; node < bent.size(); ++node) {
-    if (number[node] < 0) continue;
-    number[node] = static_cast<Index>(positions.size());
-    positions.push_back(mesh.positions()[node]);
-    mean.push_back(finite(bent[node].mean() * diagonal));
-    gaussian.push_back(finite(bent[node].gaussian() * diagonal * diagonal));
+  std::size_t next = 0;
+  for (const NodeCurvature& bent : measured.curvatures(context)) {
+    const std::size_t i = next++;
+    if (!seen[i]) continue;
+    number[i] = static_cast<Index>(positions.size());
+    positions.push_back(mesh.positions()[i]);
+    mean.push_back(finite(bent.mean() * diagonal));
+    gaussian.push_back(finite(bent.gaussian() * diagonal * diagonal));
   }
   RunEncoder faces(length);
   std::vector<Index> renumbered;
@@ -150,6 +171,37 @@ Json shape_of(const PolygonMesh& mesh, const Frame& frame, double diagonal, cons
           {"runs", faces.take()},
           {"mean", encode_halves(mean)},
           {"gaussian", encode_halves(gaussian)}};
+}
+
+/// Gives both shapes, of the same faces, their distances from each other at nodes, each from the nearest place on the
+/// other: nodes slide along a shape, which is no deviation. Negative where the node goes to the back of `before`.
+void add_deviations(Json& after_json, Json& before_json, const PolygonMesh& after, MeasuredShape<PolygonMesh>& before,
+                    double side, const Context& context) {
+  const std::vector<NodeCurvature>& bent = before.curvatures(context);
+  const auto& from = before.shape().positions();
+  const auto& to = after.positions();
+  const std::vector<bool> seen = seen_nodes(after);
+  std::vector<std::size_t> moved;
+  for (std::size_t node = 0; node < to.size(); ++node) {
+    if (seen[node] && to[node].allFinite() && from[node].allFinite() && to[node] != from[node]) moved.push_back(node);
+  }
+  const auto encoded = [&](const std::vector<Vector3>& positions, const PolygonMesh& other) {
+    std::vector<Vector3> points;
+    points.reserve(moved.size());
+    for (const std::size_t node : moved) points.push_back(positions[node]);
+    std::vector<double> values(positions.size(), 0);
+    const std::vector<double> distances =
+        moved.empty() ? std::vector<double>() : point_distances(points, other, context);
+    for (std::size_t k = 0; k < distances.size(); ++k)
+      values[moved[k]] = std::copysign(distances[k] / side, (to[moved[k]] - from[moved[k]]).dot(bent[moved[k]].normal));
+    std::vector<double> of_seen;
+    for (std::size_t node = 0; node < values.size(); ++node) {
+      if (seen[node]) of_seen.push_back(values[node]);
+    }
+    return encode_halves(of_seen);
+  };
+  after_json["deviation"] = encoded(to, before.shape());
+  before_json["deviation"] = encoded(from, after);
 }
 
 Json shape_of(const PolygonCurve& curve, const Frame& frame) {
@@ -198,42 +250,56 @@ Plane plane_of(const std::vector<Vector3>& points) {
 
 Json scene_of(std::span<const PageShape<PolygonMesh>> shapes, const PageRoles& roles, const Context& context) {
   Frame frame;
-  for (const auto& shape : shapes) frame.add(*shape.shape);
+  for (const auto& shape : shapes) frame.add(shape.shape());
   Json json = frame_of(shapes, roles, frame);
   json["kind"] = "surface";
-  json["view"] = to_json(roles.view);
+  const auto leading_place = static_cast<std::size_t>(roles.leading);
+  const auto reference_place = static_cast<std::size_t>(roles.reference.value_or(roles.leading));
+  const PolygonMesh& leading = shapes[leading_place].shape();
+  const PolygonMesh& reference = shapes[reference_place].shape();
+  const bool alike = same_faces(leading, reference);
+  add_framing(json, alike ? framing_of(leading, frame.inside(reference.positions()), frame.inside(leading.positions()),
+                                       roles.view)
+                          : Framing{roles.view.value_or(default_view()), std::nullopt});
   json["points"] = encode_doubles(shown_points(roles.points, frame));
   json["shapes"] = Json::array();
   for (const auto& shape : shapes) {
     if (context.cancelled()) return {};
     // D is the shape's own, as in its figures.
     Frame own;
-    own.add(*shape.shape);
+    own.add(shape.shape());
     Json& entry =
-        json["shapes"].emplace_back(shape_of(*shape.shape, frame, own.diagonal() * own.half_side() * 2, context));
+        json["shapes"].emplace_back(shape_of(*shape.measured, frame, own.diagonal() * own.half_side() * 2, context));
     entry["title"] = shape.title;
     // What a shape has in common with the first need not be said twice.
     if (json["shapes"].size() > 1 && entry["runs"] == json["shapes"][0]["runs"]) entry["runs"] = nullptr;
   }
+  if (alike && roles.reference && roles.deviation && !context.cancelled())
+    add_deviations(json["shapes"][leading_place], json["shapes"][reference_place], leading,
+                   *shapes[reference_place].measured, frame.side(), context);
   return json;
 }
 
 Json scene_of(std::span<const PageShape<PolygonCurve>> shapes, const PageRoles& roles, const Context& /*context*/) {
   Frame frame;
-  for (const auto& shape : shapes) frame.add(*shape.shape);
+  for (const auto& shape : shapes) frame.add(shape.shape());
   Json json = frame_of(shapes, roles, frame);
   json["kind"] = "curve";
   json["shapes"] = Json::array();
   std::vector<Vector3> points;
   for (const auto& shape : shapes) {
-    json["shapes"].emplace_back(shape_of(*shape.shape, frame))["title"] = shape.title;
-    const std::vector<Vector3> inside = frame.inside(shape.shape->positions());
-    for (const PolygonCurve::Chain& chain : shape.shape->chains()) {
+    json["shapes"].emplace_back(shape_of(shape.shape(), frame))["title"] = shape.title;
+    const std::vector<Vector3> inside = frame.inside(shape.shape().positions());
+    for (const PolygonCurve::Chain& chain : shape.shape().chains()) {
       for (const Index node : chain.nodes) points.push_back(inside[static_cast<std::size_t>(node)]);
     }
   }
   const Plane plane = plane_of(points);
-  json["view"] = to_json(plane.rows);
+  const PolygonCurve& leading = shapes[static_cast<std::size_t>(roles.leading)].shape();
+  const PolygonCurve& reference = shapes[static_cast<std::size_t>(roles.reference.value_or(roles.leading))].shape();
+  add_framing(json, same_chains(leading, reference) ? framing_of(leading.chains(), frame.inside(reference.positions()),
+                                                                 frame.inside(leading.positions()), plane.rows)
+                                                    : Framing{plane.rows, std::nullopt});
   json["planar"] = plane.planar;
   return json;
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "picture.hpp"
+#include "measured_shape.hpp"
 #include "vspring/context.hpp"
 #include "vspring/figures.hpp"
 
@@ -16,20 +16,24 @@ namespace vspring::cli {
 template <typename Shape>
 struct PageShape {
   std::string title;
-  const Shape* shape;
+  MeasuredShape<Shape>* measured;
   std::vector<Figure> figures;
+
+  [[nodiscard]] const Shape& shape() const noexcept { return measured->shape(); }
 };
 
 /// What of the shapes is seen first, and from which of them deviations are measured.
 struct PageRoles {
   int leading = 0;
   std::optional<int> reference = std::nullopt;
-  Eigen::Matrix3d view = default_view();  ///< from where surfaces are seen
-  std::span<const Vector3> points = {};   ///< shown with surfaces; of very many every so-manieth
+  bool deviation = true;                               ///< whether deviations are shown
+  std::optional<Eigen::Matrix3d> view = std::nullopt;  ///< from where surfaces are to be seen
+  std::span<const Vector3> points = {};                ///< shown with surfaces; of very many every so-manieth
 };
 
 /// The shapes as page/data.js reads them. All are moved and scaled together into a box of side 1 about the origin;
-/// faces and chains leave out what has no finite coordinates. Once cancelled, what they return is of no use.
+/// faces and chains leave out what has no finite coordinates. Where they look: see framing.hpp. Once cancelled, what
+/// they return is of no use.
 [[nodiscard]] nlohmann::ordered_json scene_of(std::span<const PageShape<PolygonMesh>> shapes, const PageRoles& roles,
                                               const Context& context);
 [[nodiscard]] nlohmann::ordered_json scene_of(std::span<const PageShape<PolygonCurve>> shapes, const PageRoles& roles,

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -13,7 +12,6 @@
 #include "page_bytes.hpp"
 #include "stream_names.hpp"
 #include "vspring/error.hpp"
-#include "vspring/types.hpp"
 
 namespace vspring::cli {
 
@@ -54,16 +52,6 @@ bool named_svg(const std::string& path) {
     throw Error(ErrorCode::invalid_argument, output_name(path) + ": pictures are PNG or SVG; name a file .png or .svg");
   return extension == ".svg";
 }
-
-Eigen::Matrix3d seen_from(const Vector3& direction, const Vector3& up) {
-  const Vector3 towards = direction.normalized();
-  const Vector3 across = up.cross(towards).normalized();
-  Eigen::Matrix3d rows;
-  rows << across.transpose(), towards.cross(across).transpose(), towards.transpose();
-  return rows;
-}
-
-Eigen::Matrix3d default_view() { return seen_from(Vector3(1, -2, 1.5), Vector3::UnitZ()); }
 
 bool PictureArguments::shows(const std::string& style) const {
   return !path.empty() && std::find(styles.begin(), styles.end(), style) != styles.end();

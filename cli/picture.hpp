@@ -2,27 +2,21 @@
 
 #include <Eigen/Core>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "vspring/context.hpp"
-#include "vspring/types.hpp"
 
 namespace vspring::cli {
-
-/// The rows are the directions to the right, up and towards the eye, which is that way.
-[[nodiscard]] Eigen::Matrix3d seen_from(const Vector3& direction, const Vector3& up);
-
-/// The rows are the directions to the right, up and towards the eye: from above and in front, z upwards.
-[[nodiscard]] Eigen::Matrix3d default_view();
 
 /// What is told of the picture of a run.
 struct PictureArguments {
   std::string path;
   std::vector<std::string> styles;  ///< of surfaces, by the names that the page has for them; empty: the default ones
-  Eigen::Matrix3d view = default_view();
-  int width = 1600;           ///< pixels
-  bool for_surfaces = false;  ///< whether an option was given that only surfaces have
+  std::optional<Eigen::Matrix3d> view;  ///< from where surfaces are seen, see seen_from(); empty: it is not told
+  int width = 1600;                     ///< pixels
+  bool for_surfaces = false;            ///< whether an option was given that only surfaces have
 
   [[nodiscard]] bool shows(const std::string& style) const;
 };

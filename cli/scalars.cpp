@@ -40,25 +40,29 @@ bool same_faces(const PolygonMesh& mesh, const PolygonMesh& other) {
          mesh.corners() == other.corners();
 }
 
-std::vector<NodeScalar> scalars_of(const PolygonMesh& mesh, const PolygonMesh* before, const Context& context) {
+std::vector<NodeScalar> scalars_of(MeasuredShape<PolygonMesh>& measured, MeasuredShape<PolygonMesh>* before,
+                                   const Context& context) {
+  const PolygonMesh& mesh = measured.shape();
   std::vector<NodeScalar> scalars = {
       {"mean_curvature", {}}, {"gaussian_curvature", {}}, {"principal_curvature_1", {}}, {"principal_curvature_2", {}}};
-  for (const NodeCurvature& at : curvatures(mesh, context)) {
+  for (const NodeCurvature& at : measured.curvatures(context)) {
     const double values[] = {at.mean(), at.gaussian(), at.k1, at.k2};
     for (std::size_t k = 0; k < scalars.size(); ++k) scalars[k].values.push_back(values[k]);
   }
   if (before == nullptr) return scalars;
-  scalars.push_back(deviation(mesh, *before, context));
-  if (!same_faces(mesh, *before)) return scalars;
+  scalars.push_back(deviation(mesh, before->shape(), context));
+  if (!same_faces(mesh, before->shape())) return scalars;
   NodeScalar& along = scalars.emplace_back(NodeScalar{"deviation_along_normal", {}});
-  const std::vector<NodeCurvature> bent = curvatures(*before, context);
+  const std::vector<NodeCurvature>& bent = before->curvatures(context);
   for (std::size_t node = 0; node < bent.size(); ++node)
-    along.values.push_back((mesh.positions()[node] - before->positions()[node]).dot(bent[node].normal));
+    along.values.push_back((mesh.positions()[node] - before->shape().positions()[node]).dot(bent[node].normal));
   return scalars;
 }
 
-std::vector<NodeScalar> scalars_of(const PolygonCurve& curve, const PolygonCurve* before, const Context& context) {
-  std::vector<NodeScalar> scalars = {{"curvature", curvatures(curve)}};
+std::vector<NodeScalar> scalars_of(MeasuredShape<PolygonCurve>& measured, MeasuredShape<PolygonCurve>* before,
+                                   const Context& context) {
+  const PolygonCurve& curve = measured.shape();
+  std::vector<NodeScalar> scalars = {{"curvature", measured.curvatures(context)}};
   NodeScalar& arc = scalars.emplace_back(
       NodeScalar{"arc_length", std::vector<double>(static_cast<std::size_t>(curve.node_count()), 0)});
   for (const PolygonCurve::Chain& chain : curve.chains()) {
@@ -68,7 +72,7 @@ std::vector<NodeScalar> scalars_of(const PolygonCurve& curve, const PolygonCurve
       arc.values[static_cast<std::size_t>(chain.nodes[k])] = length;
     }
   }
-  if (before != nullptr) scalars.push_back(deviation(curve, *before, context));
+  if (before != nullptr) scalars.push_back(deviation(curve, before->shape(), context));
   return scalars;
 }
 

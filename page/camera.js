@@ -4,9 +4,8 @@ const product = (a, b) => a.map((row) => [0, 1, 2].map((k) => row[0] * b[0][k] +
 
 export class Camera {
   // rows: the directions to the right, up and towards the eye. positions: of the shapes that are to be seen, margin: by how
-  // much the view is larger than they.
-  constructor(rows, positions, margin, changed) {
-    this.home = rows;
+  // much the view is larger than they. part: what is seen first, or null: all.
+  constructor(rows, positions, margin, changed, part) {
     const [across, up] = rows.map((row) => {
       let most = 1e-3;
       for (const points of positions)
@@ -16,13 +15,16 @@ export class Camera {
     });
     this.extents = [across, up];
     this.changed = changed;
-    this.reset();
+    this.all = {rows, middle: [0, 0, 0], zoom: 1};
+    this.home = part ? {rows, middle: part.middle, zoom: Math.min(...this.extents.map((side, i) => side / part.extents[i]))} : this.all;
+    // Of what is seen first.
+    this.breadth = Math.max(...this.extents) / this.home.zoom;
+    this.show(this.home);
   }
 
-  reset() {
-    this.rows = this.home;
-    this.middle = [0, 0, 0];
-    this.zoom = 1;
+  // Where it was at first, or all.
+  show(place) {
+    Object.assign(this, place);
     this.changed();
   }
 
@@ -94,7 +96,7 @@ export function steer(element, camera, onSpace) {
       else camera.turn(0.1 * across, -0.1 * up);
     } else if (event.key === '+' || event.key === '=') camera.magnify(1.2);
     else if (event.key === '-') camera.magnify(1 / 1.2);
-    else if (event.key === '0' || event.key === 'Home') camera.reset();
+    else if (event.key === '0' || event.key === 'Home') camera.show(camera.home);
     else if (event.key === ' ') onSpace();
     else return;
     event.preventDefault();

@@ -16,13 +16,14 @@ function apart(places) {
 }
 
 export class CurveView {
-  // shapes: chains, see chainsOf().
-  constructor(canvas, shapes, size, leading) {
+  // shapes: chains, see chainsOf(). part: what is seen first, which the comb fits, or null: all.
+  constructor(canvas, shapes, {size: whole, leading, part}) {
     this.canvas = canvas;
     this.shapes = shapes;
-    this.size = size;
-    const sharpest = (chains) => chains.flatMap((chain) => chain.vectors)
-      .reduce((most, vector) => vector ? Math.max(most, Math.hypot(...vector)) : most, 0);
+    const size = this.size = part ? part.radius : whole;
+    const seen = (point) => !part || Math.hypot(...part.middle.map((middle, i) => point[i] - middle)) <= part.radius;
+    const sharpest = (chains) => chains.flatMap(({points, vectors}) => vectors.filter((vector, k) => vector && seen(points[k])))
+      .reduce((most, vector) => Math.max(most, Math.hypot(...vector)), 0);
     // A straight curve gives no scale, then the sharpest of all does.
     const wanted = sharpest(shapes[leading]);
     this.tooth = wanted * size > 1e-6 ? longestTooth * size / wanted

@@ -70,6 +70,7 @@ export function sceneOf(json) {
     closed: shape.closed,
     mean: surface ? halvesOf(bytesOf(shape.mean)) : null,
     gaussian: surface ? halvesOf(bytesOf(shape.gaussian)) : null,
+    deviation: shape.deviation ? halvesOf(bytesOf(shape.deviation)) : null,
   }));
   return {...json, surface, shapes, points: json.points ? Float32Array.from(doublesOf(bytesOf(json.points))) : new Float32Array()};
 }

@@ -27,13 +27,14 @@ const redraw = () => {
     page.draw(camera);
   });
 };
-const camera = new Camera(scene.view, scene.shapes.map((shape) => shape.positions), scene.surface ? 1.1 : 1.5, redraw);
+const camera = new Camera(scene.view, scene.shapes.map((shape) => shape.positions), scene.surface ? 1.1 : 1.5, redraw, scene.part);
 
 try {
   const places = {canvas: part('canvas'), form: part('controls'), legend: part('legend'), charts: part('charts')};
   page = (scene.surface ? makeSurfacePage : makeCurvePage)(places, scene, report, redraw);
   steer(part('canvas'), camera, () => page.next());
-  addButton(part('controls'), 'Show all', () => camera.reset());
+  addButton(part('controls'), 'Show all', () => camera.show(camera.all));
+  if (scene.part) addButton(part('controls'), 'Show what moved', () => camera.show(camera.home));
   new ResizeObserver(redraw).observe(part('canvas'));
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
 } catch (error) {

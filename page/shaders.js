@@ -28,6 +28,7 @@ uniform int kind;
 uniform vec3 colour;
 uniform vec3 stops[9];
 uniform vec2 range;
+uniform float nearness;  // one over the distance of the lamps of reflection lines
 in vec3 place;
 in vec3 facing;
 in float height;
@@ -51,9 +52,10 @@ void main() {
     float shine = pow(max(dot(n, normalize(key + vec3(0.0, 0.0, 1.0))), 0.0), 40.0);
     result = vec4(colour * (0.25 + 0.3 * towards + 0.5 * max(dot(n, key), 0.0)) + 0.2 * shine, 1.0);
   } else if (kind == 2) {
-    // Long parallel lamps around the surface, upright in the view, as mirrored towards the eye.
+    // Long parallel lamps around the surface, upright in the view, as mirrored towards the eye. They are near: a plane
+    // mirrors several of them, as straight lines.
     vec3 mirrored = reflect(vec3(0.0, 0.0, -1.0), n);
-    float wave = cos(16.0 * atan(mirrored.x, mirrored.z));
+    float wave = cos(16.0 * atan(mirrored.x + nearness * place.x, mirrored.z));
     float soft = min(fwidth(wave), 1.0);
     float lamp = smoothstep(-soft, soft, wave);
     result = vec4(vec3(0.08 + 0.86 * lamp) * (0.75 + 0.25 * towards), 1.0);

@@ -1,13 +1,13 @@
 // What a view shows of surfaces: shapes, and values by their colours.
 
-import {deviationsOf, edgesOf, normalsOf, trianglesOf} from './mesh.js';
+import {edgesOf, normalsOf, trianglesOf} from './mesh.js';
 import {diverging, sequential} from './colours.js';
 import {quantiles, short} from './numbers.js';
 
 // What the view needs to know of a shape of the scene.
-export function prepared({title, positions, runs, mean, gaussian}) {
+export function prepared({title, positions, runs, mean, gaussian, deviation}) {
   const edges = edgesOf(runs, positions.length / 3);
-  return {title, positions, runs, mean, gaussian, joints: edges, edges: edges.ends,
+  return {title, positions, runs, mean, gaussian, deviation, joints: edges, edges: edges.ends,
     triangles: trianglesOf(runs, positions), normals: normalsOf(runs, positions, edges)};
 }
 
@@ -24,19 +24,25 @@ export function aboutZero(values, least) {
   return about(0, Math.max(least, quantiles(values.map(Math.abs), [0.98])[0]));
 }
 
+// Of values at nodes, those in the part that is seen first.
+function valuesIn(part, positions, values) {
+  if (!part) return values;
+  return values.filter((_, n) => Math.hypot(...part.middle.map((middle, i) => positions[3 * n + i] - middle)) <= part.radius);
+}
+
 // What colours can show: values for each shape, map, range of its colours.
-export function fieldsOf(shapes, {leading, reference, unit}) {
+export function fieldsOf(shapes, {leading, reference, unit, part}) {
+  const seen = (values) => valuesIn(part, shapes[leading].positions, values);
   const fields = {
     mean: {name: 'Mean curvature × D', map: sequential, values: shapes.map((shape) => shape.mean),
-      range: aboutMiddle(shapes[leading].mean, 0.01)},
+      range: aboutMiddle(seen(shapes[leading].mean), 0.01)},
     gaussian: {name: 'Gaussian curvature × D²', map: diverging, values: shapes.map((shape) => shape.gaussian),
-      range: aboutZero(shapes[leading].gaussian, 0.01)},
+      range: aboutZero(seen(shapes[leading].gaussian), 0.01)},
   };
-  const from = shapes[reference];
-  if (from && from.runs === shapes[leading].runs) {
-    const values = deviationsOf(shapes[leading].positions, from.positions, from.normals).map((part) => part * unit);
-    fields.deviation = {name: `Deviation from “${from.title}”, units of the input`, map: diverging,
-      values: shapes.map(() => values), range: aboutZero(values, 1e-6 * unit)};
+  if (shapes[leading].deviation) {
+    const values = shapes.map((shape) => shape.deviation.map((part) => part * unit));
+    fields.deviation = {name: `Deviation from “${shapes[reference].title}”, units of the input`, map: diverging, values,
+      range: aboutZero(seen(values[leading]), 1e-6 * unit)};
   }
   return fields;
 }

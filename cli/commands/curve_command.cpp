@@ -17,6 +17,7 @@
 #include "commands/pull_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
+#include "framing.hpp"
 #include "stream_names.hpp"
 #include "vspring/vspring.hpp"
 
@@ -72,9 +73,11 @@ int run_curve(CurveArguments arguments) {
       lost_warnings.push_back(fmt::format("{}: written without {}", output_name(arguments.output), lost));
     return lost_warnings;
   };
-  const auto draw = [&] { return draw_curve(file, result.positions, {.before = &before}); };
   PolygonCurve after = file.curve;
   after.set_positions(result.positions);
+  const auto draw = [&] {
+    return draw_curve(file, result.positions, {.before = &before, .points = {}, .part = moved_part(before, after)});
+  };
   return fairing.finish<PolygonCurve>({file.curve, after, constraints, result.report}, before.positions(),
                                       std::move(warnings),
                                       {.shape = write,

@@ -25,6 +25,7 @@
 #include "commands/pull_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
+#include "framing.hpp"
 #include "stream_names.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
@@ -65,7 +66,9 @@ std::string picture_of_fit(const SurfaceFile& /*file*/, const Positions& /*posit
   return {};
 }
 std::string picture_of_fit(const CurveFile& file, const Positions& positions, const Positions& points) {
-  return draw_curve(file, positions, {.before = &file.curve, .points = points});
+  PolygonCurve after = file.curve;
+  after.set_positions(positions);
+  return draw_curve(file, positions, {.before = &file.curve, .points = points, .part = moved_part(file.curve, after)});
 }
 
 /// The columns of POINTS; none where it is no table.

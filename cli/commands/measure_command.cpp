@@ -24,6 +24,7 @@
 #include "fairing.hpp"
 #include "figures.hpp"
 #include "fitting.hpp"
+#include "framing.hpp"
 #include "html_page.hpp"
 #include "idle_options.hpp"
 #include "measure_table.hpp"
@@ -131,25 +132,29 @@ std::string picture_of_measured(const MeasureArguments& arguments, const Measure
   return surface_picture(arguments.picture, "vspring: " + input_name(arguments.input), scene, context);
 }
 
-std::string picture_of_measured(const MeasureArguments& arguments, const Measured<CurveFile>& measured,
+std::string picture_of_measured(const MeasureArguments& arguments, const Measured<CurveFile>& file,
                                 const Measured<CurveFile>* other, const Json& /*scene*/, const Context& context) {
-  const CurveFile& file = measured.file;
-  const PolygonCurve* before = other != nullptr ? &other->shape() : nullptr;
-  return curve_picture(arguments.picture, draw_curve(file, file.curve.positions(), {.before = before}), context);
+  CurvePicture picture;
+  if (other != nullptr)
+    picture = {.before = &other->shape(), .points = {}, .part = moved_part(other->shape(), file.shape())};
+  return curve_picture(arguments.picture, draw_curve(file.file, file.shape().positions(), picture), context);
 }
 
 /// Page, picture and scalars, as far as they are asked for. False where Ctrl-C prevented one.
-template <typename File>
+template <typename File, typename Shape>
 bool write_views(const MeasureArguments& arguments, const Measured<File>& file, const Measured<File>* other,
-                 const std::vector<FigureColumn>& columns, const Json& report, Context& context) {
-  using Shape = std::remove_cvref_t<decltype(file.shape())>;
+                 std::vector<MeasuredShape<Shape>>& measured, const std::vector<FigureColumn>& columns,
+                 const Json& report, Context& context) {
   const CancelOnSignal cancelling(context);
   Json scene;
   if (!arguments.html.empty() || (std::is_same_v<File, SurfaceFile> && !arguments.picture.path.empty())) {
-    std::vector<PageShape<Shape>> shapes = {{columns[0].title, &file.shape(), columns[0].figures}};
-    if (other != nullptr) shapes.push_back({columns[1].title, &other->shape(), columns[1].figures});
-    const PageRoles roles = {
-        .leading = 0, .reference = other != nullptr ? std::optional(1) : std::nullopt, .view = arguments.picture.view};
+    std::vector<PageShape<Shape>> shapes;
+    for (std::size_t k = 0; k < measured.size(); ++k)
+      shapes.push_back({columns[k].title, &measured[k], columns[k].figures});
+    const PageRoles roles = {.leading = 0,
+                             .reference = other != nullptr ? std::optional(1) : std::nullopt,
+                             .deviation = !arguments.html.empty() || arguments.picture.shows("deviation"),
+                             .view = arguments.picture.view};
     scene = scene_of(std::span<const PageShape<Shape>>(shapes), roles, context);
   }
   const auto write = [&](const std::string& path, const auto& bytes_of) {
@@ -160,8 +165,7 @@ bool write_views(const MeasureArguments& arguments, const Measured<File>& file, 
   write(arguments.html, [&] { return html_page("vspring: " + input_name(arguments.input), report, scene); });
   write(arguments.picture.path, [&] { return picture_of_measured(arguments, file, other, scene, context); });
   if (arguments.scalars.empty() || context.cancelled()) return !context.cancelled();
-  const std::vector<NodeScalar> scalars =
-      scalars_of(file.shape(), other != nullptr ? &other->shape() : nullptr, context);
+  const std::vector<NodeScalar> scalars = scalars_of(measured[0], other != nullptr ? &measured[1] : nullptr, context);
   if (context.cancelled()) return false;
   const UninterruptedWhileWriting guard;
   file.welding.write_scalars(arguments.scalars, file.shape(), scalars);
@@ -201,9 +205,12 @@ int measure_file(const MeasureArguments& arguments, File first, std::optional<Fi
     return fits ? &*constraints : nullptr;
   };
 
+  const bool shown = arguments.shows_shapes();
+  std::vector measured = {MeasuredShape(file.shape())};
+  if (other) measured.emplace_back(other->shape());
   std::vector<FigureColumn> columns;
-  columns.push_back(
-      {input_name(arguments.input), with_noise(figures_of(file.shape(), held(file), context), file.shape(), context)});
+  columns.push_back({input_name(arguments.input),
+                     with_noise(figures_of(measured[0], held(file), shown, context), file.shape(), context)});
   std::optional<Apart> apart;
   std::vector<std::string> warnings = file.welding.with_warnings(file.file.warnings);
   if (other) {
@@ -211,7 +218,7 @@ int measure_file(const MeasureArguments& arguments, File first, std::optional<Fi
     const auto& second = other->shape();
     const auto names = titles(input_name(arguments.input), input_name(arguments.compare));
     columns.front().title = names[0];
-    columns.push_back({names[1], with_noise(figures_of(second, held(*other), context), second, context)});
+    columns.push_back({names[1], with_noise(figures_of(measured[1], held(*other), shown, context), second, context)});
     apart.emplace();
     if (shape.node_count() == second.node_count()) apart->nodes = node_distance(second.positions(), shape.positions());
     apart->to_other = distance(shape.positions(), second, context);
@@ -246,7 +253,8 @@ int measure_file(const MeasureArguments& arguments, File first, std::optional<Fi
     json["version"] = version();
     if (!arguments.report.empty()) write_whole(arguments.report, json.dump(2) + "\n");
   }
-  if (!write_views(arguments, file, other ? &*other : nullptr, columns, json, context)) return exit_interrupted;
+  if (!write_views(arguments, file, other ? &*other : nullptr, measured, columns, json, context))
+    return exit_interrupted;
   Terminal(2, arguments.colour).warn(warnings);
   if (arguments.quiet) return exit_converged;
   // What people read goes to standard output unless the report itself goes there.

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "commands/numbers.hpp"
+#include "framing.hpp"
 #include "picture.hpp"
 
 namespace vspring::cli {
@@ -110,7 +111,8 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments, bool su
           },
           "From where surfaces are seen, also at first in the page of --html: front, back, left, right, top, bottom, "
           "or "
-          "x,y,z towards the eye, and after them what is up (default: 1,-2,1.5,0,0,1)")
+          "x,y,z towards the eye, and after them what is up (default: 1,-2,1.5,0,0,1; where only a small part moved, "
+          "along its mean normal)")
       ->type_name("SIDE|X,Y,Z[,X,Y,Z]")
       ->group(group);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <map>
 #include <memory>
 #include <optional>
@@ -62,6 +63,8 @@ struct CurvePicture {
   const PolygonCurve* before = nullptr;
   /// Points that the curve is to come near to, drawn as dots; of very many every so-manieth, 20,000 at most.
   std::span<const Vector3> points = {};
+  /// Only what is seen in this box is drawn, in units of the curve; where none is given, all.
+  std::optional<Eigen::AlignedBox<double, 3>> part = std::nullopt;
 };
 
 /// Writes the curve with `positions` in place of its own. path: a file, or "-" for standard output. format: where not

@@ -9,8 +9,16 @@ const sharpnessOf = (style) => style === 'wire' ? 1 : 2;
 
 const escaped = (text) => text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
 
-// What the view asks of a camera, for all shapes in the middle of a panel of that width.
-function cameraOf(shapes, rows, width) {
+// What the view asks of a camera, for all shapes, or a part of them, in the middle of a panel of that width.
+function cameraOf(shapes, rows, part, width) {
+  const {extents, middle} = part ?? boundsOf(shapes, rows);
+  const height = Math.round(width * Math.min(1.3, Math.max(0.35, extents[1] / extents[0])));
+  const breadth = Math.max(...extents);
+  return {rows, middle, breadth, zoom: part ? 1 / breadth : 1, height, scale: (w, h) => Math.min(w / extents[0], h / extents[1])};
+}
+
+// How large the shapes are seen, and what is in the middle.
+function boundsOf(shapes, rows) {
   const low = [Infinity, Infinity];
   const high = [-Infinity, -Infinity];
   for (const {positions, triangles} of shapes) {
@@ -24,9 +32,7 @@ function cameraOf(shapes, rows, width) {
   }
   const extents = [0, 1].map((i) => high[i] > low[i] ? margin * (high[i] - low[i]) : 1e-3);
   const centre = [0, 1].map((i) => high[i] >= low[i] ? (low[i] + high[i]) / 2 : 0);
-  const middle = [0, 1, 2].map((k) => centre[0] * rows[0][k] + centre[1] * rows[1][k]);
-  const height = Math.round(width * Math.min(1.3, Math.max(0.35, extents[1] / extents[0])));
-  return {rows, middle, zoom: 1, height, scale: (w, h) => Math.min(w / extents[0], h / extents[1])};
+  return {extents, middle: [0, 1, 2].map((k) => centre[0] * rows[0][k] + centre[1] * rows[1][k])};
 }
 
 // A ramp of colours with its name and numbers, in the middle of a strip.
@@ -51,7 +57,7 @@ export function panelsOf(scene, {styles, width, title}) {
   const shapes = columns.map((k) => all[k]);
   const gap = Math.round(width / 80);
   const across = Math.floor((width - gap * (columns.length + 1)) / columns.length);
-  const camera = cameraOf(shapes, scene.view, across);
+  const camera = cameraOf(shapes, scene.view, scene.part, across);
   const line = Math.max(11, Math.round(width / 75));
   const left = (k) => gap + k * (across + gap);
   const canvas = document.createElement('canvas');

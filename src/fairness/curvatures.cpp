@@ -158,9 +158,11 @@ class Looker {
 
 }  // namespace
 
-std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Incidence& incidence,
-                                      const std::vector<Vector3>& positions, std::span<const std::uint8_t> marked,
-                                      const Context& context, ThreadTeam& team) {
+std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Incidence& incidence, double scale,
+                                      std::span<const std::uint8_t> marked, const Context& context, ThreadTeam& team) {
+  // Only differences of positions matter. Were they moved to the origin, their last digits would depend on where it is.
+  std::vector<Vector3> positions = mesh.positions();
+  for (Vector3& position : positions) position *= scale;
   std::vector<NodeCurvature> result(positions.size());
   parallel_ranges(team, result.size(), jets_per_task, [&](std::size_t begin, std::size_t end) {
     if (context.cancelled()) return;
@@ -172,17 +174,18 @@ std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Incidence& 
   return result;
 }
 
+std::vector<NodeCurvature> scaled(std::vector<NodeCurvature> values, double scale) {
+  for (NodeCurvature& at : values) {
+    for (double* k : {&at.k1, &at.k2}) *k /= scale;
+    for (double* rate : {&at.k1_along_1, &at.k1_along_2, &at.k2_along_1, &at.k2_along_2}) *rate = *rate / scale / scale;
+  }
+  return values;
+}
+
 std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Context& context) {
   const Frame frame(box_around(mesh, counted_faces(mesh, nullptr)));
   ThreadTeam team(context.thread_count());
-  std::vector<NodeCurvature> result =
-      curvatures(mesh, Incidence(mesh), placed(mesh.positions(), frame), {}, context, team);
-  for (NodeCurvature& at : result) {
-    for (double* k : {&at.k1, &at.k2}) *k *= frame.scale();
-    for (double* rate : {&at.k1_along_1, &at.k1_along_2, &at.k2_along_1, &at.k2_along_2})
-      *rate = *rate * frame.scale() * frame.scale();
-  }
-  return result;
+  return scaled(curvatures(mesh, Incidence(mesh), frame.scale(), {}, context, team), 1 / frame.scale());
 }
 
 std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh) { return curvatures(mesh, Context()); }

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "base/degrees.hpp"
 #include "base/progress.hpp"
@@ -13,6 +16,7 @@
 #include "fairness/mesh_quality.hpp"
 #include "fairness/normal_error.hpp"
 #include "fairness/self_intersections.hpp"
+#include "vspring/error.hpp"
 #include "vspring/figures.hpp"
 #include "vspring/topology.hpp"
 
@@ -108,9 +112,12 @@ struct Bending {
 /// In a frame of size 1; lengths go back to units of the input at the end.
 class SurfaceMeasurement {
  public:
-  SurfaceMeasurement(const PolygonMesh& mesh, const Constraints* constraints, const Context& context)
+  /// known: curvatures of the mesh, or none.
+  SurfaceMeasurement(const PolygonMesh& mesh, const Constraints* constraints, std::span<const NodeCurvature> known,
+                     const Context& context)
       : mesh_(mesh),
         constraints_(constraints),
+        known_(known),
         context_(context),
         team_(context.thread_count()),
         incidence_(mesh),
@@ -140,7 +147,7 @@ class SurfaceMeasurement {
 
  private:
   void bend() {
-    const std::vector<NodeCurvature> curvature = curvatures(mesh_, incidence_, positions_, nodes_, context_, team_);
+    const std::vector<NodeCurvature> curvature = curvature_in_frame();
     const std::vector<double> areas = node_areas(mesh_, positions_, faces_);
     std::vector<Bending> parts((areas.size() + nodes_per_sum - 1) / nodes_per_sum);
     parallel_ranges(team_, areas.size(), nodes_per_sum, [&](std::size_t begin, std::size_t end) {
@@ -167,6 +174,15 @@ class SurfaceMeasurement {
     figures_.least_gaussian_curvature = diagonal_ * diagonal_ * all.gaussian.least;
     const double visible = std::max(visible_share * std::sqrt(all.squares / all.area), visible_curvature / diagonal_);
     figures_.mean_curvature_extrema = count_mean_extrema(curvature, visible);
+  }
+
+  /// Those that are known, but for shapes so large or small that derivatives of curvature are no numbers in their
+  /// units.
+  [[nodiscard]] std::vector<NodeCurvature> curvature_in_frame() {
+    constexpr int most_doublings = 300;
+    if (known_.empty() || std::abs(std::ilogb(frame_.scale())) > most_doublings)
+      return curvatures(mesh_, incidence_, frame_.scale(), nodes_, context_, team_);
+    return scaled(std::vector<NodeCurvature>(known_.begin(), known_.end()), frame_.scale());
   }
 
   [[nodiscard]] Index count_mean_extrema(const std::vector<NodeCurvature>& curvature, double visible) const {
@@ -213,6 +229,7 @@ class SurfaceMeasurement {
 
   const PolygonMesh& mesh_;
   const Constraints* constraints_;
+  std::span<const NodeCurvature> known_;
   const Context& context_;
   ThreadTeam team_;
   Incidence incidence_;
@@ -228,7 +245,15 @@ class SurfaceMeasurement {
 }  // namespace
 
 SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints, const Context& context) {
-  return SurfaceMeasurement(mesh, constraints, context).measure();
+  return SurfaceMeasurement(mesh, constraints, {}, context).measure();
+}
+
+SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints,
+                               std::span<const NodeCurvature> curvatures, const Context& context) {
+  if (curvatures.size() != mesh.positions().size())
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} curvatures for {} nodes: give one for each", curvatures.size(), mesh.node_count()));
+  return SurfaceMeasurement(mesh, constraints, curvatures, context).measure();
 }
 
 SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints) {

@@ -152,7 +152,7 @@ std::vector<std::size_t> chosen_columns(const InputFile& file, const Cells& firs
     const std::size_t number = number_chosen(chosen);
     const Found found = number > 0 ? Found{number - 1} : find_name(first, chosen);
     if (number == 0 && found.column == first.size())
-      file.refuse_line(offset, fmt::format("no column is called {}, this row has {}; correct --columns",
+      file.refuse_line(offset, fmt::format("no column is called {}, this row has {}; correct the choice of columns",
                                            in_quotes(chosen), list_of(first)));
     if (!found.doubt.empty()) file.refuse_line(offset, found.doubt + "; choose columns by number");
     if (std::find(columns.begin(), columns.end(), found.column) != columns.end())
@@ -165,16 +165,17 @@ std::vector<std::size_t> chosen_columns(const InputFile& file, const Cells& firs
 
 void refuse_choice(const InputFile& file, const ColumnChoice& choice) {
   if (!choice.empty())
-    throw Error(ErrorCode::invalid_argument,
-                file.name + ": columns can be chosen in CSV and XYZ only; leave --columns out, or name the format");
+    throw Error(
+        ErrorCode::invalid_argument,
+        file.name + ": columns can be chosen in CSV and XYZ only; leave the choice of columns out, or name the format");
 }
 
 void require_columns(const InputFile& file, const Cells& row, std::size_t offset,
                      const std::vector<std::size_t>& columns) {
   const std::size_t last = *std::max_element(columns.begin(), columns.end());
   if (last >= row.size())
-    file.refuse_line(offset,
-                     fmt::format("column {} is chosen, this row has {}; correct --columns", last + 1, row.size()));
+    file.refuse_line(offset, fmt::format("column {} is chosen, this row has {}; correct the choice of columns",
+                                         last + 1, row.size()));
 }
 
 }  // namespace vspring

@@ -135,7 +135,7 @@ void guess_columns(const InputFile& file, std::span<const TableLine> rows, CsvLa
                      "a node needs two or three numbers, this row has fewer; repair it, or choose another file");
   const std::size_t where = layout.header.value_or(rows.front().offset);
   const std::size_t others = std::min<std::size_t>(columns.size() - 1, 3);
-  const std::string choice = "--columns " + numbers_of(std::span(columns).subspan(1, others), ",");
+  const std::string choice = numbers_of(std::span(columns).subspan(1, others), ",");
   const bool counts = columns.size() > 2 && counts_rows(rows, layout.cutter, columns.front());
   const bool many = columns.size() > 3;
   if (layout.header ? many || counts : many && counts)
@@ -149,8 +149,8 @@ void guess_columns(const InputFile& file, std::span<const TableLine> rows, CsvLa
     layout.warning = fmt::format("{}:{}: no columns are named x and y; taken are columns {}", file.name,
                                  file.line_of(where), numbers_of(columns, " and "));
   else if (counts)
-    layout.warning = fmt::format("{}:{}: column {} counts rows and is taken for x; if it is none, choose {}", file.name,
-                                 file.line_of(where), columns.front() + 1, choice);
+    layout.warning = fmt::format("{}:{}: column {} counts rows and is taken for x; if it is none, choose columns {}",
+                                 file.name, file.line_of(where), columns.front() + 1, choice);
   layout.columns = std::move(columns);
 }
 
@@ -182,7 +182,7 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
   else
     layout.columns = chosen_columns(file, first, offset, choice);
   if (!named.doubt.empty())
-    file.refuse_line(offset, named.doubt + "; rename one, or choose columns by number, such as --columns 2,3");
+    file.refuse_line(offset, named.doubt + "; rename one, or choose columns by number, such as 2,3");
   if (choice.empty() ? !named.columns.empty() || count_numbers(first) == 0 : is_header(first, layout.columns, choice)) {
     layout.header = offset;
     layout.weight = weight_column(first);

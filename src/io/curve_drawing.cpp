@@ -95,7 +95,10 @@ Drawing drawing_of(const DrawnCurve& curve, const CurveView& view) {
     }
     end_run();
   }
-  for (const Drawing::Run& run : drawing.runs) {
+  double begin = 0;
+  for (Drawing::Run& run : drawing.runs) {
+    run.begin = begin;
+    begin += run.length;
     for (const Vector2& curvature : run.curvatures) drawing.sharpest = std::max(drawing.sharpest, curvature.norm());
   }
   return drawing;

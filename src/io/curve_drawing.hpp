@@ -45,6 +45,7 @@ struct Drawing {
     std::vector<Vector2> curvatures;  ///< zero where there is none, as at ends
     std::vector<double> arc;          ///< the length from the first node on
     std::vector<double> bends;        ///< curvature, negative where the curve bends to the right
+    double begin = 0;                 ///< the length of the runs before
     double length = 0;                ///< of the whole run
     bool closed = false;
   };

@@ -108,9 +108,10 @@ std::vector<std::string> write_curve(const std::string& path, const CurveFile& f
 std::string draw_curve(const CurveFile& file, const std::vector<Vector3>& positions, const CurvePicture& picture) {
   require_all(file, positions);
   const DrawnCurve after{file.curve.chains(), positions};
-  if (picture.before == nullptr) return svg_picture(after, nullptr, picture.points, title_of(file));
+  const auto* const part = picture.part ? &*picture.part : nullptr;
+  if (picture.before == nullptr) return svg_picture(after, nullptr, picture.points, part, title_of(file));
   const DrawnCurve behind{picture.before->chains(), picture.before->positions()};
-  return svg_picture(after, &behind, picture.points, title_of(file));
+  return svg_picture(after, &behind, picture.points, part, title_of(file));
 }
 
 void write_curve(const std::string& path, const PolygonCurve& curve, std::optional<CurveFormat> format, bool planar) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "io/drawing_part.hpp"
 #include "io/svg_plot.hpp"
 #include "io/xml_text.hpp"
 
@@ -148,20 +149,36 @@ void draw(std::string& text, Pen& pen, const Layer& layer, const char* name, con
   text += "</g>\n";
 }
 
+/// Where a box is in the picture.
+Window window_of(const Eigen::AlignedBox<double, 3>& part, const CurveView& view) {
+  Window window;
+  for (int k = 0; k < 8; ++k) {
+    const auto corner = static_cast<Eigen::AlignedBox<double, 3>::CornerType>(k);
+    window.extend(view.flat(view.normalized(part.corner(corner))));
+  }
+  return window;
+}
+
 }  // namespace
 
 std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, std::span<const Vector3> points,
-                        const std::string& title) {
+                        const Eigen::AlignedBox<double, 3>* part, const std::string& title) {
   const CurveView view(curve);
   Layer after{drawing_of(curve, view), {}};
   Layer behind{before != nullptr ? drawing_of(*before, view) : Drawing(), {}};
   Box box;
-  std::size_t node_count = 0;
-  for (const Drawing::Run& run : after.drawing.runs) {
-    box.add(run.nodes);
-    node_count += run.nodes.size();
+  Window window;
+  if (part != nullptr) {
+    window = window_of(*part, view);
+    for (Layer* layer : {&after, &behind}) layer->drawing = part_inside(layer->drawing, window);
+    box.add({window.min(), window.max()});
+  } else {
+    for (const Layer* layer : {&after, &behind}) {
+      for (const Drawing::Run& run : layer->drawing.runs) box.add(run.nodes);
+    }
   }
-  for (const Drawing::Run& run : behind.drawing.runs) box.add(run.nodes);
+  std::size_t node_count = 0;
+  for (const Drawing::Run& run : after.drawing.runs) node_count += run.nodes.size();
   const double diagonal = box.empty() || box.size().norm() == 0 ? 1 : box.size().norm();
 
   // A straight curve has no comb to take the scale from, then the one before it gives it.
@@ -174,7 +191,15 @@ std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, std::
     scale = longest / behind.drawing.sharpest;
   for (Layer* layer : {&after, &behind}) {
     layer->set_tips(layer == &behind && mostly_longer(behind.drawing, scale, longest) ? 0 : scale, longest);
-    for (const std::vector<Vector2>& tips : layer->tips) box.add(tips);
+    for (std::size_t r = 0; r < layer->tips.size(); ++r) {
+      std::vector<Vector2> tips = layer->tips[r];
+      // Beyond a part, lines only leave the picture.
+      const std::vector<Vector2>& nodes = layer->drawing.runs[r].nodes;
+      for (std::size_t k = 0; part != nullptr && k < tips.size(); ++k) {
+        if (!window.contains(nodes[k])) tips[k] = window.center();
+      }
+      box.add(tips);
+    }
   }
 
   std::vector<Vector2> dots;
@@ -189,15 +214,19 @@ std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, std::
   const double width = std::max(pixels * size.x(), least_width);
   const double height = pixels * size.y();
   constexpr double above_plot = 30;
-  const std::string plot = curvature_plot(after.drawing, before != nullptr ? &behind.drawing : nullptr, view.unit(),
-                                          {.top = height + above_plot, .width = width, .height = plot_height});
+  const std::string plot =
+      curvature_plot(after.drawing, before != nullptr ? &behind.drawing : nullptr, view.unit(),
+                     {.top = height + above_plot, .width = width, .height = plot_height, .points = !dots.empty()});
   std::string text = fmt::format(
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" "
       "height=\"{1:.0f}\" viewBox=\"0 0 {0:.2f} {1:.2f}\">\n<title>{2}</title>\n"
       "<style>polyline, polygon, path {{ vector-effect: non-scaling-stroke }}</style>\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
-      "<g fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\">\n",
+      "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
       width, height + (plot.empty() ? 0 : above_plot + plot_height), xml_text(title));
+  if (part != nullptr)
+    text += fmt::format("<clipPath id=\"part\"><rect width=\"{:.2f}\" height=\"{:.2f}\"/></clipPath>\n", width, height);
+  const char* const cut_off = part != nullptr ? " clip-path=\"url(#part)\"" : "";
+  text += fmt::format("<g fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\"{}>\n", cut_off);
   const double aside = (width / pixels - size.x()) / 2;
   Pen pen(text, box.upper_left() + Vector2(-margin.x() - aside, margin.y()), pixels);
   if (before != nullptr) draw(text, pen, behind, "before", thin);
@@ -209,7 +238,7 @@ std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, std::
   draw(text, pen, after, "curve", strong);
   text += "</g>\n";
   if (node_count < most_dots) {
-    text += "<g id=\"nodes\" fill=\"#1b3a6b\">\n";
+    text += fmt::format("<g id=\"nodes\" fill=\"#1b3a6b\"{}>\n", cut_off);
     for (const Drawing::Run& run : after.drawing.runs) pen.dots(run.nodes);
     text += "</g>\n";
   }

@@ -13,12 +13,14 @@ namespace {
 constexpr double left_edge = 90;
 constexpr double right_edge = 25;
 constexpr double bottom_edge = 55;
+constexpr double letter = 8;  ///< the width of one, about
 /// By how much more than that of the curve after it the curvature of the one before is shown.
 constexpr double most_behind = 2.5;
+constexpr double nearly_straight = 1e-9;  ///< less than anyone sees, in radians along the curve
 
 struct Range {
-  double low = 0;
-  double high = 0;
+  double low;
+  double high;
 
   void add(double value) {
     low = std::min(low, value);
@@ -57,7 +59,7 @@ class Plot {
     return place_.top + (place_.height - bottom_edge) * ((up_.high - curvature) / up_.size());
   }
 
-  void axes(std::string& text, const char* upward) const {
+  void axes(std::string& text, bool planar) const {
     const double bottom = place_.top + place_.height - bottom_edge;
     const double right = place_.width - right_edge;
     for (const double tick : ticks_of(across_)) {
@@ -68,18 +70,22 @@ class Plot {
       line(text, {left_edge, y(tick)}, {right, y(tick)}, tick == 0 ? "#888888" : "#dddddd");
       label(text, {left_edge - 8, y(tick) + 5}, "end", fmt::format("{:.4g}", tick));
     }
-    label(text, {(left_edge + right) / 2, bottom + 45}, "middle", "arc length, units of the input");
+    label(text, {(left_edge + right) / 2, bottom + 45}, "middle",
+          planar ? "arc length, units of the input; curvature is positive to the left"
+                 : "arc length, units of the input");
     const double middle = (place_.top + bottom) / 2;
-    text += fmt::format("<text transform=\"translate(18 {:.2f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
-                        middle, upward);
+    text += fmt::format(
+        "<text transform=\"translate(18 {:.2f}) rotate(-90)\" text-anchor=\"middle\">curvature, 1/unit</text>\n",
+        middle);
     text += fmt::format(
         "<clipPath id=\"plot-area\"><rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"/></clipPath>\n",
         left_edge, place_.top, right - left_edge, bottom - place_.top);
   }
 
-  /// Name and line in the corner, the k-th from the right.
-  void key(std::string& text, int k, const char* name, const char* colour) const {
-    const double at = place_.width - right_edge - 85 * (k + 1);
+  /// Name and line above the plot, to the left of the one before.
+  void key(std::string& text, const std::string& name, const char* colour) {
+    keys_ += 50 + letter * static_cast<double>(name.size());
+    const double at = place_.width - right_edge - keys_;
     line(text, {at, place_.top - 12}, {at + 24, place_.top - 12}, colour);
     label(text, {at + 30, place_.top - 7}, "start", name);
   }
@@ -96,6 +102,7 @@ class Plot {
   Range across_;
   Range up_;
   PlotPlace place_;
+  double keys_ = 0;  ///< the width of the keys so far
 };
 
 struct Series {
@@ -103,25 +110,34 @@ struct Series {
     std::vector<Vector2> points;
   };
   std::vector<Line> lines;
-  Range across;
-  Range up;
+  Range across = {.low = HUGE_VAL, .high = -HUGE_VAL};
+  Range up = {.low = 0, .high = 0};
+
+  /// Whether most of it lies beyond a curvature.
+  [[nodiscard]] bool mostly_beyond(double curvature) const {
+    std::ptrdiff_t beyond = 0;
+    std::ptrdiff_t all = 0;
+    for (const Line& line : lines) {
+      beyond += std::ranges::count_if(line.points, [&](const Vector2& p) { return std::abs(p.y()) > curvature; });
+      all += std::ssize(line.points);
+    }
+    return 2 * beyond > all;
+  }
 };
 
 /// Runs follow each other.
 Series series_of(const Drawing& drawing, double unit, bool planar) {
   Series series;
-  double begin = 0;
   for (const Drawing::Run& run : drawing.runs) {
     Series::Line& line = series.lines.emplace_back();
     for (std::size_t k = 0; k < run.nodes.size(); ++k) {
-      const double arc = (begin + run.arc[k]) * unit;
+      const double arc = (run.begin + run.arc[k]) * unit;
       series.across.add(arc);
       if (!run.closed && (k == 0 || k + 1 == run.nodes.size())) continue;
       const double curvature = (planar ? run.bends[k] : std::abs(run.bends[k])) / unit;
       line.points.emplace_back(arc, curvature);
       series.up.add(curvature);
     }
-    begin += run.length;
   }
   return series;
 }
@@ -149,26 +165,35 @@ std::string curvature_plot(const Drawing& curve, const Drawing* before, double l
   Range across = after.across;
   Range up = after.up;
   Series behind;
+  bool noise = false;
   if (before != nullptr) {
     behind = series_of(*before, unit, planar);
-    across.add(behind.across.high);
     // A straight curve has no curvature to take the range from, then the one before it gives it.
-    const double most = after.up.size() > 0 ? most_behind * std::max(-after.up.low, after.up.high)
-                                            : std::numeric_limits<double>::infinity();
-    up.add(std::max(behind.up.low, -most));
-    up.add(std::min(behind.up.high, most));
+    const bool bent = after.up.size() * after.across.size() > nearly_straight;
+    const double most =
+        bent ? most_behind * std::max(-after.up.low, after.up.high) : std::numeric_limits<double>::infinity();
+    noise = behind.mostly_beyond(most);
+    if (!noise) {
+      for (const double end : {behind.across.low, behind.across.high}) across.add(end);
+      up.add(std::max(behind.up.low, -most));
+      up.add(std::min(behind.up.high, most));
+    }
   }
   const double space = 0.05 * up.size();
   up = {up.low < 0 ? up.low - space : 0, up.high > 0 ? up.high + space : 0};
 
-  const Plot plot(across, up, place);
+  Plot plot(across, up, place);
   std::string text =
       "<g id=\"plot\" font-family=\"DejaVu Sans, Arial, sans-serif\" font-size=\"15\" fill=\"#333333\">\n";
-  plot.axes(text, planar ? "curvature, left is positive" : "curvature");
+  plot.axes(text, planar);
+  if (place.points) plot.key(text, "points", "#6b6b6b");
+  plot.key(text, "curvature comb", "#c8461e");
   if (before != nullptr) {
-    draw(text, plot, behind, "#b0b0b0");
-    plot.key(text, 1, "before", "#b0b0b0");
-    plot.key(text, 0, "after", "#1b3a6b");
+    if (!noise) draw(text, plot, behind, "#b0b0b0");
+    plot.key(text, "after", "#1b3a6b");
+    // Noise would hide the curve after it.
+    const double greatest = std::max(-behind.up.low, behind.up.high);
+    plot.key(text, noise ? fmt::format("before (curvature up to {:.2g}, not drawn)", greatest) : "before", "#b0b0b0");
   }
   draw(text, plot, after, "#1b3a6b");
   text += "</g>\n";

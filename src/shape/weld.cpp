@@ -42,7 +42,7 @@ Welded weld(const PolygonMesh& mesh, double tolerance) {
   if (near.chained.first >= 0)
     throw Error(ErrorCode::unusable_shape,
                 fmt::format("nodes {} and {} are {:.3g} apart, and nodes between them lead from one to the other, none "
-                            "further than {:.3g} from the next: they cannot all be one; weld within less (--weld)",
+                            "further than {:.3g} from the next: they cannot all be one; weld within less",
                             near.chained.first, near.chained.second,
                             (mesh.position(near.chained.first) - mesh.position(near.chained.second)).stableNorm(),
                             result.tolerance));

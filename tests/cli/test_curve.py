@@ -133,7 +133,7 @@ class Curve(Case):
         self.assertEqual(tuple(map(float, rows[-1][1:])), points[-1])
         self.assertNotEqual(named, text)
         other = text.replace("X [mm],Y [mm]", "a,b")
-        self.assertIn("choose columns, such as --columns 2,3", self.assert_one_line(self.curve(other, status=2)))
+        self.assertIn("choose columns (--columns), such as 2,3", self.assert_one_line(self.curve(other, status=2)))
         for columns in ("2,3", "a,B", "a, 3"):
             self.curve(other, "--columns", columns)
             self.assertEqual((self.folder / "out.csv").read_text(), named.replace("X [mm],Y [mm]", "a,b"))

@@ -86,6 +86,19 @@ class Surface(Picture):
         x, y = float(text.get("x")), float(text.get("y"))
         self.assertLess(min(max(p) for k in range(8) for p in picture.around(x + k, y - 4)), 200)
 
+    def test_a_region_fills_the_picture(self):
+        path = self.write("in.obj", grid(24, lambda x, y: 0.05 * math.sin(60 * x) if math.hypot(x - 0.3, y - 0.3) < 0.1 else 0))
+        options = ("fair", path, "-o", self.folder / "out.obj", "--region", "sphere:0.3,0.3,0,0.12", "--picture-size", "300",
+                   "--picture-style", "shaded,deviation")
+        _, panels = self.svg(*options)
+        for picture in panels["shaded"]:
+            self.assertNotIn(WHITE, picture)
+        self.assertGreater(changed(*panels["shaded"]), 0.05)
+        # The range of colours is that of the part: its middle is coloured, what stayed is not.
+        after = panels["deviation"][1]
+        tinted = sum(max(p) - min(p) > 25 for p in after) / len(after)
+        self.assertTrue(0.05 < tinted < 0.6, tinted)
+
     def test_a_sphere_has_one_mean_curvature(self):
         path = self.write("in.obj", sphere(20))
         noisy = self.write("noisy.obj", sphere(20, noise=0.01))
@@ -135,8 +148,18 @@ class Curve(Picture):
         root = xml.fromstring((self.folder / "a.svg").read_bytes())
         self.assertEqual([g.get("id") for g in root.iter(SVG + "g") if g.get("id")], ["before", "curve", "nodes", "plot"])
         texts = [text.text for text in root.iter(SVG + "text")]
-        for wanted in ("before", "after", "arc length, units of the input", "curvature, left is positive"):
+        for wanted in ("before", "after", "curvature comb", "arc length, units of the input; curvature is positive to the left", "curvature, 1/unit"):
             self.assertIn(wanted, texts)
+
+    def test_the_part_that_moved(self):
+        line = "".join(f"{k} {0.2 * (k % 2)} 0\n" for k in range(201))
+        options = ("curve", self.write("in.xyz", line), "-o", self.folder / "out.xyz")
+        self.make(*options, "--region", "sphere:45,0,0,6.5", name="part.svg")
+        self.make(*options, name="all.svg")
+        nodes = {name: (self.folder / f"{name}.svg").read_text().count("<circle") for name in ("part", "all")}
+        # Nodes 38 to 52 and their lines, 1.6 times as far, with one more at either end.
+        self.assertEqual(nodes["all"], 201)
+        self.assertAlmostEqual(nodes["part"], 1.6 * 14, delta=3)
 
     @support.unittest.skipUnless(browser.PROGRAM, "chromium is not installed")
     def test_png(self):

@@ -1,5 +1,8 @@
 """What --scalars writes."""
+import base64
+import json
 import math
+import re
 import struct
 import xml.etree.ElementTree as xml
 
@@ -83,6 +86,27 @@ class Scalars(Case):
         out = self.folder / "out.csv"
         _, arrays = self.arrays(self.make("curve", self.folder / "in.csv", "-o", out, "--report", self.folder / "r.json"))
         self.assertTrue(math.isclose(max(arrays["deviation"]), self.read_json("r.json")["greatest_move"], rel_tol=1e-9))
+
+    def test_report_page_and_scalars_agree(self):
+        """Bit for bit, whatever else is written; figures of a region are those of its nodes."""
+        options = ("fair", self.write("in.obj", grid(14)), "-o", self.folder / "out.obj", "--region", "sphere:0.6,0.4,0,0.3", "--report")
+        self.assertEqual(run(*options, self.folder / "alone.json").returncode, 0)
+        path = self.make(*options, self.folder / "r.json", "--html", self.folder / "p.html")
+        fairness = self.read_json("r.json")["fairness"]
+        self.assertEqual(fairness, self.read_json("alone.json")["fairness"])
+        _, arrays = self.arrays(path)
+        corners = arrays["connectivity"]
+        faces = [corners[k:k + 3] for k in range(0, len(corners), 3)]
+        moved = {k for k, d in enumerate(arrays["deviation"]) if d > 0}
+        counted = {node for face in faces if moved & set(face) for node in face}
+        figures, mean, gaussian = fairness["after"], arrays["mean_curvature"], arrays["gaussian_curvature"]
+        for key, end in (("greatest", max), ("least", min)):
+            self.assertEqual(figures[f"{key}_mean_curvature"], figures["diagonal"] * end(mean[k] for k in counted))
+        scene = json.loads(re.search('id="scene">(.*?)</script>', (self.folder / "p.html").read_text()).group(1))
+        points = [arrays["Points"][k::3] for k in range(3)]
+        diagonal = math.hypot(*(max(part) - min(part) for part in points))
+        for name, values, factor in (("mean", mean, diagonal), ("gaussian", gaussian, diagonal ** 2)):
+            self.assertEqual(base64.b64decode(scene["shapes"][1][name]), b"".join(struct.pack("<e", factor * value) for value in values))
 
     def test_refusals(self):
         surface, curve = self.write("in.obj", hat()), self.write("in.csv", circle())

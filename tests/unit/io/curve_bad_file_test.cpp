@@ -50,11 +50,11 @@ std::vector<Case> cases() {
       {"a.csv", "no,east,north\n1,0,0\n2,1,0\n3,1,1\n",
        ":1: column 1 counts rows and no columns are named x and y, so columns 1, 2, 3 cannot be told apart; name them "
        "x, y "
-       "and z, or choose columns, such as --columns 2,3"},
+       "and z, or choose columns, such as 2,3"},
       {"a.csv", "t,a,b,c\n5,0,0,1\n5,1,0,1\n",
        ":1: no columns are named x and y, so columns 1, 2, 3, 4 cannot be told apart; name them x, y and z, or choose"},
       {"a.csv", "0,5,5,5\n1,6,5,6\n2,6,6,7\n",
-       ":1: column 1 counts rows, so columns 1, 2, 3, 4 cannot be told apart; choose columns, such as --columns 2,3,4"},
+       ":1: column 1 counts rows, so columns 1, 2, 3, 4 cannot be told apart; choose columns, such as 2,3,4"},
       {"a.csv", "x [mm],x [in],y\n1,2,3\n4,5,6\n", ":1: 'x [mm]' and 'x [in]' may both be x; rename one, or choose"},
       {"a.xyz", "0 0 0\n1 1\n", ":2: the line ends where z belongs"},
       {"a.xyz", "0 0\n1 1 1\n", ":2: this row has three numbers, the first row has two; correct one of them"},

@@ -59,6 +59,20 @@ std::vector<Tooth> teeth_of(const std::string& text, const std::string& id) {
   return teeth;
 }
 
+/// The points of the k-th line of the plot.
+std::vector<std::pair<double, double>> plotted(const std::string& text, int k) {
+  std::size_t at = text.find("id=\"plot\"");
+  for (int n = 0; n <= k; ++n) at = text.find(" d=\"M0 0M", at) + 9;
+  std::string data = text.substr(at, text.find('"', at) - at);
+  for (char& c : data) {
+    if (c == 'M' || c == 'L') c = ' ';
+  }
+  std::istringstream stream(data);
+  std::vector<std::pair<double, double>> points;
+  for (std::pair<double, double> point; stream >> point.first >> point.second;) points.push_back(point);
+  return points;
+}
+
 PolygonCurve circle(int count, double radius, bool closed) {
   std::vector<Vector3> nodes;
   for (int k = 0; k < count; ++k) {
@@ -130,6 +144,40 @@ TEST_F(CurveSvg, LeavesTheCombOfNoiseOut) {
   const std::string text = picture(file, &before);
   EXPECT_TRUE(is_balanced(text));
   EXPECT_EQ(count(text.substr(0, text.find("id=\"curve\"")), "<path"), 0U);
+  // Nor has the plot a line of it; the key says so.
+  EXPECT_EQ(count(text, " d=\"M0 0M"), 1U);
+  EXPECT_NE(text.find("not drawn"), std::string::npos);
+}
+
+// A dent in a straight line of length 100, the box around it and the curve before: what is outside it is not drawn.
+TEST_F(CurveSvg, DrawsAPart) {
+  std::vector<Vector3> nodes;
+  for (int k = 0; k <= 100; ++k) nodes.emplace_back(k, k == 30 ? 0.5 : 0, 0);
+  CurveFile file;
+  file.curve = PolygonCurve(nodes);
+  const Eigen::AlignedBox<double, 3> part(Vector3(25.5, -1, 0), Vector3(34.5, 1, 0));
+  const std::string text = draw_curve(file, nodes, {.part = part});
+  EXPECT_TRUE(is_balanced(text));
+  // Nodes 26 to 34, and one at either end for the line to go on to; the curvature of 29 to 31 is not zero.
+  EXPECT_EQ(count(text, "<circle"), 11U);
+  EXPECT_EQ(teeth_of(text, "curve").size(), 3U);
+  EXPECT_EQ(plotted(text, 0).size(), 9U);
+  EXPECT_NE(text.find(">30</text>"), std::string::npos);
+  EXPECT_EQ(text.find(">60</text>"), std::string::npos);
+  EXPECT_EQ(count(text, "clip-path=\"url(#part)\""), 2U);
+}
+
+// The part of a circle through which its numbering begins is one line, and its arc length goes on.
+TEST_F(CurveSvg, DrawsAPartThroughTheBeginningOfAClosedCurve) {
+  CurveFile file;
+  file.curve = circle(40, 2, true);
+  const Eigen::AlignedBox<double, 3> part(Vector3(6.5, -1, 0), Vector3(7.5, 1, 0));
+  const std::string text = draw_curve(file, file.curve.positions(), {.part = part});
+  EXPECT_EQ(count(text, "<polygon"), 0U);
+  EXPECT_EQ(count(text, "<polyline"), 2U);
+  const auto points = plotted(text, 0);
+  EXPECT_EQ(points.size(), 7U);
+  for (std::size_t k = 1; k < points.size(); ++k) EXPECT_GT(points[k].first, points[k - 1].first);
 }
 
 TEST_F(CurveSvg, DrawsPointsWhereTheCurveIs) {
@@ -170,20 +218,6 @@ TEST_F(CurveSvg, ShowsACurveInSpaceFromTheFront) {
   EXPECT_NEAR(right - left, bottom - top, 0.1);
 }
 
-/// The points of the k-th line of the plot.
-std::vector<std::pair<double, double>> plotted(const std::string& text, int k) {
-  std::size_t at = text.find("id=\"plot\"");
-  for (int n = 0; n <= k; ++n) at = text.find(" d=\"M0 0M", at) + 9;
-  std::string data = text.substr(at, text.find('"', at) - at);
-  for (char& c : data) {
-    if (c == 'M' || c == 'L') c = ' ';
-  }
-  std::istringstream stream(data);
-  std::vector<std::pair<double, double>> points;
-  for (std::pair<double, double> point; stream >> point.first >> point.second;) points.push_back(point);
-  return points;
-}
-
 // Around a circle of radius 2 the plot is level, at a curvature of a half: the tick of 0.5 is as high as the line.
 TEST_F(CurveSvg, PlotsCurvatureAgainstArcLength) {
   for (const bool left : {true, false}) {
@@ -202,7 +236,7 @@ TEST_F(CurveSvg, PlotsCurvatureAgainstArcLength) {
     ASSERT_NE(label, std::string::npos);
     const std::size_t y = text.rfind(" y=\"", label) + 4;
     EXPECT_NEAR(std::stod(text.substr(y)) - 5, points.front().second, 0.02);
-    EXPECT_NE(text.find("curvature, left is positive"), std::string::npos);
+    EXPECT_NE(text.find("curvature is positive to the left"), std::string::npos);
     for (std::size_t k = 1; k < points.size(); ++k)
       EXPECT_NEAR(points[k].first - points[k - 1].first, points[1].first - points[0].first, 0.02);
   }
@@ -218,7 +252,7 @@ TEST_F(CurveSvg, PlotsBeforeAndAfterOfACurveInSpace) {
   const PolygonCurve before(nodes);
   const std::string text = picture(file, &before);
   EXPECT_TRUE(is_balanced(text));
-  EXPECT_EQ(text.find("left is positive"), std::string::npos);
+  EXPECT_EQ(text.find("positive to the left"), std::string::npos);
   const auto behind = plotted(text, 0);
   const auto after = plotted(text, 1);
   ASSERT_EQ(behind.size(), 59U);

@@ -102,7 +102,7 @@ TEST_F(CurveTable, SaysWhereAColumnOfThreeCountsRows) {
   const CurveFile file = read("1,5,6\n2,7,8\n3,9,9\n", "csv");
   EXPECT_EQ(file.curve.position(1), Vector3(2, 7, 8));
   ASSERT_EQ(file.warnings.size(), 1U);
-  EXPECT_NE(file.warnings[0].find(":1: column 1 counts rows and is taken for x; if it is none, choose --columns 2,3"),
+  EXPECT_NE(file.warnings[0].find(":1: column 1 counts rows and is taken for x; if it is none, choose columns 2,3"),
             std::string::npos);
   for (const std::string plain :
        {"0,5\n1,6\n2,7\n", "1,5,6\n2,7,8\n4,9,9\n", "2,5,6\n3,7,8\n4,9,9\n", "5,1,6\n7,2,8\n9,3,9\n"})
@@ -136,19 +136,20 @@ TEST_F(CurveTable, RefusesAChoiceThatIsNone) {
   };
   const std::string text = "no,a,b\n1,5,6\n2,7,8\n";
   EXPECT_EQ(refusal("a.csv", text, {"a", "c"}),
-            "a.csv:1: no column is called 'c', this row has 'no', 'a', 'b'; correct --columns");
-  EXPECT_EQ(refusal("a.csv", text, {"2", "4"}), "a.csv:2: column 4 is chosen, this row has 3; correct --columns");
+            "a.csv:1: no column is called 'c', this row has 'no', 'a', 'b'; correct the choice of columns");
+  EXPECT_EQ(refusal("a.csv", text, {"2", "4"}),
+            "a.csv:2: column 4 is chosen, this row has 3; correct the choice of columns");
   EXPECT_EQ(refusal("a.csv", "a [m],a [ft],b\n1,5,6\n2,7,8\n", {"a", "b"}),
             "a.csv:1: 'a [m]' and 'a [ft]' may both be a; choose columns by number");
   EXPECT_EQ(refusal("a.csv", "no,a,b\n1,5,none\n2,7,8\n", {"2", "3"}),
             "a.csv:2: 'none' stands where y belongs; repair the line");
   EXPECT_EQ(refusal("a.xyz", "0 5 6\n1 7 8\n", {"x", "y"}),
-            "a.xyz:1: no column is called 'x', this row has '0', '5', '6'; correct --columns");
+            "a.xyz:1: no column is called 'x', this row has '0', '5', '6'; correct the choice of columns");
   for (const ColumnChoice& columns :
        {ColumnChoice{"1"}, {"1", "2", "3", "2"}, {"2", "2"}, {"a", "2"}, {"0", "1"}, {"", "1"}})
     EXPECT_NE(refusal("a.csv", text, columns, ErrorCode::invalid_argument), "");
   EXPECT_EQ(refusal("a.dat", "0 1\n1 2\n", {"1", "2"}, ErrorCode::invalid_argument),
-            "a.dat: columns can be chosen in CSV and XYZ only; leave --columns out, or name the format");
+            "a.dat: columns can be chosen in CSV and XYZ only; leave the choice of columns out, or name the format");
 }
 
 TEST_F(CurveTable, BeginsAChainBehindEmptyRows) {

@@ -82,7 +82,7 @@ TEST_F(PointFile, CsvColumnsAreNamedWithUnitsOrChosen) {
   const std::string text = "0,1,2,3\n1,4,5,6\n2,7,8,9\n";
   EXPECT_EQ(refusal("a.csv", text),
             "a.csv:1: column 1 counts rows, so columns 1, 2, 3, 4 cannot be told apart; choose columns, such as "
-            "--columns 2,3,4");
+            "2,3,4");
   for (const std::string name : {"a.csv", "a.xyz"}) {
     const std::string rows = name == "a.csv" ? text : "0 1 2 3\n1 4 5 6\n2 7 8 9\n";
     const ScatteredPoints chosen = read_points(put(name, rows), {"2", "3", "4"});

@@ -28,7 +28,7 @@ struct FairOptions {
   PseudoNormals pseudo_normals = PseudoNormals::link;
   /// Of surfaces, by the method equilibrium; others take edge. Where sphere springs find no equilibrium, edge springs
   /// do, and a warning says so.
-  Springs springs = Springs::edge;
+  Springs springs = Springs::sphere;
   /// Of curves.
   CurveRules curve = {};
   /// Where not given: smooth; of curves, and of multigrid and sweep if they are asked for, even.

@@ -126,7 +126,28 @@ Eigen::Matrix<double, n, 1> solve_in_place(Eigen::Matrix<double, n, n>& a, Eigen
   return b;
 }
 
-/// Least squares of heights over a node's link, by x and y in its tangent plane: height(k, e) for link k against the n
+/// The nodes of a node's link, and where these are fewer than the unknowns those of their links too.
+template <typename Use>
+void for_fit_nodes(const Net& net, std::size_t i, const Use& use) {
+  constexpr std::size_t enough = 5;
+  const auto links = net.rings.links(i);
+  if (links.size() >= enough) {
+    for (const Link link : links) use(link.node());
+    return;
+  }
+  std::vector<std::size_t> nodes;
+  for (const Link link : links) {
+    nodes.push_back(link.node());
+    if (link.node() >= net.computed) continue;
+    for (const Link next : net.rings.links(link.node())) nodes.push_back(next.node());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::erase(nodes, i);
+  for (const std::size_t j : nodes) use(j);
+}
+
+/// Least squares of heights over a node's link, by x and y in its tangent plane: height(j, e) for node j against the n
 /// unknowns of row(x, y), both weighed by |e|⁻². ridges: of each unknown, of the sum of its squares with weights 1 or
 /// |e|⁻², whichever units it has.
 template <int n, typename Height, typename Row>
@@ -138,18 +159,17 @@ Eigen::Matrix<double, n, 1> fit_heights(const Net& net, std::size_t i, const Vec
   Eigen::Matrix<double, n, 1> b = Eigen::Matrix<double, n, 1>::Zero();
   double inverses = 0;
   double count = 0;
-  const auto links = net.rings.links(i);
-  for (std::size_t k = 0; k < links.size(); ++k) {
-    const Vector3 e = net.positions[links[k].node()] - net.positions[i];
+  for_fit_nodes(net, i, [&](std::size_t j) {
+    const Vector3 e = net.positions[j] - net.positions[i];
     const double length2 = e.dot(e);
-    if (!(length2 > 0)) continue;
+    if (!(length2 > 0)) return;
     const double inverse = 1 / length2;
     inverses += inverse;
     count += 1;
-    const Eigen::Matrix<double, n, 1> row = inverse * row_of(e.dot(t1), e.dot(t2));
+    const Eigen::Matrix<double, n, 1> row = inverse * row_of(e.dot(t1), e.dot(t2), length2);
     a += row * row.transpose();
-    b += height(k, e) * inverse * row;
-  }
+    b += height(j, e) * inverse * row;
+  });
   a.diagonal() += count * forms_ridge + inverses * slopes_ridge;
   return solve_in_place<n>(a, b);
 }
@@ -168,14 +188,17 @@ HeightFit fit_inside(const Net& net, std::size_t i, const Vector3& normal, const
       net, i, t1, t2, (Unknowns() << ridge_of_forms, ridge_of_forms, 0, 0, 0).finished(),
       (Unknowns() << 0, 0, ridge_of_slopes, ridge_of_slopes, 0).finished(),
       [&](std::size_t, const Vector3& e) { return e.dot(normal); },
-      [](double u, double v) { return (Unknowns() << u * u - v * v, 2 * u * v, -u, -v, u * u + v * v).finished(); });
+      [](double u, double v, double square) {
+        return (Unknowns() << u * u - v * v, 2 * u * v, -u, -v, square).finished();
+      });
   return {x[0], x[1], x[2], x[3]};
 }
 
 template <typename Height>
 HeightFit fit_given(const Net& net, std::size_t i, const Vector3& t1, const Vector3& t2, const Height& height) {
-  const Vector3 x = fit_heights<3>(net, i, t1, t2, Vector3(ridge_of_forms, ridge_of_forms, 0), Vector3::Zero(), height,
-                                   [](double u, double v) { return Vector3(u * u - v * v, 2 * u * v, u * u + v * v); });
+  const Vector3 x =
+      fit_heights<3>(net, i, t1, t2, Vector3(ridge_of_forms, ridge_of_forms, 0), Vector3::Zero(), height,
+                     [](double u, double v, double square) { return Vector3(u * u - v * v, 2 * u * v, square); });
   return {x[0], x[1], 0, 0};
 }
 
@@ -185,7 +208,7 @@ HeightFit fit_rim(const Net& net, std::size_t i, const Vector3& normal, const Ve
   const Unknowns x = fit_heights<4>(
       net, i, t1, t2, Unknowns(0, ridge_of_forms, 0, 0), Unknowns(0, 0, ridge_of_slopes, ridge_of_slopes),
       [&](std::size_t, const Vector3& e) { return e.dot(normal); },
-      [](double u, double v) { return Unknowns(2 * u * u, 2 * u * v, -u, -v); });
+      [](double u, double v, double) { return Unknowns(2 * u * u, 2 * u * v, -u, -v); });
   return {x[0], x[1], x[2], x[3]};
 }
 
@@ -224,7 +247,7 @@ double curvature_by_row(const Net& net, std::size_t i, const Vector3& t1, const 
     const Vector3 e = net.positions[links[k].node()] - net.positions[i];
     const double x = e.dot(t1);
     const double y = e.dot(t2);
-    sum += (row[k] + spheres.raised[i]) * (height(k, e) - fit.q1 * (x * x - y * y) - 2 * fit.q2 * x * y);
+    sum += (row[k] + spheres.raised[i]) * (height(links[k].node(), e) - fit.q1 * (x * x - y * y) - 2 * fit.q2 * x * y);
   }
   return spheres.spreads[i] > 0 ? sum / spheres.spreads[i] : unknown;
 }
@@ -281,10 +304,9 @@ void update_sphere(Net& net, std::size_t i, const Vector3& first) {
 
 void find_given_curvature(Net& net, std::size_t i) {
   const Vector3& normal = net.normals[i];
-  const auto links = net.rings.links(i);
   const auto [t1, t2] = tangents_of(normal);
-  const auto height = [&](std::size_t k, const Vector3& e) {
-    const Vector3& other = net.normals[links[k].node()];
+  const auto height = [&](std::size_t j, const Vector3& e) {
+    const Vector3& other = net.normals[j];
     const double own = e.dot(normal);
     if (other.isZero(0)) return own;
     const double theirs = other.dot(normal) < 0 ? -e.dot(other) : e.dot(other);

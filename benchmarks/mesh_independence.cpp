@@ -2,7 +2,7 @@
 // triangles and of quads, wide and narrow, on even, random and graded meshes, refined. Distances of all nodes' radii
 // and heights from the meridian of the surface of rotation that V-Spring stands for where a mesh looks alike in all
 // directions and everywhere: the Laplacian of its mean curvature vanishes. Prints the figures of docs/solver.md;
-// `bench_mesh_independence 8000` stops at that many nodes.
+// `bench_mesh_independence 8000` stops at that many nodes, `bench_mesh_independence 8000 edge` takes edge springs.
 
 #include <fmt/format.h>
 
@@ -268,6 +268,7 @@ std::vector<Kind> kinds(const Meridian& meridian) {
 
 int main(int argc, char** argv) {
   const int last = argc > 1 ? std::atoi(argv[1]) : 32'000;
+  const bool by_edges = argc > 2 && std::string(argv[2]) == "edge";
   for (const bool clamped : {true, false}) {
     const Meridian meridian(clamped);
     fmt::print(
@@ -283,6 +284,7 @@ int main(int argc, char** argv) {
         options.method = Method::equilibrium;
         options.distribution = kind.distribution;
         options.tolerance = 1e-7;
+        options.springs = by_edges ? Springs::edge : Springs::sphere;
         const FairResult result = fair(start, constraints, options);
         std::vector<Vector3> profile;
         for (const Vector3& p : result.positions) profile.emplace_back(p.head<2>().norm(), 0, p.z());

@@ -44,6 +44,8 @@ constexpr IdleRule idle_rules[] = {
      "it is for --method sweep"},
     {"--step-tolerance", [](const RunFacts& run) { return run.method == Method::equilibrium && !run.fits; },
      "it is for --method sweep and multigrid"},
+    {"--springs", [](const RunFacts& run) { return !run.equilibrium_tried || run.own_nodes_pull; },
+     "it is for --method equilibrium without points"},
     {"--levels", [](const RunFacts& run) { return run.method != Method::multigrid; }, "it is for --method multigrid"},
     {"--pre-smoothing", [](const RunFacts& run) { return run.method != Method::multigrid; },
      "it is for --method multigrid"},

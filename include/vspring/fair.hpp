@@ -26,8 +26,9 @@ struct FairOptions {
   std::optional<Method> method = std::nullopt;
   /// Of surfaces.
   PseudoNormals pseudo_normals = PseudoNormals::link;
-  /// Of surfaces, by the method equilibrium; others take edge. Where sphere springs find no equilibrium, edge springs
-  /// do, and a warning says so.
+  /// Of surfaces, by the method equilibrium; the others, and fits, take edge. So do, by themselves, shapes whose
+  /// boundary moves, which are held so little that spheres of many sizes are fair, or with a normal that is given where
+  /// nodes move on more sides than one; and, with a warning, those of which sphere springs find no equilibrium.
   Springs springs = Springs::sphere;
   /// Of curves.
   CurveRules curve = {};
@@ -67,6 +68,9 @@ struct FairOptions {
     return distribution.value_or(papers_own ? Distribution::even : Distribution::smooth);
   }
 };
+
+/// "edge" or "sphere".
+[[nodiscard]] const char* name(Springs springs) noexcept;
 
 /// "equilibrium", "multigrid" or "sweep".
 [[nodiscard]] const char* name(Method method) noexcept;

@@ -61,15 +61,6 @@ std::vector<Eigen::Vector3f> rounded(const Net& net, std::span<const Vector3> pl
   return result;
 }
 
-/// Whether so little holds it that spheres of many sizes are fair: an equilibrium is one of a family then, and nothing
-/// to be found by steps to a single one.
-bool leaves_a_family(const Net& net) {
-  constexpr std::size_t fixes_a_sphere = 4;
-  std::size_t known = net.positions.size() - net.moving;
-  for (std::size_t i = 0; i < net.positions.size() && known < fixes_a_sphere; ++i) known += net.normal_given(i) ? 2 : 0;
-  return known < fixes_a_sphere;
-}
-
 class Run {
  public:
   Run(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
@@ -417,6 +408,13 @@ class Run {
 };
 
 }  // namespace
+
+bool leaves_a_family(const Net& net) {
+  constexpr std::size_t fixes_a_sphere = 4;
+  std::size_t known = net.positions.size() - net.moving;
+  for (std::size_t i = 0; i < net.positions.size() && known < fixes_a_sphere; ++i) known += net.normal_given(i) ? 2 : 0;
+  return known < fixes_a_sphere;
+}
 
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
                      Context& context, ProgressReporter& progress, FairReport& report, const Soundness* soundness,

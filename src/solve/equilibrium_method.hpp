@@ -11,6 +11,10 @@
 
 namespace vspring {
 
+/// Whether so little holds it that spheres of many sizes are fair: an equilibrium is one of a family then, and nothing
+/// to be found by steps to a single one.
+bool leaves_a_family(const Net& net);
+
 /// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the shape is
 /// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. soundness:
 /// where given, of the start, the result is no worse or said to be. points: of the levels, if any.

@@ -19,6 +19,8 @@ const char* name(Method method) noexcept {
   return "";
 }
 
+const char* name(Springs springs) noexcept { return springs == Springs::edge ? "edge" : "sphere"; }
+
 const char* name(Outcome outcome) noexcept {
   switch (outcome) {
     case Outcome::converged:

@@ -14,6 +14,7 @@
 #include "solve/multigrid_method.hpp"
 #include "solve/new_crossings.hpp"
 #include "solve/part_of_mesh.hpp"
+#include "solve/sphere_suited.hpp"
 #include "solve/spring_energy.hpp"
 #include "solve/sweep_method.hpp"
 
@@ -152,6 +153,8 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
 void SurfaceFairing::run_with(Springs springs, const Constraints& constraints, Context& context,
                               ProgressReporter& progress, FairReport& report, const FairOptions& options) {
   Net net = gather_part(*whole_, part_, constraints, springs == Springs::sphere);
+  if (springs == Springs::sphere && !suits_sphere_springs(net))
+    return run_with(Springs::edge, constraints, context, progress, report, options);
   hierarchy_.reset();
   soundness_.emplace(net, *model_, team_);
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);

@@ -308,7 +308,8 @@ void find_given_curvature(Net& net, std::size_t i) {
   const auto height = [&](std::size_t j, const Vector3& e) {
     const Vector3& other = net.normals[j];
     const double own = e.dot(normal);
-    if (other.isZero(0)) return own;
+    // Beyond, normals may be of another shape.
+    if (!(j < net.computed || net.normal_given(j)) || other.isZero(0)) return own;
     const double theirs = other.dot(normal) < 0 ? -e.dot(other) : e.dot(other);
     return (1 + of_neighbours) * own + of_neighbours * theirs;
   };

@@ -1,0 +1,88 @@
+// Sphere springs: exact on spheres whatever the mesh, half the mean curvature elsewhere, and a force that takes bumps
+// away.
+
+#include "spring/sphere_springs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "spring/model.hpp"
+#include "support/specimens.hpp"
+
+namespace vspring::sphere_springs_test {
+namespace {
+
+using namespace support;
+
+struct Sprung {
+  Net net;
+  double greatest_force = 0;
+};
+
+Sprung sprung(const PolygonMesh& mesh, const Constraints& constraints) {
+  ThreadTeam team(1);
+  Sprung result{gather_net(mesh, constraints, true)};
+  update_directions(result.net, *surface_model(PseudoNormals::link), team);
+  for (std::size_t i = 0; i < result.net.moving; ++i)
+    result.greatest_force = std::max(result.greatest_force, std::abs(sphere_force(result.net, i)));
+  return result;
+}
+
+TEST(SphereSprings, AreExactOnSpheresOfEveryKindOfFace) {
+  for (const generate::Faces faces : every_kind) {
+    SCOPED_TRACE(name_of(faces));
+    const PolygonMesh patch =
+        generate::sphere_patch({.columns = 12, .rows = 12, .faces = faces, .jitter = 0.4}, 2, 100);
+    const Sprung at = sprung(patch, held_boundary(patch, radial));
+    for (std::size_t i = 0; i < at.net.computed; ++i) {
+      ASSERT_FALSE(std::isnan(at.net.spheres.curvatures[i])) << i;
+      const double half = at.net.spheres.curvatures[i] * at.net.frame.scale();
+      EXPECT_NEAR(std::abs(half), 0.25, 1e-10) << i;
+    }
+    EXPECT_LT(at.greatest_force, 1e-12);
+  }
+}
+
+TEST(SphereSprings, AreHalfTheMeanCurvatureOnACylinder) {
+  for (const generate::Faces faces : every_kind) {
+    SCOPED_TRACE(name_of(faces));
+    const auto error = [&](int cells) {
+      const PolygonMesh patch =
+          generate::cylinder_patch({.columns = cells, .rows = cells, .faces = faces, .jitter = 0.2}, 1, 90, 1.5);
+      const Sprung at = sprung(patch, held_boundary(patch));
+      double greatest = 0;
+      for (std::size_t i = 0; i < at.net.moving; ++i)
+        greatest = std::max(greatest, std::abs(std::abs(at.net.spheres.curvatures[i] * at.net.frame.scale()) - 0.25));
+      return greatest;
+    };
+    EXPECT_LT(error(12), 0.01);
+    EXPECT_LT(error(24), 0.6 * error(12));
+  }
+}
+
+TEST(SphereSprings, TakeABumpBackAndItsNeighboursAlong) {
+  for (const generate::Faces faces : {generate::Faces::triangles, generate::Faces::quads}) {
+    SCOPED_TRACE(name_of(faces));
+    PolygonMesh plane = generate::plane({.columns = 8, .rows = 8, .faces = faces});
+    const Index middle = 4 * 9 + 4;
+    std::vector<Vector3> positions = plane.positions();
+    positions[static_cast<std::size_t>(middle)].z() += 1e-4;
+    plane.set_positions(std::move(positions));
+    const Sprung at = sprung(plane, held_boundary(plane));
+    for (std::size_t i = 0; i < at.net.moving; ++i) {
+      const double up = sphere_force(at.net, i) * at.net.normals[i].z() / at.net.frame.scale();
+      const double apart = (plane.position(at.net.node[i]) - plane.position(middle)).norm();
+      if (apart < 1e-9) {
+        EXPECT_LT(up, -1e-5);
+        EXPECT_GT(up, -2e-4);
+      } else if (apart < 1.01 / 8) {
+        EXPECT_GT(up, 1e-6);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vspring::sphere_springs_test

@@ -118,7 +118,8 @@ struct Series {
     std::ptrdiff_t beyond = 0;
     std::ptrdiff_t all = 0;
     for (const Line& line : lines) {
-      beyond += std::ranges::count_if(line.points, [&](const Vector2& p) { return std::abs(p.y()) > curvature; });
+      beyond += std::count_if(line.points.begin(), line.points.end(),
+                              [&](const Vector2& p) { return std::abs(p.y()) > curvature; });
       all += std::ssize(line.points);
     }
     return 2 * beyond > all;

@@ -60,8 +60,9 @@ class Cycle {
   /// is far from its equilibrium.
   void say_if_cut_short(int limit) {
     const auto coarser = std::span(report_.levels).first(report_.levels.size() - 1);
-    const auto cut_short =
-        std::ranges::find(coarser, Outcome::iteration_limit, [](const LevelReport& level) { return level.outcome; });
+    const auto cut_short = std::find_if(coarser.begin(), coarser.end(), [](const LevelReport& level) {
+      return level.outcome == Outcome::iteration_limit;
+    });
     if (cut_short == coarser.end()) return;
     report_.warnings.push_back(fmt::format(
         "{} level, of {} moving nodes, ended at its limit of {} iterations: the shape may be far from its "

@@ -73,7 +73,7 @@ void find_row(Net& net, std::size_t i) {
     }
     // Nodes of the face: 0 is the centre, k + 1 the place first + k of the walk.
     const auto place = [&](std::size_t k) -> Vector3 {
-      k %= nodes;
+      if (k >= nodes) k -= nodes;
       return k == 0 ? Vector3::Zero() : edge(first + k - 1);
     };
     Vector3 middle = Vector3::Zero();

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "support/specimens.hpp"
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
@@ -254,6 +255,32 @@ TEST(SurfaceEquilibrium, ABumpOnASphereFairedAsARegionGoes) {
     EXPECT_EQ(result.report.outcome, Outcome::converged);
     EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-7);
   }
+}
+
+TEST(SurfaceEquilibrium, OfSphereSpringsDoesNotDependOnWhichWayEdgesRun) {
+  const Normal up = [](const Vector3&) { return Vector3::UnitZ(); };
+  // How far the meridian is from that of the same funnel on another mesh.
+  const auto difference = [&](Springs springs) {
+    std::vector<std::vector<Vector3>> meridians;
+    for (const bool narrow : {true, false}) {
+      const generate::Grid rings{
+          .columns = narrow ? 64 : 24, .rows = 10, .faces = narrow ? Faces::quads : Faces::triangles};
+      const Specimen funnel = on_chart("", funnel_chart, true, rings, {}, up);
+      FairOptions options = to_equilibrium(1e-8);
+      options.springs = springs;
+      const FairResult result = fair(funnel.start, funnel.constraints, options);
+      EXPECT_EQ(result.report.outcome, Outcome::converged);
+      EXPECT_EQ(result.report.springs, springs);
+      auto& meridian = meridians.emplace_back();
+      for (int row = 0; row <= rings.rows; ++row) {
+        const Vector3& p = result.positions[static_cast<std::size_t>(row) * static_cast<std::size_t>(rings.columns)];
+        meridian.emplace_back(p.head<2>().norm(), 0, p.z());
+      }
+    }
+    return distance(meridians[0], PolygonCurve(meridians[1])).greatest;
+  };
+  EXPECT_LT(difference(Springs::sphere), 0.003);
+  EXPECT_GT(difference(Springs::edge), 0.01);
 }
 
 }  // namespace

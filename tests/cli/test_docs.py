@@ -28,6 +28,17 @@ def rules(**nodes):
     return json.dumps({"rules": [{"nodes": nodes["nodes"], "position": "fixed"}]})
 
 
+def soup(cells):
+    """A hill of quads of which each has its own corners."""
+    text = ""
+    for i in range(cells):
+        for j in range(cells):
+            for x, y in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                text += f"v {x} {y} {0.1 * x * (cells - x) * y * (cells - y) / cells ** 2}\n"
+            text += "f -4 -3 -2 -1\n"
+    return text
+
+
 # Files that a reader would have: arguments of `vspring generate`, an example, or a text.
 STAND_INS = {
     "part.ply": "saddle --columns 12 --rows 12 --noise 0.02",
@@ -41,6 +52,7 @@ STAND_INS = {
     "mesh.obj": "cylinder-patch --radius 0.2236 --angle 150 --height 0.1 --columns 30 --rows 6",
     "aerofoil.dat": ROOT / "examples/naca-2412.dat",
     "outline.csv": outline,
+    "soup.obj": lambda: soup(8),
     "rules.json": lambda: rules(nodes="boundary"),
     "held.json": lambda: rules(nodes=[0, 10, 20, 30]),
 }

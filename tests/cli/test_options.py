@@ -52,6 +52,8 @@ class Idle(Case):
             ("--tolerance 1e-4", "fair grid.obj --method multigrid", "fair grid.obj", "--method equilibrium"),
             ("--tolerance 1e-4", curve + " --paper", curve + " --paper --method equilibrium", "--method equilibrium"),
             ("--tolerance 1e-4", fit + " --paper", fit, "--method equilibrium"),
+            ("--springs sphere", "fair grid.obj --method sweep", "fair grid.obj", "--method equilibrium"),
+            ("--springs edge", "fair grid.obj --weight 0.1", "fair grid.obj", "without points"),
             ("--fix boundary", ball, "fair grid.obj", "boundary"),
             ("--fix none", "fair grid.obj" + inside, None, "no node moves"),
             ("--fix boundary", ring, curve, "end"),

@@ -33,6 +33,7 @@ struct FairArguments : FairingArguments {
 int run_fair(FairArguments arguments) {
   if (arguments.paper) {
     arguments.options.pseudo_normals = PseudoNormals::average;
+    arguments.options.springs = Springs::edge;
     if (!arguments.options.method) arguments.options.method = Method::sweep;
   }
   settle_distribution(arguments, asks_to_fit(arguments.pull));
@@ -91,9 +92,9 @@ void add_surface_method(CLI::App& command, FairArguments& arguments, const Fairi
   add_stopping_options(command, arguments);
   add_choice(
       command, "--springs", options.springs, springs,
-      "What neighbouring springs agree in: their lengths along every edge, as in the paper, or their mean-curvature "
-      "spheres, for the same shape on every mesh; without points, by the method equilibrium, and where spheres see "
-      "what is held, else edge all the same (default: edge)")
+      "What neighbouring springs agree in: their mean-curvature spheres, for the same shape on every mesh, or their "
+      "lengths along every edge, as in the paper (default: sphere; edge with points, with the other methods, with "
+      "--paper, and where spheres would not see what is held)")
       ->group(fairing_group);
   CLI::Option* kind = add_choice(command, "--pseudo-normals", options.pseudo_normals, pseudo_normals,
                                  "Normals of nodes: Max's weights around the link; the paper's plain average of face "

@@ -26,10 +26,10 @@ struct FairOptions {
   std::optional<Method> method = std::nullopt;
   /// Of surfaces.
   PseudoNormals pseudo_normals = PseudoNormals::link;
-  /// Of surfaces. sphere is for the method equilibrium; the others, and fits, take edge. So do, by themselves, shapes
-  /// whose boundary moves, which are held so little that spheres of many sizes are fair, or with a normal that is given
-  /// where nodes move on more sides than one; and, with a warning, those of which sphere springs find no equilibrium.
-  Springs springs = Springs::edge;
+  /// Of surfaces, by the method equilibrium; the others, and fits, take edge. So do, by themselves, shapes whose
+  /// boundary moves, which are held so little that spheres of many sizes are fair, or with a normal that is given where
+  /// nodes move on more sides than one; and, with a warning, those of which sphere springs find no equilibrium.
+  Springs springs = Springs::sphere;
   /// Of curves.
   CurveRules curve = {};
   /// Where not given: smooth; of curves, and of multigrid and sweep if they are asked for, even.

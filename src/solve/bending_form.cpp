@@ -104,10 +104,14 @@ void weigh_edges(const Net& net, ThreadTeam& team, std::vector<float>& sums) {
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       double sum = 0;
-      for (const Link link : net.rings.links(i)) {
-        if (link.spoke()) sum += edge_weight(net, i, link.node());
+      if (net.spheres.on() && !on_boundary(net.rings.links(i))) {
+        sum = net.spheres.weights[i];
+      } else {
+        for (const Link link : net.rings.links(i)) {
+          if (link.spoke()) sum += edge_weight(net, i, link.node());
+        }
       }
-      sums[i] = static_cast<float>(net.spheres.on() && !on_boundary(net.rings.links(i)) ? sphere_weight(net, i) : sum);
+      sums[i] = static_cast<float>(sum);
     }
   });
 }

@@ -36,6 +36,14 @@ bool was_found(const FairReport& report) {
   return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
 }
 
+/// For springs that others take over from.
+FairOptions for_a_try(FairOptions options) {
+  constexpr int enough = 60;
+  options.max_iterations = enough;
+  options.as_found = true;
+  return options;
+}
+
 /// While somebody drags: what leads nowhere in so many iterations on each level is for later.
 FairOptions in_a_hurry(FairOptions options) {
   constexpr int enough = 40;
@@ -158,10 +166,13 @@ void SurfaceFairing::run_with(Springs springs, const Constraints& constraints, C
   hierarchy_.reset();
   soundness_.emplace(net, *model_, team_);
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
+  // Whoever gives a number of iterations, or asks for what is found, gets that; edge springs come second else.
+  const bool is_try = springs == Springs::sphere && !options.max_iterations && !options.as_found;
   FairReport one = report;
-  run_equilibrium(*hierarchy_, *model_, options, team_, context, progress, one, &*soundness_);
+  run_equilibrium(*hierarchy_, *model_, is_try ? for_a_try(options) : options, team_, context, progress, one,
+                  &*soundness_);
   one.springs = springs;
-  if (springs == Springs::edge || was_found(one) || options.as_found) {
+  if (!is_try || was_found(one)) {
     one.iterations += report.iterations;
     one.work += report.work;
     report = std::move(one);

@@ -3,7 +3,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "shape/direction.hpp"
@@ -148,8 +150,8 @@ void for_fit_nodes(const Net& net, std::size_t i, const Use& use) {
 }
 
 /// Least squares of heights over a node's link, by x and y in its tangent plane: height(j, e) for node j against the n
-/// unknowns of row(x, y), both weighed by |e|⁻². ridges: of each unknown, of the sum of its squares with weights 1 or
-/// |e|⁻², whichever units it has.
+/// unknowns of row(x, y, |e|²), both weighed by |e|⁻². forms_ridge and slopes_ridge: what is added to the diagonal for
+/// each unknown, times the number of nodes and times Σ |e|⁻², as their units ask.
 template <int n, typename Height, typename Row>
 Eigen::Matrix<double, n, 1> fit_heights(const Net& net, std::size_t i, const Vector3& t1, const Vector3& t2,
                                         const Eigen::Matrix<double, n, 1>& forms_ridge,
@@ -218,21 +220,28 @@ std::pair<Vector3, Vector3> tangents_of(const Vector3& normal) {
   return {t1, normal.cross(t1)};
 }
 
-/// The sum of the Laplacian's entries, raised where that is too little, times squared edges.
+/// The sum of the Laplacian's entries, raised where that is too little, times squared edges; and the node's weight.
 void find_spread(Net& net, std::size_t i) {
   SphereSprings& spheres = net.spheres;
   const auto links = net.rings.links(i);
   const double* row = spheres.stiffness.data() + net.rings.begin(i);
   double spread = 0;
   double squares = 0;
+  double spokes_squares = 0;
+  double spokes = 0;
   for (std::size_t k = 0; k < links.size(); ++k) {
     const double square = (net.positions[links[k].node()] - net.positions[i]).squaredNorm();
     spread += row[k] * square;
     squares += square;
+    if (!links[k].spoke()) continue;
+    spokes_squares += square;
+    spokes += 1;
   }
   const double least = least_spread * spheres.areas[i];
   spheres.raised[i] = spread < least && squares > 0 ? (least - spread) / squares : 0;
   spheres.spreads[i] = std::max(spread, least);
+  const double mean_square = spokes > 0 ? spokes_squares / spokes : 0;
+  spheres.weights[i] = 16 * spheres.areas[i] / std::max(mean_square * mean_square, net.tiny * net.tiny);
 }
 
 /// The curvature from the row: Σ K (height − q) / Σ K |e|².
@@ -254,6 +263,11 @@ double curvature_by_row(const Net& net, std::size_t i, const Vector3& t1, const 
 
 bool has_rim(std::span<const Link> links) { return !links.empty() && links.front().start(); }
 
+/// Whether faces lie around a node in one run, from rim to rim.
+bool has_one_run(std::span<const Link> links) {
+  return std::count_if(links.begin(), links.end(), [](Link link) { return link.start(); }) == 1;
+}
+
 }  // namespace
 
 void use_sphere_springs(Net& net) {
@@ -261,8 +275,9 @@ void use_sphere_springs(Net& net) {
   net.spheres.stiffness.assign(net.rings.link_count(), 0);
   net.spheres.areas.assign(net.computed, 0);
   net.spheres.spreads.assign(net.computed, 0);
-  net.spheres.factor = bending_factor(net);
   net.spheres.raised.assign(net.computed, 0);
+  net.spheres.weights.assign(net.computed, 0);
+  net.spheres.factor = bending_factor(net);
 }
 
 void update_sphere(Net& net, std::size_t i, const Vector3& first) {
@@ -281,6 +296,8 @@ void update_sphere(Net& net, std::size_t i, const Vector3& first) {
   };
   const Vector3& normal = net.normals[i];
   if (has_rim(links)) {
+    // Several runs have no line through the node in common that would be the rim.
+    if (!has_one_run(links)) return;
     const auto along = [&](std::size_t k) -> Vector3 { return net.positions[links[k].node()] - net.positions[i]; };
     const Vector3 before = along(0);
     const Vector3 after = along(links.size() - 1);
@@ -317,26 +334,6 @@ void find_given_curvature(Net& net, std::size_t i) {
   net.spheres.curvatures[i] = curvature_by_row(net, i, t1, t2, fit, height);
 }
 
-namespace {
-
-double mean_square_edge(const Net& net, std::size_t i) {
-  double squares = 0;
-  double spokes = 0;
-  for (const Link link : net.rings.links(i)) {
-    if (!link.spoke()) continue;
-    squares += (net.positions[link.node()] - net.positions[i]).squaredNorm();
-    spokes += 1;
-  }
-  return spokes > 0 ? squares / spokes : 0;
-}
-
-}  // namespace
-
-double sphere_weight(const Net& net, std::size_t i) {
-  const double square = mean_square_edge(net, i);
-  return 16 * net.spheres.areas[i] / std::max(square * square, net.tiny * net.tiny);
-}
-
 double sphere_force(const Net& net, std::size_t i) {
   const auto links = net.rings.links(i);
   const SphereSprings& spheres = net.spheres;
@@ -350,7 +347,7 @@ double sphere_force(const Net& net, std::size_t i) {
     if (!(theirs == theirs)) continue;
     sum += row[k] * ((net.normals[i].dot(net.normals[j]) < 0 ? -theirs : theirs) - own);
   }
-  const double weight = sphere_weight(net, i);
+  const double weight = spheres.weights[i];
   return weight > 0 ? -4 * spheres.factor * sum / weight : 0;
 }
 

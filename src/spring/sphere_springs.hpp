@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cmath>
-#include <span>
+#include <cstddef>
 #include <vector>
 
-#include "shape/fan.hpp"
 #include "vspring/types.hpp"
 
 namespace vspring {
@@ -25,8 +23,11 @@ struct SphereSprings {
   std::vector<double> areas;  ///< the node's share of the faces around it
   /// What stiffness times squared edges adds up to; of entries that were raised, see `raised`.
   std::vector<double> spreads;
-  double factor = 1;           ///< bending_factor() of the net
   std::vector<double> raised;  ///< by how much entries are raised, all alike, where a curvature is taken from them
+  /// What forces are divided by in the linear equations, Σ 1/ℓ for springs of Eq. 4: 16 M/ρ⁴ of the node's area M and
+  /// its mean squared edge ρ².
+  std::vector<double> weights;
+  double factor = 1;  ///< bending_factor() of the net
 
   [[nodiscard]] bool on() const noexcept { return !curvatures.empty(); }
 };
@@ -44,8 +45,5 @@ void find_given_curvature(Net& net, std::size_t i);
 /// The force on a moving node inside, along its normal, as Eq. 8's but of sphere springs:
 /// κ ρ⁴/(4 M) Σ K (c_i − c_j).
 double sphere_force(const Net& net, std::size_t i);
-
-/// What the force is divided by in the linear equations, Σ 1/ℓ for springs of Eq. 4: 16 M/ρ⁴.
-double sphere_weight(const Net& net, std::size_t i);
 
 }  // namespace vspring

@@ -41,7 +41,8 @@ struct NodeForce {
 /// Eq. 8 with w_j = 1/‖P_i − P_j‖, and §4.4. A node without a normal (zero) is not sprung and goes to the mean of its
 /// neighbours. shares: what each link counts in that mean, aligned with links and of sum 1 over the spokes; empty
 /// counts them evenly. tiny: what is added to squared lengths, so that an edge of length zero has a finite weight.
-template <typename Positions>
+/// with_spring: false leaves Eq. 8 out, for springs of another kind.
+template <bool with_spring = true, typename Positions>
 NodeForce node_force(std::size_t i, std::span<const Link> links, const Positions& positions, const Positions& normals,
                      std::span<const double> shares, double tiny) {
   const Vector3& centre = positions[i];
@@ -56,9 +57,11 @@ NodeForce node_force(std::size_t i, std::span<const Link> links, const Positions
     const std::size_t j = links[k].node();
     const Vector3 d = positions[j] - centre;
     const double length = std::sqrt(d.dot(d) + tiny);
-    const double weight = 1 / length;
-    weights += weight;
-    differences += weight * steady_difference(d, normal, normals[j]);
+    if constexpr (with_spring) {
+      const double weight = 1 / length;
+      weights += weight;
+      differences += weight * steady_difference(d, normal, normals[j]);
+    }
     lengths += length;
     spokes += 1;
     mean += shares.empty() ? d : Vector3(shares[k] * d);
@@ -66,7 +69,7 @@ NodeForce node_force(std::size_t i, std::span<const Link> links, const Positions
   NodeForce force;
   if (spokes == 0) return force;
   if (shares.empty()) mean /= spokes;
-  force.spring = differences / weights * normal;
+  if constexpr (with_spring) force.spring = differences / weights * normal;
   force.regularisation = mean - mean.dot(normal) * normal;
   force.mean_edge = lengths / spokes;
   return force;

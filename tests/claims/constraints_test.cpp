@@ -250,7 +250,7 @@ TEST(Constraints, AMoebiusStripIsFaired) {
   const FairResult by_edges = fair(strip, held_boundary(strip), {.springs = Springs::edge, .tolerance = 1e-8});
   EXPECT_EQ(by_edges.report.outcome, Outcome::converged);
   EXPECT_LT(by_edges.report.after.vspring_energy, by_edges.report.before.vspring_energy / 4);
-  const FairResult by_spheres = fair(strip, held_boundary(strip), {.springs = Springs::sphere, .tolerance = 1e-8});
+  const FairResult by_spheres = fair(strip, held_boundary(strip), {.tolerance = 1e-8});
   EXPECT_EQ(by_spheres.report.outcome, Outcome::converged);
   EXPECT_EQ(by_spheres.report.springs, Springs::sphere);
 }

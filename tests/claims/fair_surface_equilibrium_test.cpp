@@ -110,9 +110,7 @@ TEST(SurfaceEquilibrium, ABoundaryWithoutNormalsIsFlatAndOneNormalTiltsTheMiddle
 
   // Node 0 is the centre.
   constraints.fix_normal(0, Vector3(0.3, 0, 1));
-  FairOptions options = to_equilibrium(1e-8);
-  options.springs = Springs::sphere;
-  const FairResult tilted = fair(noisy, constraints, options);
+  const FairResult tilted = fair(noisy, constraints, to_equilibrium(1e-8));
   EXPECT_EQ(tilted.report.outcome, Outcome::converged);
   // Spheres on both sides would not see the tilt.
   EXPECT_EQ(tilted.report.springs, Springs::edge);

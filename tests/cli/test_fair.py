@@ -69,7 +69,7 @@ class Fair(Case):
         plain = (self.folder / "out.obj").read_bytes()
         rules = self.write("rules.json", json.dumps({"rules": [{"nodes": [0], "position": [0, 0, 2]}]}))
         for options in (["--fix-normals", "boundary"], ["--constraints", rules], ["--region", "sphere:0,0,1,0.6"],
-                        ["--tolerance", "1e-2"], ["--method", "sweep"], ["--springs", "sphere"], ["--pseudo-normals", "area"], ["--pseudo-normals", "angle"], ["--paper"],
+                        ["--tolerance", "1e-2"], ["--method", "sweep"], ["--springs", "edge"], ["--pseudo-normals", "area"], ["--pseudo-normals", "angle"], ["--paper"],
                         ["--distribution", "keep"], ["--strength", "0.5"]):
             self.fair(*options)
             self.assertNotEqual((self.folder / "out.obj").read_bytes(), plain, options)

@@ -23,6 +23,7 @@ struct FairingArguments {
   std::optional<double> weld;  ///< nodes nearer than this share of the diagonal are one; else what the format needs
   FairOptions options;
   std::optional<Distribution> distribution;  ///< else what the command takes by itself
+  std::optional<double> step_tolerance;      ///< likewise
   bool paper = false;
   int threads = 0;
   std::string report;

@@ -38,6 +38,23 @@ bool asks_to_fit(const PullArguments& arguments) {
   return given == 1;
 }
 
+void settle_options(FairingArguments& arguments, bool own_nodes_pull) {
+  FairOptions& options = arguments.options;
+  options.as_found = arguments.paper || options.method || arguments.distribution;
+  options.distribution = arguments.distribution;
+  options.step_tolerance = arguments.step_tolerance.value_or(options.step_tolerance);
+  if (arguments.paper) {
+    options.pseudo_normals = PseudoNormals::average;
+    options.springs = Springs::edge;
+    options.forces = Forces::printed;
+    options.curve = CurveRules::paper();
+    if (!options.method) options.method = Method::sweep;
+    if (!options.distribution) options.distribution = Distribution::even;
+  } else if (!options.distribution && own_nodes_pull) {
+    options.distribution = Distribution::keep;
+  }
+}
+
 void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise) {
   if (!(noise.deviation > 0))
     throw Error(ErrorCode::unusable_shape,

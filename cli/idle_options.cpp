@@ -40,9 +40,7 @@ constexpr IdleRule idle_rules[] = {
        return !run.equilibrium_tried && !(run.fair_boundary && run.boundary_moves && !run.own_nodes_pull);
      },
      "it is for --method equilibrium"},
-    {"--step-tolerance", [](const RunFacts& run) { return run.method == Method::equilibrium && run.fits; },
-     "it is for --method sweep"},
-    {"--step-tolerance", [](const RunFacts& run) { return run.method == Method::equilibrium && !run.fits; },
+    {"--step-tolerance", [](const RunFacts& run) { return run.method == Method::equilibrium; },
      "it is for --method sweep and multigrid"},
     {"--springs", [](const RunFacts& run) { return !run.equilibrium_tried || run.own_nodes_pull; },
      "it is for --method equilibrium without points"},

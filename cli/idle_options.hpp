@@ -14,7 +14,6 @@ struct FairingArguments;
 /// What decides which options of a run have had an effect. What a command does not know stays as it is here.
 struct RunFacts {
   std::set<std::string> given = {};     ///< options, by their long names
-  bool fits = false;                    ///< vspring fit
   bool is_curve = false;                ///< or else a surface
   bool boundary_moves = false;          ///< some node of the boundary, or some end
   bool moves_near_boundary = false;     ///< some node there, or beside it

@@ -34,11 +34,7 @@ struct CurveArguments : FairingArguments {
 };
 
 int run_curve(CurveArguments arguments) {
-  if (arguments.paper) {
-    arguments.options.curve = CurveRules::paper();
-    if (!arguments.options.method) arguments.options.method = Method::sweep;
-  }
-  settle_distribution(arguments, asks_to_fit(arguments.pull));
+  settle_options(arguments, asks_to_fit(arguments.pull));
   check_outputs(arguments);
   refuse_views(arguments, true);
   Fairing fairing(arguments);
@@ -136,16 +132,18 @@ void add_curve_method(CLI::App& command, CurveArguments& arguments, const Fairin
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium)")
       ->group(fairing_group);
-  add_stopping_options(command, arguments);
+  add_stopping_options(command, arguments, "0.001");
   CLI::Option* plane =
       add_choice(command, "--normal-plane", options.curve.normal_plane, normal_planes,
                  "Curves in space are sprung in the whole normal plane, or along the principal normal only, as in the "
                  "paper (default: full)")
           ->group(fairing_group);
   command
-      .add_flag("--paper", arguments.paper,
-                "The paper's own choices throughout: chord tangents, weights 1/length, along the principal normal, and "
-                "the method sweep unless --method says another (default: off)")
+      .add_flag(
+          "--paper", arguments.paper,
+          "The paper's own choices throughout, its equations as printed: chord tangents, weights 1/length, along the "
+          "principal normal, which nodes in line with both neighbours have none of; points' displacements in "
+          "full; and the method sweep unless --method says another (default: off)")
       ->excludes(plane)
       ->group(fairing_group);
   add_shaping_options(command, arguments, words);

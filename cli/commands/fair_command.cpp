@@ -31,12 +31,7 @@ struct FairArguments : FairingArguments {
 };
 
 int run_fair(FairArguments arguments) {
-  if (arguments.paper) {
-    arguments.options.pseudo_normals = PseudoNormals::average;
-    arguments.options.springs = Springs::edge;
-    if (!arguments.options.method) arguments.options.method = Method::sweep;
-  }
-  settle_distribution(arguments, asks_to_fit(arguments.pull));
+  settle_options(arguments, asks_to_fit(arguments.pull));
   check_outputs(arguments);
   refuse_views(arguments, false);
   Fairing fairing(arguments);
@@ -89,7 +84,7 @@ void add_surface_method(CLI::App& command, FairArguments& arguments, const Fairi
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium; where it finds none, sweep)")
       ->group(fairing_group);
-  add_stopping_options(command, arguments);
+  add_stopping_options(command, arguments, "0.001");
   add_choice(
       command, "--springs", options.springs, springs,
       "What neighbouring springs agree in: their mean-curvature spheres, for the same shape on every mesh, or their "
@@ -101,10 +96,11 @@ void add_surface_method(CLI::App& command, FairArguments& arguments, const Fairi
                                  "normals; weighted by area; by angle (default: link)")
                           ->group(fairing_group);
   command
-      .add_flag("--paper", arguments.paper,
-                "The paper's own choices throughout: plain average of normals, and the method sweep unless --method "
-                "says another "
-                "(default: off)")
+      .add_flag(
+          "--paper", arguments.paper,
+          "The paper's own choices throughout, its equations as printed: plain average of normals, nodes at the mean "
+          "of their neighbours, points' displacements in full, and the method sweep unless --method says another "
+          "(default: off)")
       ->excludes(kind)
       ->group(fairing_group);
   add_shaping_options(command, arguments, words);

@@ -87,7 +87,7 @@ void add_weld_option(CLI::App& command, FairingArguments& arguments) {
       ->group(holding_group);
 }
 
-void add_stopping_options(CLI::App& command, FairingArguments& arguments) {
+void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& default_step) {
   FairOptions& options = arguments.options;
   command
       .add_option("--tolerance", options.tolerance,
@@ -98,12 +98,10 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments) {
       ->check(positive_number())
       ->group(fairing_group);
   command
-      .add_option(
-          "--step-tolerance", options.step_tolerance,
-          fmt::format(
-              "multigrid, sweep: stop when no node moves further in an iteration than this share of its mean edge "
-              "length (default: {})",
-              options.step_tolerance))
+      .add_option("--step-tolerance", arguments.step_tolerance,
+                  "multigrid, sweep: stop when no node moves further in an iteration than this share of its mean edge "
+                  "length (default: " +
+                      default_step + ")")
       ->type_name("E")
       ->check(positive_number())
       ->group(fairing_group);

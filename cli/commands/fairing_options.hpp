@@ -25,7 +25,7 @@ struct FairingWords {
 void add_files(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 void add_constraint_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 void add_weld_option(CLI::App& command, FairingArguments& arguments);
-void add_stopping_options(CLI::App& command, FairingArguments& arguments);
+void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& default_step);
 void add_shaping_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 /// An option for the columns of tables. whose: of which files, and else.
 void add_columns(CLI::App& command, const std::string& flag, std::vector<std::string>& columns,

@@ -40,7 +40,6 @@ struct FitArguments : FairingArguments {
   ColumnChoice columns;
   ColumnChoice point_columns;
   PullArguments pull;
-  std::optional<double> step_tolerance;
   bool ignore_normals = false;
   bool curve = false;
   bool closed = false;
@@ -88,16 +87,10 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   Constraints constraints = make_constraints(arguments, shape, welding.rules(file));
   hold_repeated(constraints, repeats);
   FairOptions fairing_options = arguments.options;
-  if (arguments.paper) {
-    fairing_options.pseudo_normals = PseudoNormals::average;
-    fairing_options.curve = CurveRules::paper();
-    if (!fairing_options.method) fairing_options.method = Method::sweep;
-  }
   // The last steps of a fit are about k times their distance.
-  double& step_tolerance = fairing_options.step_tolerance;
   const double weight = arguments.pull.weight.value_or(0);
-  step_tolerance =
-      arguments.step_tolerance.value_or(weight > 0 ? std::min(step_tolerance, weight / 10) : step_tolerance);
+  if (!arguments.step_tolerance && weight > 0)
+    fairing_options.step_tolerance = std::min(fairing_options.step_tolerance, weight / 10);
   ScatteredPoints points = read_points(arguments.points, columns_of_points(arguments));
   std::vector<std::string> read_warnings = file.warnings;
   std::ranges::copy(points.warnings, std::back_inserter(read_warnings));
@@ -134,11 +127,11 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
                                 .welding = &welding,
                                 .figures = std::move(figures),
                                 .lines = welding.lines() + account.lines() + note,
-                                .facts = {.fits = true, .points_face = points_face}});
+                                .facts = {.points_face = points_face}});
 }
 
 int run_fit(FitArguments arguments) {
-  settle_distribution(arguments, false);
+  settle_options(arguments, false);
   check_outputs(arguments, {{"--points", arguments.points}});
   if (!arguments.deviation.empty() &&
       scalar_format(std::filesystem::path(arguments.deviation).extension().string()) != ScalarFormat::ply)
@@ -159,7 +152,8 @@ int run_fit(FitArguments arguments) {
                     read_shape(arguments.input, arguments.format, arguments.curve, arguments.columns));
 }
 
-const std::map<std::string, Method> fit_methods = {{"equilibrium", Method::equilibrium}, {"sweep", Method::sweep}};
+const std::map<std::string, Method> fit_methods = {
+    {"equilibrium", Method::equilibrium}, {"multigrid", Method::multigrid}, {"sweep", Method::sweep}};
 
 void add_fit_options(CLI::App& command, FitArguments& arguments) {
   command
@@ -173,35 +167,18 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
                    "Points pull whichever way they face (default: those that have normals only at nodes of a surface "
                    "that faces the same way)");
   add_pull_options(command, arguments.pull, "How points pull: one of");
-  add_choice(command, "--method", arguments.options.method, fit_methods,
-             "The accelerated solver that goes to the true equilibrium, or the paper's plain iteration (default: "
-             "equilibrium; where it finds none, sweep)")
+  add_choice(
+      command, "--method", arguments.options.method, fit_methods,
+      "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
+      "plain iteration (default: equilibrium; where it finds none, sweep)")
       ->group(fairing_group);
+  add_stopping_options(command, arguments, "0.001, or K/10 where that is less");
   command
-      .add_option("--tolerance", arguments.options.tolerance,
-                  fmt::format("equilibrium: stop when no node is expected to be further from its final place than "
-                              "this share of the diagonal of the box around the moving nodes (default: {})",
-                              arguments.options.tolerance))
-      ->type_name("X")
-      ->check(positive_number())
-      ->group(fairing_group);
-  command
-      .add_option("--step-tolerance", arguments.step_tolerance,
-                  "sweep: stop when no node moves further in an iteration than this share of its mean edge length "
-                  "(default: 0.001, or K/10 where that is less)")
-      ->type_name("E")
-      ->check(positive_number())
-      ->group(fairing_group);
-  command
-      .add_option("--max-iterations", arguments.options.max_iterations,
-                  "Stop after this many iterations (default: on each level 200 for equilibrium, 10000 for sweep)")
-      ->type_name("N")
-      ->check(whole_number(0))
-      ->group(fairing_group);
-  command
-      .add_flag("--paper", arguments.paper,
-                "The paper's own choices throughout: plain average of normals; chord tangents, weights 1/length, along "
-                "the principal normal; the method sweep unless --method says another (default: off)")
+      .add_flag(
+          "--paper", arguments.paper,
+          "The paper's own choices throughout, its equations as printed: plain average of normals; chord tangents, "
+          "weights 1/length, along the principal normal; nodes at the mean of their neighbours; points' "
+          "displacements in full; the method sweep unless --method says another (default: off)")
       ->group(fairing_group);
   command
       .add_option("--deviation", arguments.deviation,

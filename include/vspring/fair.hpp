@@ -30,6 +30,7 @@ struct FairOptions {
   /// boundary moves, which are held so little that spheres of many sizes are fair, or with a normal that is given where
   /// nodes move on more sides than one; and, with a warning, those of which sphere springs find no equilibrium.
   Springs springs = Springs::sphere;
+  Forces forces = Forces::steady;
   /// Of curves.
   CurveRules curve = {};
   /// Where not given: smooth; of curves, and of multigrid and sweep if they are asked for, even.

@@ -11,7 +11,7 @@
 namespace vspring {
 
 struct FitOptions {
-  /// Its method, where given, must be equilibrium or sweep. With fair_boundary, for a surface whose own nodes are the
+  /// With fair_boundary, for a surface whose own nodes are the
   /// points, its boundary is fitted to them first, as a curve, and the surface then holds it. Where no method is given:
   /// equilibrium; where that finds none and max_iterations is not given, the shape of sweep, with a warning.
   FairOptions fair = {};
@@ -26,15 +26,15 @@ struct FitOptions {
   /// frequency ω keep 1/(1 + (λω)⁴) of their height. See docs/fit.md for the k that it comes to.
   std::optional<double> smoothing_length = std::nullopt;
   /// The shape of least bending from which no point lies further than this, in the units of the input, more than 0; on
-  /// curves in space the fairest on the way there, by its V-Spring energy (Fairness). Not by Method::sweep.
+  /// curves in space the fairest on the way there, by its V-Spring energy (Fairness). By Method::equilibrium only.
   std::optional<double> within = std::nullopt;
   /// The largest smoothing length for which the root mean square of the distances is not above this, in the units of
-  /// the input, more than 0. Not by Method::sweep.
+  /// the input, more than 0. By Method::equilibrium only.
   std::optional<double> rms = std::nullopt;
   /// Surfaces whose own nodes are the points, with Distribution::keep: takes noise of this standard deviation in each
   /// coordinate off, in the units of the input, more than 0. The shape smooths where nothing but noise is there, and
   /// keeps what more than noise says: over each node, its neighbours and theirs the mean distance of the points from it
-  /// is about what is left of noise. Not by Method::sweep. See estimate_noise().
+  /// is about what is left of noise. By Method::equilibrium only. See estimate_noise().
   std::optional<double> noise = std::nullopt;
   /// The share of the points, from 0 to less than 1, that is left out: those furthest from the shape, found in turns
   /// with it.

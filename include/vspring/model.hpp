@@ -26,6 +26,14 @@ enum class Springs {
   sphere  ///< the radii of their mean-curvature spheres: the same shape on every mesh, see docs/springs.md
 };
 
+/// How closely forces keep to the paper's equations. In either way an equilibrium is where they vanish.
+enum class Forces {
+  steady,  ///< without jumps, and stable however much points weigh
+  printed  ///< as printed: a neighbour's normal turns round at once at a right angle (Eq. 4), what points ask for is
+           ///< done in full (Eq. 9; weights of 1 and more may oscillate), and a node of a planar curve between two
+           ///< neighbours in line with it has no normal and stays (§4.8)
+};
+
 /// The tangent of a curve at a node (§4.8).
 enum class CurveTangents {
   circle,  ///< of the circle through the node and its neighbours: exact on circles however uneven the spacing

@@ -33,7 +33,7 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
   count_nodes(gathered.net, constraints, report);
   report.before = measure(curve, &constraints);
 
-  const auto model = curve_model_for(gathered.net, options.curve);
+  const auto model = curve_model_for(gathered.net, options.curve, options.forces);
   const Distribution distribution = options.distribution.value_or(Distribution::even);
   const Soundness soundness(gathered.net, *model, team);
   if (report.method == Method::sweep) {

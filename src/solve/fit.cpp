@@ -155,6 +155,10 @@ class Fitting {
       sweep(std::move(points), options_.fair, progress);
       return;
     }
+    if (report.method == Method::multigrid) {
+      cycle(std::move(points), progress);
+      return;
+    }
     if constexpr (std::is_same_v<Subject, FitSurface>) {
       if (options_.noise) {
         fit_without_noise(run_, std::move(points), progress);
@@ -208,6 +212,14 @@ class Fitting {
     shape.find(run_.context, progress, run_.result.report.fair);
     run_.finish(shape.net());
     return !shape.net().homes.empty();
+  }
+
+  void cycle(LoosePoints points, ProgressReporter& progress) {
+    auto gathered = run_.gather_start();
+    const auto smoothing = smoothing_in(net_of(gathered));
+    PulledShape shape(std::move(gathered), options_.fair, std::move(points), smoothing, run_.team);
+    shape.cycle(run_.context, progress, run_.result.report.fair);
+    run_.finish(shape.net());
   }
 
   void sweep(LoosePoints points, FairOptions options, ProgressReporter& progress) {

@@ -108,12 +108,11 @@ void FitOptions::validate() const {
   if ((smoothing_length ? 1 : 0) + (within ? 1 : 0) + (rms ? 1 : 0) + (noise ? 1 : 0) > 1)
     refuse("only one of smoothing length, within, rms and noise can be given");
   if (!(outliers >= 0 && outliers < 1)) refuse(fmt::format("outliers must be from 0 to less than 1, not {}", outliers));
-  if ((within || rms || noise) && fair.method == Method::sweep)
-    refuse("points can be fitted to a tolerance by the method equilibrium only, not by sweep");
+  if ((within || rms || noise) && fair.method.value_or(Method::equilibrium) != Method::equilibrium)
+    refuse(fmt::format("points can be fitted to a tolerance by the method equilibrium only, not by {}",
+                       name(*fair.method)));
   if ((within || rms || noise) && fair.strength < 1)
     refuse("points can be fitted to a tolerance at full strength only");
-  if (fair.method == Method::multigrid)
-    refuse("points can be fitted by the methods equilibrium and sweep, not by multigrid");
 }
 
 }  // namespace vspring

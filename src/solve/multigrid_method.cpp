@@ -18,14 +18,15 @@ constexpr double coarsest_share = 1e-3;
 class Cycle {
  public:
   Cycle(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
-        ProgressReporter& progress, FairReport& report)
+        ProgressReporter& progress, FairReport& report, PointLevels* points)
       : hierarchy_(hierarchy),
         model_(model),
         options_(options),
         team_(team),
         context_(context),
         progress_(progress),
-        report_(report) {}
+        report_(report),
+        points_(points) {}
 
   void run() {
     const std::size_t by_default = hierarchy_.count() - hierarchy_.first_of_use();
@@ -81,6 +82,10 @@ class Cycle {
       // A level's work goes with its nodes, and all coarser ones together are a third of it.
       progress_.report("fairing", step_tolerance > 0 ? share * 0.7 : 0, report_.iterations, residual);
     };
+    if (points_) {
+      points_->tie(level);
+      task.renew_ties = [&] { (void)points_->renew(0); };
+    }
     const SweepResult result = sweep_until_still(hierarchy_.net(level), model_, task, team_, context_);
     report_.levels[level].iterations += result.iterations;
     report_.levels[level].seconds += stopwatch.seconds();
@@ -94,14 +99,15 @@ class Cycle {
   Context& context_;
   ProgressReporter& progress_;
   FairReport& report_;
+  PointLevels* points_;
   bool lost_ = false;
 };
 
 }  // namespace
 
 void run_multigrid(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
-                   Context& context, ProgressReporter& progress, FairReport& report) {
-  Cycle(hierarchy, model, options, team, context, progress, report).run();
+                   Context& context, ProgressReporter& progress, FairReport& report, PointLevels* points) {
+  Cycle(hierarchy, model, options, team, context, progress, report, points).run();
 }
 
 }  // namespace vspring

@@ -34,14 +34,15 @@ PointLevels::PointLevels(Hierarchy& hierarchy, PointTies& ties, std::shared_ptr<
 }
 
 void PointLevels::tie(std::size_t level) {
-  if (!hierarchy_->net(points_.size()).points.normals.empty())
-    update_directions(hierarchy_->net(level), *model_, *team_);
-  if (level == points_.size()) {
+  const std::size_t last = hierarchy_->count() - 1;
+  if (!hierarchy_->net(last).points.normals.empty()) update_directions(hierarchy_->net(level), *model_, *team_);
+  if (level == last) {
     finest_->tie_anew(*team_);
     tied_ = finest_;
     return;
   }
-  coarse_ = std::make_unique<PointTies>(hierarchy_->net(level), points_[level], factors_, *team_);
+  coarse_ =
+      std::make_unique<PointTies>(hierarchy_->net(level), points_[level + points_.size() - last], factors_, *team_);
   tied_ = coarse_.get();
 }
 

@@ -32,7 +32,7 @@ class PointLevels {
   PointTies* finest_;
   PointTies* tied_;
   std::unique_ptr<PointTies> coarse_;
-  std::vector<TiedPoints> points_;  // of the levels below the finest
+  std::vector<TiedPoints> points_;  // of the levels below the finest, coarser ones that are left out since too
   PointFactors factors_;            // and how they pull
 };
 

@@ -17,6 +17,7 @@
 #include "solve/curve_hierarchy.hpp"
 #include "solve/equilibrium_method.hpp"
 #include "solve/even_residuals.hpp"
+#include "solve/multigrid_method.hpp"
 #include "solve/point_levels.hpp"
 #include "solve/smooth_start.hpp"
 #include "solve/surface_hierarchy.hpp"
@@ -28,9 +29,11 @@ namespace vspring {
 // What is said in other words of surfaces and of curves.
 inline Net& net_of(Net& net) { return net; }
 inline Net& net_of(CurveNet& curve) { return curve.net; }
-inline auto model_of(const Net& /*net*/, const FairOptions& options) { return surface_model(options.pseudo_normals); }
+inline auto model_of(const Net& /*net*/, const FairOptions& options) {
+  return surface_model(options.pseudo_normals, options.forces);
+}
 inline auto model_of(const CurveNet& curve, const FairOptions& options) {
-  return curve_model_for(curve.net, options.curve);
+  return curve_model_for(curve.net, options.curve, options.forces);
 }
 inline Distribution distribution_of(const Net& /*net*/, const FairOptions& options) {
   return options.distribution_taken();
@@ -101,6 +104,12 @@ class PulledShape {
     (void)start_from_points();
     run_equilibrium(hierarchy_, *model_, options_, *team_, context, progress, report, nullptr,
                     net().points.empty() ? nullptr : &levels_);
+  }
+
+  /// By the paper's V-cycle.
+  void cycle(Context& context, ProgressReporter& progress, FairReport& report) {
+    run_multigrid(hierarchy_, *model_, options_, *team_, context, progress, report,
+                  net().points.empty() ? nullptr : &levels_);
   }
 
   /// From the last shape, where points or what they pull by have changed a little. Where the solver of the equilibrium

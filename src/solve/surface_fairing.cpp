@@ -53,7 +53,7 @@ FairOptions in_a_hurry(FairOptions options) {
 }  // namespace
 
 SurfaceFairing::SurfaceFairing(const PolygonMesh& mesh, const FairOptions& options, int threads)
-    : whole_(&mesh), options_(options), team_(threads), model_(surface_model(options.pseudo_normals)) {}
+    : whole_(&mesh), options_(options), team_(threads), model_(surface_model(options.pseudo_normals, options.forces)) {}
 
 FairResult SurfaceFairing::fair_once(const Constraints& constraints, Context& context) {
   const Stopwatch stopwatch;

@@ -13,6 +13,8 @@ namespace {
 /// Tangents, and V-Spring in the whole normal plane.
 template <typename Tangent, typename Weight>
 struct CurveRulesOf {
+  explicit CurveRulesOf(Forces /*forces*/) {}
+
   static constexpr bool on_circle = std::is_same_v<Tangent, CircleTangent>;
 
   static void prepare(Net& net) {
@@ -53,6 +55,8 @@ struct CurveRulesOf {
 /// The paper's own variant for space curves: V-Spring along the principal normal only (§4.8).
 template <typename Tangent, typename Weight>
 struct PrincipalRulesOf : CurveRulesOf<Tangent, Weight> {
+  explicit PrincipalRulesOf(Forces forces) : CurveRulesOf<Tangent, Weight>(forces), forces_(forces) {}
+
   void update_direction(Net& net, std::size_t i) const {
     CurveRulesOf<Tangent, Weight>::update_direction(net, i);
     if (!net.normal_given(i))
@@ -62,32 +66,37 @@ struct PrincipalRulesOf : CurveRulesOf<Tangent, Weight> {
   [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const {
     const Vector3& normal = net.normals[i];
     return curve_force<Weight>(net, i, [&](std::size_t j) -> Vector3 {
-      // A neighbour without a principal normal (an end, a node of a straight run) takes this one's, carried over.
-      const double difference = net.normals[j].isZero(0)
+      // A neighbour without a principal normal (an end, a node of a straight run) takes this one's, carried over; as
+      // printed, ends alone, of which the paper says nothing.
+      const bool is_end = j >= net.computed || net.rings.links(j).size() < 2;
+      const double difference = net.normals[j].isZero(0) && (is_end || forces_ == Forces::steady)
                                     ? normal.dot(curve_spring(net, i, j))
                                     : spring_difference(net.positions[j] - net.positions[i], normal, net.normals[j]);
       return difference * normal;
     });
   }
 
-  /// A node of a straight run, without a principal normal, may be pulled to all sides.
+  /// A node of a straight run, without a principal normal, may be pulled to all sides; as printed, to none.
   [[nodiscard]] Vector3 sprung(const Net& net, std::size_t i, const Vector3& d) const {
     const Vector3& normal = net.normals[i];
-    if (normal.isZero(0)) return CurveRulesOf<Tangent, Weight>::sprung(net, i, d);
+    if (normal.isZero(0) && forces_ == Forces::steady) return CurveRulesOf<Tangent, Weight>::sprung(net, i, d);
     return d.dot(normal) * normal;
   }
+
+ private:
+  Forces forces_;
 };
 
 template <typename Tangent, typename Weight>
-std::unique_ptr<const Model> model_along(NormalPlane plane) {
-  if (plane == NormalPlane::principal) return std::make_unique<ModelOf<PrincipalRulesOf<Tangent, Weight>>>();
-  return std::make_unique<ModelOf<CurveRulesOf<Tangent, Weight>>>();
+std::unique_ptr<const Model> model_along(NormalPlane plane, Forces forces) {
+  if (plane == NormalPlane::principal) return std::make_unique<ModelOf<PrincipalRulesOf<Tangent, Weight>>>(forces);
+  return std::make_unique<ModelOf<CurveRulesOf<Tangent, Weight>>>(forces);
 }
 
 template <typename Tangent>
-std::unique_ptr<const Model> model_with(const CurveRules& rules) {
-  if (rules.weights == CurveWeights::inverse) return model_along<Tangent, InverseWeight>(rules.normal_plane);
-  return model_along<Tangent, InverseCubeWeight>(rules.normal_plane);
+std::unique_ptr<const Model> model_with(const CurveRules& rules, Forces forces) {
+  if (rules.weights == CurveWeights::inverse) return model_along<Tangent, InverseWeight>(rules.normal_plane, forces);
+  return model_along<Tangent, InverseCubeWeight>(rules.normal_plane, forces);
 }
 
 /// Whether everything lies in one plane, so that normals in the plane are all there is. Given directions count as far
@@ -103,14 +112,14 @@ bool is_planar(const Net& net) {
 
 }  // namespace
 
-std::unique_ptr<const Model> curve_model(const CurveRules& rules) {
-  if (rules.tangents == CurveTangents::chord) return model_with<ChordTangent>(rules);
-  return model_with<CircleTangent>(rules);
+std::unique_ptr<const Model> curve_model(const CurveRules& rules, Forces forces) {
+  if (rules.tangents == CurveTangents::chord) return model_with<ChordTangent>(rules, forces);
+  return model_with<CircleTangent>(rules, forces);
 }
 
-std::unique_ptr<const Model> curve_model_for(const Net& net, CurveRules rules) {
-  if (is_planar(net)) rules.normal_plane = NormalPlane::full;
-  return curve_model(rules);
+std::unique_ptr<const Model> curve_model_for(const Net& net, CurveRules rules, Forces forces) {
+  if (forces == Forces::steady && is_planar(net)) rules.normal_plane = NormalPlane::full;
+  return curve_model(rules, forces);
 }
 
 }  // namespace vspring

@@ -45,10 +45,12 @@ class Model {
   virtual void find_forces(const Net& net, Block block, std::span<NodeForce> forces) const = 0;
 };
 
-[[nodiscard]] std::unique_ptr<const Model> surface_model(PseudoNormals pseudo_normals);
-[[nodiscard]] std::unique_ptr<const Model> curve_model(const CurveRules& rules);
-/// For one curve: in a plane, normals in the plane are all there is, and both kinds of normal plane are the same.
-[[nodiscard]] std::unique_ptr<const Model> curve_model_for(const Net& net, CurveRules rules);
+[[nodiscard]] std::unique_ptr<const Model> surface_model(PseudoNormals pseudo_normals, Forces forces = Forces::steady);
+[[nodiscard]] std::unique_ptr<const Model> curve_model(const CurveRules& rules, Forces forces = Forces::steady);
+/// For one curve: in a plane, normals in the plane are all there is, and both kinds of normal plane are the same; as
+/// printed, the principal one has nodes without a normal there too.
+[[nodiscard]] std::unique_ptr<const Model> curve_model_for(const Net& net, CurveRules rules,
+                                                           Forces forces = Forces::steady);
 
 /// Directions of all nodes of the net that have rings.
 void update_directions(Net& net, const Model& model, ThreadTeam& team);

@@ -9,7 +9,7 @@
 
 namespace vspring {
 
-/// A model from rules for one node:
+/// A model from rules for one node, which are made from the kind of forces:
 ///   static void prepare(Net&);
 ///   void update_direction(Net&, std::size_t node) const;
 ///   NodeForce force(const Net&, std::size_t node) const;
@@ -18,8 +18,7 @@ namespace vspring {
 template <typename Rules>
 class ModelOf final : public Model {
  public:
-  ModelOf() = default;
-  explicit ModelOf(const Rules& rules) : rules_(rules) {}
+  explicit ModelOf(Forces forces) : rules_(forces), forces_(forces) {}
 
   void prepare(Net& net) const override { Rules::prepare(net); }
 
@@ -40,7 +39,8 @@ class ModelOf final : public Model {
       const NodeForce force = force_with_points(net, i);
       // Points pull at where the node comes to be. So any weight is stable, small ones act as the paper's, and what the
       // iteration ends in is the same.
-      const Vector3 displacement = force.spring / (1 + force.stiffness) + force.regularisation;
+      const double divisor = forces_ == Forces::printed ? 1 : 1 + force.stiffness;
+      const Vector3 displacement = force.spring / divisor + force.regularisation;
       net.positions[i] += displacement;
       if (force.mean_edge == 0) continue;
       // std::max would pass over what is not a number.
@@ -66,6 +66,7 @@ class ModelOf final : public Model {
   }
 
   Rules rules_;
+  Forces forces_;
 };
 
 }  // namespace vspring

@@ -13,6 +13,8 @@ namespace {
 /// Pseudo-normals of one kind, V-Spring along them, regularisation across.
 template <typename Normal>
 struct SurfaceRules {
+  explicit SurfaceRules(Forces forces) : forces_(forces) {}
+
   static void prepare(Net& /*net*/) {}
 
   void update_direction(Net& net, std::size_t i) const {
@@ -25,7 +27,7 @@ struct SurfaceRules {
     if (!net.normal_given(i)) net.normals[i] = Normal()(net.positions[i], net.rings.links(i), net.positions);
   }
 
-  [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const { return surface_force(net, i); }
+  [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const { return surface_force(net, i, forces_); }
 
   [[nodiscard]] Vector3 sprung(const Net& net, std::size_t i, const Vector3& d) const {
     return d.dot(net.normals[i]) * net.normals[i];
@@ -57,6 +59,7 @@ struct SurfaceRules {
   }
 
  private:
+  Forces forces_;
   // Of an even share.
   static constexpr double least_share = 0.1;
   static constexpr double tolerated_share = 0.5;
@@ -82,16 +85,16 @@ struct SurfaceRules {
 
 }  // namespace
 
-std::unique_ptr<const Model> surface_model(PseudoNormals pseudo_normals) {
+std::unique_ptr<const Model> surface_model(PseudoNormals pseudo_normals, Forces forces) {
   switch (pseudo_normals) {
     case PseudoNormals::link:
-      return std::make_unique<ModelOf<SurfaceRules<LinkNormal>>>();
+      return std::make_unique<ModelOf<SurfaceRules<LinkNormal>>>(forces);
     case PseudoNormals::average:
-      return std::make_unique<ModelOf<SurfaceRules<AverageNormal>>>();
+      return std::make_unique<ModelOf<SurfaceRules<AverageNormal>>>(forces);
     case PseudoNormals::area:
-      return std::make_unique<ModelOf<SurfaceRules<AreaNormal>>>();
+      return std::make_unique<ModelOf<SurfaceRules<AreaNormal>>>(forces);
     case PseudoNormals::angle:
-      return std::make_unique<ModelOf<SurfaceRules<AngleNormal>>>();
+      return std::make_unique<ModelOf<SurfaceRules<AngleNormal>>>(forces);
   }
   return nullptr;
 }

@@ -28,6 +28,13 @@ inline double steady_difference(const Vector3& d, const Vector3& normal_i, const
   return (d.dot(normal_i) + sense * d.dot(normal_j)) / (1 + std::abs(cosine));
 }
 
+/// Which springs a node has.
+enum class SpringKind {
+  steady,   ///< Eq. 4 by steady_difference()
+  printed,  ///< by spring_difference()
+  other     ///< none of Eq. 8
+};
+
 /// What the neighbours of a node ask of it.
 struct NodeForce {
   Vector3 spring = Vector3::Zero();          ///< dP_i of Eq. 8, along the normal; of a model with points, + dPc_i
@@ -41,8 +48,7 @@ struct NodeForce {
 /// Eq. 8 with w_j = 1/‖P_i − P_j‖, and §4.4. A node without a normal (zero) is not sprung and goes to the mean of its
 /// neighbours. shares: what each link counts in that mean, aligned with links and of sum 1 over the spokes; empty
 /// counts them evenly. tiny: what is added to squared lengths, so that an edge of length zero has a finite weight.
-/// with_spring: false leaves Eq. 8 out, for springs of another kind.
-template <bool with_spring = true, typename Positions>
+template <SpringKind kind = SpringKind::steady, typename Positions>
 NodeForce node_force(std::size_t i, std::span<const Link> links, const Positions& positions, const Positions& normals,
                      std::span<const double> shares, double tiny) {
   const Vector3& centre = positions[i];
@@ -57,10 +63,11 @@ NodeForce node_force(std::size_t i, std::span<const Link> links, const Positions
     const std::size_t j = links[k].node();
     const Vector3 d = positions[j] - centre;
     const double length = std::sqrt(d.dot(d) + tiny);
-    if constexpr (with_spring) {
+    if constexpr (kind != SpringKind::other) {
       const double weight = 1 / length;
       weights += weight;
-      differences += weight * steady_difference(d, normal, normals[j]);
+      differences += weight * (kind == SpringKind::printed ? spring_difference(d, normal, normals[j])
+                                                           : steady_difference(d, normal, normals[j]));
     }
     lengths += length;
     spokes += 1;
@@ -69,7 +76,7 @@ NodeForce node_force(std::size_t i, std::span<const Link> links, const Positions
   NodeForce force;
   if (spokes == 0) return force;
   if (shares.empty()) mean /= spokes;
-  if constexpr (with_spring) force.spring = differences / weights * normal;
+  if constexpr (kind != SpringKind::other) force.spring = differences / weights * normal;
   force.regularisation = mean - mean.dot(normal) * normal;
   force.mean_edge = lengths / spokes;
   return force;

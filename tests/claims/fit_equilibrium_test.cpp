@@ -54,6 +54,35 @@ TEST(FitEquilibrium, IsWhereSweepsEnd) {
   }
 }
 
+/// options: of equilibrium and V-cycle alike.
+template <typename Shape>
+void expect_the_same_by_cycles(const FitSpecimen<Shape>& specimen, FitOptions options) {
+  options.fair.distribution = Distribution::even;
+  options.fair.tolerance = 1e-8;
+  const FitResult equilibrium = specimen.fit(options);
+  EXPECT_EQ(equilibrium.report.fair.outcome, Outcome::converged);
+  options.fair.method = Method::multigrid;
+  options.fair.levels = 3;
+  options.fair.max_iterations = 50000;
+  options.fair.step_tolerance = 1e-8;
+  options.fair.as_found = true;
+  const FitResult cycled = specimen.fit(options);
+  EXPECT_EQ(cycled.report.fair.method, Method::multigrid);
+  EXPECT_EQ(cycled.report.fair.outcome, Outcome::converged);
+  ASSERT_EQ(cycled.report.fair.levels.size(), 3U);
+  EXPECT_EQ(cycled.report.pulling_points, equilibrium.report.pulling_points);
+  EXPECT_LT(greatest_distance(equilibrium.positions, cycled.positions), 1e-5);
+}
+
+TEST(FitEquilibrium, IsWhereTheVCycleEnds) {
+  expect_the_same_by_cycles(noisy_wave(100, 0.0005), {.weight = 1e-3});
+  expect_the_same_by_cycles(noisy_wave(100, 0.0005), {.smoothing_length = 0.05});
+  for (const auto faces : every_kind) {
+    SCOPED_TRACE(static_cast<int>(faces));
+    expect_the_same_by_cycles(wavy_plane(faces, 16), {.weight = 0.01});
+  }
+}
+
 TEST(FitEquilibrium, IsTheDefault) {
   const auto wave = noisy_wave(40);
   const FitResult result = wave.fit({.fair = {}, .weight = 0.01});

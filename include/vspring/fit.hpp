@@ -11,9 +11,9 @@
 namespace vspring {
 
 struct FitOptions {
-  /// With fair_boundary, for a surface whose own nodes are the
-  /// points, its boundary is fitted to them first, as a curve, and the surface then holds it. Where no method is given:
-  /// equilibrium; where that finds none and max_iterations is not given, the shape of sweep, with a warning.
+  /// With fair_boundary, for a surface whose own nodes are the points, its boundary is fitted to them first, as a
+  /// curve, and the surface then holds it. Where no method is given: equilibrium; where that finds none and
+  /// max_iterations is not given, the shape of sweep, with a warning.
   FairOptions fair = {};
   /// The paper's k (Eq. 9), for points of weight 1: 0 to 1e50. Small ones smooth, large ones interpolate. On an evenly
   /// spaced curve with one point per node waves of angular frequency ω keep 1/(1 + (λω)⁴) of their height, where k =
@@ -94,7 +94,8 @@ struct FitResult {
 ///
 /// By Method::equilibrium it goes to where springs and points balance at every node, with ties that do not change any
 /// more; where they would go to and fro, points stay with a node although another is nearer by a margin. By
-/// Method::sweep what pulls is divided by 1 + k, so that any weight is stable; it ends when no node moves further in
+/// Method::sweep and multigrid what pulls is divided by 1 + k, so that any weight is stable, but with Forces::printed;
+/// it ends when no node moves further in
 /// one iteration than options.fair.step_tolerance times the mean length of its edges. Small weights then still have far
 /// to go: their last steps are about k times their distance.
 ///

@@ -164,6 +164,11 @@ bool is_header(const Cells& first, const std::vector<std::size_t>& columns, cons
   return count_numbers(first) == 0 || std::any_of(columns.begin(), columns.end(), is_there);
 }
 
+/// Below names, above numbers: "mm,mm".
+bool is_row_of_units(CellCutter cutter, const TableLine& row, const TableLine& next) {
+  return count_numbers(cutter.cut(row.text)) == 0 && count_numbers(cutter.cut(next.text)) > 1;
+}
+
 }  // namespace
 
 CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
@@ -189,6 +194,10 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
     layout.normal = normal_columns(first);
     rows = rows.subspan(1);
     if (rows.empty()) file.refuse(no_rows);
+    if (rows.size() > 1 && is_row_of_units(layout.cutter, rows[0], rows[1])) {
+      layout.header = rows.front().offset;
+      rows = rows.subspan(1);
+    }
   }
   if (!choice.empty()) {
     require_columns(file, layout.cutter.cut(rows.front().text), rows.front().offset, layout.columns);

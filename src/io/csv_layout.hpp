@@ -15,7 +15,7 @@ namespace vspring {
 struct CsvLayout {
   CellCutter cutter;
   std::vector<std::size_t> columns;   ///< of x, y and, in space, z
-  std::optional<std::size_t> header;  ///< offset of the row that names columns
+  std::optional<std::size_t> header;  ///< offset of the row that names columns, or of one of units below it
   std::optional<std::size_t> weight;  ///< column that the header names weight or, without one, confidence
   std::vector<std::size_t> normal;    ///< columns that the header names nx, ny and nz; or none
   std::string warning;                ///< of columns that had to be guessed; empty without

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "unit/io/curve_round_trip.hpp"
+#include "vspring/point_file.hpp"
 
 namespace vspring::curve_table_test {
 namespace {
@@ -86,6 +87,9 @@ TEST_F(CurveTable, FindsNamesWithUnits) {
   }
   EXPECT_EQ(moved("index,X [mm],Y [mm]\n1,0.50,2\n2,3,4\n", "csv", {{1, {0.25, 4, 0}}}),
             "index,X [mm],Y [mm]\n1,0.50,2\n2,0.25,4\n");
+  // A row of units below the names is part of the header.
+  EXPECT_EQ(moved("id,x,y\n-,mm,mm\n1,2,3\n2,4,5\n", "csv", {{1, {0.25, 4, 0}}}), "id,x,y\n-,mm,mm\n1,2,3\n2,0.25,4\n");
+  EXPECT_EQ(read_points(put("in.csv", "x,y,z\nmm,mm,mm\n1,2,3\n2,4,5\n")).positions.size(), 2U);
   // Between blanks a unit is no name of another column.
   EXPECT_EQ(read("index X [mm] Y (US ft)\n1 5 6\n2 7 8\n", "csv").curve.position(1), Vector3(7, 8, 0));
 }

@@ -62,6 +62,35 @@ TEST(SphereSprings, AreHalfTheMeanCurvatureOnACylinder) {
   }
 }
 
+TEST(SphereSprings, AreOfSecondOrderAtRimsWithoutNormals) {
+  for (const generate::Faces faces : {generate::Faces::triangles, generate::Faces::quads, generate::Faces::hexagons}) {
+    SCOPED_TRACE(name_of(faces));
+    const auto error = [&](int cells) {
+      // Some 2 long, so that cells are about as long as wide. Nothing bends it along the rim's normal plane.
+      const PolygonMesh tube = generate::tube({.columns = 3 * cells, .rows = cells, .faces = faces}, 1, 2);
+      const Sprung at = sprung(tube, held_boundary(tube));
+      double greatest = 0;
+      for (std::size_t i = at.net.moving; i < at.net.computed; ++i)
+        greatest = std::max(greatest, std::abs(std::abs(at.net.spheres.curvatures[i] * at.net.frame.scale()) - 0.25));
+      EXPECT_GT(at.net.computed, at.net.moving);
+      return greatest;
+    };
+    EXPECT_LT(error(12), 0.01);
+    EXPECT_LT(error(24), 0.35 * error(12) + 1e-12);
+  }
+}
+
+TEST(SphereSprings, DoNotKnowTheCurvatureWhereRimsMeetAtANode) {
+  // Two squares of four triangles each, with one corner in common, which is held without a normal.
+  const PolygonMesh joined(
+      {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, 1, 0.1}, {-2, 0, 0}, {-2, -2, 0}, {0, -2, 0}, {-1, -1, 0.1}},
+      {0, 3, 6, 9, 12, 15, 18, 21, 24}, {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4, 0, 5, 8, 5, 6, 8, 6, 7, 8, 7, 0, 8});
+  const Sprung at = sprung(joined, held_boundary(joined));
+  for (std::size_t i = at.net.moving; i < at.net.computed; ++i)
+    EXPECT_EQ(std::isnan(at.net.spheres.curvatures[i]), at.net.node[i] == 0) << at.net.node[i];
+  EXPECT_TRUE(std::isfinite(at.greatest_force));
+}
+
 TEST(SphereSprings, TakeABumpBackAndItsNeighboursAlong) {
   for (const generate::Faces faces : {generate::Faces::triangles, generate::Faces::quads}) {
     SCOPED_TRACE(name_of(faces));

@@ -200,7 +200,7 @@ MUTATIONS = {
         ("station", "where the curvature of a circle is that of the curve", "(to_before + to_after) / 3", "(to_before + to_after) / 2"),
         ("curve-rate", "∫ |dk/ds|²", "difference.squaredNorm() / (step * step)", "difference.squaredNorm() / step"),
         ("curve-transport", "curvature carried along", "b.curvature - transported(a.curvature, a.tangent, b.tangent)", "b.curvature - a.curvature", "Vector3"),
-        ("curve-share", "length of an end", "k == 0 ? stations_[k].place : distance(k - 1) / 2", "distance(k - 1) / 2"),
+        ("curve-share", "length of an end", "k == 0 ? stations_[k].place : distance(k - 1) / 2", "k == 0 ? 0 : distance(k - 1) / 2"),
     ],
     "src/fairness/measure_curve.cpp": [
         ("curve-energy", "energy: ((t_j − t_i)/ℓ)²", "(curve_spring(net, i, j) / length).squaredNorm()", "curve_spring(net, i, j).squaredNorm()"),

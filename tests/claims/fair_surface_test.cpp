@@ -152,24 +152,6 @@ TEST(FairSurface, ThreadsGiveTheSameBits) {
   EXPECT_EQ(one.report.after.vspring_energy, two.report.after.vspring_energy);
 }
 
-TEST(FairSurface, LargeNoiseIsGoneAfterFiveIterations) {
-  // The paper's Fig. 9: random noise of large amplitude on the mesh of Fig. 8.
-  for (const PseudoNormals kind : {PseudoNormals::average, PseudoNormals::link}) {
-    const PolygonMesh annulus = generate::annulus({.nodes = 553, .boundary_nodes = 121});
-    const double edge = std::sqrt(2.0 * 3.14159 / (1.73 * 553));
-    const PolygonMesh noisy = generate::add_noise(annulus, 1.0 * edge, 3);
-    FairOptions options;
-    options.pseudo_normals = kind;
-    options.max_iterations = 5;
-    const FairResult result =
-        fair(noisy, held_boundary(annulus, [](const Vector3&) { return Vector3(0, 0, 1); }), options);
-    EXPECT_LT(result.report.after.mean_turn, result.report.before.mean_turn / 5);
-    Eigen::AlignedBox<double, 3> box;
-    for (const Vector3& position : noisy.positions()) box.extend(position);
-    for (const Vector3& position : result.positions) EXPECT_TRUE(box.contains(position));
-  }
-}
-
 TEST(FairSurface, StrengthGoesPartOfTheWay) {
   const PolygonMesh mesh = noisy_annulus();
   const Constraints constraints = held_boundary(mesh);

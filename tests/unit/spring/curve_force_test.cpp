@@ -66,6 +66,11 @@ TEST(Tangent, OfTheCircleIsExactForUnevenNodes) {
   }
 }
 
+TEST(Tangent, OfThePaperIsTheChordOfTheNeighboursHoweverUneven) {
+  const std::vector<Vector3> nodes = {{0, 0, 0}, {1, 0, 0}, {1, 3, 0}};
+  EXPECT_LT((ChordTangent()(nodes[1], inner_links(1), nodes) - Vector3(1, 3, 0).normalized()).norm(), 1e-15);
+}
+
 TEST(Tangent, OfAnEndIsItsChord) {
   const std::vector<Vector3> nodes = {{0, 0, 0}, {2, 0, 0}};
   const std::vector<Link> first = {{1 | Link::spoke_bit}};
@@ -105,6 +110,29 @@ TEST(CurveForce, OnAPlanarCurveIsEquationFiveWithTheInPlaneNormal) {
   const Vector3 bend_i = d.dot(normal_i) * normal_i;
   const Vector3 bend_j = -d.dot(normal_j) * normal_j;
   EXPECT_LT((curve_spring(bend_i, bend_j, d, tangent_i, tangent_j) - expected).norm(), 1e-15);
+}
+
+TEST(CurveForce, AlongThePrincipalNormalIsAllOfItInAPlane) {
+  // Beside ends and straight runs too, which have no principal normal; a node of the run has no force then.
+  const std::vector<Vector3> nodes = {{0, 0, 0}, {1, 0.2, 0},   {2, 0, 0},     {3, 0, 0},
+                                      {4, 0, 0}, {4.9, 0.4, 0}, {5.4, 1.3, 0}, {6, 1.5, 0}};
+  const auto forces = [&](NormalPlane plane) {
+    Net net = net_of(nodes);
+    ThreadTeam alone(1);
+    const auto model = curve_model({.normal_plane = plane});
+    update_directions(net, *model, alone);
+    std::vector<NodeForce> all(net.moving);
+    model->find_forces(net, {0, net.moving}, all);
+    return all;
+  };
+  const auto full = forces(NormalPlane::full);
+  const auto principal = forces(NormalPlane::principal);
+  ASSERT_EQ(full.size(), 6U);
+  for (std::size_t i = 0; i < full.size(); ++i) {
+    const bool straight = i == 2;
+    EXPECT_GT(full[i].spring.norm(), 1e-3) << i;
+    EXPECT_LT((principal[i].spring - (straight ? Vector3(0, 0, 0) : full[i].spring)).norm(), 1e-15) << i;
+  }
 }
 
 TEST(CurveForce, FramesAreCarriedWithoutSpin) {

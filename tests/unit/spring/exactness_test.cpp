@@ -105,6 +105,8 @@ TEST(VSpring, DifferenceIsThatOfTheSpringLengths) {
     const Vector3 d = (centre + 3.5 * normal_j) - (centre + 3 * normal_i);
     EXPECT_NEAR(spring_difference(d, normal_i, normal_j), 0.5, 1e-14);
     EXPECT_NEAR(spring_difference(d, normal_i, -normal_j), 0.5, 1e-14) << "the sense of a normal must not matter";
+    EXPECT_NEAR(steady_difference(d, normal_i, normal_j), 0.5, 1e-14);
+    EXPECT_NEAR(steady_difference(d, normal_i, -normal_j), 0.5, 1e-14);
   }
   // Skew normal lines: the feet of the common perpendicular lie 0.7 apart along z.
   const Vector3 skew(0, 0, 0.7);

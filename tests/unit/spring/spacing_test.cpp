@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "spring/model.hpp"
@@ -98,6 +99,44 @@ TEST(Spacing, NoiseGoesAndGradingStays) {
   const Net net = net_of(graded);
   const std::vector<Vector3> places = smooth_places(net, team);
   EXPECT_NEAR(roughness(net, places), std::log(1.1), 0.02);
+}
+
+struct Extent {
+  double least = 1e300;
+  double greatest = -1e300;
+  void add(double value) {
+    least = std::min(least, value);
+    greatest = std::max(greatest, value);
+  }
+};
+
+/// The least and greatest angle between successive edges at nodes in the middle of a unit square.
+Extent angles(const Net& net, const std::vector<Vector3>& places) {
+  Extent all;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    std::vector<Vector3> edges;
+    for (const Link link : net.rings.links(i)) {
+      if (link.spoke()) edges.push_back(places[link.node()] - places[i]);
+    }
+    const Vector3 place = places[i] / net.frame.scale();
+    if (place.head<2>().lpNorm<Eigen::Infinity>() > 0.25) continue;
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      const Vector3& next = edges[(k + 1) % edges.size()];
+      all.add(std::atan2(edges[k].cross(next).norm(), edges[k].dot(next)) / degree);
+    }
+  }
+  return all;
+}
+
+TEST(Spacing, BricksBecomeHexagons) {
+  ThreadTeam team(1);
+  for (const auto& [columns, rows] : {std::pair(16, 32), std::pair(48, 16)}) {
+    const Net net = net_of(generate::plane({.columns = columns, .rows = rows, .faces = Faces::hexagons}));
+    EXPECT_NEAR(angles(net, net.positions).greatest, 180, 1e-9);
+    const Extent after = angles(net, smooth_places(net, team));
+    EXPECT_GT(after.least, 85);
+    EXPECT_LT(after.greatest, 165);
+  }
 }
 
 TEST(Spacing, IsThatOfTheInputWhereNodesArePulledOutOfIt) {

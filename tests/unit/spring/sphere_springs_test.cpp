@@ -45,6 +45,61 @@ TEST(SphereSprings, AreExactOnSpheresOfEveryKindOfFace) {
   }
 }
 
+TEST(SphereSprings, GiveEveryNodeItsShareOfItsFaces) {
+  for (const generate::Faces faces : every_kind) {
+    SCOPED_TRACE(name_of(faces));
+    const PolygonMesh plane = generate::plane({.columns = 6, .rows = 6, .faces = faces, .jitter = 0.2});
+    std::vector<double> areas(plane.positions().size(), 0);
+    for (Index f = 0; f < plane.face_count(); ++f) {
+      const auto face = plane.face(f);
+      Vector3 area = Vector3::Zero();
+      for (std::size_t k = 1; k + 1 < face.size(); ++k)
+        area += (plane.position(face[k]) - plane.position(face[0]))
+                    .cross(plane.position(face[k + 1]) - plane.position(face[0])) /
+                2;
+      for (const Index i : face) areas[static_cast<std::size_t>(i)] += area.norm() / static_cast<double>(face.size());
+    }
+    const Net net = sprung(plane, held_boundary(plane)).net;
+    for (std::size_t i = 0; i < net.moving; ++i) {
+      const double scale = net.frame.scale() * net.frame.scale();
+      EXPECT_NEAR(net.spheres.areas[i] / scale, areas[static_cast<std::size_t>(net.node[i])], 1e-14) << i;
+      EXPECT_GE(net.spheres.spreads[i], 2 * net.spheres.areas[i]);
+    }
+  }
+}
+
+/// The root mean square error of half the mean curvature at nodes inside a surface z = x³/5 whose normal there is
+/// given.
+double error_of_given(int cells) {
+  PolygonMesh patch = generate::plane({.columns = cells, .rows = cells, .jitter = 0.3});
+  std::vector<Vector3> positions = patch.positions();
+  for (Vector3& p : positions) p.z() = std::pow(p.x(), 3) / 5;
+  patch.set_positions(std::move(positions));
+  double squares = 0;
+  double count = 0;
+  for (Index i = 0; i < patch.node_count(); i += cells / 8) {
+    Constraints held = held_boundary(patch);
+    if (held.position_fixed(i)) continue;
+    if ((patch.position(i) - Vector3(0.5, 0.5, 0)).head<2>().lpNorm<Eigen::Infinity>() > 0.3) continue;
+    const double x = patch.position(i).x();
+    const double slope = 0.6 * x * x;
+    held.fix_normal(i, {-slope, 0, 1});
+    const Net net = sprung(patch, held).net;
+    for (std::size_t k = 0; k < net.moving; ++k) {
+      if (net.node[k] != i) continue;
+      const double half = net.spheres.curvatures[k] * net.frame.scale();
+      squares += std::pow(half - 0.3 * x / std::pow(1 + slope * slope, 1.5), 2);
+      count += 1;
+    }
+  }
+  return std::sqrt(squares / count);
+}
+
+TEST(SphereSprings, OfGivenNormalsGetExactSoonerBesideComputedOnes) {
+  // By heights over their own tangent plane alone errors would fall with the spacing.
+  EXPECT_GT(std::log(error_of_given(8) / error_of_given(32)) / std::log(4), 1.1);
+}
+
 TEST(SphereSprings, AreHalfTheMeanCurvatureOnACylinder) {
   for (const generate::Faces faces : every_kind) {
     SCOPED_TRACE(name_of(faces));

@@ -1,0 +1,218 @@
+"""What scripts/mutate breaks: for each source (name, formula, text, what takes its place, type).
+
+The text must be found exactly once in its source. One that ends with a semicolon is replaced as a statement, others as expressions; a type
+is needed where the two have different ones, as Eigen's expressions do.
+
+A change that leaves the result and only slows the way to it is no mutation of a result: of preconditioners, acceleration, levels and
+transfers between them only what a closed form promises is here.
+"""
+
+MUTATIONS = {
+    "src/spring/v_spring.hpp": [
+        ("spring-sum", "Eq. 4: N_i + N_j", "(d.dot(normal_i) + sense * d.dot(normal_j)) / (1 + std::abs(cosine))",
+         "(d.dot(normal_i) - sense * d.dot(normal_j)) / (1 + std::abs(cosine))"),
+        ("spring-denominator", "Eq. 4: 1 + N_i·N_j", "(d.dot(normal_i) + sense * d.dot(normal_j)) / (1 + std::abs(cosine))",
+         "(d.dot(normal_i) + sense * d.dot(normal_j)) / 2"),
+        ("spring-facing", "§3: −N_j where N_i·N_j < 0", "std::clamp(steepness * cosine, -1.0, 1.0)", "1.0"),
+        ("measured-spring-sum", "Eq. 4 in figures: N_i + N_j", "(d.dot(normal_i) + (cosine < 0 ? -along_j : along_j)) / (1 + std::abs(cosine))",
+         "(d.dot(normal_i) - (cosine < 0 ? -along_j : along_j)) / (1 + std::abs(cosine))"),
+        ("measured-spring-denominator", "Eq. 4 in figures: 1 + N_i·N_j",
+         "(d.dot(normal_i) + (cosine < 0 ? -along_j : along_j)) / (1 + std::abs(cosine))", "(d.dot(normal_i) + (cosine < 0 ? -along_j : along_j)) / 2"),
+        ("measured-spring-facing", "Eq. 4 in figures: −N_j where N_i·N_j < 0",
+         "(d.dot(normal_i) + (cosine < 0 ? -along_j : along_j)) / (1 + std::abs(cosine))", "(d.dot(normal_i) + along_j) / (1 + std::abs(cosine))"),
+        ("edge-weight-even", "Eq. 8: w_j = 1/‖P_i − P_j‖", "1 / length", "1.0"),
+        ("edge-weight-square", "Eq. 8: w_j = 1/‖P_i − P_j‖", "1 / length", "1 / (length * length)"),
+        ("edge-weight-sum", "Eq. 8: over Σ w_j", "differences / weights", "differences / spokes"),
+        ("regularisation-mean", "§4.4: (Σ P_j)/m − P_i", "mean /= spokes;", ""),
+        ("regularisation-tangential", "§4.4: u − (u·N_i) N_i", "mean - mean.dot(normal) * normal", "mean", "Vector3"),
+        ("regularisation-shares", "§4.4 with shares", "Vector3(shares[k] * d)", "Vector3(d / static_cast<double>(links.size()))"),
+        ("mean-edge", "§4.6: mean length of edges", "lengths / spokes", "lengths"),
+    ],
+    "src/spring/pseudo_normal.hpp": [
+        ("link-inversion", "Max's weights: e/|e|²", "1 / length2", "1 / std::sqrt(length2)"),
+        ("link-closing", "Max's weights: the last face of a closed link", "if (!links.front().start()) sum += previous.cross(first);", ""),
+        ("average-unit", "§4.2: average of unit normals", "length > 0 ? 1 / length : 0", "length > 0 ? 1.0 : 0.0"),
+        ("angle-weight", "normals weighted by angles", "return angle * AverageWeight::of(area, first_edge, last_edge);",
+         "return AverageWeight::of(area, first_edge, last_edge);"),
+        ("angle-of-face", "the angle is that of one face", "first_edge = edge;", ""),
+        ("face-closing", "the last face of a closed link", "if (!links.front().start()) step(closing_edge, true);", ""),
+    ],
+    "src/spring/surface_force.hpp": [
+        ("homes", "homes count as much as all neighbours", "home - home.dot(net.normals[i]) * net.normals[i]", "home", "Vector3"),
+        ("homes-forgotten", "regularisation to homes", "(force.regularisation + across) / regularisation_divisor(net)",
+         "force.regularisation", "Vector3"),
+    ],
+    "src/spring/sphere_springs.cpp": [
+        ("cotangents", "cotangent Laplacian: the angle opposite", "0.5 * cotangent(-b, a - b)", "0.5 * cotangent(-a, b - a)"),
+        ("polygon-row", "Laplacian of an n-gon", "share * (own + to_middle(k)) - share * share * sum", "share * (own + to_middle(k))"),
+        ("curvature-form", "curvature: Σ K (height − q)", "2 * fit.q2 * x * y", "-2 * fit.q2 * x * y"),
+        ("curvature-of-rim", "curvature at a rim", "0.25", "0.5"),
+        ("curvature-of-given", "heights over neighbours' planes", "(1 + of_neighbours) * own + of_neighbours * theirs", "own"),
+        ("sphere-facing", "curvature of a neighbour that faces the other way",
+         "(net.normals[i].dot(net.normals[j]) < 0 ? -theirs : theirs) - own", "theirs - own"),
+        ("sphere-force-sign", "force: κ ρ⁴/(4 M) Σ K (c_i − c_j)", "-4 * spheres.factor * sum / weight", "4 * spheres.factor * sum / weight"),
+        ("sphere-force-size", "force: κ ρ⁴/(4 M) Σ K (c_i − c_j)", "-4 * spheres.factor * sum / weight", "-8 * spheres.factor * sum / weight"),
+        ("sphere-area", "a node's third of its triangles", "a.cross(b).norm() / 6", "a.cross(b).norm() / 2"),
+        ("slopes", "normals from heights over the link", "first + fit.slope1 * t1 + fit.slope2 * t2", "first", "Vector3"),
+    ],
+    "src/spring/tangent.hpp": [
+        ("circle-tangent", "tangent of the circle: e/ℓ²", "sum += *edge / length2;", "sum += *edge / std::sqrt(length2);"),
+        ("chord-tangent", "§4.8: T ∝ P_{i+1} − P_{i−1}",
+         "return direction(edges.before + edges.after, edges.before.norm() + edges.after.norm());",
+         "return direction(edges.before.normalized() + edges.after.normalized(), 2);"),
+        ("circle-curvature", "curvature of the circle: 2 sin/chord", "(2 / product)", "(1 / product)"),
+        ("principal-normal", "§4.8: N ∝ B × T", "edges.before.cross(edges.after).cross(tangent)", "edges.before.cross(edges.after)", "Vector3"),
+        ("end-tangent", "the chord of an end", "links.front().start() ? Vector3(-first) : first", "first", "Vector3"),
+    ],
+    "src/spring/curve_force.hpp": [
+        ("carrying", "frames without spin: the second reflection", "mirrored -= (2 * mirror.dot(mirrored) / length2) * mirror;", ""),
+        ("curve-spring-difference", "Eq. 4 of curves: (b_i − Rᵀ b_j)/(1 + T_i·T_j)",
+         "return (bend_i - carried(bend_j, d, tangent_j, tangent_i)) / denominator;",
+         "return (bend_i + carried(bend_j, d, tangent_j, tangent_i)) / denominator;"),
+        ("curve-spring-denominator", "Eq. 4 of curves: 1 + T_i·T_j",
+         "return (bend_i - carried(bend_j, d, tangent_j, tangent_i)) / denominator;",
+         "return (bend_i - carried(bend_j, d, tangent_j, tangent_i)) / 2;"),
+        ("curve-bend", "b = (ℓ²/2) k", "(0.5 * d.dot(d)) * net.curvatures[i]", "d.dot(d) * net.curvatures[i]", "Vector3"),
+        ("curve-weight", "w = 1/ℓ³", "return 1 / (length * length * length);", "return 1 / length;"),
+        ("curve-weight-square", "w = 1/ℓ³", "return 1 / (length * length * length);", "return 1 / (length * length);"),
+        ("paper-curve-weight", "Eq. 8 of curves: w = 1/ℓ", "return 1 / length;", "return 1;"),
+        ("curve-shares", "each length as its opposite share", "along += links[k].start() ? -shares[k] * length : shares[k] * length;",
+         "along += links[k].start() ? -length : length;"),
+        ("curve-regularisation", "§4.4 along the tangent", "along = mean.dot(tangent);", "along = 0;"),
+        ("curve-homes", "regularisation to homes", "(net.homes[i] - net.positions[i]).dot(tangent)", "mean.dot(tangent)"),
+    ],
+    "src/spring/curve_model.cpp": [
+        ("tangent-of-given-normal", "§4.8: T across a given N", "tangent - tangent.dot(normal) * normal", "tangent", "Vector3"),
+        ("principal-beside-straight", "§4.8: a neighbour without N", "normal.dot(curve_spring(net, i, j))", "0.0"),
+        ("curve-point-force", "Eq. 9 of curves: across the tangent", "tangent.squaredNorm() * d - d.dot(tangent) * tangent", "d", "Vector3"),
+    ],
+    "src/spring/surface_model.cpp": [
+        ("point-force", "Eq. 9: ((V_j − P_i)·N_i) N_i", "d.dot(net.normals[i]) * net.normals[i]", "d", "Vector3"),
+    ],
+    "src/spring/point_force.hpp": [
+        ("foot-weight", "Eq. 9: w_j = 1/‖P_i − Q_j‖", "1 / std::max((d - along).norm(), nearest_foot)", "1.0"),
+        ("foot-distance", "Eq. 9: Q_j, not V_j", "1 / std::max((d - along).norm(), nearest_foot)", "1 / std::max(d.norm(), nearest_foot)"),
+        ("foot-bound", "§4.5: w_j bounded", "1 / std::max((d - along).norm(), nearest_foot)", "1 / (d - along).norm()"),
+        ("point-weight", "Eq. 9: k_j", "weight * net.points.weights[j]", "weight"),
+        ("point-mean", "§4.5: over Σ w_j", "net.points.factor(i) / weights", "net.points.factor(i)"),
+    ],
+    "src/spring/model_of.hpp": [
+        ("step-with-points", "any weight is stable in a sweep", "force.spring / (1 + force.stiffness) + force.regularisation",
+         "force.spring + force.regularisation", "Vector3"),
+        ("relative-step", "§4.6: displacement over the mean edge", "displacement.norm() / force.mean_edge", "displacement.norm()"),
+        ("step-not-finite", "§4.6: what is no number is no end", "std::isfinite(step) ? step : std::numeric_limits<double>::infinity()", "step"),
+    ],
+    "src/spring/spacing.cpp": [
+        ("even-shares", "share_j = 1/m − (d_j − mean)·a", "1 / spokes - (across(links[k]) - mean).dot(a)", "1 / spokes + (across(links[k]) - mean).dot(a)"),
+        ("length-shares", "each edge as the other is long", "1 - shares[k] / whole", "shares[k] / whole"),
+        ("mean-value-shares", "mean value coordinates: over ‖d_j‖", "shares[k] /= ways[k].norm()", "shares[k]"),
+        ("sweep-stretch", "weights by inverse squares", "std::exp(-square)", "std::exp(square)"),
+        ("bricks", "half way to the mean of three", "way / 6", "way / 3", "Vector3"),
+    ],
+    "src/shape/fan.cpp": [
+        ("fan-of-polygon", "the walk through a face", "along(face, corner.place, k * step)", "along(face, corner.place, -k * step)"),
+        ("fan-flipped", "faces of one sense", "a % 2 == b % 2", "a % 2 != b % 2"),
+        ("fan-closed", "the last link is the first", "fan_.links.pop_back();", ""),
+    ],
+    "src/shape/circle.hpp": [
+        ("three-point-curvature", "curvature by inversion", "2 * (p - along * (p.dot(along) / along.squaredNorm()))",
+         "p - along * (p.dot(along) / along.squaredNorm())", "Vector3"),
+    ],
+    "src/shape/cubic.hpp": [
+        ("cubic-speed", "the cubic nearest to a circle", "2 * chord.norm() / (1 + std::sqrt((1 + cosine) / 2))", "chord.norm()"),
+    ],
+    "src/sweep/sweep.cpp": [
+        ("normals-once", "Fig. 3: normals anew in every iteration", "update_directions(*net_, *model_, *team_);", ""),
+    ],
+    "src/sweep/blocks.cpp": [
+        ("blocks-apart", "no two blocks of a group joined by an edge", "if (other < b) taken_by[group_of[other]] = b;", ""),
+    ],
+    "src/solve/sweep_method.cpp": [
+        ("stop", "§4.6: below e", "result.residual < task.step_tolerance", "result.residual < 10 * task.step_tolerance"),
+    ],
+    "src/solve/equilibrium.cpp": [
+        ("expected-error", "expected error from the last corrections", "std::max({step * (1 + left), least_share * expected, rounding})",
+         "0.01 * std::max({step * (1 + left), least_share * expected, rounding})"),
+    ],
+    "src/solve/force_derivative.cpp": [
+        ("central-difference", "derivative of the forces", "(ahead[k] - displacement(forces_[j][k])) / (2 * step)",
+         "(ahead[k] - displacement(forces_[j][k])) / step", "Vector3"),
+    ],
+    "src/solve/spring_energy.cpp": [
+        ("flow-energy", "energy: ((t_j − t_i)/ℓ)²", "difference * difference / (d.squaredNorm() + net.tiny)", "difference * difference"),
+    ],
+    "src/levels/balance.hpp": [
+        ("lift", "transfer exact on spheres", "place.position += lift * place.normal;", ""),
+    ],
+    "src/constraints/normal_estimate.cpp": [
+        ("estimate-slope", "normal from a quadratic", "(normal - (*solution)[0] * x - (*solution)[1] * y)",
+         "(normal - (*solution)[0] * x + (*solution)[1] * y)", "Vector3"),
+        ("estimate-sphere", "e·N = c|e|² on spheres", "terms.row(k) << u / length2, v / length2, 1, (u * u - v * v) / length2, 2 * u * v / length2;",
+         "terms.row(k) << u / length2, v / length2, 0, (u * u - v * v) / length2, 2 * u * v / length2;"),
+        ("estimate-form", "the quadratic form without trace", "terms.row(k) << u / length2, v / length2, 1, (u * u - v * v) / length2, 2 * u * v / length2;",
+         "terms.row(k) << u / length2, v / length2, 1, 0, 0;"),
+    ],
+    "src/constraints/curve_directions.cpp": [
+        ("estimate-tangent", "tangent of the circle", "inverted(forward[0]) - inverted(backward[0])", "forward[0] - backward[0]", "Vector3"),
+        ("estimate-end-tangent", "tangent of the circle at an end", "Vector3(inverted(side[0]) - inverted(side[1]))", "Vector3(side[0])"),
+        ("estimate-last-tangent", "the sense of a last tangent", "forward.empty() ? -one_sided(backward) : one_sided(forward)",
+         "one_sided(forward.empty() ? backward : forward)", "Vector3"),
+    ],
+    "src/fit/point_ties.cpp": [
+        ("nearest-node", "§4.5: tied to the nearest node", "if (!(square < least) || !may_pull(k, j, margin)) continue;",
+         "if (!(square > least) || !may_pull(k, j, margin)) continue;"),
+        ("second-order", "§4.5: neighbours of second order", "around.insert(around.end(), next.begin(), next.end());", ""),
+    ],
+    "src/fit/point_factors.cpp": [
+        ("pull-by-edges", "weight of a length: λ⁴ against ρ⁴", "std::pow(mean_edge(net) / *length, 4) / 16", "std::pow(mean_edge(net) / *length, 2) / 16"),
+        ("pull-by-smoothing", "weight of a length on surfaces", "scale * count * kappa * square * square", "scale * count * kappa * square"),
+        ("pull-on-curves", "weight of a length on curves", "4 * mean_power(net, i, -3)", "8 * mean_power(net, i, -3)"),
+        ("area-per-point", "a node's share of n-gons", "area += face.norm() / nodes;", "area += face.norm();"),
+    ],
+    "src/fairness/noise.cpp": [
+        ("noise-freedom", "noise: squares over degrees of freedom", "squares / freedom / expected_square(freedom)", "squares / expected_square(freedom)"),
+        ("noise-expected", "noise: chi-square at a share", "1 - spread + quantile * std::sqrt(spread)", "1 - spread"),
+        ("noise-quadratic", "noise over a quadratic", "matrix.row(k) << 1, u, v, u * u, u * v, v * v;", "matrix.row(k) << 1, u, v, u * u, 0, v * v;"),
+    ],
+    "src/fairness/measure.cpp": [
+        ("energy-by-length", "energy: ((t_j − t_i)/ℓ)²", "d / length", "d", "Vector3"),
+        ("turn-of-flipped", "turn between faces of two senses", "neighbours_[k].same_sense ? -a.dot(b) : a.dot(b)", "a.dot(b)"),
+        ("turn-mean", "root mean square turn", "std::sqrt(turns.squares / turns.count)", "std::sqrt(turns.squares)"),
+    ],
+    "src/fairness/curvatures.cpp": [
+        ("form-frame", "two tangents at right angles", "-p * q / (e * w)", "p * q / (e * w)"),
+        ("codazzi", "covariant derivative of the form", "(third - bent / w2)", "third"),
+        ("principal-angle", "principal directions", "std::atan2(-2 * form(0, 1), form(1, 1) - form(0, 0)) / 2", "std::atan2(2 * form(0, 1), form(1, 1) - form(0, 0)) / 2"),
+        ("derivative-index", "derivative of κ₁ along e₂", "derivative(0, 0, 1)", "derivative(0, 1, 1)"),
+    ],
+    "src/fairness/measure_surface.cpp": [
+        ("node-area", "area of a node: linear functions exactly", "whole / (3 * size)", "whole / size"),
+        ("bending", "∫ κ₁² + κ₂²", "node_area * (k.k1 * k.k1 + k.k2 * k.k2)", "node_area * (k.k1 * k.k1 - k.k2 * k.k2)"),
+        ("mean-variation", "∫ |∇H|²", "(along1 * along1 + along2 * along2) / 4", "(along1 * along1 + along2 * along2) / 2"),
+        ("inline-variation", "∫ (∂κ₁/∂e₁)² + (∂κ₂/∂e₂)²", "k.k1_along_1 * k.k1_along_1 + k.k2_along_2 * k.k2_along_2",
+         "k.k1_along_1 * k.k1_along_1 + k.k2_along_1 * k.k2_along_1"),
+        ("cross-variation", "∫ (∂κ₁/∂e₂)² + (∂κ₂/∂e₁)²", "k.k1_along_2 * k.k1_along_2 + k.k2_along_1 * k.k2_along_1",
+         "k.k1_along_2 * k.k1_along_2"),
+        ("variation-scale", "the same at every size", "all.area * (all.inline_rates + all.cross_rates)", "(all.inline_rates + all.cross_rates)"),
+        ("gaussian-scale", "the same at every size", "diagonal_ * diagonal_ * all.gaussian.greatest", "diagonal_ * all.gaussian.greatest"),
+    ],
+    "src/fairness/curve_bending.cpp": [
+        ("station", "where the curvature of a circle is that of the curve", "(to_before + to_after) / 3", "(to_before + to_after) / 2"),
+        ("curve-rate", "∫ |dk/ds|²", "difference.squaredNorm() / (step * step)", "difference.squaredNorm() / step"),
+        ("curve-transport", "curvature carried along", "b.curvature - transported(a.curvature, a.tangent, b.tangent)", "b.curvature - a.curvature", "Vector3"),
+        ("curve-share", "length of an end", "k == 0 ? stations_[k].place : distance(k - 1) / 2", "k == 0 ? 0 : distance(k - 1) / 2"),
+    ],
+    "src/fairness/measure_curve.cpp": [
+        ("curve-energy", "energy: ((t_j − t_i)/ℓ)²", "(curve_spring(net, i, j) / length).squaredNorm()", "curve_spring(net, i, j).squaredNorm()"),
+    ],
+    "src/fairness/measure_curve_figures.cpp": [
+        ("curve-variation-scale", "the same at every size", "length_ * length_ * length_ * rates", "length_ * length_ * rates"),
+    ],
+    "src/fairness/mesh_quality.cpp": [
+        ("concave-angle", "angles beyond 180°", "2 * std::numbers::pi - angle", "std::numbers::pi - angle"),
+    ],
+    "src/fairness/distance.cpp": [
+        ("height-over-triangle", "distance from a triangle", "height * height / area2", "height * height"),
+        ("segment-ends", "distance from a segment", "std::clamp((point - a).dot(edge) / length2, 0.0, 1.0)", "(point - a).dot(edge) / length2"),
+    ],
+}

@@ -97,8 +97,7 @@ MUTATIONS = {
         ("point-mean", "§4.5: over Σ w_j", "net.points.factor(i) / weights", "net.points.factor(i)"),
     ],
     "src/spring/model_of.hpp": [
-        ("step-with-points", "any weight is stable in a sweep", "force.spring / (1 + force.stiffness) + force.regularisation",
-         "force.spring + force.regularisation", "Vector3"),
+        ("step-with-points", "any weight is stable in a sweep", "forces_ == Forces::printed ? 1 : 1 + force.stiffness", "1"),
         ("relative-step", "§4.6: displacement over the mean edge", "displacement.norm() / force.mean_edge", "displacement.norm()"),
         ("step-not-finite", "§4.6: what is no number is no end", "std::isfinite(step) ? step : std::numeric_limits<double>::infinity()", "step"),
     ],

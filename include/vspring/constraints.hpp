@@ -110,11 +110,12 @@ void fix_boundary_tangents(Constraints& constraints, const PolygonCurve& curve);
 /// that are not finite do not count. Throws Error(unusable_constraint) for constraints of fewer nodes. Cost: linear.
 [[nodiscard]] bool lies_in_a_plane(const PolygonCurve& curve, const Constraints& constraints);
 
-/// Only the nodes of `region` may move: all others are fixed where the mesh has them. Their neighbours among
-/// the fixed nodes (the rim) get the tangent planes of the faces without a moving node, to second order, so that the
-/// faired patch meets the rest smoothly. A rim node without such a face keeps its normal free: the patch turns about
-/// it. What `constraints` says already about nodes of the region stays. Throws Error(unusable_constraint) naming a node
-/// out of range. Cost: linear.
+/// Only the nodes of `region` may move: all others are fixed where the mesh has them. Normals of their neighbours among
+/// the fixed nodes (the rim) are computed from all faces around these, moving or not, so that the faired patch meets
+/// the rest smoothly. Those at the boundary of the mesh, which have faces on one side only, get the tangent planes of
+/// the faces without a moving node, to second order; without such a face the normal stays free: the patch turns about
+/// the node. What `constraints` says already about nodes of the region stays. Throws Error(unusable_constraint) naming
+/// a node out of range. Cost: linear.
 void restrict_to_region(Constraints& constraints, const PolygonMesh& mesh, std::span<const Index> region);
 
 /// The same for a curve: the rim gets the tangents of what lies outside.

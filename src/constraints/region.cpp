@@ -125,9 +125,12 @@ void restrict_to_region(Constraints& constraints, const PolygonMesh& mesh, std::
       if (moves(b) && !moves(a)) rim[static_cast<std::size_t>(a)] = 1;
     }
   }
+  // With faces all round, those that move tell more of the normal than an estimate from one side.
+  const std::vector<std::uint8_t> boundary = boundary_nodes(mesh);
   std::vector<Index> rim_nodes;
   for (Index i = 0; i < mesh.node_count(); ++i) {
-    if (rim[static_cast<std::size_t>(i)] != 0 && !restricted.normal_fixed(i)) rim_nodes.push_back(i);
+    const auto node = static_cast<std::size_t>(i);
+    if (rim[node] != 0 && boundary[node] != 0 && !restricted.normal_fixed(i)) rim_nodes.push_back(i);
   }
   fix_estimated(restricted, mesh, rim_nodes, outer_face);
   constraints = std::move(restricted);

@@ -75,6 +75,7 @@ Net coarse_net(const Net& fine, const Selection& selection, const Triangulation&
 std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distribution distribution, ThreadTeam& team) {
   // Coarser levels do not keep a distribution: that of a coarse one may ask for faces that turn over.
   std::vector<Vector3> places;
+  if (distribution == Distribution::smooth && !tells_spacing(net, team)) distribution = Distribution::even;
   if (distribution != Distribution::even) places = smooth_places(net, team);
   if (distribution == Distribution::smooth) {
     net.shares = shares_at(net, places, team);

@@ -19,7 +19,7 @@ void distribute(Net& net, const Model& model, Distribution distribution, ThreadT
   net.shares.clear();
   if (distribution == Distribution::even) return;
   if (distribution == Distribution::smooth) {
-    net.shares = shares_at(net, smooth_places(net, team), team);
+    if (!net.tangents.empty() || tells_spacing(net, team)) net.shares = shares_at(net, smooth_places(net, team), team);
     return;
   }
   update_directions(net, model, team);

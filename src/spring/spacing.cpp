@@ -1,6 +1,7 @@
 #include "spring/spacing.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -14,6 +15,14 @@ namespace vspring {
 namespace {
 
 constexpr int sweeps = 10;
+// Where noise has turned over more than this share of all corners it is about as long as edges: then these are too
+// few.
+constexpr double often_turned = 0.12;
+constexpr int sweeps_where_turned = 160;
+// And where it has turned over more than this, it is longer than two of them.
+constexpr double about_all_turned = 0.21;
+// The sine of the angle from which on a corner counts.
+constexpr double turned_sine = 0.2;
 constexpr int stretch_passes = 4;
 // Of shares that go by the inverse squares of distances. Nodes that lie beside their neighbours, or on a line with two
 // of them, would else be held by next to nothing on some side.
@@ -195,13 +204,65 @@ void turn_bricks_to_hexagons(const Net& net, std::vector<Vector3>& places) {
   for (const auto& [i, place] : moved) places[i] = place;
 }
 
+/// Corners of faces, and how many of them are turned over against all corners at their node together.
+struct Corners {
+  std::size_t count = 0;
+  std::size_t turned = 0;
+};
+
+/// At a node with faces all around. sines: room for those of its corners, along their normals.
+Corners corners_at(const Net& net, std::size_t i, std::vector<Vector3>& sines) {
+  const auto links = net.rings.links(i);
+  if (is_open(links)) return {};
+  const std::vector<Vector3>& places = input_places(net);
+  sines.clear();
+  Vector3 sum = Vector3::Zero();
+  const auto first = static_cast<std::size_t>(
+      std::find_if(links.begin(), links.end(), [](Link link) { return link.spoke(); }) - links.begin());
+  Vector3 before = Vector3::Zero();
+  for (std::size_t k = first; k <= first + links.size(); ++k) {
+    const Link link = links[k % links.size()];
+    if (!link.spoke()) continue;
+    const Vector3 way = places[link.node()] - places[i];
+    if (k > first) {
+      const Vector3 area = before.cross(way);
+      sum += area;
+      sines.emplace_back(area / (std::sqrt(before.squaredNorm() * way.squaredNorm()) + net.tiny));
+    }
+    before = way;
+  }
+  // Corners of bricks may be straight: the least noise turns them over, and means nothing.
+  const double least = -turned_sine * sum.norm();
+  const auto turned =
+      std::count_if(sines.begin(), sines.end(), [&](const Vector3& sine) { return sine.dot(sum) < least; });
+  return {sines.size(), static_cast<std::size_t>(turned)};
+}
+
+/// The share of corners in the input that are turned over: a third to two fifths where places are nothing but noise.
+double share_turned_over(const Net& net, ThreadTeam& team) {
+  std::atomic<std::size_t> count = 0;
+  std::atomic<std::size_t> turned = 0;
+  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    std::vector<Vector3> sines;
+    Corners all;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Corners corners = corners_at(net, i, sines);
+      all.count += corners.count;
+      all.turned += corners.turned;
+    }
+    count += all.count;
+    turned += all.turned;
+  });
+  return count > 0 ? static_cast<double>(turned) / static_cast<double>(count) : 0;
+}
+
 }  // namespace
 
 std::vector<Vector3> smooth_places(const Net& net, ThreadTeam& team) {
   const std::vector<double> weights = net.tangents.empty() ? sweep_weights(net, team) : even_weights(net);
   std::vector<Vector3> places = input_places(net);
   std::vector<Vector3> next = places;
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
+  const auto sweep = [&] {
     parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const auto links = net.rings.links(i);
@@ -212,10 +273,14 @@ std::vector<Vector3> smooth_places(const Net& net, ThreadTeam& team) {
       }
     });
     places.swap(next);
-  }
+  };
+  const bool is_crumpled = net.tangents.empty() && share_turned_over(net, team) > often_turned;
+  for (int done = 0; done < (is_crumpled ? sweeps_where_turned : sweeps); ++done) sweep();
   if (net.tangents.empty()) turn_bricks_to_hexagons(net, places);
   return places;
 }
+
+bool tells_spacing(const Net& net, ThreadTeam& team) { return share_turned_over(net, team) <= about_all_turned; }
 
 void even_shares(const Net& net, std::size_t i, const Vector3& normal, std::span<const Vector3> places,
                  std::span<double> shares) {

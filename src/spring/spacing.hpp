@@ -12,8 +12,13 @@ namespace vspring {
 /// Where the nodes of a surface's net lie in the input once its noise is taken out of their spacing: after some sweeps
 /// to the mean of neighbours, which count by the inverse square of how long the mesh is towards them. Held nodes stay.
 /// Rough spacing goes within some three edges; aspects and gradings of cells stay, so the shape of a lathe does not
-/// sink between wide cells. Bricks become hexagons. Cost: linear; the same result on any number of threads.
+/// sink between wide cells. Where noise is so long that it has turned many faces over, there are more sweeps. Bricks
+/// become hexagons. Cost: linear; the same result on any number of threads.
 std::vector<Vector3> smooth_places(const Net& net, ThreadTeam& team);
+
+/// Whether the input of a surface's net tells how nodes are to be spaced: noise of several edges turns
+/// faces over as it likes, and leaves nothing of it. Cost: linear.
+bool tells_spacing(const Net& net, ThreadTeam& team);
 
 /// Of all shares of sum 1 that leave a node in its place among its neighbours, across the normal, those nearest to even
 /// ones: share_j = 1/m − (d_j − mean)·a. Aligned with the links of the node, zero where a link is no spoke. Shares of a

@@ -164,5 +164,28 @@ TEST(Spacing, IsTheSameOnAnyNumberOfThreads) {
   EXPECT_EQ(shares_at(net, places, alone), shares_at(net, places, four));
 }
 
+TEST(Spacing, NoiseOfEdgesIsSweptOutAndOfSeveralEdgesLeavesNothingToKeep) {
+  ThreadTeam team(2);
+  for (const Faces faces : every_kind) {
+    SCOPED_TRACE(static_cast<int>(faces));
+    const int cells = 30;
+    const PolygonMesh plane = generate::plane({.columns = cells, .rows = cells, .faces = faces});
+    const auto disturbed = [&](double edges) { return net_of(generate::add_noise(plane, edges / cells, 5)); };
+    EXPECT_TRUE(tells_spacing(net_of(plane), team));
+    EXPECT_TRUE(tells_spacing(disturbed(0.3), team));
+    EXPECT_FALSE(tells_spacing(disturbed(6), team));
+    const Net noisy = disturbed(1.4);
+    ASSERT_TRUE(tells_spacing(noisy, team));
+    const std::vector<Vector3> places = smooth_places(noisy, team);
+    double least = 1;
+    for (std::size_t i = 0; i < noisy.moving; ++i) {
+      for (const Link link : noisy.rings.links(i)) {
+        if (link.spoke()) least = std::min(least, (places[link.node()] - places[i]).norm() / noisy.frame.scale());
+      }
+    }
+    EXPECT_GT(least, 0.3 / cells);
+  }
+}
+
 }  // namespace
 }  // namespace vspring::spacing_test

@@ -40,13 +40,13 @@ void run(const std::string& path, const std::filesystem::path& out, std::ofstrea
       const std::string row = fmt::format("| {} | {:.0f} % | {} |", std::filesystem::path(path).filename().string(),
                                           100 * share, region.seed);
       try {
-        const FairResult result = fair(mesh, hold_all_but(region, mesh), {.method = Method::sweep});
+        const FairResult result = fair(mesh, hold_all_but(region, mesh));
         const FairReport& report = result.report;
-        fmt::print("{} {} | {} | {} | {:.3f} | {:.3g} → {:.3g} | {:.0f} → {:.0f} | {:.1f} → {:.1f} | {:.2f} % |\n", row,
-                   report.moving_nodes, name(report.outcome), report.iterations, report.seconds,
-                   report.before.vspring_energy, report.after.vspring_energy, report.before.greatest_turn,
-                   report.after.greatest_turn, report.before.mean_turn, report.after.mean_turn,
-                   100 * report.greatest_move / size);
+        fmt::print("{} {} | {} | {} | {} | {:.3f} | {:.3g} → {:.3g} | {:.0f} → {:.0f} | {:.1f} → {:.1f} | {:.2f} % |\n",
+                   row, report.moving_nodes, name(report.outcome), name(report.springs), report.iterations,
+                   report.seconds, report.before.vspring_energy, report.after.vspring_energy,
+                   report.before.greatest_turn, report.after.greatest_turn, report.before.mean_turn,
+                   report.after.mean_turn, 100 * report.greatest_move / size);
         if (!out.empty()) {
           const std::string name = fmt::format("{}-{:.0f}-{}", stem, 100 * share, run + 1);
           (void)write_surface(out / (name + "-before.ply"), mesh);
@@ -56,7 +56,7 @@ void run(const std::string& path, const std::filesystem::path& out, std::ofstrea
           add_view(views, name, mesh, region);
         }
       } catch (const Error& error) {
-        fmt::print("{} | refused: {} | | | | | | |\n", row, error.what());
+        fmt::print("{} | refused: {} | | | | | | | |\n", row, error.what());
       }
     }
   }
@@ -75,9 +75,9 @@ int main(int argc, char** argv) {
   std::ofstream views;
   if (!out.empty()) views.open(out / "views.txt");
   fmt::print(
-      "| mesh | radius | seed node | moving nodes | outcome | iterations | seconds | V-Spring energy | greatest turn, "
-      "° | rms turn, ° | largest move, of the diagonal |\n");
-  fmt::print("|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "| mesh | radius | seed node | moving nodes | outcome | springs | iterations | seconds | V-Spring energy | "
+      "greatest turn, ° | rms turn, ° | largest move, of the diagonal |\n");
+  fmt::print("|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (int k = first; k < argc; ++k) run(argv[k], out, views);
   return 0;
 }

@@ -75,6 +75,8 @@ int main() {
       const Problem problem = shape.make(halvings);
       FairOptions options;
       options.method = Method::equilibrium;
+      options.springs = Springs::edge;
+      options.distribution = Distribution::even;
       options.tolerance = 1e-8;
       const FairResult equilibrium = fair(problem.start, problem.constraints, options);
       const auto from_closed_form = [&](const std::vector<Vector3>& positions) {

@@ -17,7 +17,7 @@ inline NodeForce surface_force(const Net& net, std::size_t i, Forces forces = Fo
   const auto from_neighbours = [&]<SpringKind kind>(std::integral_constant<SpringKind, kind>) {
     return node_force<kind>(i, links, net.positions, net.normals, net.shares_of(i), net.tiny);
   };
-  const auto of_neighbours = [&]() -> NodeForce {
+  const auto between_neighbours = [&]() -> NodeForce {
     if (net.spheres.on() && !links.empty() && !links.front().start()) {
       NodeForce force = from_neighbours(std::integral_constant<SpringKind, SpringKind::other>());
       force.spring = sphere_force(net, i) * net.normals[i];
@@ -26,7 +26,7 @@ inline NodeForce surface_force(const Net& net, std::size_t i, Forces forces = Fo
     if (forces == Forces::printed) return from_neighbours(std::integral_constant<SpringKind, SpringKind::printed>());
     return from_neighbours(std::integral_constant<SpringKind, SpringKind::steady>());
   };
-  NodeForce force = of_neighbours();
+  NodeForce force = between_neighbours();
   if (net.homes.empty()) return force;
   const Vector3 home = net.homes[i] - net.positions[i];
   const Vector3 across = home - home.dot(net.normals[i]) * net.normals[i];

@@ -35,7 +35,7 @@ std::vector<Case> cases() {
       {"a.csv", "x,y,z\n0,0,0\n# c\n1,1\n", ":4: the line ends where z belongs; repair the line"},
       {"a.csv", "x,y\n0,0\n1,", ":3: nothing stands where y belongs; repair the line"},
       {"a.csv", "x,y\n0,0\n1", ":3: the file ends where y belongs; it is cut off"},
-      {"a.csv", "x,y\nmm,mm\n0,0\n", ":2: 'mm' stands where x belongs"},
+      {"a.csv", "x,y\nmm,mm\nof,it\n0,0\n", ":2: 'mm' stands where x belongs"},
       {"a.csv", "x,y\n", no_rows},
       {"a.csv", "\n \n", no_rows},
       {"a.csv", "# x\n", no_rows},

@@ -33,7 +33,8 @@ struct FairOptions {
   Forces forces = Forces::steady;
   /// Of curves.
   CurveRules curve = {};
-  /// Where not given: smooth; of curves, and of multigrid and sweep if they are asked for, even.
+  /// Where not given: smooth, and even where that finds no equilibrium; of curves, and of multigrid and sweep if they
+  /// are asked for, even.
   std::optional<Distribution> distribution = std::nullopt;
   /// Of surfaces: boundary nodes whose position is free are faired first, as the closed curves that they form between
   /// the held ones (§4.5), and stay there while the surface follows. Else they are drawn in with the surface.
@@ -45,8 +46,9 @@ struct FairOptions {
   /// mean length of its edges.
   double step_tolerance = 1e-3;
   /// Where not given: 10,000 sweeps, with multigrid on each level; 200 iterations of the equilibrium solver on each of
-  /// its levels and no more than FairReport::most_work, and on surfaces where these lead nowhere steps along the flow
-  /// of the plain iteration.
+  /// its levels (30 on the finest with sphere springs that are not near by then) and no more than
+  /// FairReport::most_work, with a third more for an even distribution, and on surfaces where these lead nowhere steps
+  /// along the flow of the plain iteration.
   std::optional<int> max_iterations = std::nullopt;
   /// Multigrid: levels, the shape itself among them; fewer where that has too few nodes. Where not given: 6 as in the
   /// paper, but fewer where the coarsest would have under 60 moving nodes, and more where there are enough for another;

@@ -36,6 +36,9 @@ bool was_found(const FairReport& report) {
   return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
 }
 
+// On each level, of an even distribution where that of the input leads nowhere: the coarsest may need two starts.
+constexpr int iterations_of_a_try = 100;
+
 /// For springs that others take over from.
 FairOptions for_a_try(FairOptions options) {
   options.as_found = true;
@@ -137,8 +140,10 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   report.threads = team_.size();
   before_ = measure(mesh(), &held(constraints), team_);
   if (report.method == Method::equilibrium) {
+    const FairReport at_first = report;
     run_with(options.springs, constraints, context, progress, report, options);
     if (was_found(report) || options.method || options.max_iterations || options.as_found) return {};
+    if (!options.distribution && try_evenly(constraints, context, progress, at_first, report)) return {};
     try_sweeps(constraints, context, progress, report);
     return {};
   }
@@ -171,15 +176,41 @@ void SurfaceFairing::run_with(Springs springs, const Constraints& constraints, C
                   &*soundness_);
   one.springs = springs;
   if (!is_try || was_found(one)) {
-    one.iterations += report.iterations;
-    one.work += report.work;
     report = std::move(one);
     return;
   }
-  report.iterations += one.iterations;
-  report.work += one.work;
+  report.iterations = one.iterations;
+  report.work = one.work;
   run_with(Springs::edge, constraints, context, progress, report, options);
   report.warnings.emplace_back("sphere springs have no equilibrium here: these are edge springs");
+}
+
+bool SurfaceFairing::try_evenly(const Constraints& constraints, Context& context, ProgressReporter& progress,
+                                const FairReport& at_first, FairReport& report) {
+  const std::vector<Vector3> nearest = hierarchy_->net(hierarchy_->count() - 1).positions;
+  FairOptions options = options_;
+  options.distribution = Distribution::even;
+  options.max_iterations = iterations_of_a_try;
+  options.as_found = true;
+  FairReport even = at_first;
+  even.iterations = report.iterations;
+  even.work = report.work;
+  run_with(options.springs, constraints, context, progress, even, options);
+  if (was_found(even)) {
+    even.most_work = report.most_work;
+    report = std::move(even);
+    if (report.outcome == Outcome::cancelled) return true;
+    report.warnings.emplace_back(
+        "with the spacing of the input no equilibrium was found: nodes go to the mean of their neighbours");
+    return true;
+  }
+  report.iterations = even.iterations;
+  report.work = even.work;
+  Net net = gather_part(*whole_, part_, constraints);
+  hierarchy_.reset();
+  hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
+  hierarchy_->net(hierarchy_->count() - 1).positions = nearest;
+  return false;
 }
 
 void SurfaceFairing::try_sweeps(const Constraints& constraints, Context& context, ProgressReporter& progress,

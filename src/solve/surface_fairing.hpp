@@ -42,6 +42,10 @@ class SurfaceFairing {
   /// The same by the method equilibrium with such springs.
   void run_with(Springs springs, const Constraints& constraints, Context& context, ProgressReporter& progress,
                 FairReport& report, const FairOptions& options);
+  /// Where no equilibrium was found: one with another distribution may be. Else the nearest shape stays. at_first: the
+  /// report before anything was tried.
+  bool try_evenly(const Constraints& constraints, Context& context, ProgressReporter& progress,
+                  const FairReport& at_first, FairReport& report);
   /// Where no equilibrium was found and nobody asked for the method: the paper's iteration may lead somewhere. The
   /// fairer of both stays.
   void try_sweeps(const Constraints& constraints, Context& context, ProgressReporter& progress, FairReport& report);

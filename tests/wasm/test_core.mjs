@@ -124,9 +124,10 @@ test('what holds a region is what --region holds, and curvatures are those of --
   const path = generated('saddle.ply', 'saddle', '--columns', '14', '--rows', '14', '--noise', '0.01');
   const surface = opened(path, 'saddle.ply');
   const nodes = Int32Array.of(80, 81, 82, 94, 95, 96, 108, 109, 110, 111);
-  const { fixed, rim, normals } = surface.region(nodes);
-  surface.setRules(JSON.stringify({ rules: [...JSON.parse(rules).rules, { nodes: [...fixed], position: 'fixed' },
-    { nodes: [...rim], normal: Array.from(rim, (_, k) => [...normals.subarray(3 * k, 3 * k + 3)]) }] }));
+  const { fixed, rim } = surface.region(nodes);
+  // With faces all round, normals of the rim follow from these.
+  assert.equal(rim.length, 0);
+  surface.setRules(JSON.stringify({ rules: [...JSON.parse(rules).rules, { nodes: [...fixed], position: 'fixed' }] }));
   surface.fair(null);
   writeFileSync(join(folder, 'region.json'), JSON.stringify([...nodes]));
   const fair = join(folder, 'region.ply');
@@ -135,6 +136,12 @@ test('what holds a region is what --region holds, and curvatures are those of --
   assert.ok(greatestDistance(surface.positions(), expected.positions()) < 1e-6);
   assert.ok(greatestDistance(surface.positions(), opened(path, 'saddle.ply').positions()) > 1e-3);
   assert.throws(() => surface.region(Int32Array.of(-1)), /node -1 does not exist/);
+  // Nodes 0 to 14 are on the boundary.
+  const free = opened(path, 'saddle.ply');
+  const there = free.region(Int32Array.of(6, 7, 8));
+  free.delete();
+  assert.deepEqual([...there.rim], [5, 9]);
+  assert.equal(there.normals.length, 6);
 
   const scalars = join(folder, 'scalars.vtp');
   native('measure', fair, '--scalars', scalars);

@@ -77,7 +77,9 @@ class Solver {
     };
     bool limited = false;
     int last_changes = 0;
-    while (result.iterations < task.max_iterations) {
+    const int most_while_far = task.most_while_far.value_or(task.max_iterations);
+    while (result.iterations < task.max_iterations &&
+           (result.iterations < most_while_far || best.residual() < task.near)) {
       if (context.cancelled()) {
         result.outcome = Outcome::cancelled;
         break;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
@@ -15,6 +16,9 @@ namespace vspring {
 struct EquilibriumTask {
   double tolerance = 1e-5;  ///< expected largest distance of a node from its final place, in the net's coordinates
   int max_iterations = 200;
+  /// From so many iterations on it goes on only where it has been nearer than that; else to max_iterations.
+  std::optional<int> most_while_far = std::nullopt;
+  double near = 0;
   /// Called after every iteration with the expected distance.
   std::function<void(double)> on_iteration = nullptr;
   /// Ties scattered points to the nodes that are nearest by now, but for a margin, see PointTies::renew().

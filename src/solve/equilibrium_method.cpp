@@ -352,13 +352,7 @@ class Run {
            report_.outcome == Outcome::work_limit;
   }
 
-  void relax(std::size_t level, int max_iterations) {
-    if (options_.max_iterations || !hierarchy_.net(level).spheres.on())
-      return relax(level, max_iterations, hierarchy_.preconditioner(level));
-    relax(level, std::min(max_iterations, sphere_limit), hierarchy_.preconditioner(level));
-    if (report_.outcome == Outcome::iteration_limit && report_.residual < sphere_is_near)
-      relax(level, max_iterations, hierarchy_.preconditioner(level));
-  }
+  void relax(std::size_t level, int max_iterations) { relax(level, max_iterations, hierarchy_.preconditioner(level)); }
 
   void relax(std::size_t level, int max_iterations, Preconditioner& preconditioner) {
     relax(level, max_iterations, 1, [&](const EquilibriumTask& task) {
@@ -376,6 +370,10 @@ class Run {
     EquilibriumTask task;
     task.tolerance = options_.tolerance * size_ * (level == last ? 1 : coarse_share);
     task.max_iterations = max_iterations;
+    if (net.spheres.on() && !options_.max_iterations) {
+      task.most_while_far = sphere_limit;
+      task.near = sphere_is_near * size_;
+    }
     if (report_.most_work > 0) {
       const double left = (report_.most_work - report_.work) / (work * static_cast<double>(net.moving));
       task.max_iterations = static_cast<int>(std::clamp(left, 0.0, static_cast<double>(max_iterations)));

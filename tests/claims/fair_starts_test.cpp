@@ -142,5 +142,21 @@ TEST(Starts, CurvesForgetTheirs) {
   }
 }
 
+TEST(Starts, WhereTheSpacingOfTheInputLeadsNowhereAnEvenOneMay) {
+  // A spike six times as high as the square that it stands on is wide; nearly flat is fair.
+  const PolygonMesh plane = generate::plane({.columns = 24, .rows = 24});
+  std::vector<Vector3> spike = plane.positions();
+  for (Vector3& p : spike) p.z() = 6 * std::exp(-30 * (p - Vector3(0.5, 0.5, 0)).squaredNorm());
+  const PolygonMesh mesh = with_positions(plane, spike);
+  const FairResult result = fair(mesh, clamped_boundary(mesh));
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  ASSERT_FALSE(result.report.warnings.empty());
+  EXPECT_NE(result.report.warnings.back().find("go to the mean of their neighbours"), std::string::npos);
+  double highest = 0;
+  for (const Vector3& p : result.positions) highest = std::max(highest, std::abs(p.z()));
+  EXPECT_LT(highest, 0.1);
+  EXPECT_LT(result.report.work, 4.0 / 3 * result.report.most_work);
+}
+
 }  // namespace
 }  // namespace vspring::fair_starts_test

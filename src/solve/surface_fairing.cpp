@@ -178,7 +178,9 @@ void SurfaceFairing::run_with(Springs springs, const Constraints& constraints, C
   run_equilibrium(*hierarchy_, *model_, is_try ? for_a_try(options) : options, team_, context, progress, one,
                   &*soundness_);
   one.springs = springs;
-  if (!is_try || was_found(one) || one.expected_error.value_or(1) < as_near_as_rounding) {
+  const bool is_there =
+      one.outcome != Outcome::worse_than_input && one.expected_error.value_or(1) < as_near_as_rounding;
+  if (!is_try || was_found(one) || is_there) {
     report = std::move(one);
     return;
   }

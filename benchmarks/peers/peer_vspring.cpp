@@ -33,8 +33,7 @@ int main(int argc, char** argv) {
         const Constraints constraints = variant == "sphere"  ? support::held_boundary(mesh, support::radial)
                                         : variant == "rings" ? hold_rings(mesh)
                                                              : support::clamped_boundary(mesh);
-        FairOptions options;
-        options.method = Method::equilibrium;
+        const FairOptions options;
         Context context;
         context.threads = threads;
         FairResult result;

@@ -136,12 +136,6 @@ test('what holds a region is what --region holds, and curvatures are those of --
   assert.ok(greatestDistance(surface.positions(), expected.positions()) < 1e-6);
   assert.ok(greatestDistance(surface.positions(), opened(path, 'saddle.ply').positions()) > 1e-3);
   assert.throws(() => surface.region(Int32Array.of(-1)), /node -1 does not exist/);
-  // Nodes 0 to 14 are on the boundary.
-  const free = opened(path, 'saddle.ply');
-  const there = free.region(Int32Array.of(6, 7, 8));
-  free.delete();
-  assert.deepEqual([...there.rim], [5, 9]);
-  assert.equal(there.normals.length, 6);
 
   const scalars = join(folder, 'scalars.vtp');
   native('measure', fair, '--scalars', scalars);

@@ -30,6 +30,7 @@ struct FairOptions {
   /// boundary moves, which are held so little that spheres of many sizes are fair, or with a normal that is given where
   /// nodes move on more sides than one; and, with a warning, those of which sphere springs find no equilibrium.
   Springs springs = Springs::sphere;
+  /// Printed ones are for comparisons with the paper.
   Forces forces = Forces::steady;
   /// Of curves.
   CurveRules curve = {};

@@ -156,7 +156,7 @@ class Fitting {
       return;
     }
     if (report.method == Method::multigrid) {
-      cycle(std::move(points), progress);
+      (void)run_on_levels(std::move(points), progress);
       return;
     }
     if constexpr (std::is_same_v<Subject, FitSurface>) {
@@ -169,7 +169,7 @@ class Fitting {
       FitToTolerance<Subject>(run_).fit(std::move(points), progress, smooth);
       return;
     }
-    const bool has_homes = go_to_equilibrium(std::move(points), progress);
+    const bool has_homes = run_on_levels(std::move(points), progress);
     const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
     if (found || options_.fair.method || options_.fair.max_iterations || options_.fair.as_found) return;
     // Nobody asked for this method: the paper's iteration ends where points crumple a shape, too.
@@ -204,22 +204,18 @@ class Fitting {
     run_.result = std::move(*nearest);
   }
 
-  /// Returns whether nodes have homes.
-  bool go_to_equilibrium(LoosePoints points, ProgressReporter& progress) {
+  /// By equilibrium or multigrid. Returns whether nodes have homes.
+  bool run_on_levels(LoosePoints points, ProgressReporter& progress) {
     auto gathered = run_.gather_start();
     const auto smoothing = smoothing_in(net_of(gathered));
     PulledShape shape(std::move(gathered), options_.fair, std::move(points), smoothing, run_.team);
-    shape.find(run_.context, progress, run_.result.report.fair);
+    FairReport& report = run_.result.report.fair;
+    if (report.method == Method::multigrid)
+      shape.cycle(run_.context, progress, report);
+    else
+      shape.find(run_.context, progress, report);
     run_.finish(shape.net());
     return !shape.net().homes.empty();
-  }
-
-  void cycle(LoosePoints points, ProgressReporter& progress) {
-    auto gathered = run_.gather_start();
-    const auto smoothing = smoothing_in(net_of(gathered));
-    PulledShape shape(std::move(gathered), options_.fair, std::move(points), smoothing, run_.team);
-    shape.cycle(run_.context, progress, run_.result.report.fair);
-    run_.finish(shape.net());
   }
 
   void sweep(LoosePoints points, FairOptions options, ProgressReporter& progress) {

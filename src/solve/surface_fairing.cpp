@@ -36,11 +36,17 @@ bool was_found(const FairReport& report) {
   return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
 }
 
-// On each level, of an even distribution where that of the input leads nowhere: the coarsest may need two starts.
-constexpr int iterations_of_a_try = 100;
-
 // As a share of the diagonal: for smaller tolerances rounding may have the last word.
 constexpr double as_near_as_rounding = 1e-9;
+
+/// Whether nothing else need be tried: it was found, or as nearly as rounding lets it be.
+bool is_settled(const FairReport& report) {
+  return was_found(report) ||
+         (report.outcome != Outcome::worse_than_input && report.expected_error.value_or(1) < as_near_as_rounding);
+}
+
+// On each level, of an even distribution where that of the input leads nowhere: the coarsest may need two starts.
+constexpr int iterations_of_a_try = 100;
 
 /// For springs that others take over from.
 FairOptions for_a_try(FairOptions options) {
@@ -145,7 +151,7 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   if (report.method == Method::equilibrium) {
     const FairReport at_first = report;
     run_with(options.springs, constraints, context, progress, report, options);
-    if (was_found(report) || options.method || options.max_iterations || options.as_found) return {};
+    if (is_settled(report) || options.method || options.max_iterations || options.as_found) return {};
     if (!options.distribution && try_evenly(constraints, context, progress, at_first, report)) return {};
     try_sweeps(constraints, context, progress, report);
     return {};
@@ -178,9 +184,7 @@ void SurfaceFairing::run_with(Springs springs, const Constraints& constraints, C
   run_equilibrium(*hierarchy_, *model_, is_try ? for_a_try(options) : options, team_, context, progress, one,
                   &*soundness_);
   one.springs = springs;
-  const bool is_there =
-      one.outcome != Outcome::worse_than_input && one.expected_error.value_or(1) < as_near_as_rounding;
-  if (!is_try || was_found(one) || is_there) {
+  if (!is_try || is_settled(one)) {
     report = std::move(one);
     return;
   }

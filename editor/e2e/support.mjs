@@ -17,7 +17,10 @@ export function native(...options) {
 }
 
 // Software drawing, as where there is no graphics card, the same on every machine. The sandbox needs rights that containers lack; the pages are our own.
-const flags = ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--force-device-scale-factor=1'];
+export const launch = {
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--disable-gpu', '--enable-unsafe-swiftshader', '--disable-dev-shm-usage', '--force-device-scale-factor=1'],
+};
 
 export class Session {
   // shared: whether page and worker may share memory. without: a file of the editor that the server does not have.
@@ -26,7 +29,7 @@ export class Session {
     session.folder = mkdtempSync(join(tmpdir(), 'vspring-editor-'));
     session.server = await serve({ '/': join(root, 'build/editor'), '/files/': session.folder, ...(without && { [`/${without}`]: '/' }) }, 0, shared);
     session.address = `http://127.0.0.1:${session.server.address().port}/`;
-    session.browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: flags });
+    session.browser = await (process.env.VSPRING_BROWSER ? chromium.connect(process.env.VSPRING_BROWSER) : chromium.launch(launch));
     return session;
   }
 
@@ -127,9 +130,15 @@ export async function find(page, pattern, from, to) {
   throw new Error(`nothing between ${from} and ${to} is ${pattern}`);
 }
 
+const downloads = mkdtempSync(join(tmpdir(), 'vspring-downloads-'));
+let files = 0;
+process.on('exit', () => rmSync(downloads, { recursive: true }));
+
 export async function downloaded(page, press) {
   const [download] = await Promise.all([page.waitForEvent('download'), press()]);
-  return { name: download.suggestedFilename(), path: await download.path() };
+  const path = join(downloads, String(files++));
+  await download.saveAs(path); // a browser that is shared may be elsewhere for all that Playwright knows, and then tells no path of its own
+  return { name: download.suggestedFilename(), path };
 }
 
 export async function rulesOf(page) {

@@ -20,7 +20,7 @@ namespace {
 // Of a piece, in all, from which it may have to be kept from unwinding.
 constexpr double least_turn = std::numbers::pi;
 // The same in space, where a bump that should go turns as well.
-constexpr double least_turn_in_space = 1.5 * std::numbers::pi;
+constexpr double least_turn_in_space = 1.25 * std::numbers::pi;
 // Nodes of a piece that its five numbers are looked for with.
 constexpr std::size_t enough_nodes = 120;
 constexpr double sharpest_turn = 1.8;
@@ -33,8 +33,11 @@ constexpr int enough_corrections = 12;
 constexpr double small = 0.1;
 constexpr double closed = 1e-10;
 constexpr double nearly_closed = 1e-7;
-// In the plane the sum of all turns tells how often a piece winds.
+// In the plane the sum of all turns tells how often a piece winds; where it winds as often but elsewhere, to and fro
+// or in a knot at one end, it is bent more and far off, in its lengths.
 constexpr double same_winding = 1;
+constexpr double bent_elsewhere = 1;
+constexpr double far_off = 0.05;
 // In space, of what it turned by and of what it was bent by.
 constexpr double less_winding = 0.7;
 constexpr double more_bending = 1.5;
@@ -109,7 +112,7 @@ class Piece {
     for (std::size_t k = 0; k < turns_.size(); ++k) {
       const double before = k > 0 ? even_[k - 1] : 0;
       const double after = k < even_.size() ? even_[k] : 0;
-      shares_.push_back((before + after) / 2 / size_);
+      shares_.push_back(size_ > 0 ? (before + after) / 2 / size_ : 0);
       at_.push_back((along[k] - along.front()) / whole - 0.5);
       mean_ += turns_[k];
       slope_ += 12 * at_[k] * turns_[k];
@@ -137,10 +140,12 @@ class Piece {
     return sum;
   }
 
-  /// Whether another piece with the same ends winds less often, or is bent more.
+  /// Whether another piece with the same ends winds less often, or elsewhere.
   [[nodiscard]] bool unwinds_to(const Piece& other) const {
-    if (is_flat_) return (other.winding_ - winding_).norm() > same_winding;
-    return other.winding_.norm() < less_winding * winding_.norm() || other.bending() > more_bending * bending();
+    if (!is_flat_)
+      return other.winding_.norm() < less_winding * winding_.norm() || other.bending() > more_bending * bending();
+    return (other.winding_ - winding_).norm() > same_winding ||
+           (other.bending() > bent_elsewhere * bending() && distance(other) > far_off * size_);
   }
 
   /// Constant and linear turn, over the whole piece, and the logarithm of how many times as long as the input it is.
@@ -150,13 +155,14 @@ class Piece {
   [[nodiscard]] std::optional<Unknowns> nearest() const {
     std::optional<Unknowns> best;
     double least = std::numeric_limits<double>::infinity();
+    const std::vector<Vector3> spread = spread_places();
     for (const Unknowns& start : starts()) {
       const std::optional<Unknowns> found = close(start, most_corrections);
       if (!found) continue;
       if (is_flat_ && std::abs((*found)[0] - mean_[0]) > same_winding) continue;
       const std::vector<Vector3> places = bent(*found).places;
       double squares = 0;
-      for (std::size_t k = 0; k < places.size(); ++k) squares += (places[k] - places_[k]).squaredNorm();
+      for (std::size_t k = 0; k < places.size(); ++k) squares += (places[k] - spread[k]).squaredNorm();
       if (squares >= least) continue;
       least = squares;
       best = found;
@@ -179,14 +185,47 @@ class Piece {
   void for_each_part(const Look& look) const {
     Turn turn = Turn::Zero();
     double length = 0;
+    double begin = 0;
+    std::size_t part = 1;
     for (std::size_t k = 0; k < turns_.size(); ++k) {
       turn += turns_[k];
       length += shares_[k];
-      if (k + 1 < turns_.size() && length * static_cast<double>(parts) < 1) continue;
+      if (k + 1 < turns_.size() && (begin + length) * static_cast<double>(parts) < static_cast<double>(part)) continue;
       if (length > 0) look(turn, length);
       turn.setZero();
+      begin += length;
       length = 0;
+      part = static_cast<std::size_t>(begin * static_cast<double>(parts)) + 1;
     }
+  }
+
+  /// To another piece with as many nodes, in the root mean square of points at the same shares of their lengths.
+  [[nodiscard]] double distance(const Piece& other) const {
+    const std::vector<Vector3> here = spread_places();
+    const std::vector<Vector3> there = other.spread_places();
+    double squares = 0;
+    for (std::size_t k = 0; k < here.size(); ++k) squares += (there[k] - here[k]).squaredNorm();
+    return std::sqrt(squares / static_cast<double>(here.size()));
+  }
+
+  /// The polygon's points at as many shares of its length as nodes are to end up with, which may be spaced otherwise.
+  [[nodiscard]] std::vector<Vector3> spread_places() const {
+    std::vector<Vector3> result = {places_.front()};
+    std::size_t edge = 0;
+    double before = 0;
+    double wanted = 0;
+    for (const double length : even_) {
+      wanted += length;
+      double here = (places_[edge + 1] - places_[edge]).norm();
+      while (before + here < wanted && edge + 2 < places_.size()) {
+        before += here;
+        ++edge;
+        here = (places_[edge + 1] - places_[edge]).norm();
+      }
+      const double share = here > 0 ? std::min(1.0, (wanted - before) / here) : 1;
+      result.emplace_back(places_[edge] + share * (places_[edge + 1] - places_[edge]));
+    }
+    return result;
   }
 
   struct Bent {

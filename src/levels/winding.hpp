@@ -6,10 +6,11 @@
 
 namespace vspring {
 
-/// Whether a piece between two held nodes with given tangents winds less often than in the input: in the plane the sum
-/// of its turns tells; in space, where all windings can be undone without a kink, the sum of its turns about their axes
-/// and its bending. input: the positions of the nodes. Pieces that turn by less than half a turn do not count, in space
-/// those of less than three quarters, nor those that turn by over 100° at a node. Cost: linear.
+/// Whether a piece between two held nodes with given tangents winds otherwise than in the input: in the plane the sum
+/// of its turns tells, and whether it is bent more and far off; in space, where all windings can be undone without a
+/// kink, the sum of its turns about their axes and its bending. input: the positions of the nodes. Pieces that turn by
+/// less than half a turn do not count, in space those of less than five eighths, nor those that turn by over 100° at a
+/// node. Cost: linear.
 bool has_unwound(const CurveLevel& level, std::span<const Vector3> input);
 
 /// A start that keeps the windings of a curve: such pieces become the curve whose turns, carried along without spin,

@@ -49,6 +49,8 @@ constexpr double most_work = 1.2e6;
 constexpr double most_work_a_node = 400;
 // In that measure.
 constexpr double work_of_flow_step = 60;
+// Of Newton's steps from a curve that is nearly there.
+constexpr int newton_limit = 20;
 // Steps along the flow, where corrections lead nowhere: fewer are no use.
 constexpr int fewest_steps = 20;
 constexpr int most_steps = 100;
@@ -161,9 +163,13 @@ class Run {
     const Reached found = reached(last);
     net.positions = input_;
     if (hierarchy_.wind()) {
-      relax(last, default_limit, work_of_flow_step,
-            [&](const EquilibriumTask& task) { return follow_flow(net, model_, task, team_, context_); });
-      if (report_.outcome == Outcome::converged && !hierarchy_.has_unwound(input_)) return;
+      const std::vector<Vector3> wound = net.positions;
+      for (const FlowStart start : {FlowStart::near, FlowStart::anywhere}) {
+        net.positions = wound;
+        relax_along_flow(start == FlowStart::near ? newton_limit : default_limit, start);
+        if (report_.outcome == Outcome::cancelled) break;
+        if (report_.outcome == Outcome::converged && !hierarchy_.has_unwound(input_)) return;
+      }
     }
     const bool cancelled = report_.outcome == Outcome::cancelled;
     go_back(last, found);
@@ -173,7 +179,7 @@ class Run {
   /// What is worse with the shape than with the start; empty where nothing is.
   std::string fault(const Soundness& soundness) {
     std::string fault = soundness.fault(hierarchy_.net(hierarchy_.count() - 1));
-    if (fault.empty() && !points_ && hierarchy_.has_unwound(input_)) fault = "it winds less often than the input";
+    if (fault.empty() && !points_ && hierarchy_.has_unwound(input_)) fault = "it winds otherwise than the input";
     return fault;
   }
 
@@ -199,7 +205,10 @@ class Run {
                                             hierarchy_.set_shares(model_.present_shares(net));
                                           }};
     std::optional<Reached> best;
-    double least_energy = std::numeric_limits<double>::infinity();
+    net.positions = input_;
+    // Where constraints are at odds with the input, that with its constraints is no shape to fall back on.
+    const bool input_is_better = soundness.fault_of_places(net).empty() || is_nowhere;
+    double least_energy = input_is_better ? energy_of(net).sum : std::numeric_limits<double>::infinity();
     for (const auto& way : ways) {
       if (was_cancelled || out_of_work(net)) break;
       net.positions = input_;
@@ -208,24 +217,39 @@ class Run {
       if (report_.outcome == Outcome::cancelled) break;
       if (!this->fault(soundness).empty()) continue;
       if (report_.outcome == Outcome::converged) return;
+      // A curve that is far from an equilibrium has left the input for nothing.
+      if (!net.tangents.empty() && lost()) continue;
       const double energy = energy_of(net).sum;
       if (energy >= least_energy) continue;
       least_energy = energy;
       best = reached(last);
     }
     const bool cancelled = report_.outcome == Outcome::cancelled;
-    net.positions = input_;
-    // Where constraints are at odds with the input, that with its constraints is no shape to fall back on.
-    const bool input_is_better = soundness.fault_of_places(net).empty() || is_nowhere;
+    const bool is_input_smoothed = !cancelled && !best && input_is_better && !net.tangents.empty() &&
+                                   smooth_a_little(start_smooth, soundness, least_energy);
+    if (is_input_smoothed) best = Reached{net.positions, found.outcome, found.residual};
     go_back(last, best ? *best : input_is_better ? Reached{input_, found.outcome, found.residual} : found);
     report_.outcome = cancelled ? Outcome::cancelled : Outcome::worse_than_input;
     report_.warnings.push_back(fmt::format(
         "no equilibrium was found that is no worse than the input ({}): this is {}; hold more nodes or normals, let a "
         "smaller part move, or refine it",
         fault,
-        best              ? "the fairest shape on the way"
+        is_input_smoothed ? "the input without its noise"
+        : best            ? "the fairest shape on the way"
         : input_is_better ? "the input with its constraints"
                           : "that shape, as the input with its constraints is no better"));
+  }
+
+  /// The input without its noise, where that is little, and the shape then is fairer than such an energy and no worse.
+  bool smooth_a_little(const std::function<void()>& start_smooth, const Soundness& soundness, double energy) {
+    Net& net = hierarchy_.net(hierarchy_.count() - 1);
+    net.positions = input_;
+    start_smooth();
+    double greatest = 0;
+    for (std::size_t i = 0; i < net.moving; ++i)
+      greatest = std::max(greatest, (net.positions[i] - input_[i]).squaredNorm());
+    const double edge = mean_edge(net);
+    return greatest < edge * edge && fault(soundness).empty() && energy_of(net).sum < energy;
   }
 
   [[nodiscard]] bool out_of_work(const Net& net) const {
@@ -266,11 +290,9 @@ class Run {
   /// False, and what there was before, where that leads nowhere.
   bool follow_flow_from(const std::function<void()>& go_to_start, int steps) {
     const std::size_t last = hierarchy_.count() - 1;
-    Net& net = hierarchy_.net(last);
     const Reached best = reached(last);
     go_to_start();
-    relax(last, steps, work_of_flow_step,
-          [&](const EquilibriumTask& task) { return follow_flow(net, model_, task, team_, context_); });
+    relax_along_flow(steps, FlowStart::anywhere);
     if (report_.outcome == Outcome::converged) return true;
     const bool cancelled = report_.outcome == Outcome::cancelled;
     go_back(last, best);
@@ -357,6 +379,14 @@ class Run {
   void relax(std::size_t level, int max_iterations, Preconditioner& preconditioner) {
     relax(level, max_iterations, 1, [&](const EquilibriumTask& task) {
       return go_to_equilibrium(hierarchy_.net(level), model_, preconditioner, task, team_, context_);
+    });
+  }
+
+  /// The finest level.
+  void relax_along_flow(int max_iterations, FlowStart start) {
+    const std::size_t last = hierarchy_.count() - 1;
+    relax(last, max_iterations, work_of_flow_step, [&](const EquilibriumTask& task) {
+      return follow_flow(hierarchy_.net(last), model_, task, start, team_, context_);
     });
   }
 

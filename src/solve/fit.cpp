@@ -37,6 +37,8 @@ constexpr int most_turns_of_outliers = 12;
 constexpr int most_sweeps_of_homes = 2000;
 // In standard deviations of the noise that is to be taken off.
 constexpr double far_off = 1.5;
+// An expected error, as a share of the size, from which a curve on its way to an equilibrium is no use.
+constexpr double curve_is_lost_at = 1e-2;
 
 template <typename Subject>
 class Fitting {
@@ -171,7 +173,7 @@ class Fitting {
     }
     const bool has_homes = run_on_levels(std::move(points), progress);
     const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
-    if (found || options_.fair.method || options_.fair.max_iterations || options_.fair.as_found) return;
+    if (found || !may_replace() || std::is_same_v<Subject, FitCurve>) return;
     // Nobody asked for this method: the paper's iteration ends where points crumple a shape, too.
     std::optional<FitResult> nearest;
     if (has_homes) nearest = run_.result;
@@ -214,8 +216,33 @@ class Fitting {
       shape.cycle(run_.context, progress, report);
     else
       shape.find(run_.context, progress, report);
+    if constexpr (std::is_same_v<Subject, FitCurve>) take_spline_if_lost(shape);
     run_.finish(shape.net());
     return !shape.net().homes.empty();
+  }
+
+  /// Whether another shape may stand for one that was not found.
+  [[nodiscard]] bool may_replace() const {
+    return !options_.fair.method && !options_.fair.max_iterations && !options_.fair.as_found;
+  }
+
+  /// Where a curve has no equilibrium with its points: a shape that is neither is knotted sooner than near to one.
+  void take_spline_if_lost(PulledShape<CurveNet>& shape) {
+    FairReport& report = run_.result.report.fair;
+    if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled || !may_replace()) return;
+    if (report.expected_error && *report.expected_error < curve_is_lost_at) {
+      report.warnings.push_back(
+          fmt::format("no equilibrium was found: this is the nearest shape, expected to be {:.2g} % of the size away "
+                      "from one; the points may be too noisy for their weight",
+                      100 * *report.expected_error));
+      return;
+    }
+    shape.go_to_spline();
+    report.expected_error.reset();
+    report.warnings.emplace_back(
+        "no equilibrium was found: this is the smoothing spline of the points; they may be too noisy for their weight "
+        "and for edges as short as these, or smooth away more than the shape's sharpest bends: try another weight or "
+        "smoothing length, or a tolerance");
   }
 
   void sweep(LoosePoints points, FairOptions options, ProgressReporter& progress) {

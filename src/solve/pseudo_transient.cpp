@@ -45,10 +45,10 @@ class Flow {
     model.prepare(net);
   }
 
-  EquilibriumResult run(const EquilibriumTask& task, Context& context) {
+  EquilibriumResult run(const EquilibriumTask& task, FlowStart start, Context& context) {
     EquilibriumResult result;
     find_forces();
-    double length = std::max(shortest, near_by / forces_.norm());
+    double length = start == FlowStart::near ? longest : std::max(shortest, near_by / forces_.norm());
     bool newton = false;
     for (; result.iterations < task.max_iterations; ++result.iterations) {
       if (context.cancelled()) {
@@ -133,9 +133,9 @@ class Flow {
 
 }  // namespace
 
-EquilibriumResult follow_flow(Net& net, const Model& model, const EquilibriumTask& task, ThreadTeam& team,
-                              Context& context) {
-  return Flow(net, model, team).run(task, context);
+EquilibriumResult follow_flow(Net& net, const Model& model, const EquilibriumTask& task, FlowStart start,
+                              ThreadTeam& team, Context& context) {
+  return Flow(net, model, team).run(task, start, context);
 }
 
 }  // namespace vspring

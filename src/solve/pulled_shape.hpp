@@ -106,6 +106,16 @@ class PulledShape {
                     net().points.empty() ? nullptr : &levels_);
   }
 
+  /// From the start of find(): the smoothing spline of the points, for a curve that has no equilibrium with them.
+  void go_to_spline() {
+    net().positions = start_;
+    for (int turn = 0; turn < turns_of_spline; ++turn) {
+      levels_.tie(hierarchy_.count() - 1);
+      smooth_to_points();
+    }
+    update_directions(net(), *model_, *team_);
+  }
+
   /// By the paper's V-cycle.
   void cycle(Context& context, ProgressReporter& progress, FairReport& report) {
     run_multigrid(hierarchy_, *model_, options_, *team_, context, progress, report,
@@ -179,6 +189,12 @@ class PulledShape {
   bool start_from_points() {
     if constexpr (!std::is_same_v<Gathered, CurveNet>) return false;
     if (net().homes.empty() || net().points.empty()) return false;
+    smooth_to_points();
+    levels_.tie(hierarchy_.count() - 1);
+    return true;
+  }
+
+  void smooth_to_points() {
     update_directions(net(), *model_, *team_);
     model_->prepare(net());
     std::vector<NodeForce> forces(net().moving);
@@ -186,13 +202,13 @@ class PulledShape {
     std::vector<double> pull(net().moving);
     for (std::size_t i = 0; i < pull.size(); ++i) pull[i] = forces[i].stiffness;
     if constexpr (std::is_same_v<Gathered, CurveNet>) start_smooth(hierarchy_.finest(), pull);
-    levels_.tie(hierarchy_.count() - 1);
-    return true;
   }
 
   // The last steps of a plain iteration are about k times their distance.
   static constexpr double plain_tolerance = 1e-4;
   static constexpr int plain_iterations = 300;
+  // Points are tied anew to the nodes that are nearest in between.
+  static constexpr int turns_of_spline = 2;
 
   const FairOptions& options_;
   ThreadTeam* team_;

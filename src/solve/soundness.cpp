@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "solve/curve_crossings.hpp"
 #include "solve/spring_energy.hpp"
 #include "spring/spacing.hpp"
 
@@ -15,9 +16,12 @@ namespace vspring {
 
 namespace {
 
-// Boxes about the centre, in sizes of that of the start; a tangent may well ask for a wide loop.
+// In boxes of the start, about its centre. A flat one gets some height, of the longest side: between few held nodes a
+// fair shape may be rounder than a flat one that it came from.
 constexpr double wide_box = 3;
-constexpr double box_of_directions = 20;
+constexpr double least_side = 0.25;
+// In its longest sides, every way: a tangent or normal may well ask for a wide loop.
+constexpr double box_of_directions = 10;
 // The energy of an exactly fair shape is rounding, a tolerance leaves some, and where nodes of a coarse shape slide it
 // may rise though curvature changes more gently: what rises by less than this factor, or to less than about this turn
 // (in radians) for an edge, tells nothing.
@@ -69,12 +73,12 @@ Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edg
   const auto is_dragged = [&](std::size_t node) { return !dragged.empty() && dragged[node] != 0; };
   if (!net.tangents.empty()) {
     Flaws flaws;
-    for (std::size_t i = 0; i < net.moving; ++i) {
+    for (std::size_t i = 0; i < net.computed; ++i) {
       const auto links = net.rings.links(i);
-      if (links.size() < 2 || is_dragged(links[0].node()) || is_dragged(links[1].node())) continue;
+      if (links.size() < 2 || is_dragged(i) || is_dragged(links[0].node()) || is_dragged(links[1].node())) continue;
       const Vector3 before = positions[i] - positions[links[0].node()];
       const Vector3 after = positions[links[1].node()] - positions[i];
-      flaws.turned += turns_back(before, after) ? 1 : 0;
+      if (turns_back(before, after)) ++(i < net.moving ? flaws.turned : flaws.turned_at_held);
       flaws.collapsed += after.squaredNorm() < tiny * tiny ? 1 : 0;
     }
     return flaws;
@@ -141,6 +145,7 @@ Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(
                     start.input.empty() && looks_at_bending(start));
   const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
   held_.assign(input.begin() + static_cast<std::ptrdiff_t>(start.moving), input.end());
+  if (looks_at_crossings(start)) crossings_ = curve_crossings(start, input, team);
   if (looks_at_bending(start)) {
     bending_ = start.input.empty() ? flaws_.bending : flaws_of(start, start.positions, edge_, team, true).bending;
     if (start.input.empty()) smooth_bending_ = bending_without_noise(start);
@@ -169,6 +174,8 @@ bool Soundness::looks_at_bending(const Net& net) const {
   return !has_directions_ && !has_points_ && net.tangents.empty();
 }
 
+bool Soundness::looks_at_crossings(const Net& net) const { return !has_directions_ && !net.tangents.empty(); }
+
 double Soundness::bending_without_noise(const Net& net) const {
   return flaws_of(net, smooth_places(net, *team_), edge_, *team_, true).bending;
 }
@@ -176,8 +183,9 @@ double Soundness::bending_without_noise(const Net& net) const {
 std::string Soundness::misplaced(const Net& now) const {
   Eigen::AlignedBox3d box = box_;
   for (std::size_t i = now.moving; i < now.positions.size(); ++i) box.extend(now.positions[i]);
-  const Vector3 half =
-      0.5 * (has_directions_ ? box_of_directions : wide_box) * box.diagonal().maxCoeff() * Vector3::Ones();
+  const Vector3 sides = box.sizes();
+  Vector3 half = 0.5 * wide_box * sides.cwiseMax(least_side * sides.maxCoeff());
+  if (has_directions_) half.setConstant(0.5 * box_of_directions * sides.maxCoeff());
   const Eigen::AlignedBox3d wide(box.center() - half, box.center() + half);
   for (std::size_t i = 0; i < now.moving; ++i) {
     if (!now.positions[i].allFinite()) return fmt::format("node {} has no place", now.node[i]);
@@ -190,6 +198,9 @@ std::string Soundness::misplaced(const Net& now) const {
 std::string Soundness::more_of(const Flaws& flaws, bool of_surface) const {
   if (flaws.turned > flaws_.turned)
     return fmt::format("{} edges turn by more than 90°, {} did before", flaws.turned, flaws_.turned);
+  if (flaws.turned_at_held > flaws_.turned_at_held)
+    return fmt::format("edges turn by more than 90° at {} held nodes, {} did before", flaws.turned_at_held,
+                       flaws_.turned_at_held);
   if (flaws.collapsed > flaws_.collapsed)
     return fmt::format("{} {}, {} had before", flaws.collapsed,
                        of_surface ? "corners of faces have no area" : "edges have no length", flaws_.collapsed);
@@ -205,9 +216,16 @@ std::string Soundness::fault_of_places(const Net& now) const {
 std::string Soundness::fault(Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
-  const Flaws flaws = flaws_of(now, now.positions, edge_, *team_, looks_at_bending(now), dragged(now));
+  const std::vector<std::uint8_t> dragged_nodes = dragged(now);
+  const Flaws flaws = flaws_of(now, now.positions, edge_, *team_, looks_at_bending(now), dragged_nodes);
   std::string more = more_of(flaws, now.tangents.empty());
-  if (!more.empty() || has_directions_ || has_points_) return more;
+  if (!more.empty() || has_directions_) return more;
+  if (looks_at_crossings(now) && dragged_nodes.empty()) {
+    const std::size_t crossings = curve_crossings(now, now.positions, *team_);
+    if (crossings > crossings_)
+      return fmt::format("{} pairs of edges cross each other, {} did before", crossings, crossings_);
+  }
+  if (has_points_) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
   if (looks_at_bending(now)) {
     if (flaws.bending > risen_bending * bending_ + unseen)

@@ -23,7 +23,8 @@ std::vector<std::uint8_t> nodes_at_turned_edges(const Net& net, ThreadTeam& team
 struct Flaws {
   std::size_t turned =
       0;  ///< edges that turn by over 90°, of a surface between its two faces, of a curve from edge to edge
-  std::size_t collapsed = 0;  ///< edges of a curve without length; of a surface corners of faces without area
+  std::size_t turned_at_held = 0;  ///< the same at held nodes of a curve, of which turned has none
+  std::size_t collapsed = 0;       ///< edges of a curve without length; of a surface corners of faces without area
   /// Of a surface: Σ θ² e²/A over its edges of length e, θ between faces of area A together: some ∫ κ₁² + κ₂² dA. Else
   /// 0.
   double bending = 0;
@@ -37,9 +38,10 @@ class Soundness {
   Soundness(Net& start, const Model& model, ThreadTeam& team);
 
   /// What is worse about the shape now, in words for people; empty where nothing is: places that are no numbers or far
-  /// outside the box; more flaws, but for those beside nodes that are held elsewhere than the input has them; where
-  /// nothing but positions holds it, over three times the V-Spring energy, or of a surface over 1.3 times the bending,
-  /// or 2.5 times that without noise. Updates directions. Cost: linear.
+  /// outside the box; more flaws, but for those beside nodes that are held elsewhere than the input has them; edges
+  /// of a curve in a plane that cross each other, where no tangent is held; where nothing but positions holds it, over
+  /// three times the V-Spring energy, or of a surface over 1.3 times the bending, or 2.5 times that without noise.
+  /// Updates directions. Cost: linear.
   [[nodiscard]] std::string fault(Net& now) const;
 
   /// The same where what is held has been moved since, which the energy depends on: without a look at that. Updates
@@ -52,6 +54,8 @@ class Soundness {
  private:
   [[nodiscard]] std::vector<std::uint8_t> dragged(const Net& now) const;
   [[nodiscard]] bool looks_at_bending(const Net& net) const;
+  /// Tangents that are given may ask for a loop.
+  [[nodiscard]] bool looks_at_crossings(const Net& net) const;
   [[nodiscard]] double bending_without_noise(const Net& net) const;
   [[nodiscard]] std::string more_of(const Flaws& flaws, bool of_surface) const;
 
@@ -62,6 +66,7 @@ class Soundness {
   bool has_points_ = false;
   double edge_ = 0;  ///< the mean one
   Flaws flaws_;
+  std::size_t crossings_ = 0;  ///< of a curve in a plane
   std::vector<Vector3> held_;  ///< where the input has the nodes that are held
   double energy_ = 0;
   // Where nothing but positions holds a surface: with its constraints, and after smooth_places(); none where

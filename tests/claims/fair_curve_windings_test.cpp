@@ -55,6 +55,18 @@ void expect_clothoid(const reference::Clothoid& curve, double share, std::uint64
   EXPECT_LT(distance_from(curve, result.positions), 3e-3 * diagonal(nodes));
 }
 
+struct Helix {
+  std::vector<Vector3> nodes;
+  Constraints constraints;
+
+  Helix(double turns, double pitch, int edges) : constraints(0) {
+    const double turn = 2 * pi * turns;
+    const Vector3 up(0, 0, pitch / (2 * pi));
+    for (const double at : places(Spacing::even, edges)) nodes.emplace_back(heading(at * turn) + at * turn * up);
+    constraints = held_ends(nodes, heading(pi / 2) + up, heading(turn + pi / 2) + up);
+  }
+};
+
 TEST(FairCurveWindings, SpiralsKeepAllTheirTurns) {
   for (const double turns : {1.5, 3.0, 4.5}) {
     SCOPED_TRACE(turns);
@@ -62,6 +74,44 @@ TEST(FairCurveWindings, SpiralsKeepAllTheirTurns) {
     const double length = 2 * pi * turns;
     const reference::Clothoid spiral{.curvature = 4.0 / 3, .curvature_rate = -2.0 / 3 / length, .length = length};
     expect_clothoid(spiral, 0.3, 1);
+  }
+}
+
+TEST(FairCurveWindings, SpiralsWindWhereTheyDid) {
+  // Clothoids with the same ends and as many turns, but nearly all of them in a knot, are equilibria too.
+  const double length = 2 * pi * 2.3;
+  const reference::Clothoid spiral{.curvature = 4.0 / 3, .curvature_rate = -2.0 / 3 / length, .length = length};
+  struct Spaced {
+    Spacing spacing;
+    int edges;
+  };
+  for (const auto& [spacing, edges] : {Spaced{Spacing::even, 60}, Spaced{Spacing::graded, 180}}) {
+    SCOPED_TRACE(edges);
+    const auto nodes = sampled(spiral, places(spacing, edges, 8));
+    const Constraints constraints = held_ends(nodes, heading(spiral.angle), heading(spiral.angle_at(spiral.length)));
+    const FairResult result = fair(PolygonCurve(nodes), constraints);
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_LT(distance_from(spiral, result.positions), 0.02 * diagonal(nodes));
+  }
+}
+
+TEST(FairCurveWindings, ASpiralOfWhichAllFairCurvesAreFarSaysSo) {
+  // Little more than one turn, from a place to one twice as far out: all clothoids with these ends and as many turns
+  // go to and fro, or wind at one end.
+  Helix spiral(1.1, 0, 100);
+  for (std::size_t k = 0; k < spiral.nodes.size(); ++k) spiral.nodes[k] *= 1 + static_cast<double>(k) / 100;
+  const auto along = [&](double at) {
+    const double angle = 1.1 * 2 * pi * at;
+    return Vector3(heading(angle) + 1.1 * 2 * pi * (1 + at) * heading(angle + pi / 2));
+  };
+  spiral.constraints = held_ends(spiral.nodes, along(0), along(1));
+  for (const double noise : {0.0, 0.1}) {
+    SCOPED_TRACE(noise);
+    const auto nodes = rough(spiral.nodes, spiral.constraints, noise, 1, true);
+    const FairResult result = fair(PolygonCurve(nodes), spiral.constraints);
+    EXPECT_EQ(result.report.outcome, Outcome::worse_than_input);
+    // Without noise it is the input; with it, what is left without noise goes astray by less than its radius.
+    EXPECT_LT(greatest_distance(result.positions, spiral.nodes), noise > 0 ? 1 : 1e-12);
   }
 }
 
@@ -79,18 +129,6 @@ TEST(FairCurveWindings, LoopsBothWaysStay) {
     expect_clothoid({.curvature = curvature, .curvature_rate = -curvature / straight_at, .length = length}, 0.3, 2);
   }
 }
-
-struct Helix {
-  std::vector<Vector3> nodes;
-  Constraints constraints;
-
-  Helix(double turns, double pitch, int edges) : constraints(0) {
-    const double turn = 2 * pi * turns;
-    const Vector3 up(0, 0, pitch / (2 * pi));
-    for (const double at : places(Spacing::even, edges)) nodes.emplace_back(heading(at * turn) + at * turn * up);
-    constraints = held_ends(nodes, heading(pi / 2) + up, heading(turn + pi / 2) + up);
-  }
-};
 
 TEST(FairCurveWindings, AHelixOfSmallPitchStaysOne) {
   // Of whole turns there is no fair curve nearby.

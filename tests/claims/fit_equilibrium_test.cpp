@@ -322,14 +322,17 @@ TEST(FitEquilibrium, TakesTheNearestShapeWhereNoiseHasFoldedFacesThatKeepTheirPl
   EXPECT_LT(share, 1);
 }
 
-TEST(FitEquilibrium, WhereItFindsNothingThePlainIterationDoes) {
+TEST(FitEquilibrium, WhereItFindsNothingForACurveASmoothingSplineStands) {
   // Points that crumple the curve: neighbours are drawn apart by more than an edge.
   const auto crumpled = noisy_wave(200, 0.004);
   const FitResult result = crumpled.fit({.fair = {}, .weight = 1});
-  EXPECT_EQ(result.report.fair.method, Method::sweep);
-  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.fair.method, Method::equilibrium);
+  EXPECT_NE(result.report.fair.outcome, Outcome::converged);
+  EXPECT_FALSE(result.report.fair.expected_error);
   ASSERT_FALSE(result.report.fair.warnings.empty());
-  EXPECT_NE(result.report.fair.warnings.back().find("no equilibrium"), std::string::npos);
+  EXPECT_NE(result.report.fair.warnings.back().find("smoothing spline"), std::string::npos);
+  EXPECT_LT(result.report.after.all.rms, 0.004);
+  EXPECT_LT(result.report.fair.after.vspring_energy, 0.2 * result.report.fair.before.vspring_energy);
 }
 
 TEST(FitEquilibrium, WhereItFindsNothingForBricksThatKeepTheirPlaceThePlainIterationDoes) {

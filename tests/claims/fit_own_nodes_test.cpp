@@ -184,5 +184,25 @@ TEST(FitOwnNodes, TracksLoseNoiseOfAWholeSpacing) {
   }
 }
 
+TEST(FitOwnNodes, ACurveThatIsSmoothedBeyondItsSharpestBendIsNotInflated) {
+  // At the nose the radius is a twelfth of this length: what springs and points agree on, if anything, is a balloon.
+  std::vector<Vector3> nodes;
+  for (int k = 0; k <= 24; ++k)
+    nodes.push_back(on_profile({.camber = 0.02, .camber_at = 0.4, .thickness = 0.12}, 2 * pi * k / 24));
+  const PolygonCurve curve(nodes);
+  FitOptions options;
+  options.fair.distribution = Distribution::keep;
+  options.smoothing_length = 0.2;
+  const Constraints held = held_ends(curve.positions());
+  const FitResult result = fit(curve, held, {.positions = curve.positions()}, options);
+  const auto height = [](const std::vector<Vector3>& nodes) {
+    const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end(),
+                                                 [](const Vector3& a, const Vector3& b) { return a.y() < b.y(); });
+    return high->y() - low->y();
+  };
+  EXPECT_LT(height(result.positions), 1.2 * height(curve.positions()));
+  EXPECT_EQ(result.report.fair.outcome == Outcome::converged, result.report.fair.warnings.empty());
+}
+
 }  // namespace
 }  // namespace vspring::fit_own_nodes_test

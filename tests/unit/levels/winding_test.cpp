@@ -105,6 +105,30 @@ TEST(HasUnwound, CountsSingleWindings) {
   for (const double turns : {2.0, 4.0}) EXPECT_TRUE(has_unwound(three.level(wound(turns).nodes), input)) << turns;
 }
 
+TEST(HasUnwound, SeesWindingsThatWentToTheEnds) {
+  // In place of three turns five in a knot at the start, and two back at the end: as many in all.
+  const Wound three = spiral(3);
+  const std::vector<Vector3> input = three.level().curve.net.positions;
+  const double all = sum(turns_of(three.level()));
+  const double small = 0.1;
+  const Vector3 from = three.nodes.front() + Vector3(0, small, 0);
+  const double last = 6 * pi * 2.0 / 3 + pi / 2;  // less than all its heading at the end: of a turn to the right
+  const Vector3 to = three.nodes.back() + small * heading(last);
+  std::vector<Vector3> knotted = three.nodes;
+  for (std::size_t k = 1; k < 240; ++k) {
+    const double at = static_cast<double>(k);
+    if (k <= 120)
+      knotted[k] = from + small * heading(-pi / 2 + 5 * 2 * pi * at / 120);
+    else if (k >= 180)
+      knotted[k] = to - small * heading(last + 2 * 2 * pi * (240 - at) / 60);
+    else
+      knotted[k] = from + (at - 120) / 60 * (to - from);
+  }
+  const CurveLevel level = three.level(knotted);
+  ASSERT_NEAR(sum(turns_of(level)), all, 1e-6);
+  EXPECT_TRUE(has_unwound(level, input));
+}
+
 TEST(HasUnwound, NoiseDoesNotCount) {
   for (const Wound& wound : {spiral(3), helix(4, 0.2), helix(4, 0.2, 48)}) {
     CurveLevel clean = wound.level();

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "spring/curve_net.hpp"
@@ -154,6 +155,60 @@ TEST(Soundness, OfCurvesToo) {
   Net wavy = start;
   for (std::size_t i = 0; i < wavy.moving; ++i) wavy.positions[i].y() += 0.01 * std::sin(static_cast<double>(9 * i));
   EXPECT_TRUE(contains(soundness.fault(wavy), "energy")) << soundness.fault(wavy);
+}
+
+TEST(Soundness, CountsTurnsOfACurveAtHeldNodesToo) {
+  ThreadTeam team(1);
+  auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 20));
+  Constraints constraints = held_ends(nodes);
+  hold(constraints, nodes, 10);
+  Net start = gather_net(PolygonCurve(nodes), constraints).net;
+  const auto model = curve_model_for(start, CurveRules());
+  const Soundness soundness(start, *model, team);
+  Net sharp = start;
+  for (std::size_t i = 0; i < sharp.moving; ++i) {
+    if (sharp.node[i] == 9 || sharp.node[i] == 11)
+      sharp.positions[i] += Vector3(sharp.node[i] == 9 ? 0.02 : -0.02, 0.1, 0);
+  }
+  EXPECT_TRUE(contains(soundness.fault(sharp), "90°")) << soundness.fault(sharp);
+}
+
+TEST(Soundness, OfPositionsAloneKeepsToThreeBoxesEveryWay) {
+  ThreadTeam team(1);
+  // Flat: as if it were a quarter as high as it is long.
+  auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 20));
+  const Net start = gather_net(PolygonCurve(nodes), held_ends(nodes)).net;
+  Net counted = start;
+  const auto model = curve_model_for(counted, CurveRules());
+  const Soundness soundness(counted, *model, team);
+  Net bulged = start;
+  const double length = (start.positions[start.moving] - start.positions[start.moving + 1]).norm();
+  bulged.positions[5].y() = 0.37 * length;
+  EXPECT_EQ(soundness.misplaced(bulged), "");
+  bulged.positions[5].y() = 0.38 * length;
+  EXPECT_NE(soundness.misplaced(bulged), "");
+}
+
+TEST(Soundness, SeesACurveThatCrossesItselfWhereNoTangentIsHeld) {
+  ThreadTeam team(1);
+  const auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 40));
+  for (const bool with_tangents : {false, true}) {
+    const Constraints constraints =
+        with_tangents ? held_ends(nodes, Vector3::UnitX(), Vector3::UnitX()) : held_ends(nodes);
+    Net start = gather_net(PolygonCurve(nodes), constraints).net;
+    const auto model = curve_model_for(start, CurveRules());
+    const Soundness soundness(start, *model, team);
+    Net looped = start;
+    const Vector3& from = start.positions[start.moving];
+    const Vector3 along = start.positions[start.moving + 1] - from;
+    const Vector3 up = Vector3::UnitZ().cross(along);
+    for (std::size_t i = 0; i < looped.moving; ++i) {
+      // Back and forth and back, over a hill.
+      const double u = 3 * static_cast<double>(start.node[i]) / 40 - 1.5;
+      looped.positions[i] = from + (0.5 + (u * u * u - u) / 3.75) * along + 0.15 * (2.25 - u * u) * up;
+    }
+    EXPECT_EQ(contains(soundness.fault(looped), "cross each other"), !with_tangents) << soundness.fault(looped);
+  }
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ struct Edge {
 
 // Edges that follow each other, in one box of the tree.
 constexpr std::size_t edges_per_box = 16;
+constexpr std::size_t boxes_per_task = 64;
 // Of the size: at a tail where two ends meet, sides may change places by less than anybody sees.
 constexpr double tail = 0.05;
 
@@ -42,6 +43,18 @@ bool cross(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& 
     return (to - from).cross(place - from).dot(normal);
   };
   return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}
+
+/// Whether the edges follow each other and none goes back against the way from the first to the last: then no two
+/// cross.
+bool goes_one_way(const std::vector<Edge>& edges, std::size_t first, std::size_t last,
+                  const std::vector<Vector3>& positions) {
+  const Vector3 way = positions[edges[last - 1].to] - positions[edges[first].from];
+  for (std::size_t k = first; k < last; ++k) {
+    if (k > first && edges[k].from != edges[k - 1].to) return false;
+    if (!((positions[edges[k].to] - positions[edges[k].from]).dot(way) > 0)) return false;
+  }
+  return true;
 }
 
 /// Places of the ends of open curves.
@@ -71,26 +84,33 @@ std::size_t curve_crossings(const Net& net, const std::vector<Vector3>& position
   std::vector<Box> boxes((edges.size() + edges_per_box - 1) / edges_per_box);
   for (std::size_t k = 0; k < edges.size(); ++k) boxes[k / edges_per_box].extend(box_of(edges[k]));
   const BoxTree tree(boxes, team);
-  std::atomic<std::size_t> count = 0;
-  parallel_ranges(team, edges.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+  const auto first_of = [&](std::size_t item) { return std::min(item * edges_per_box, edges.size()); };
+  const auto crossings_of = [&](std::size_t a, std::size_t b) {
+    if (b <= a + 1 && goes_one_way(edges, first_of(a), first_of(b + 1), positions)) return std::size_t{0};
     std::size_t crossing = 0;
-    for (std::size_t k = begin; k < end; ++k) {
+    for (std::size_t k = first_of(a); k < first_of(a + 1); ++k) {
       const Edge& edge = edges[k];
       const Box box = box_of(edge);
-      const auto look_at = [&](const Edge& other) {
-        const bool is_beside =
-            other.from == edge.from || other.from == edge.to || other.to == edge.from || other.to == edge.to;
-        if (is_beside || !box.intersects(box_of(other))) return;
-        if (cross(positions[edge.from], positions[edge.to], positions[other.from], positions[other.to], *normal) &&
+      if (!boxes[b].intersects(box)) continue;
+      for (std::size_t other = std::max(first_of(b), k + 1); other < first_of(b + 1); ++other) {
+        const auto& [from, to] = edges[other];
+        const bool is_beside = from == edge.from || from == edge.to || to == edge.from || to == edge.to;
+        if (!is_beside && box.intersects(box_of(edges[other])) &&
+            cross(positions[edge.from], positions[edge.to], positions[from], positions[to], *normal) &&
             !is_at_a_tail(positions[edge.from]))
           ++crossing;
-      };
-      tree.for_each_overlapping_leaf(box, 0, [&](std::size_t leaf) {
+      }
+    }
+    return crossing;
+  };
+  std::atomic<std::size_t> count = 0;
+  parallel_ranges(team, boxes.size(), boxes_per_task, [&](std::size_t begin, std::size_t end) {
+    std::size_t crossing = 0;
+    for (std::size_t a = begin; a < end; ++a) {
+      tree.for_each_overlapping_leaf(boxes[a], 0, [&](std::size_t leaf) {
         for (const Index item : tree.leaf_items(leaf)) {
-          const std::size_t first = static_cast<std::size_t>(item) * edges_per_box;
-          const std::size_t last = std::min(first + edges_per_box, edges.size());
-          if (last <= k + 1 || !tree.box(item).intersects(box)) continue;
-          for (std::size_t other = std::max(first, k + 1); other < last; ++other) look_at(edges[other]);
+          const auto b = static_cast<std::size_t>(item);
+          if (b >= a && boxes[a].intersects(boxes[b])) crossing += crossings_of(a, b);
         }
       });
     }

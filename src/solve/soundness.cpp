@@ -145,7 +145,7 @@ Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(
                     start.input.empty() && looks_at_bending(start));
   const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
   held_.assign(input.begin() + static_cast<std::ptrdiff_t>(start.moving), input.end());
-  if (looks_at_crossings(start)) crossings_ = curve_crossings(start, input, team);
+  if (looks_at_crossings(start)) input_ = input;
   if (looks_at_bending(start)) {
     bending_ = start.input.empty() ? flaws_.bending : flaws_of(start, start.positions, edge_, team, true).bending;
     if (start.input.empty()) smooth_bending_ = bending_without_noise(start);
@@ -222,8 +222,8 @@ std::string Soundness::fault(Net& now) const {
   if (!more.empty() || has_directions_) return more;
   if (looks_at_crossings(now) && dragged_nodes.empty()) {
     const std::size_t crossings = curve_crossings(now, now.positions, *team_);
-    if (crossings > crossings_)
-      return fmt::format("{} pairs of edges cross each other, {} did before", crossings, crossings_);
+    const std::size_t before = crossings > 0 ? curve_crossings(now, input_, *team_) : 0;
+    if (crossings > before) return fmt::format("{} pairs of edges cross each other, {} did before", crossings, before);
   }
   if (has_points_) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());

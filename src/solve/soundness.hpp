@@ -66,8 +66,8 @@ class Soundness {
   bool has_points_ = false;
   double edge_ = 0;  ///< the mean one
   Flaws flaws_;
-  std::size_t crossings_ = 0;  ///< of a curve in a plane
-  std::vector<Vector3> held_;  ///< where the input has the nodes that are held
+  std::vector<Vector3> input_;  ///< of a curve that is looked at for crossings: where the input has its nodes
+  std::vector<Vector3> held_;   ///< where the input has the nodes that are held
   double energy_ = 0;
   // Where nothing but positions holds a surface: with its constraints, and after smooth_places(); none where
   // constraints put nodes elsewhere than the input has them.

@@ -125,6 +125,7 @@ class FitToTolerance {
     const double close_share = task.close_share;
     if (const auto sides = Sides::of(net)) {
       task.close_share = any_start;
+      task.takes_nearest = true;
       const ToleranceFitResult start = smooth(task, room * tolerance);
       if (task.ended()) return start;
       const std::vector<Vector3> places = net.positions;
@@ -135,6 +136,7 @@ class FitToTolerance {
       *task.length = start.length;
     }
     task.close_share = close_share;
+    task.takes_nearest = false;
     const ToleranceFitResult start = smooth(task, tolerance);
     return task.ended() ? start : hold_within(task, tolerance, start);
   }

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -24,6 +26,8 @@ constexpr int fewest_steps_down = 3;
 constexpr int patience_for_steps = 8;
 // Of the barrier, in squared tolerances: what is left then moves nothing.
 constexpr double lowest_barrier = 1e-5;
+// Of the energy, in a step.
+constexpr double still_falls = 0.99;
 // Where steps lead nowhere: the shape is about as fair as it will be.
 constexpr double low_barrier = 1e-2;
 // Of the way to the bound that a step may take a point.
@@ -67,12 +71,15 @@ class InteriorFit {
     barrier = std::max(barrier, least_first_barrier);
     set_multipliers(barrier);
     double last = 1;
+    double energy_before = 0;
     int short_steps = 0;
     for (int step = 0; step < most_barriers && !points_.empty(); ++step) {
-      if (barrier < lowest_barrier) {
+      // Where points pulled hard at first it may be low while they still hold more than they need to.
+      if (barrier < lowest_barrier && !(result.within && energy_ < still_falls * energy_before)) {
         result.settled = true;
         break;
       }
+      energy_before = energy_;
       if (last >= long_step) {
         barrier *= fall;
         short_steps = 0;
@@ -88,6 +95,9 @@ class InteriorFit {
       if (task_.ended()) break;
       measure();
       const double share = found ? step_within(before) : 0;
+      if (std::getenv("DBG"))
+        std::fprintf(stderr, "step %d barrier %g found %d share %g greatest %g energy %g points %zu\n", step, barrier,
+                     found, share, greatest_, energy_, points_.size());
       if (share < least_step) {
         net_.positions = start;
         result.settled = barrier < low_barrier && step >= fewest_steps_down;
@@ -101,7 +111,8 @@ class InteriorFit {
       last = share;
       renew_multipliers(before, barrier, share);
       look(result);
-      if (result.within && energy_ > greatest_rise * least_energy_) {
+      // The first barriers may be too high for a start that leaves little room.
+      if (result.within && step >= fewest_steps_down && energy_ > greatest_rise * least_energy_) {
         result.settled = true;
         break;
       }

@@ -14,6 +14,11 @@ constexpr double longest_length = 10;
 constexpr double stride = 2;
 // Lengths in a row for which nothing was found: shorter ones lead nowhere either.
 constexpr int most_lost = 3;
+// Of the least figure: where shorter lengths, of less than an edge, bring it no lower, that in so many halvings, the
+// longest is taken that is about as near.
+constexpr double about_as_near = 1.05;
+constexpr double no_nearer = 0.99;
+constexpr int halvings_without_gain = 2;
 constexpr int most_trials = 60;
 // Aimed at less than the tolerance, so that what is left of a correction does not go beyond.
 constexpr double aimed_share = 0.995;
@@ -36,11 +41,13 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
                                  const std::function<double(const std::vector<double>&)>& tolerated) {
   Net& net = *task.net;
   const double longest = longest_length * diagonal(net);
-  const double shortest = shortest_length * mean_edge(net);
   ToleranceFitResult result;
   std::vector<Vector3> best = net.positions;
   double least = std::numeric_limits<double>::infinity();
   double nearest = *task.length;
+  int without_gain = 0;
+  const double edge = mean_edge(net);
+  const double shortest = shortest_length * edge;
   // Lengths within and beyond the tolerance, and the figures there.
   std::optional<std::pair<double, double>> inside;
   std::optional<std::pair<double, double>> outside;
@@ -54,8 +61,13 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
       // Where shorter ones lead nowhere, nothing is known of those between.
       if (!outside || (*task.length < outside->first && (found || inside))) outside = {*task.length, figure};
       if (!inside && figure < least) {
-        best = net.positions;
-        nearest = *task.length;
+        if (!task.takes_nearest || !(figure > least / about_as_near)) {
+          best = net.positions;
+          nearest = *task.length;
+        }
+        without_gain = figure < no_nearer * least || *task.length > edge ? 0 : without_gain + 1;
+      } else if (!inside && found && *task.length < edge) {
+        ++without_gain;
       }
     }
     least = std::min(least, figure);
@@ -68,7 +80,9 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
       if (*task.length >= longest) break;
       *task.length *= stride;
     } else if (!inside) {
-      if (*task.length <= shortest || lost == most_lost) break;
+      if (*task.length <= shortest || lost == most_lost ||
+          (task.takes_nearest && without_gain == halvings_without_gain))
+        break;
       // Nearer to the last one that was found.
       if (lost > 0) *task.length *= step;
       step = lost > 0 ? std::sqrt(step) : stride;

@@ -27,6 +27,9 @@ struct ToleranceFitTask {
   std::function<double()> energy;
   bool found = true;          ///< whether the net is at an equilibrium
   double close_share = 0.01;  ///< of the tolerance: smooth_within() need not come nearer
+  /// It takes the longest length whose shape is about as near as any where shorter ones lead no nearer to the
+  /// tolerance.
+  bool takes_nearest = false;
 };
 
 struct ToleranceFitResult {

@@ -204,5 +204,31 @@ TEST(FitOwnNodes, ACurveThatIsSmoothedBeyondItsSharpestBendIsNotInflated) {
   EXPECT_EQ(result.report.fair.outcome == Outcome::converged, result.report.fair.warnings.empty());
 }
 
+TEST(FitOwnNodes, NewNodesByTheCosineAreFreeOfNoiseTooWithinATolerance) {
+  // At the nose a smoothing length must be so short that it leaves noise elsewhere: from there it is a long way down.
+  std::vector<Vector3> nodes;
+  Draw draw(1);
+  for (int k = 0; k <= 160; ++k) {
+    Vector3 noise = k == 0 || k == 160 ? Vector3(Vector3::Zero()) : draw.in_cube(0.0003);
+    noise.z() = 0;
+    nodes.emplace_back(on_profile({.camber = 0.02, .camber_at = 0.4, .thickness = 0.12}, 2 * pi * k / 160) + noise);
+  }
+  const PolygonCurve table(nodes);
+  const Resampled resampled =
+      resample(table, Constraints(table.node_count()), {.nodes = 120, .by = ResamplingBy::cosine});
+  FitOptions options;
+  options.fair.distribution = Distribution::keep;
+  options.within = 0.00036;
+  const Constraints held = held_ends(resampled.curve.positions());
+  const FitResult result = fit(resampled.curve, held, {.positions = nodes}, options);
+  EXPECT_LE(result.report.after.all.greatest, *options.within);
+  EXPECT_GT(result.report.after.all.greatest, 0.9 * *options.within);
+  const CurveFigures before = measure_curve(resampled.curve);
+  const CurveFigures after = measure_curve(PolygonCurve(result.positions));
+  EXPECT_GT(before.inflections, 10);
+  EXPECT_LE(after.inflections, 1);
+  EXPECT_LT(after.curvature_extrema, 10);
+}
+
 }  // namespace
 }  // namespace vspring::fit_own_nodes_test

@@ -16,19 +16,19 @@ namespace vspring {
 
 namespace {
 
-// In boxes of the start, about its centre. A flat one gets some height, of the longest side: between few held nodes a
-// fair shape may be rounder than a flat one that it came from.
+// In the longest sides of the start, every way about its centre: between few held nodes a fair shape may be rounder
+// than a flat one that it came from, and a tangent or normal may well ask for a wide loop.
 constexpr double wide_box = 3;
-constexpr double least_side = 0.25;
-// In its longest sides, every way: a tangent or normal may well ask for a wide loop.
 constexpr double box_of_directions = 10;
 // The energy of an exactly fair shape is rounding, a tolerance leaves some, and where nodes of a coarse shape slide it
 // may rise though curvature changes more gently: what rises by less than this factor, or to less than about this turn
 // (in radians) for an edge, tells nothing.
 constexpr double noticed_rise = 3;
+// Of a curve, that is bent more too.
+constexpr double noticed_rise_of_curves = 1.5;
 constexpr double unseen_turn = 1e-3;
-// Of the bending, which hardly changes where nodes slide. Springs may ask for more of it than a fair shape has where a
-// rim is free to turn.
+// Of the bending, of a surface or a curve, which hardly changes where nodes slide. Springs may ask for more of it than
+// a fair shape has where a rim is free to turn.
 constexpr double risen_bending = 1.3;
 // Of the same without noise, of which an input may have more than the bending that a shape should not have.
 constexpr double risen_smooth_bending = 2.5;
@@ -115,6 +115,21 @@ Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edg
   return flaws;
 }
 
+/// Of a curve: Σ θ²/ℓ, about ∫ κ² ds.
+double curve_bending(const Net& net) {
+  double bending = 0;
+  for (std::size_t i = 0; i < net.computed; ++i) {
+    const auto links = net.rings.links(i);
+    if (links.size() < 2) continue;
+    const Vector3 before = net.positions[i] - net.positions[links[0].node()];
+    const Vector3 after = net.positions[links[1].node()] - net.positions[i];
+    const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
+    const double length = (before.norm() + after.norm()) / 2;
+    if (length > 0) bending += turn * turn / length;
+  }
+  return bending;
+}
+
 }  // namespace
 
 std::size_t turned_edges(const Net& net, ThreadTeam& team) {
@@ -150,6 +165,7 @@ Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(
     bending_ = start.input.empty() ? flaws_.bending : flaws_of(start, start.positions, edge_, team, true).bending;
     if (start.input.empty()) smooth_bending_ = bending_without_noise(start);
   }
+  if (!start.tangents.empty()) bending_ = curve_bending(start);
   const bool was_prepared = !start.curvatures.empty();
   model.prepare(start);
   update_directions(start, model, team);
@@ -183,9 +199,8 @@ double Soundness::bending_without_noise(const Net& net) const {
 std::string Soundness::misplaced(const Net& now) const {
   Eigen::AlignedBox3d box = box_;
   for (std::size_t i = now.moving; i < now.positions.size(); ++i) box.extend(now.positions[i]);
-  const Vector3 sides = box.sizes();
-  Vector3 half = 0.5 * wide_box * sides.cwiseMax(least_side * sides.maxCoeff());
-  if (has_directions_) half.setConstant(0.5 * box_of_directions * sides.maxCoeff());
+  const Vector3 half =
+      Vector3::Constant(0.5 * (has_directions_ ? box_of_directions : wide_box) * box.sizes().maxCoeff());
   const Eigen::AlignedBox3d wide(box.center() - half, box.center() + half);
   for (std::size_t i = 0; i < now.moving; ++i) {
     if (!now.positions[i].allFinite()) return fmt::format("node {} has no place", now.node[i]);
@@ -238,7 +253,8 @@ std::string Soundness::fault(Net& now) const {
   model_->prepare(now);
   update_directions(now, *model_, *team_);
   const double energy = spring_energy(now).sum;
-  if (!(energy <= noticed_rise * energy_ + unseen))
+  const bool is_bent_more = !now.tangents.empty() && curve_bending(now) > risen_bending * bending_;
+  if (!(energy <= (is_bent_more ? noticed_rise_of_curves : noticed_rise) * energy_ + unseen))
     return fmt::format("the V-Spring energy rose from {:.3g} to {:.3g}", energy_, energy);
   return {};
 }

@@ -13,7 +13,8 @@ namespace vspring {
 struct FitOptions {
   /// With fair_boundary, for a surface whose own nodes are the points, its boundary is fitted to them first, as a
   /// curve, and the surface then holds it. Where no method is given: equilibrium; where that finds none and
-  /// max_iterations is not given, the shape of sweep, with a warning.
+  /// max_iterations is not given, with a warning, on surfaces the shape of sweep; of curves the shape that came
+  /// nearest, or the smoothing spline of the points, which are not called converged.
   FairOptions fair = {};
   /// The paper's k (Eq. 9), for points of weight 1: 0 to 1e50. Small ones smooth, large ones interpolate. On an evenly
   /// spaced curve with one point per node waves of angular frequency ω keep 1/(1 + (λω)⁴) of their height, where k =

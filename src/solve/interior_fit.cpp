@@ -3,8 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <vector>
 
@@ -75,7 +73,7 @@ class InteriorFit {
     int short_steps = 0;
     for (int step = 0; step < most_barriers && !points_.empty(); ++step) {
       // Where points pulled hard at first it may be low while they still hold more than they need to.
-      if (barrier < lowest_barrier && !(result.within && energy_ < still_falls * energy_before)) {
+      if (barrier < lowest_barrier && !(energy_ > 0 && energy_ < still_falls * energy_before)) {
         result.settled = true;
         break;
       }
@@ -95,9 +93,6 @@ class InteriorFit {
       if (task_.ended()) break;
       measure();
       const double share = found ? step_within(before) : 0;
-      if (std::getenv("DBG"))
-        std::fprintf(stderr, "step %d barrier %g found %d share %g greatest %g energy %g points %zu\n", step, barrier,
-                     found, share, greatest_, energy_, points_.size());
       if (share < least_step) {
         net_.positions = start;
         result.settled = barrier < low_barrier && step >= fewest_steps_down;

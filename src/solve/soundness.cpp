@@ -80,6 +80,10 @@ Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edg
       const Vector3 after = positions[links[1].node()] - positions[i];
       if (turns_back(before, after)) ++(i < net.moving ? flaws.turned : flaws.turned_at_held);
       flaws.collapsed += after.squaredNorm() < tiny * tiny ? 1 : 0;
+      if (!with_bending) continue;
+      const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
+      const double length = (before.norm() + after.norm()) / 2;
+      if (length > 0) flaws.bending += turn * turn / length;
     }
     return flaws;
   }
@@ -115,21 +119,6 @@ Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edg
   return flaws;
 }
 
-/// Of a curve: Σ θ²/ℓ, about ∫ κ² ds.
-double curve_bending(const Net& net) {
-  double bending = 0;
-  for (std::size_t i = 0; i < net.computed; ++i) {
-    const auto links = net.rings.links(i);
-    if (links.size() < 2) continue;
-    const Vector3 before = net.positions[i] - net.positions[links[0].node()];
-    const Vector3 after = net.positions[links[1].node()] - net.positions[i];
-    const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
-    const double length = (before.norm() + after.norm()) / 2;
-    if (length > 0) bending += turn * turn / length;
-  }
-  return bending;
-}
-
 }  // namespace
 
 std::size_t turned_edges(const Net& net, ThreadTeam& team) {
@@ -157,15 +146,14 @@ Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(
   has_points_ = !start.points.positions.empty();
   edge_ = mean_edge(start);
   flaws_ = flaws_of(start, start.input.empty() ? start.positions : start.input, edge_, team,
-                    start.input.empty() && looks_at_bending(start));
+                    start.input.empty() && looks_at_bending());
   const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
   held_.assign(input.begin() + static_cast<std::ptrdiff_t>(start.moving), input.end());
   if (looks_at_crossings(start)) input_ = input;
-  if (looks_at_bending(start)) {
+  if (looks_at_bending()) {
     bending_ = start.input.empty() ? flaws_.bending : flaws_of(start, start.positions, edge_, team, true).bending;
-    if (start.input.empty()) smooth_bending_ = bending_without_noise(start);
+    if (start.input.empty() && start.tangents.empty()) smooth_bending_ = bending_without_noise(start);
   }
-  if (!start.tangents.empty()) bending_ = curve_bending(start);
   const bool was_prepared = !start.curvatures.empty();
   model.prepare(start);
   update_directions(start, model, team);
@@ -186,9 +174,7 @@ std::vector<std::uint8_t> Soundness::dragged(const Net& now) const {
   return result;
 }
 
-bool Soundness::looks_at_bending(const Net& net) const {
-  return !has_directions_ && !has_points_ && net.tangents.empty();
-}
+bool Soundness::looks_at_bending() const { return !has_directions_ && !has_points_; }
 
 bool Soundness::looks_at_crossings(const Net& net) const { return !has_directions_ && !net.tangents.empty(); }
 
@@ -232,7 +218,7 @@ std::string Soundness::fault(Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
   const std::vector<std::uint8_t> dragged_nodes = dragged(now);
-  const Flaws flaws = flaws_of(now, now.positions, edge_, *team_, looks_at_bending(now), dragged_nodes);
+  const Flaws flaws = flaws_of(now, now.positions, edge_, *team_, looks_at_bending(), dragged_nodes);
   std::string more = more_of(flaws, now.tangents.empty());
   if (!more.empty() || has_directions_) return more;
   if (looks_at_crossings(now) && dragged_nodes.empty()) {
@@ -242,9 +228,9 @@ std::string Soundness::fault(Net& now) const {
   }
   if (has_points_) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
-  if (looks_at_bending(now)) {
-    if (flaws.bending > risen_bending * bending_ + unseen)
-      return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", flaws.bending, bending_);
+  const bool is_bent_more = flaws.bending > risen_bending * bending_ + unseen;
+  if (now.tangents.empty()) {
+    if (is_bent_more) return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", flaws.bending, bending_);
     const double smooth = smooth_bending_ ? bending_without_noise(now) : 0;
     if (smooth > risen_smooth_bending * smooth_bending_.value_or(0) + unseen)
       return fmt::format("it is bent more, by {:.3g} in place of {:.3g} without the noise of either", smooth,
@@ -253,7 +239,7 @@ std::string Soundness::fault(Net& now) const {
   model_->prepare(now);
   update_directions(now, *model_, *team_);
   const double energy = spring_energy(now).sum;
-  const bool is_bent_more = !now.tangents.empty() && curve_bending(now) > risen_bending * bending_;
+  // Of a surface it is not.
   if (!(energy <= (is_bent_more ? noticed_rise_of_curves : noticed_rise) * energy_ + unseen))
     return fmt::format("the V-Spring energy rose from {:.3g} to {:.3g}", energy_, energy);
   return {};

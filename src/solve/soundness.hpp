@@ -25,8 +25,8 @@ struct Flaws {
       0;  ///< edges that turn by over 90°, of a surface between its two faces, of a curve from edge to edge
   std::size_t turned_at_held = 0;  ///< the same at held nodes of a curve, of which turned has none
   std::size_t collapsed = 0;       ///< edges of a curve without length; of a surface corners of faces without area
-  /// Of a surface: Σ θ² e²/A over its edges of length e, θ between faces of area A together: some ∫ κ₁² + κ₂² dA. Else
-  /// 0.
+  /// Of a surface: Σ θ² e²/A over its edges of length e, θ between faces of area A together: some ∫ κ₁² + κ₂² dA. Of a
+  /// curve: Σ θ²/ℓ over its nodes, ℓ half of both edges: some ∫ κ² ds.
   double bending = 0;
 };
 
@@ -53,7 +53,7 @@ class Soundness {
 
  private:
   [[nodiscard]] std::vector<std::uint8_t> dragged(const Net& now) const;
-  [[nodiscard]] bool looks_at_bending(const Net& net) const;
+  [[nodiscard]] bool looks_at_bending() const;
   /// Tangents that are given may ask for a loop.
   [[nodiscard]] bool looks_at_crossings(const Net& net) const;
   [[nodiscard]] double bending_without_noise(const Net& net) const;
@@ -69,8 +69,8 @@ class Soundness {
   std::vector<Vector3> input_;  ///< of a curve that is looked at for crossings: where the input has its nodes
   std::vector<Vector3> held_;   ///< where the input has the nodes that are held
   double energy_ = 0;
-  // Of a curve, and where nothing but positions holds a surface: with its constraints, and after smooth_places(); none
-  // where constraints put nodes elsewhere than the input has them.
+  // Where nothing but positions holds it: with its constraints, and of a surface after smooth_places(); none where
+  // constraints put nodes elsewhere than the input has them.
   double bending_ = 0;
   std::optional<double> smooth_bending_;
 };

@@ -45,6 +45,7 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
   std::vector<Vector3> best = net.positions;
   double least = std::numeric_limits<double>::infinity();
   double nearest = *task.length;
+  double nearest_figure = least;
   int without_gain = 0;
   const double edge = mean_edge(net);
   const double shortest = shortest_length * edge;
@@ -61,9 +62,10 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
       // Where shorter ones lead nowhere, nothing is known of those between.
       if (!outside || (*task.length < outside->first && (found || inside))) outside = {*task.length, figure};
       if (!inside && figure < least) {
-        if (!task.takes_nearest || !(figure > least / about_as_near)) {
+        if (!task.takes_nearest || !(figure > nearest_figure / about_as_near)) {
           best = net.positions;
           nearest = *task.length;
+          nearest_figure = figure;
         }
         without_gain = figure < no_nearer * least || *task.length > edge ? 0 : without_gain + 1;
       } else if (!inside && found && *task.length < edge) {

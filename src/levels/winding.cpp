@@ -36,7 +36,6 @@ constexpr double nearly_closed = 1e-7;
 // In the plane the sum of all turns tells how often a piece winds; where it winds as often but elsewhere, to and fro
 // or in a knot at one end, it is bent more and far off, in its lengths.
 constexpr double same_winding = 1;
-constexpr double bent_elsewhere = 1;
 constexpr double far_off = 0.05;
 // In space, of what it turned by and of what it was bent by.
 constexpr double less_winding = 0.7;
@@ -77,6 +76,12 @@ struct Frame3 {
     return angle / sine * Turn(across.dot(first), across.dot(second));
   }
 };
+
+double rms_distance(const std::vector<Vector3>& here, const std::vector<Vector3>& there) {
+  double squares = 0;
+  for (std::size_t k = 0; k < here.size(); ++k) squares += (there[k] - here[k]).squaredNorm();
+  return std::sqrt(squares / static_cast<double>(here.size()));
+}
 
 /// A piece of a strand as the turns at its nodes, those at its ends from and to the given tangents, and the lengths of
 /// its edges.
@@ -145,7 +150,7 @@ class Piece {
     if (!is_flat_)
       return other.winding_.norm() < less_winding * winding_.norm() || other.bending() > more_bending * bending();
     return (other.winding_ - winding_).norm() > same_winding ||
-           (other.bending() > bent_elsewhere * bending() && distance(other) > far_off * size_);
+           (other.bending() > bending() && rms_distance(spread_places(), other.spread_places()) > far_off * size_);
   }
 
   /// Constant and linear turn, over the whole piece, and the logarithm of how many times as long as the input it is.
@@ -160,11 +165,9 @@ class Piece {
       const std::optional<Unknowns> found = close(start, most_corrections);
       if (!found) continue;
       if (is_flat_ && std::abs((*found)[0] - mean_[0]) > same_winding) continue;
-      const std::vector<Vector3> places = bent(*found).places;
-      double squares = 0;
-      for (std::size_t k = 0; k < places.size(); ++k) squares += (places[k] - spread[k]).squaredNorm();
-      if (squares >= least) continue;
-      least = squares;
+      const double away = rms_distance(spread, bent(*found).places);
+      if (away >= least) continue;
+      least = away;
       best = found;
     }
     return best;
@@ -197,15 +200,6 @@ class Piece {
       length = 0;
       part = static_cast<std::size_t>(begin * static_cast<double>(parts)) + 1;
     }
-  }
-
-  /// To another piece with as many nodes, in the root mean square of points at the same shares of their lengths.
-  [[nodiscard]] double distance(const Piece& other) const {
-    const std::vector<Vector3> here = spread_places();
-    const std::vector<Vector3> there = other.spread_places();
-    double squares = 0;
-    for (std::size_t k = 0; k < here.size(); ++k) squares += (there[k] - here[k]).squaredNorm();
-    return std::sqrt(squares / static_cast<double>(here.size()));
   }
 
   /// The polygon's points at as many shares of its length as nodes are to end up with, which may be spaced otherwise.

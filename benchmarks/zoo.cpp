@@ -59,7 +59,6 @@ std::optional<double> true_error(const Specimen& specimen, const FairOptions& op
 
 void run(const Specimen& specimen, Tally& tally, Summary& summary) {
   FairOptions options;
-  options.method = Method::equilibrium;
   options.distribution = specimen.distribution;
   const FairResult result = fair(specimen.start, specimen.constraints, options);
   const FairReport& report = result.report;

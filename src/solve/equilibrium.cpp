@@ -23,8 +23,10 @@ constexpr double greatest_rate = 0.5;
 // Of the error by corrections alone, where the accelerated step says that there is less.
 constexpr double least_share = 0.5;
 // Iterations in a row that expect to be off by more than the shape's size: no level that went on from so many ever
-// arrived (12 was the most of 494 that did, in 300 tasks at random, and 29 once of 23 nodes).
-constexpr int lost_patience = 40;
+// arrived (12 was the most of 494 that did, in 300 tasks at random, and 29 once of 23 nodes, where they cost nothing).
+constexpr int lost_patience = 20;
+constexpr int lost_patience_of_few = 40;
+constexpr std::size_t few_nodes = 100;
 // Of coordinates up to 2.
 constexpr double rounding = std::numeric_limits<double>::epsilon();
 // A share of the tolerance.
@@ -60,6 +62,7 @@ class Solver {
     int without_gain = 0;
     int lost = 0;
     const double shape_size = diagonal(net_);
+    const int most_lost = net_.moving < few_nodes ? lost_patience_of_few : lost_patience;
     double expected = std::numeric_limits<double>::infinity();
     // Where points change over to other nodes, what was found before does not hold any more.
     int changes = 0;
@@ -122,7 +125,7 @@ class Solver {
       if (limited) without_gain = 0;
       lost = expected > shape_size ? lost + 1 : 0;
       before = limited ? 0 : size;
-      if (without_gain >= patience || lost >= lost_patience) {
+      if (without_gain >= patience || lost >= most_lost) {
         result.outcome = Outcome::stalled;
         break;
       }

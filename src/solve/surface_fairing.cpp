@@ -204,9 +204,9 @@ bool SurfaceFairing::try_evenly(const Constraints& constraints, Context& context
   FairReport even = at_first;
   even.iterations = report.iterations;
   even.work = report.work;
+  even.most_work = report.most_work;
   run_with(options.springs, constraints, context, progress, even, options);
   if (was_found(even)) {
-    even.most_work = report.most_work;
     report = std::move(even);
     if (report.outcome == Outcome::cancelled) return true;
     report.warnings.emplace_back(

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace {
 using namespace support;
 using generate::Faces;
 
-FairOptions to_equilibrium(double tolerance, Distribution distribution = Distribution::even) {
+FairOptions to_equilibrium(double tolerance, std::optional<Distribution> distribution = Distribution::even) {
   FairOptions options;
   options.method = Method::equilibrium;
   options.tolerance = tolerance;

@@ -9,7 +9,9 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -21,7 +23,8 @@ struct Specimen {
   std::string name;
   PolygonMesh start;
   Constraints constraints;
-  Distribution distribution = Distribution::even;
+  /// None: what the program takes by itself.
+  std::optional<Distribution> distribution = std::nullopt;
   /// Distance of a point from the equilibrium's surface where it has a closed form; else null.
   std::function<double(const Vector3&)> distance = nullptr;
   /// Known to end elsewhere or nowhere.
@@ -80,6 +83,32 @@ inline Vector3 band_chart(double along, double around, double lift) {
 inline Vector3 ring_chart(double along, double around, double lift) {
   const double angle = 2 * std::numbers::pi * around;
   return {(0.5 + along) * std::cos(angle), (0.5 + along) * std::sin(angle), lift};
+}
+
+/// A shape of revolution, as a lathe makes them: radius and height along its profile; it closes after one turn.
+inline Vector3 turned(double radius, double height, double around) {
+  const double angle = 2 * std::numbers::pi * around;
+  return {radius * std::cos(angle), radius * std::sin(angle), height};
+}
+
+inline Vector3 cone_chart(double along, double around, double lift) {
+  return turned(0.3 + 0.7 * along + lift, 1.5 * along, around);
+}
+
+inline Vector3 bell_chart(double along, double around, double lift) {
+  return turned(0.3 + 0.7 * along * along + lift, 1 - along, around);
+}
+
+inline Vector3 vase_chart(double along, double around, double lift) {
+  return turned(0.6 + 0.3 * std::sin(2 * std::numbers::pi * along) + lift, 2 * along, around);
+}
+
+/// Of a profile's normals, by their parts away from the axis and along it at a height.
+inline Normal turned_normal(const std::function<std::pair<double, double>(double)>& of_profile) {
+  return [=](const Vector3& p) {
+    const auto [outwards, up] = of_profile(p.z());
+    return Vector3(outwards * p.x() / p.head<2>().norm(), outwards * p.y() / p.head<2>().norm(), up);
+  };
 }
 
 struct Disorder {
@@ -146,6 +175,11 @@ inline std::vector<Specimen> specimens(int cells) {
   const auto off_cylinder = [](const Vector3& p) { return std::abs(p.head<2>().norm() - 1); };
   const std::pair<std::string, Disorder> disorders[] = {
       {"", {}}, {", jittered", {.jitter = 0.4}}, {", noisy", {.noise = spacing}}, {", graded 100 : 1", {.ratio = 100}}};
+  const std::tuple<const char*, Chart, std::function<std::pair<double, double>(double)>> lathe_shapes[] = {
+      {"cone", cone_chart, [](double) { return std::pair(1.5, -0.7); }},
+      {"bell", bell_chart, [](double z) { return std::pair(1.0, 1.4 * (1 - z)); }},
+      {"vase", vase_chart,
+       [](double z) { return std::pair(2.0, -0.6 * std::numbers::pi * std::cos(std::numbers::pi * z)); }}};
   std::vector<Specimen> all;
   const auto add = [&](const std::string& name, const PolygonMesh& start, const Constraints& constraints) {
     all.push_back({name, start, constraints});
@@ -159,10 +193,11 @@ inline std::vector<Specimen> specimens(int cells) {
       const generate::Grid grid{.columns = cells, .rows = cells, .faces = faces};
       all.push_back(on_chart(name("sphere"), sphere_chart, false, grid, disorder, radial));
       all.back().distance = off_sphere;
-      // Evenly spread bricks sink over the rim; the flow finds that, with more work than is done by itself.
+      // Next to nothing holds bricks across their rows: the more so the longer they are.
       all.back().hard = faces == Faces::hexagons && disorder.ratio > 1;
       all.push_back(on_chart(name("cylinder"), cylinder_chart, false, grid, disorder, from_axis));
       all.back().distance = off_cylinder;
+      all.back().hard = faces == Faces::hexagons && disorder.ratio > 1;
       const generate::Grid rings{.columns = 2 * cells, .rows = cells / 2, .faces = faces};
       all.push_back(on_chart(name("funnel"), funnel_chart, true, rings, disorder, up));
     }
@@ -184,11 +219,12 @@ inline std::vector<Specimen> specimens(int cells) {
       all.push_back(on_chart(fmt::format("band in rings of {}{}", name_of(faces), words), band_chart, true, rings,
                              disorder, radial));
       all.back().distance = off_sphere;
-      all.back().distribution = Distribution::smooth;
       all.push_back(
           on_chart(fmt::format("flat rings of {}{}", name_of(faces), words), ring_chart, true, rings, disorder, up));
       all.back().distance = [](const Vector3& p) { return std::abs(p.z()); };
-      all.back().distribution = Distribution::smooth;
+      for (const auto& [shape, chart, normal] : lathe_shapes)
+        all.push_back(on_chart(fmt::format("{} in rings of {}{}", shape, name_of(faces), words), chart, true, rings,
+                               disorder, turned_normal(normal)));
     }
   }
   for (const int sides : {5, 12}) {

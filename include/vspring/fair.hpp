@@ -48,7 +48,7 @@ struct FairOptions {
   double step_tolerance = 1e-3;
   /// Where not given: 10,000 sweeps, with multigrid on each level; 200 iterations of the equilibrium solver on each of
   /// its levels (30 on the finest with sphere springs that are not near by then) and no more than
-  /// FairReport::most_work, with a third more for an even distribution, and on surfaces where these lead nowhere steps
+  /// FairReport::most_work, another distribution included, and on surfaces where these lead nowhere steps
   /// along the flow of the plain iteration.
   std::optional<int> max_iterations = std::nullopt;
   /// Multigrid: levels, the shape itself among them; fewer where that has too few nodes. Where not given: 6 as in the
@@ -121,7 +121,8 @@ struct FairReport {
   /// What was done on coarser versions of the shape and at last on itself.
   std::vector<LevelReport> levels;
   /// What was done on all levels together, in iterations of the equilibrium solver on one moving node (a step of the
-  /// flow counts 60, a sweep 1/16), and the most that would have been done; 0 where iterations are limited instead.
+  /// flow counts 60, a sweep 1/16, a new factor of a matrix 0.1 to 6), and the most that would have been done, sweeps
+  /// as a last resort not counted; 0 where iterations are limited instead.
   double work = 0;
   double most_work = 0;
   Index nodes = 0;

@@ -2,6 +2,14 @@
 
 namespace vspring {
 
+namespace {
+
+// In iterations, for a node whose column has one entry; columns of 12 to 118 entries were timed.
+constexpr double work_of_products = 4e-4;
+constexpr double work_of_entries = 5e-3;
+
+}  // namespace
+
 void CholeskySolver::build(const SparseRows& rows) {
   const Eigen::SparseMatrix<double> matrix = rows.to_eigen();
   if (ordered_entries_ != matrix.nonZeros()) {
@@ -9,6 +17,13 @@ void CholeskySolver::build(const SparseRows& rows) {
     ordered_entries_ = matrix.nonZeros();
   }
   factor_.factorize(matrix);
+}
+
+double CholeskySolver::work_of_building() const {
+  if (factor_.info() != Eigen::Success || factor_.rows() == 0) return 0;
+  const Eigen::SparseMatrix<double>& factor = factor_.matrixL().nestedExpression();
+  const double per_node = static_cast<double>(factor.nonZeros()) / static_cast<double>(factor.rows());
+  return per_node * per_node * work_of_products + per_node * work_of_entries;
 }
 
 void CholeskySolver::solve(std::span<double> values, const Accuracy& /*accuracy*/) {

@@ -81,7 +81,7 @@ class Solver {
     bool limited = false;
     int last_changes = 0;
     const int most_while_far = task.most_while_far.value_or(task.max_iterations);
-    while (result.iterations < task.max_iterations &&
+    while (result.iterations < task.max_iterations && result.work + 1 <= task.most_work &&
            (result.iterations < most_while_far || best.residual() < task.near)) {
       if (context.cancelled()) {
         result.outcome = Outcome::cancelled;
@@ -89,7 +89,7 @@ class Solver {
       }
       if (last_changes == 0 && result.iterations > 0 && (limited || result.iterations % iterations_per_tie == 0))
         (void)renew_ties(limited);
-      find_correction(negligible * task.tolerance);
+      result.work += 1 + find_correction(negligible * task.tolerance);
       ++result.iterations;
       const double size = largest_correction();
       if (!std::isfinite(size)) {
@@ -130,6 +130,8 @@ class Solver {
         break;
       }
     }
+    if (result.outcome == Outcome::iteration_limit && result.work + 1 > task.most_work)
+      result.outcome = Outcome::work_limit;
     result.expected_error = std::min(best.restore(), expected);
     return result;
   }
@@ -146,10 +148,13 @@ class Solver {
     std::visit([](auto& anderson) { anderson.forget(); }, anderson_);
   }
 
-  void find_correction(double enough) {
+  /// What it took besides one iteration, in iterations.
+  double find_correction(double enough) {
     update_directions(net_, model_, team_);
-    if (preconditioner_.refresh(model_)) forget();
+    const bool was_built = preconditioner_.refresh(model_);
+    if (was_built) forget();
     preconditioner_.correct(model_, enough, correction_);
+    return was_built ? preconditioner_.work_of_building() : 0;
   }
 
   double largest_correction() {

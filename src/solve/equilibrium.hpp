@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "base/progress.hpp"
@@ -16,6 +17,8 @@ namespace vspring {
 struct EquilibriumTask {
   double tolerance = 1e-5;  ///< expected largest distance of a node from its final place, in the net's coordinates
   int max_iterations = 200;
+  /// In iterations, as some of which building a preconditioner anew counts; Outcome::work_limit beyond.
+  double most_work = std::numeric_limits<double>::infinity();
   /// From so many iterations on it goes on only where it has been nearer than that; else to max_iterations.
   std::optional<int> most_while_far = std::nullopt;
   double near = 0;
@@ -34,6 +37,7 @@ struct EquilibriumTask {
 struct EquilibriumResult {
   Outcome outcome = Outcome::iteration_limit;
   int iterations = 0;
+  double work = 0;            ///< as for most_work
   double expected_error = 0;  ///< in the net's coordinates
 };
 

@@ -45,10 +45,8 @@ constexpr std::size_t few = 2000;
 constexpr std::size_t not_too_many = 100'000;
 // What may be tried where nobody gave a number of iterations, in iterations of one moving node: some two seconds for
 // 3,000 nodes on one core.
-constexpr double most_work = 1.2e6;
-constexpr double most_work_a_node = 400;
-// In that measure.
-constexpr double work_of_flow_step = 60;
+constexpr double most_work = 1.35e6;
+constexpr double most_work_a_node = 450;
 // Of Newton's steps from a curve that is nearly there.
 constexpr int newton_limit = 20;
 // Steps along the flow, where corrections lead nowhere: fewer are no use.
@@ -377,7 +375,7 @@ class Run {
   void relax(std::size_t level, int max_iterations) { relax(level, max_iterations, hierarchy_.preconditioner(level)); }
 
   void relax(std::size_t level, int max_iterations, Preconditioner& preconditioner) {
-    relax(level, max_iterations, 1, [&](const EquilibriumTask& task) {
+    relax(level, max_iterations, [&](const EquilibriumTask& task) {
       return go_to_equilibrium(hierarchy_.net(level), model_, preconditioner, task, team_, context_);
     });
   }
@@ -385,13 +383,12 @@ class Run {
   /// The finest level.
   void relax_along_flow(int max_iterations, FlowStart start) {
     const std::size_t last = hierarchy_.count() - 1;
-    relax(last, max_iterations, work_of_flow_step, [&](const EquilibriumTask& task) {
+    relax(last, max_iterations, [&](const EquilibriumTask& task) {
       return follow_flow(hierarchy_.net(last), model_, task, start, team_, context_);
     });
   }
 
-  /// work: of an iteration of a node.
-  void relax(std::size_t level, int max_iterations, double work,
+  void relax(std::size_t level, int max_iterations,
              const std::function<EquilibriumResult(const EquilibriumTask&)>& method) {
     const Stopwatch stopwatch;
     const std::size_t last = hierarchy_.count() - 1;
@@ -404,10 +401,7 @@ class Run {
       task.most_while_far = sphere_limit;
       task.near = sphere_is_near * size_;
     }
-    if (report_.most_work > 0) {
-      const double left = (report_.most_work - report_.work) / (work * static_cast<double>(net.moving));
-      task.max_iterations = static_cast<int>(std::clamp(left, 0.0, static_cast<double>(max_iterations)));
-    }
+    if (report_.most_work > 0) task.most_work = (report_.most_work - report_.work) / static_cast<double>(net.moving);
     if (points_) task.renew_ties = [&](double margin) { return points_->renew(margin); };
     if (level != last) task.most_changes = coarse_changes;
     task.memory = memory_;
@@ -417,9 +411,7 @@ class Run {
       progress_.report("fairing", share / 2, static_cast<int>(report_.history.size()), expected / size_);
     };
     EquilibriumResult result = method(task);
-    if (result.outcome == Outcome::iteration_limit && task.max_iterations < max_iterations)
-      result.outcome = Outcome::work_limit;
-    report_.work += work * static_cast<double>(result.iterations) * static_cast<double>(net.moving);
+    report_.work += result.work * static_cast<double>(net.moving);
     report_.iterations += result.iterations;
     const bool by_default = !options_.max_iterations && result.outcome == Outcome::iteration_limit;
     report_.levels.push_back({.moving_nodes = static_cast<Index>(net.moving),

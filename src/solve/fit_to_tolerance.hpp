@@ -105,8 +105,8 @@ class FitToTolerance {
   // The same of surfaces whose nodes keep their place, and whose details may be few edges wide.
   static constexpr std::array<double, 4> first_lengths_on_surfaces = {1, 1.4, 2, 0.7};
   // What may be done for one tolerance, in iterations of one moving node: as much as for four equilibria.
-  static constexpr double least_most_work = 1.2e6;
-  static constexpr double most_work_a_node = 1600;
+  static constexpr double least_most_work = 1.35e6;
+  static constexpr double most_work_a_node = 1800;
   // Of a tolerance.
   static constexpr double room = 0.8;
   static constexpr double any_start = 0.5;

@@ -31,8 +31,8 @@ constexpr double stronger = 4;
 constexpr double unsettled = 0.02;
 constexpr double most_displaced = 0.3;
 // What may be done, in iterations of one moving node.
-constexpr double least_work_allowed = 1.2e6;
-constexpr double most_work_of_a_node = 400;
+constexpr double least_work_allowed = 1.35e6;
+constexpr double most_work_of_a_node = 450;
 
 /// About that which takes such noise off: k = 0.006 (noise/edge)^−1.5, as measured on scans.
 double first_length(const Net& net, double noise) {

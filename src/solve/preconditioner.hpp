@@ -20,6 +20,9 @@ class Preconditioner {
   /// was built anew. Needs directions.
   virtual bool refresh(const Model& model) = 0;
 
+  /// What building anew costs, in iterations without.
+  [[nodiscard]] virtual double work_of_building() const = 0;
+
   /// The correction of every moving node for the forces that the model puts on them. Needs directions. enough: an error
   /// of it that does not matter.
   virtual void correct(const Model& model, double enough, std::vector<Vector3>& correction) = 0;

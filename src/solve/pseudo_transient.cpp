@@ -50,7 +50,9 @@ class Flow {
     find_forces();
     double length = start == FlowStart::near ? longest : std::max(shortest, near_by / forces_.norm());
     bool newton = false;
-    for (; result.iterations < task.max_iterations; ++result.iterations) {
+    for (; result.iterations < task.max_iterations && result.work + work_of_flow_step <= task.most_work;
+         ++result.iterations) {
+      result.work += work_of_flow_step;
       if (context.cancelled()) {
         result.outcome = Outcome::cancelled;
         return result;
@@ -94,6 +96,7 @@ class Flow {
         length = std::min(length * std::clamp(factor, 0.5, greatest_growth), longest);
       }
     }
+    if (result.iterations < task.max_iterations) result.outcome = Outcome::work_limit;
     return result;
   }
 

@@ -23,6 +23,7 @@ class SurfacePreconditioner final : public Preconditioner {
   SurfacePreconditioner(const SystemLevels& levels, LinearSolver& spreading, const Anchor& anchor, ThreadTeam& team);
 
   bool refresh(const Model& model) override;
+  [[nodiscard]] double work_of_building() const override { return bending_.work_of_building(); }
   void correct(const Model& model, double enough, std::vector<Vector3>& correction) override;
 
   /// The correction of every moving node that brings back equilibrium, if slopes are small, where held nodes move:

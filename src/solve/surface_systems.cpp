@@ -13,6 +13,8 @@ namespace {
 
 // Of the diagonal; for single precision, too.
 constexpr double shift_of_free = 1e-5;
+// In iterations.
+constexpr double work_of_levels = 1;
 
 }  // namespace
 
@@ -43,6 +45,8 @@ void BendingSystem::solve(std::span<double> values, const Accuracy& accuracy) {
     multigrid_->solve(values, accuracy);
   }
 }
+
+double BendingSystem::work_of_building() const { return factor_ ? factor_->work_of_building() : work_of_levels; }
 
 std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held) {
   const Net& net = *levels.net;

@@ -31,6 +31,9 @@ class BendingSystem {
   void build(std::span<const double> pull = {}, bool pulled_otherwise = false);
   void solve(std::span<double> values, const Accuracy& accuracy);
 
+  /// In iterations of the equilibrium solver on the net.
+  [[nodiscard]] double work_of_building() const;
+
  private:
   const SystemLevels* levels_;
   ThreadTeam* team_;

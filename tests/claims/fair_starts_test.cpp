@@ -144,7 +144,7 @@ TEST(Starts, CurvesForgetTheirs) {
 
 TEST(Starts, WhereTheSpacingOfTheInputLeadsNowhereAnEvenOneMay) {
   // A spike six times as high as the square that it stands on is wide; nearly flat is fair.
-  const PolygonMesh plane = generate::plane({.columns = 24, .rows = 24});
+  const PolygonMesh plane = generate::plane({.columns = 32, .rows = 32});
   std::vector<Vector3> spike = plane.positions();
   for (Vector3& p : spike) p.z() = 6 * std::exp(-30 * (p - Vector3(0.5, 0.5, 0)).squaredNorm());
   const PolygonMesh mesh = with_positions(plane, spike);
@@ -155,7 +155,7 @@ TEST(Starts, WhereTheSpacingOfTheInputLeadsNowhereAnEvenOneMay) {
   double highest = 0;
   for (const Vector3& p : result.positions) highest = std::max(highest, std::abs(p.z()));
   EXPECT_LT(highest, 0.1);
-  EXPECT_LT(result.report.work, 4.0 / 3 * result.report.most_work);
+  EXPECT_LT(result.report.work, result.report.most_work);
 }
 
 }  // namespace

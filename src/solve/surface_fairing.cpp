@@ -215,7 +215,9 @@ bool SurfaceFairing::try_evenly(const Constraints& constraints, Context& context
   }
   report.iterations = even.iterations;
   report.work = even.work;
+  // Of other nodes than with sphere springs.
   Net net = gather_part(*whole_, part_, constraints);
+  soundness_.emplace(net, *model_, team_);
   hierarchy_.reset();
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
   hierarchy_->net(hierarchy_->count() - 1).positions = nearest;

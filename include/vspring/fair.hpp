@@ -30,7 +30,7 @@ struct FairOptions {
   /// boundary moves, which are held so little that spheres of many sizes are fair, or with a normal that is given where
   /// nodes move on more sides than one; and, with a warning, those of which sphere springs find no equilibrium.
   Springs springs = Springs::sphere;
-  /// Of surfaces, with sphere springs: edge springs know curvature only. Where least bending has no equilibrium, or
+  /// Of surfaces, with sphere springs: edge springs know curvature only. Where no shape of least bending is found, or
   /// sphere springs were asked for and edge springs taken by themselves, the result is that of curvature, with a
   /// warning.
   FairBy fair_by = FairBy::curvature;

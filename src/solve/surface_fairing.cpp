@@ -183,7 +183,7 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, Context&
   by_curvature.work += report.work;
   by_curvature.most_work += report.most_work;
   report = std::move(by_curvature);
-  report.warnings.emplace_back("least bending has no equilibrium here: this is fair by curvature");
+  report.warnings.emplace_back("no shape of least bending was found: this is fair by curvature");
 }
 
 void SurfaceFairing::find_equilibrium(FairBy fair_by, const Constraints& constraints, Context& context,

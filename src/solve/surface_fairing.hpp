@@ -39,7 +39,7 @@ class SurfaceFairing {
   [[nodiscard]] bool fits_last(const Constraints& constraints) const;
   /// Leaves the shape in the net that it returns, or in hierarchy_.
   Net run(const Constraints& constraints, Context& context, FairReport& report, const FairOptions& options);
-  /// The same by the method equilibrium. Where least bending has no equilibrium that of curvature comes next.
+  /// The same by the method equilibrium. Where no shape of least bending is found that by curvature comes next.
   void run_to_equilibrium(const Constraints& constraints, Context& context, ProgressReporter& progress,
                           FairReport& report, const FairOptions& options);
   /// The same, made fair by that; with other distributions and, by curvature, the plain iteration if need be.

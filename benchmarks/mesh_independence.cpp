@@ -1,8 +1,9 @@
 // How far the equilibrium depends on the mesh: the funnel between circles of radius 1 and 0.35, 0.5 apart, on rings of
 // triangles and of quads, wide and narrow, on even, random and graded meshes, refined. Distances of all nodes' radii
 // and heights from the meridian of the surface of rotation that V-Spring stands for where a mesh looks alike in all
-// directions and everywhere: the Laplacian of its mean curvature vanishes. Prints the figures of docs/solver.md;
-// `bench_mesh_independence 8000` stops at that many nodes, `bench_mesh_independence 8000 edge` takes edge springs.
+// directions and everywhere: the Laplacian of its mean curvature vanishes; or of the one of least bending. Prints the
+// figures of docs/solver.md and docs/springs.md; `bench_mesh_independence 8000` stops at that many nodes,
+// `bench_mesh_independence 8000 edge` takes edge springs, `bench_mesh_independence 8000 bending` fairs by bending.
 
 #include <fmt/format.h>
 
@@ -30,16 +31,29 @@ constexpr double inner_radius = 0.35;
 constexpr double height = 0.5;
 constexpr double pi = std::numbers::pi;
 
-/// The meridian r(s), z(s) with the angle ψ of its tangent: 2H = ψ' + sin ψ / r and r H' constant.
+/// The meridian r(s), z(s) with the angle ψ of its tangent: 2H = ψ' + sin ψ / r, and r H' is constant, or where bending
+/// is least its derivative is −2 r H (H² − K).
 struct Meridian {
+  double part = 0;                ///< of that derivative
   std::vector<Vector3> points;    ///< (r, 0, z), from the outer circle inwards
   std::vector<double> conformal;  ///< ∫ ds / r up to every point
 
-  using State = Eigen::Matrix<double, 5, 1>;  // r, z, ψ, H, conformal
+  using State = Eigen::Matrix<double, 6, 1>;  // r, z, ψ, H, r H', conformal
 
   /// Level at both circles where clamped, else without curvature across them.
-  explicit Meridian(bool clamped) {
+  Meridian(bool clamped, FairBy fair_by) {
     Vector3 unknown = clamped ? Vector3(-5.6, 4, 0.95) : Vector3(pi - std::atan2(height, 1 - inner_radius), 0, 0.82);
+    solve(clamped, unknown);
+    // From shape to shape, as there are others that bend less than all nearby.
+    for (int k = 1; k <= 4 && fair_by == FairBy::bending; ++k) {
+      part = 0.25 * k;
+      solve(clamped, unknown);
+    }
+    shoot(clamped, unknown, &points, &conformal);
+  }
+
+  /// Newton's method.
+  void solve(bool clamped, Vector3& unknown) const {
     for (int k = 0; k < 60; ++k) {
       const Vector3 miss = missed_by(clamped, unknown);
       Eigen::Matrix3d slope;
@@ -48,31 +62,33 @@ struct Meridian {
       unknown -= std::min(1.0, 0.3 / step.norm()) * step;
       if (step.norm() < 1e-13) break;
     }
-    shoot(clamped, unknown, &points, &conformal);
   }
 
-  /// What the far end misses. unknown: curvature (clamped) or angle at the outer circle, r H', length.
-  static Vector3 missed_by(bool clamped, const Vector3& unknown) {
+  /// What the far end misses. unknown: curvature (clamped) or angle at the outer circle, r H' there, length.
+  [[nodiscard]] Vector3 missed_by(bool clamped, const Vector3& unknown) const {
     const State end = shoot(clamped, unknown, nullptr, nullptr);
     const double last = clamped ? end[2] - pi : 2 * end[3] - std::sin(end[2]) / end[0];
     return {end[0] - inner_radius, end[1] - height, last};
   }
 
-  static State shoot(bool clamped, const Vector3& unknown, std::vector<Vector3>* points,
-                     std::vector<double>* conformal) {
+  State shoot(bool clamped, const Vector3& unknown, std::vector<Vector3>* points,
+              std::vector<double>* conformals) const {
     const auto slope = [&](const State& at) {
+      const double around = std::sin(at[2]) / at[0];
+      const double difference = at[3] - around;  // half that of the principal curvatures
+      const double force = -2 * part * at[0] * at[3] * difference * difference;
       State change;
-      change << std::cos(at[2]), std::sin(at[2]), 2 * at[3] - std::sin(at[2]) / at[0], unknown[1] / at[0], 1 / at[0];
+      change << std::cos(at[2]), std::sin(at[2]), 2 * at[3] - around, at[4] / at[0], force, 1 / at[0];
       return change;
     };
     State at;
-    at << 1, 0, clamped ? pi : unknown[0], clamped ? unknown[0] / 2 : std::sin(unknown[0]) / 2, 0;
+    at << 1, 0, clamped ? pi : unknown[0], clamped ? unknown[0] / 2 : std::sin(unknown[0]) / 2, unknown[1], 0;
     constexpr int steps = 4000;
     const double h = unknown[2] / steps;
     for (int k = 0;; ++k) {
       if (points != nullptr) {
         points->emplace_back(at[0], 0, at[1]);
-        conformal->push_back(at[4]);
+        conformals->push_back(at[5]);
       }
       if (k == steps) return at;
       const State a = slope(at);
@@ -268,9 +284,10 @@ std::vector<Kind> kinds(const Meridian& meridian) {
 
 int main(int argc, char** argv) {
   const int last = argc > 1 ? std::atoi(argv[1]) : 32'000;
-  const bool by_edges = argc > 2 && std::string(argv[2]) == "edge";
+  const std::string way = argc > 2 ? argv[2] : "";
+  const FairBy fair_by = way == "bending" ? FairBy::bending : FairBy::curvature;
   for (const bool clamped : {true, false}) {
-    const Meridian meridian(clamped);
+    const Meridian meridian(clamped, fair_by);
     fmt::print(
         "\n{}:\n\n| mesh | nodes | rms distance | greatest | greatest turn, ° | iterations |\n"
         "|---|---|---|---|---|---|\n",
@@ -284,7 +301,8 @@ int main(int argc, char** argv) {
         options.method = Method::equilibrium;
         options.distribution = kind.distribution;
         options.tolerance = 1e-7;
-        options.springs = by_edges ? Springs::edge : Springs::sphere;
+        options.springs = way == "edge" ? Springs::edge : Springs::sphere;
+        options.fair_by = fair_by;
         const FairResult result = fair(start, constraints, options);
         std::vector<Vector3> profile;
         for (const Vector3& p : result.positions) profile.emplace_back(p.head<2>().norm(), 0, p.z());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -33,6 +34,36 @@ inline Constraints hold_all_but(const Region& region, const PolygonMesh& mesh) {
   apply_rules(constraints, mesh, R"({"rules": [{"nodes": "non-manifold", "position": "fixed"}]})");
   restrict_to_region(constraints, mesh, region.nodes);
   return constraints;
+}
+
+/// The faces around some nodes and two rings more, which are its outer rings.
+inline PolygonMesh cut_out(const PolygonMesh& mesh, const std::vector<Index>& nodes) {
+  const auto at = [](Index node) { return static_cast<std::size_t>(node); };
+  std::vector<std::uint8_t> marked(at(mesh.node_count()), 0);
+  for (const Index node : nodes) marked[at(node)] = 1;
+  const auto touched = [&](Index f) {
+    const auto face = mesh.face(f);
+    return std::any_of(face.begin(), face.end(), [&](Index node) { return marked[at(node)] != 0; });
+  };
+  std::vector<std::uint8_t> ring = marked;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (!touched(f)) continue;
+    for (const Index node : mesh.face(f)) ring[at(node)] = 1;
+  }
+  marked = ring;
+  MeshBuilder builder;
+  std::vector<Index> numbers(marked.size(), -1);
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (!touched(f)) continue;
+    std::vector<Index> face;
+    for (const Index node : mesh.face(f)) {
+      Index& number = numbers[at(node)];
+      if (number < 0) number = builder.add_node(mesh.position(node));
+      face.push_back(number);
+    }
+    builder.add_face(face);
+  }
+  return builder.take();
 }
 
 }  // namespace vspring::bench

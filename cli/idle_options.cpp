@@ -44,6 +44,9 @@ constexpr IdleRule idle_rules[] = {
      "it is for --method sweep and multigrid"},
     {"--springs", [](const RunFacts& run) { return !run.equilibrium_tried || run.own_nodes_pull; },
      "it is for --method equilibrium without points"},
+    {"--fair-by", [](const RunFacts& run) { return !run.equilibrium_tried || run.own_nodes_pull; },
+     "it is for --method equilibrium without points"},
+    {"--fair-by", [](const RunFacts& run) { return run.springs == Springs::edge; }, "it is for --springs sphere"},
     {"--levels", [](const RunFacts& run) { return run.method != Method::multigrid; }, "it is for --method multigrid"},
     {"--pre-smoothing", [](const RunFacts& run) { return run.method != Method::multigrid; },
      "it is for --method multigrid"},
@@ -88,6 +91,7 @@ void look_at(RunFacts& facts, const FairingArguments& arguments) {
   const Method by_default = arguments.paper ? Method::sweep : Method::equilibrium;
   facts.given = arguments.given;
   facts.equilibrium_tried = arguments.options.method.value_or(by_default) == Method::equilibrium;
+  facts.springs = arguments.options.springs;
   facts.fix_is_none = arguments.fix == Hold::none;
   facts.fair_boundary = arguments.options.fair_boundary;
   facts.has_picture = !arguments.picture.path.empty();

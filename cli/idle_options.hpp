@@ -22,6 +22,7 @@ struct RunFacts {
   bool own_nodes_pull = false;          ///< --within and the like, where there is no --points
   bool points_face = false;             ///< points have normals
   bool equilibrium_tried = false;       ///< by the method that was asked for
+  Springs springs = Springs::sphere;    ///< that were asked for
   Method method = Method::equilibrium;  ///< that the shape is from
   std::size_t levels = 0;
   bool fix_is_none = false;

@@ -49,7 +49,10 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   nlohmann::ordered_json json;
   json["outcome"] = name(report.outcome);
   json["method"] = name(report.method);
-  if (report.faces > 0) json["springs"] = name(report.springs);
+  if (report.faces > 0) {
+    json["springs"] = name(report.springs);
+    json["fair_by"] = name(report.fair_by);
+  }
   json["iterations"] = report.iterations;
   json["residual"] = report.residual;
   json["expected_error"] = error_of(report);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -16,36 +17,6 @@
 namespace vspring::bench {
 
 namespace {
-
-/// The faces around some nodes and two rings more, which are its outer rings: what every program but VTK holds.
-PolygonMesh cut_out(const PolygonMesh& mesh, const std::vector<Index>& nodes) {
-  const auto at = [](Index node) { return static_cast<std::size_t>(node); };
-  std::vector<std::uint8_t> marked(at(mesh.node_count()), 0);
-  for (const Index node : nodes) marked[at(node)] = 1;
-  const auto touched = [&](Index f) {
-    const auto face = mesh.face(f);
-    return std::any_of(face.begin(), face.end(), [&](Index node) { return marked[at(node)] != 0; });
-  };
-  std::vector<std::uint8_t> ring = marked;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    if (!touched(f)) continue;
-    for (const Index node : mesh.face(f)) ring[at(node)] = 1;
-  }
-  marked = ring;
-  MeshBuilder builder;
-  std::vector<Index> numbers(marked.size(), -1);
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    if (!touched(f)) continue;
-    std::vector<Index> face;
-    for (const Index node : mesh.face(f)) {
-      Index& number = numbers[at(node)];
-      if (number < 0) number = builder.add_node(mesh.position(node));
-      face.push_back(number);
-    }
-    builder.add_face(face);
-  }
-  return builder.take();
-}
 
 /// Raised between its rims by up to 0.2; the rims' slopes stay.
 PolygonMesh bulged(PolygonMesh mesh) {
@@ -69,7 +40,9 @@ struct Program {
   const char* variant;
 };
 
-constexpr std::array programs = {Program{"vspring", "vspring", "rings"}, Program{"CGAL fair", "cgal", "cholmod"},
+constexpr std::array programs = {Program{"vspring", "vspring", "rings"},
+                                 Program{"vspring, by bending", "vspring", "rings,bending"},
+                                 Program{"CGAL fair", "cgal", "cholmod"},
                                  Program{"OpenMesh, Jacobi C1, 100 iterations", "openmesh", "100"},
                                  Program{"VTK, windowed sinc, 100 iterations, pass band 0.001", "vtk", "100,0.001"},
                                  Program{"Taubin, λ 0.5, μ −0.53, 100 iterations", "taubin", "100"}};
@@ -94,7 +67,8 @@ void compare(const Case& input, const std::filesystem::path& drivers) {
   print_row(input, "start", input.start);
   for (const Program& program : programs) {
     const std::filesystem::path driver = drivers / fmt::format("peer_{}", program.driver);
-    const std::string variant = program.driver == std::string("vspring") && input.sphere ? "sphere" : program.variant;
+    std::string variant = program.variant;
+    if (program.driver == std::string("vspring") && input.sphere) variant.replace(0, std::strlen("rings"), "sphere");
     if (run_driver(driver, start, result, 1, variant))
       print_row(input, program.name, read_surface(result).mesh);
     else

@@ -10,4 +10,8 @@ namespace vspring::bench {
 /// the paper, and for each mesh named (of triangles) regions of it.
 void compare_figures(const std::filesystem::path& drivers, const std::vector<std::string>& meshes);
 
+/// Ten regions of each mesh by vspring, fair by curvature and by bending, and CGAL: prints in how many each is next to
+/// the best of the three by every figure, and the rows in which vspring is not.
+void compare_regions(const std::filesystem::path& drivers, const std::vector<std::string>& meshes);
+
 }  // namespace vspring::bench

@@ -51,7 +51,8 @@ Surface surface_of(const PolygonMesh& mesh) {
   for (const Vector3& p : mesh.positions()) surface.add_vertex({p.x(), p.y(), p.z()});
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);
-    surface.add_face(Vertex(face[0]), Vertex(face[1]), Vertex(face[2]));
+    if (surface.add_face(Vertex(face[0]), Vertex(face[1]), Vertex(face[2])) == Surface::null_face())
+      throw std::runtime_error("CGAL takes surfaces only, with faces of one sense");
   }
   return surface;
 }

@@ -1,6 +1,6 @@
 // vspring's fair() to the equilibrium, boundary positions and normals held. Variant "sphere": the normals of the unit
 // sphere; "rings": two outer rings held by position, as other programs hold them, which give the inner one its tangent
-// planes; otherwise the boundary's normals as they are in the mesh.
+// planes; otherwise the boundary's normals as they are in the mesh. With ",bending" behind it fair by least bending.
 
 #include <stdexcept>
 #include <string>
@@ -29,11 +29,14 @@ Constraints hold_rings(const PolygonMesh& mesh) {
 
 int main(int argc, char** argv) {
   return bench::drive(
-      argc, argv, [](const PolygonMesh& mesh, int threads, const std::string& variant, bench::Cost& cost) {
+      argc, argv, [](const PolygonMesh& mesh, int threads, const std::string& words, bench::Cost& cost) {
+        const std::size_t comma = words.find(',');
+        const std::string variant = words.substr(0, comma);
         const Constraints constraints = variant == "sphere"  ? support::held_boundary(mesh, support::radial)
                                         : variant == "rings" ? hold_rings(mesh)
                                                              : support::clamped_boundary(mesh);
-        const FairOptions options;
+        FairOptions options;
+        if (comma != std::string::npos && words.substr(comma + 1) == "bending") options.fair_by = FairBy::bending;
         Context context;
         context.threads = threads;
         FairResult result;

@@ -70,6 +70,7 @@ int run_fair(FairArguments arguments) {
 }
 
 const std::map<std::string, Springs> springs = {{"edge", Springs::edge}, {"sphere", Springs::sphere}};
+const std::map<std::string, FairBy> goals = {{"curvature", FairBy::curvature}, {"bending", FairBy::bending}};
 const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNormals::link},
                                                              {"average", PseudoNormals::average},
                                                              {"area", PseudoNormals::area},
@@ -90,6 +91,11 @@ void add_surface_method(CLI::App& command, FairArguments& arguments, const Fairi
       "What neighbouring springs agree in: their mean-curvature spheres, for the same shape on every mesh, or their "
       "lengths along every edge, as in the paper (default: sphere; edge with points, with the other methods, with "
       "--paper, and where spheres would not see what is held)")
+      ->group(fairing_group);
+  add_choice(
+      command, "--fair-by", options.fair_by, goals,
+      "What sphere springs make of the surface: mean curvature that changes as evenly as it can, or least bending "
+      "energy, which may bulge (default: curvature)")
       ->group(fairing_group);
   CLI::Option* kind = add_choice(command, "--pseudo-normals", options.pseudo_normals, pseudo_normals,
                                  "Normals of nodes: Max's weights around the link; the paper's plain average of face "

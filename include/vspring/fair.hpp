@@ -30,6 +30,10 @@ struct FairOptions {
   /// boundary moves, which are held so little that spheres of many sizes are fair, or with a normal that is given where
   /// nodes move on more sides than one; and, with a warning, those of which sphere springs find no equilibrium.
   Springs springs = Springs::sphere;
+  /// Of surfaces, with sphere springs: edge springs know curvature only. Where no shape of least bending is found, or
+  /// sphere springs were asked for and edge springs taken by themselves, the result is that of curvature, with a
+  /// warning.
+  FairBy fair_by = FairBy::curvature;
   /// Printed ones are for comparisons with the paper.
   Forces forces = Forces::steady;
   /// Of curves.
@@ -76,6 +80,9 @@ struct FairOptions {
 /// "edge" or "sphere".
 [[nodiscard]] const char* name(Springs springs) noexcept;
 
+/// "curvature" or "bending".
+[[nodiscard]] const char* name(FairBy fair_by) noexcept;
+
 /// "equilibrium", "multigrid" or "sweep".
 [[nodiscard]] const char* name(Method method) noexcept;
 
@@ -108,6 +115,7 @@ struct FairReport {
   Method method = Method::sweep;
   /// Of surfaces.
   Springs springs = Springs::edge;
+  FairBy fair_by = FairBy::curvature;
   int iterations = 0;
   /// Multigrid and sweep: largest displacement of the last iteration, relative to the mean edge length at its node
   /// (§4.6). Equilibrium: predicted largest distance of a node from its final place, relative to the diagonal of the

@@ -26,6 +26,12 @@ enum class Springs {
   sphere  ///< the radii of their mean-curvature spheres: the same shape on every mesh, see docs/springs.md
 };
 
+/// What is least, or even, in the equilibrium of sphere springs.
+enum class FairBy {
+  curvature,  ///< mean curvature changes as evenly as it can: ΔH = 0
+  bending  ///< bending energy ∫ κ1² + κ2² dA, among shapes nearby: ΔH + 2H(H² − K) = 0; see docs/springs.md
+};
+
 /// How closely forces keep to the paper's equations. In either way an equilibrium is where they vanish.
 enum class Forces {
   steady,  ///< without jumps, and stable however much points weigh

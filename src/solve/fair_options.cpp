@@ -21,6 +21,8 @@ const char* name(Method method) noexcept {
 
 const char* name(Springs springs) noexcept { return springs == Springs::edge ? "edge" : "sphere"; }
 
+const char* name(FairBy fair_by) noexcept { return fair_by == FairBy::bending ? "bending" : "curvature"; }
+
 const char* name(Outcome outcome) noexcept {
   switch (outcome) {
     case Outcome::converged:

@@ -40,8 +40,8 @@ class Soundness {
   /// What is worse about the shape now, in words for people; empty where nothing is: places that are no numbers or far
   /// outside the box; more flaws, but for those beside nodes that are held elsewhere than the input has them; edges
   /// of a curve in a plane that cross each other, where no tangent is held; where nothing but positions holds it, over
-  /// three times the V-Spring energy, 1.5 times that of a curve that is bent more, or of a surface over 1.3 times the
-  /// bending, or 2.5 times that without noise. Updates directions. Cost: linear.
+  /// three times the V-Spring energy (but where bending is to be least), 1.5 times that of a curve that is bent more,
+  /// or of a surface over 1.3 times the bending, or 2.5 times that without noise. Updates directions. Cost: linear.
   [[nodiscard]] std::string fault(Net& now) const;
 
   /// The same where what is held has been moved since, which the energy depends on: without a look at that. Updates

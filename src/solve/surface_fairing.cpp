@@ -149,11 +149,7 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   report.threads = team_.size();
   before_ = measure(mesh(), &held(constraints), team_);
   if (report.method == Method::equilibrium) {
-    const FairReport at_first = report;
-    run_with(options.springs, constraints, context, progress, report, options);
-    if (is_settled(report) || options.method || options.max_iterations || options.as_found) return {};
-    if (!options.distribution && try_evenly(constraints, context, progress, at_first, report)) return {};
-    try_sweeps(constraints, context, progress, report);
+    run_to_equilibrium(constraints, context, progress, report, options);
     return {};
   }
   Net net = gather_part(*whole_, part_, constraints);
@@ -170,32 +166,65 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   return net;
 }
 
-void SurfaceFairing::run_with(Springs springs, const Constraints& constraints, Context& context,
+void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, Context& context, ProgressReporter& progress,
+                                        FairReport& report, const FairOptions& options) {
+  const FairReport at_first = report;
+  find_equilibrium(options.fair_by, constraints, context, progress, report, options);
+  if (options.springs == Springs::edge || options.fair_by == FairBy::curvature) return;
+  if (report.springs == Springs::edge) {
+    report.warnings.emplace_back(
+        "least bending is for sphere springs, which would not see what is held here: these are edge springs");
+    return;
+  }
+  if (is_settled(report) || options.max_iterations || options.as_found) return;
+  FairReport by_curvature = at_first;
+  find_equilibrium(FairBy::curvature, constraints, context, progress, by_curvature, options);
+  by_curvature.iterations += report.iterations;
+  by_curvature.work += report.work;
+  by_curvature.most_work += report.most_work;
+  report = std::move(by_curvature);
+  report.warnings.emplace_back("no shape of least bending was found: this is fair by curvature");
+}
+
+void SurfaceFairing::find_equilibrium(FairBy fair_by, const Constraints& constraints, Context& context,
+                                      ProgressReporter& progress, FairReport& report, const FairOptions& options) {
+  const FairReport at_first = report;
+  run_with(options.springs, fair_by, constraints, context, progress, report, options);
+  if (is_settled(report) || options.method || options.max_iterations || options.as_found) return;
+  if (!options.distribution && try_evenly(fair_by, constraints, context, progress, at_first, report)) return;
+  if (report.fair_by == FairBy::curvature) try_sweeps(constraints, context, progress, report);
+}
+
+void SurfaceFairing::run_with(Springs springs, FairBy fair_by, const Constraints& constraints, Context& context,
                               ProgressReporter& progress, FairReport& report, const FairOptions& options) {
   Net net = gather_part(*whole_, part_, constraints, springs == Springs::sphere);
   if (springs == Springs::sphere && !suits_sphere_springs(net))
-    return run_with(Springs::edge, constraints, context, progress, report, options);
+    return run_with(Springs::edge, fair_by, constraints, context, progress, report, options);
+  const bool by_bending = springs == Springs::sphere && fair_by == FairBy::bending;
+  if (by_bending) use_least_bending(net);
   hierarchy_.reset();
   soundness_.emplace(net, *model_, team_);
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
-  // Whoever gives a number of iterations, or asks for what is found, gets that; edge springs come second else.
+  // Whoever gives a number of iterations, or asks for what is found, gets that; edge springs come second else, and
+  // after least bending curvature does.
   const bool is_try = springs == Springs::sphere && !options.max_iterations && !options.as_found;
   FairReport one = report;
   run_equilibrium(*hierarchy_, *model_, is_try ? for_a_try(options) : options, team_, context, progress, one,
                   &*soundness_);
   one.springs = springs;
-  if (!is_try || is_settled(one)) {
+  one.fair_by = by_bending ? FairBy::bending : FairBy::curvature;
+  if (!is_try || by_bending || is_settled(one)) {
     report = std::move(one);
     return;
   }
   report.iterations = one.iterations;
   report.work = one.work;
-  run_with(Springs::edge, constraints, context, progress, report, options);
+  run_with(Springs::edge, fair_by, constraints, context, progress, report, options);
   report.warnings.emplace_back("sphere springs have no equilibrium here: these are edge springs");
 }
 
-bool SurfaceFairing::try_evenly(const Constraints& constraints, Context& context, ProgressReporter& progress,
-                                const FairReport& at_first, FairReport& report) {
+bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, Context& context,
+                                ProgressReporter& progress, const FairReport& at_first, FairReport& report) {
   const std::vector<Vector3> nearest = hierarchy_->net(hierarchy_->count() - 1).positions;
   FairOptions options = options_;
   options.distribution = Distribution::even;
@@ -205,7 +234,7 @@ bool SurfaceFairing::try_evenly(const Constraints& constraints, Context& context
   even.iterations = report.iterations;
   even.work = report.work;
   even.most_work = report.most_work;
-  run_with(options.springs, constraints, context, progress, even, options);
+  run_with(options.springs, fair_by, constraints, context, progress, even, options);
   if (was_found(even)) {
     report = std::move(even);
     if (report.outcome == Outcome::cancelled) return true;
@@ -215,7 +244,10 @@ bool SurfaceFairing::try_evenly(const Constraints& constraints, Context& context
   }
   report.iterations = even.iterations;
   report.work = even.work;
+  if (fair_by == FairBy::bending) return false;
+  // Of other nodes than with sphere springs.
   Net net = gather_part(*whole_, part_, constraints);
+  soundness_.emplace(net, *model_, team_);
   hierarchy_.reset();
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
   hierarchy_->net(hierarchy_->count() - 1).positions = nearest;
@@ -256,6 +288,8 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std
   const Net& net = hierarchy_->net(hierarchy_->count() - 1);
   if (part_) part_->constraints = constraints_of(constraints, part_->node);
   report.method = Method::equilibrium;
+  report.springs = net.spheres.on() ? Springs::sphere : Springs::edge;
+  report.fair_by = net.spheres.differences.empty() ? FairBy::curvature : FairBy::bending;
   ProgressReporter progress(context);
   report.threads = team_.size();
   FairOptions options = options_;

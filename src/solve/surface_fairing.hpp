@@ -39,12 +39,18 @@ class SurfaceFairing {
   [[nodiscard]] bool fits_last(const Constraints& constraints) const;
   /// Leaves the shape in the net that it returns, or in hierarchy_.
   Net run(const Constraints& constraints, Context& context, FairReport& report, const FairOptions& options);
-  /// The same by the method equilibrium with such springs.
-  void run_with(Springs springs, const Constraints& constraints, Context& context, ProgressReporter& progress,
-                FairReport& report, const FairOptions& options);
+  /// The same by the method equilibrium. Where no shape of least bending is found that by curvature comes next.
+  void run_to_equilibrium(const Constraints& constraints, Context& context, ProgressReporter& progress,
+                          FairReport& report, const FairOptions& options);
+  /// The same, made fair by that; with other distributions and, by curvature, the plain iteration if need be.
+  void find_equilibrium(FairBy fair_by, const Constraints& constraints, Context& context, ProgressReporter& progress,
+                        FairReport& report, const FairOptions& options);
+  /// The same with such springs, or edge springs where these do not suit.
+  void run_with(Springs springs, FairBy fair_by, const Constraints& constraints, Context& context,
+                ProgressReporter& progress, FairReport& report, const FairOptions& options);
   /// Where no equilibrium was found: one with another distribution may be. Else the nearest shape stays. at_first: the
   /// report before anything was tried.
-  bool try_evenly(const Constraints& constraints, Context& context, ProgressReporter& progress,
+  bool try_evenly(FairBy fair_by, const Constraints& constraints, Context& context, ProgressReporter& progress,
                   const FairReport& at_first, FairReport& report);
   /// Where no equilibrium was found and nobody asked for the method: the paper's iteration may lead somewhere. The
   /// fairer of both stays.

@@ -280,6 +280,8 @@ void use_sphere_springs(Net& net) {
   net.spheres.factor = bending_factor(net);
 }
 
+void use_least_bending(Net& net) { net.spheres.differences.assign(net.moving, 0); }
+
 void update_sphere(Net& net, std::size_t i, const Vector3& first) {
   find_row(net, i);
   find_spread(net, i);
@@ -317,6 +319,7 @@ void update_sphere(Net& net, std::size_t i, const Vector3& first) {
   fit.q2 /= length;
   net.spheres.curvatures[i] =
       curvature_by_row(net, i, t1, t2, fit, [&](std::size_t, const Vector3& e) { return e.dot(normal); });
+  if (i < net.spheres.differences.size()) net.spheres.differences[i] = 4 * (fit.q1 * fit.q1 + fit.q2 * fit.q2);
 }
 
 void find_given_curvature(Net& net, std::size_t i) {
@@ -347,6 +350,7 @@ double sphere_force(const Net& net, std::size_t i) {
     if (!(theirs == theirs)) continue;
     sum += row[k] * ((net.normals[i].dot(net.normals[j]) < 0 ? -theirs : theirs) - own);
   }
+  if (!spheres.differences.empty()) sum += 2 * spheres.areas[i] * own * spheres.differences[i];
   const double weight = spheres.weights[i];
   return weight > 0 ? -4 * spheres.factor * sum / weight : 0;
 }

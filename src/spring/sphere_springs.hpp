@@ -27,6 +27,9 @@ struct SphereSprings {
   /// What forces are divided by in the linear equations, Σ 1/ℓ for springs of Eq. 4: 16 M/ρ⁴ of the node's area M and
   /// its mean squared edge ρ².
   std::vector<double> weights;
+  /// H² − K of moving nodes, a quarter of the squared difference of their principal curvatures. Empty: the equilibrium
+  /// is not that of least bending.
+  std::vector<double> differences;
   double factor = 1;  ///< bending_factor() of the net
 
   [[nodiscard]] bool on() const noexcept { return !curvatures.empty(); }
@@ -34,6 +37,9 @@ struct SphereSprings {
 
 /// Makes room in the net for sphere springs, which switches them on.
 void use_sphere_springs(Net& net);
+
+/// Makes the equilibrium of a net with sphere springs that of least bending.
+void use_least_bending(Net& net);
 
 /// Normal (where not given; `first` is a guess) and curvature of a node with a ring, from its link by least squares,
 /// and its row of the Laplacian. Curvatures of nodes with given normals are left to find_given_curvature().
@@ -43,7 +49,7 @@ void update_sphere(Net& net, std::size_t i, const Vector3& first);
 void find_given_curvature(Net& net, std::size_t i);
 
 /// The force on a moving node inside, along its normal, as Eq. 8's but of sphere springs:
-/// κ ρ⁴/(4 M) Σ K (c_i − c_j).
+/// κ ρ⁴/(4 M) Σ K (c_i − c_j), where bending is to be least less κ ρ⁴/2 c (H² − K).
 double sphere_force(const Net& net, std::size_t i);
 
 }  // namespace vspring

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -156,6 +157,31 @@ TEST(Starts, WhereTheSpacingOfTheInputLeadsNowhereAnEvenOneMay) {
   for (const Vector3& p : result.positions) highest = std::max(highest, std::abs(p.z()));
   EXPECT_LT(highest, 0.1);
   EXPECT_LT(result.report.work, result.report.most_work);
+}
+
+/// With a triangle more below and above every edge of the rims.
+PolygonMesh with_teeth(const PolygonMesh& tube) {
+  MeshBuilder builder;
+  for (const Vector3& p : tube.positions()) builder.add_node(p);
+  for (Index f = 0; f < tube.face_count(); ++f) builder.add_face(tube.face(f));
+  for (const std::vector<Index>& loop : boundary_loops(tube)) {
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Index a = loop[k];
+      const Index b = loop[(k + 1) % loop.size()];
+      const Vector3 middle = (tube.position(a) + tube.position(b)) / 2;
+      const Index tip = builder.add_node(middle + Vector3(0, 0, middle.z() > 2 ? 0.3 : -0.3));
+      builder.add_face(std::array{a, b, tip});
+    }
+  }
+  return builder.take();
+}
+
+TEST(FairStarts, WhereNothingIsFoundTheSpringsMayHaveSeenOtherNodes) {
+  // Sphere springs see the teeth; edge springs and the plain iteration, which comes last, do not.
+  const PolygonMesh mesh = with_teeth(generate::add_noise(generate::tube({.columns = 5, .rows = 10}, 1, 4), 0.1, 1));
+  const FairResult result = fair(mesh, clamped_boundary(mesh));
+  EXPECT_EQ(result.report.outcome, Outcome::worse_than_input);
+  EXPECT_EQ(result.positions, mesh.positions());
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ class Fair(Case):
         self.fair("--report", self.folder / "report.json", "--threads", "2")
         report = self.read_json("report.json")
         self.assertEqual(report["outcome"], "converged")
+        self.assertEqual((report["springs"], report["fair_by"]), ("sphere", "curvature"))
         for key, kind in {"iterations": int, "residual": float, "nodes": int, "faces": int, "fixed_positions": int,
                           "fixed_normals": int, "seconds": float, "peak_memory_bytes": int, "threads": int, "version": str,
                           "greatest_move": float, "rms_move": float, "moving_nodes": int, "warnings": list}.items():
@@ -72,7 +73,7 @@ class Fair(Case):
         plain = (self.folder / "out.obj").read_bytes()
         rules = self.write("rules.json", json.dumps({"rules": [{"nodes": [0], "position": [0, 0, 2]}]}))
         for options in (["--fix-normals", "boundary"], ["--constraints", rules], ["--region", "sphere:0,0,1,0.6"],
-                        ["--tolerance", "1e-2"], ["--method", "sweep"], ["--springs", "edge"], ["--pseudo-normals", "area"], ["--pseudo-normals", "angle"], ["--paper"],
+                        ["--tolerance", "1e-2"], ["--method", "sweep"], ["--springs", "edge"], ["--fair-by", "bending"], ["--pseudo-normals", "area"], ["--pseudo-normals", "angle"], ["--paper"],
                         ["--distribution", "keep"], ["--strength", "0.5"]):
             self.fair(*options)
             self.assertNotEqual((self.folder / "out.obj").read_bytes(), plain, options)

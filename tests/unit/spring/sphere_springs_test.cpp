@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "spring/model.hpp"
 #include "support/specimens.hpp"
@@ -21,9 +22,10 @@ struct Sprung {
   double greatest_force = 0;
 };
 
-Sprung sprung(const PolygonMesh& mesh, const Constraints& constraints) {
+Sprung sprung(const PolygonMesh& mesh, const Constraints& constraints, FairBy fair_by = FairBy::curvature) {
   ThreadTeam team(1);
   Sprung result{gather_net(mesh, constraints, true)};
+  if (fair_by == FairBy::bending) use_least_bending(result.net);
   update_directions(result.net, *surface_model(PseudoNormals::link), team);
   for (std::size_t i = 0; i < result.net.moving; ++i)
     result.greatest_force = std::max(result.greatest_force, std::abs(sphere_force(result.net, i)));
@@ -166,6 +168,59 @@ TEST(SphereSprings, TakeABumpBackAndItsNeighboursAlong) {
       }
     }
   }
+}
+
+/// Inverted at the unit sphere around a centre.
+PolygonMesh inverted(const PolygonMesh& mesh, const Vector3& centre) {
+  std::vector<Vector3> positions = mesh.positions();
+  for (Vector3& p : positions) p = centre + (p - centre) / (p - centre).squaredNorm();
+  return with_positions(mesh, std::move(positions));
+}
+
+/// The root mean square of Δc, or of what is to vanish where bending is least, away from the boundary, over that of the
+/// curvature's cube.
+double unrest(const PolygonMesh& mesh, FairBy fair_by) {
+  const Net net = sprung(mesh, held_boundary(mesh), fair_by).net;
+  double squares = 0;
+  double of_curvatures = 0;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const auto links = net.rings.links(i);
+    if (std::any_of(links.begin(), links.end(), [&](Link link) { return link.node() >= net.moving; })) continue;
+    const double area = net.spheres.areas[i];
+    squares += area * std::pow(sphere_force(net, i) * net.spheres.weights[i] / (4 * net.spheres.factor * area), 2);
+    of_curvatures += area * std::pow(net.spheres.curvatures[i], 6);
+  }
+  return std::sqrt(squares / of_curvatures);
+}
+
+TEST(SphereSprings, OfLeastBendingRestOnTheCliffordTorusAndOnWhatItIsInvertedTo) {
+  // Inversion at spheres keeps the energy. The torus's mean curvature is uneven.
+  for (const bool inverts : {false, true}) {
+    SCOPED_TRACE(inverts ? "inverted" : "as it is");
+    const auto unrest_of = [&](int cells, FairBy fair_by) {
+      const generate::Grid grid{.columns = 3 * cells / 2, .rows = cells, .faces = generate::Faces::quads};
+      const PolygonMesh torus = generate::torus(grid, std::numbers::sqrt2, 1);
+      return unrest(inverts ? inverted(torus, {0.4, 0.5, 2.5}) : torus, fair_by);
+    };
+    EXPECT_GT(unrest_of(48, FairBy::curvature), 10);
+    EXPECT_LT(unrest_of(48, FairBy::bending), 0.2);
+    EXPECT_LT(unrest_of(48, FairBy::bending), 0.3 * unrest_of(24, FairBy::bending));
+  }
+}
+
+TEST(SphereSprings, OfLeastBendingRestOnAnInvertedCatenoid) {
+  const auto unrest_of = [](int cells, FairBy fair_by) {
+    PolygonMesh catenoid = generate::tube({.columns = 3 * cells, .rows = cells, .faces = generate::Faces::quads}, 1, 2);
+    std::vector<Vector3> positions = catenoid.positions();
+    for (Vector3& p : positions) {
+      const double radius = std::cosh(p.z() - 1);
+      p = Vector3(radius * p.x(), radius * p.y(), p.z() - 1);
+    }
+    return unrest(inverted(with_positions(std::move(catenoid), std::move(positions)), {0.3, 0.2, 0.1}), fair_by);
+  };
+  EXPECT_GT(unrest_of(24, FairBy::curvature), 1);
+  EXPECT_LT(unrest_of(24, FairBy::bending), 0.2);
+  EXPECT_LT(unrest_of(24, FairBy::bending), 0.3 * unrest_of(12, FairBy::bending));
 }
 
 }  // namespace

@@ -1,9 +1,13 @@
 #include "solve/cholesky_solver.hpp"
 
+#include <limits>
+
 namespace vspring {
 
 namespace {
 
+// What is added to the diagonal where it does not do.
+constexpr double share_of_greatest = 1e-10;
 // In iterations, for a node whose column has one entry; columns of 12 to 118 entries were timed.
 constexpr double work_of_products = 4e-4;
 constexpr double work_of_entries = 5e-3;
@@ -16,6 +20,11 @@ void CholeskySolver::build(const SparseRows& rows) {
     factor_.analyzePattern(matrix);
     ordered_entries_ = matrix.nonZeros();
   }
+  factor_.setShift(0);
+  factor_.factorize(matrix);
+  if (factor_.info() == Eigen::Success) return;
+  // Of tangled shapes a pivot may vanish.
+  factor_.setShift(share_of_greatest * matrix.diagonal().cwiseAbs().maxCoeff());
   factor_.factorize(matrix);
 }
 
@@ -26,9 +35,16 @@ double CholeskySolver::work_of_building() const {
   return per_node * per_node * work_of_products + per_node * work_of_entries;
 }
 
+Eigen::VectorXd CholeskySolver::solution(const Eigen::VectorXd& column) const {
+  // Eigen leaves what it returns as the memory was.
+  if (factor_.info() != Eigen::Success)
+    return Eigen::VectorXd::Constant(column.size(), std::numeric_limits<double>::quiet_NaN());
+  return factor_.solve(column);
+}
+
 void CholeskySolver::solve(std::span<double> values, const Accuracy& /*accuracy*/) {
   Eigen::Map<Eigen::VectorXd> column(values.data(), static_cast<Eigen::Index>(values.size()));
-  column = factor_.solve(column).eval();
+  column = solution(column);
 }
 
 void CholeskySolver::solve(std::span<Vector3> values, const Accuracy& /*accuracy*/) {
@@ -36,7 +52,7 @@ void CholeskySolver::solve(std::span<Vector3> values, const Accuracy& /*accuracy
     Eigen::VectorXd column(static_cast<Eigen::Index>(values.size()));
     for (std::size_t i = 0; i < values.size(); ++i)
       column[static_cast<Eigen::Index>(i)] = values[i][static_cast<Eigen::Index>(k)];
-    column = factor_.solve(column).eval();
+    column = solution(column);
     for (std::size_t i = 0; i < values.size(); ++i)
       values[i][static_cast<Eigen::Index>(k)] = column[static_cast<Eigen::Index>(i)];
   });

@@ -15,7 +15,8 @@ class CholeskySolver final : public LinearSolver {
  public:
   explicit CholeskySolver(ThreadTeam& team) : team_(&team) {}
 
-  /// Makes ready for a matrix. One with as many entries as the last must have the same pattern, and keeps its ordering.
+  /// Makes ready for a matrix; where a pivot vanishes for that with a trifle added to its diagonal. One with as many
+  /// entries as the last must have the same pattern, and keeps its ordering.
   void build(const SparseRows& matrix);
   /// What that takes, in iterations of the equilibrium solver with all nodes.
   [[nodiscard]] double work_of_building() const;
@@ -23,6 +24,9 @@ class CholeskySolver final : public LinearSolver {
   void solve(std::span<Vector3> values, const Accuracy& accuracy) override;
 
  private:
+  /// Not numbers where there is no factor.
+  [[nodiscard]] Eigen::VectorXd solution(const Eigen::VectorXd& column) const;
+
   ThreadTeam* team_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> factor_;
   Eigen::Index ordered_entries_ = -1;

@@ -4,6 +4,8 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "levels/surface_levels.hpp"
@@ -151,6 +153,41 @@ TEST(CholeskySolver, SolvesAndSolvesAnew) {
       EXPECT_LT((as_matrix(single) - expected.col(0)).norm(), 1e-8 * expected.norm());
     }
   }
+}
+
+TEST(CholeskySolver, AMatrixWithoutAFactorLeavesNothingToChance) {
+  ThreadTeam team(1);
+  CholeskySolver solver(team);
+  // Rows of zeros, as tangled shapes have them, and of no numbers.
+  const auto diagonal = [&](double last) {
+    return SparseRows::build(team, 3, 3, [&] {
+      return [&](std::size_t i, SparseRows::Row& row) {
+        row.push_back({static_cast<std::uint32_t>(i), i < 2 ? 2.0 : last});
+      };
+    });
+  };
+  solver.build(diagonal(0));
+  std::vector<double> values = {2, 4, 0};
+  solver.solve(values, {});
+  EXPECT_NEAR(values[0], 1, 1e-8);
+  EXPECT_NEAR(values[1], 2, 1e-8);
+  EXPECT_EQ(values[2], 0);
+  solver.build(diagonal(std::numeric_limits<double>::quiet_NaN()));
+  values = {2, 4, 6};
+  solver.solve(values, {});
+  EXPECT_TRUE(std::isnan(values[2]));
+  // What was added for one matrix is not there for the next.
+  solver.build(diagonal(3));
+  values = {2, 4, 6};
+  solver.solve(values, {});
+  EXPECT_EQ(values, (std::vector<double>{1, 2, 2}));
+  const SparseRows nothing = SparseRows::build(team, 2, 2, [] {
+    return [](std::size_t i, SparseRows::Row& row) { row.push_back({static_cast<std::uint32_t>(i), 0.0}); };
+  });
+  solver.build(nothing);
+  std::vector<Vector3> vectors(2, Vector3::Ones());
+  solver.solve(vectors, {});
+  EXPECT_TRUE(std::isnan(vectors[0].x()) && std::isnan(vectors[1].z()));
 }
 
 TEST(Interpolation, ReproducesLinearFunctionsOfThePlace) {

@@ -20,6 +20,7 @@
 #include "shape/segment.hpp"
 #include "solve/fit_points.hpp"
 #include "vspring/distance.hpp"
+#include "vspring/figures.hpp"
 #include "vspring/fit.hpp"
 
 namespace vspring {
@@ -63,7 +64,7 @@ class DenseFit {
     measuring_.threads = context.threads;
   }
 
-  /// Whether it found something; see is_within().
+  /// Whether it found new nodes within the tolerance, or somebody has cancelled: those are to be taken.
   bool run() {
     if (curve_.node_count() > std::min(most_dense_nodes, most_times * made_.curve.node_count())) return false;
     FitResult own = fit(curve_, constraints_, {.positions = curve_.positions()}, options_, context_);
@@ -73,9 +74,13 @@ class DenseFit {
     resample_to(smooth, 2);
     const Index times = times_needed();
     if (times != times_) resample_to(smooth, times);
+    own.positions = dense_.curve.positions();
+    take_new_nodes(own);
+    if (own.report.fair.outcome != Outcome::stalled) tried_.push_back(std::move(own));
     FitOptions options = options_;
     double aim = first_aim;
     double energy = std::numeric_limits<double>::infinity();
+    double nearest_share = energy;
     for (int k = 0; k < most_dense_fits; ++k) {
       if (options_.within) options.within = aim * tolerance_;
       if (options_.rms) options.rms = aim * tolerance_;
@@ -87,12 +92,15 @@ class DenseFit {
       take_new_nodes(found);
       const double share = tolerance_ > 0 ? figure(found) / tolerance_ : 0;
       const double before = std::exchange(energy, found.report.fair.after.vspring_energy);
-      const bool nearer = !(share > no_nearer_share * best_share_);
-      const bool is_better = stalled ? share <= 1 && !is_within() : share <= 1 || share < best_share_;
-      if (is_better) {
+      const bool nearer = !(share > no_nearer_share * nearest_share);
+      const bool is_better = share <= 1 && !(stalled && is_within());
+      if (is_better || context_.cancelled()) {
         best_ = std::move(found);
         best_share_ = share;
+      } else if (!stalled) {
+        tried_.push_back(std::move(found));
       }
+      nearest_share = std::min(nearest_share, share);
       if (context_.cancelled()) break;
       if (k == 0) continue;
       if (share <= 1 ? stalled || energy >= settles_at_share * before : !stalled && k > 1 && !nearer) break;
@@ -101,14 +109,24 @@ class DenseFit {
     return best_.has_value();
   }
 
-  /// Whether what was found is.
-  [[nodiscard]] bool is_within() const { return best_share_ <= 1; }
-
-  /// What is to be within the tolerance.
-  [[nodiscard]] double figure(const FitResult& found) const {
-    return options_.within ? found.report.after.all.greatest : found.report.after.all.rms;
+  /// Where nothing is within the tolerance, not new nodes that were fitted by themselves either: of these and all that
+  /// were tried the nearest of those whose curvature varies no more than before; where it varies more in all, the
+  /// nearest.
+  FitResult take_nearest(FitResult fitted) {
+    const double before = variation(made_.curve.positions());
+    const auto is_worse = [&](const FitResult& one) { return variation(one.positions) > before; };
+    const FitResult* nearest = &fitted;
+    bool worse = is_worse(fitted);
+    for (const FitResult& one : tried_) {
+      const bool one_is_worse = is_worse(one);
+      if (one_is_worse != worse ? one_is_worse : figure(one) >= figure(*nearest)) continue;
+      nearest = &one;
+      worse = one_is_worse;
+    }
+    if (nearest == &fitted) return fitted;
+    best_ = *nearest;
+    return take();
   }
-  [[nodiscard]] double figure() const { return figure(*best_); }
 
   /// With a report of the new nodes.
   FitResult take() {
@@ -141,8 +159,8 @@ class DenseFit {
     } else if (!is_within() && fair.outcome != Outcome::cancelled) {
       fair.outcome = Outcome::stalled;
       fair.warnings.push_back(fmt::format(
-          "no shape of so many nodes was found within {:g}: this is the one that comes nearest; edges may be "
-          "too long, or points lie at what is held",
+          "no shape of so many nodes was found within {:g}: this is a fair one that comes near; edges may be too long, "
+          "or points lie at what is held",
           tolerance_));
     }
     return std::move(*best_);
@@ -153,6 +171,19 @@ class DenseFit {
     std::array<Index, 2> nodes;
     std::array<Index, 2> chord;  ///< nodes of the dense curve that are new ones
   };
+
+  [[nodiscard]] bool is_within() const { return best_share_ <= 1; }
+
+  /// What is to be within the tolerance.
+  [[nodiscard]] double figure(const FitResult& found) const {
+    return options_.within ? found.report.after.all.greatest : found.report.after.all.rms;
+  }
+
+  [[nodiscard]] double variation(const std::vector<Vector3>& nodes) const {
+    PolygonCurve curve = made_.curve;
+    curve.set_positions(nodes);
+    return measure_curve(curve, &made_.constraints).curvature_variation;
+  }
 
   void resample_to(const PolygonCurve& smooth, Index times) {
     times_ = times;
@@ -254,6 +285,7 @@ class DenseFit {
   std::vector<Index> dense_node_;  // of every new node
   std::vector<DenseEdge> edges_;
   std::optional<FitResult> best_;
+  std::vector<FitResult> tried_;                                 // that are not within
   double best_share_ = std::numeric_limits<double>::infinity();  // of the tolerance
 };
 
@@ -279,11 +311,13 @@ ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constra
     return made;
   }
   DenseFit dense(curve, constraints, how, made.resampled, options, context);
-  const bool found = dense.run();
-  if (!found || !(dense.is_within() || context.cancelled())) made.fit = fit_new_nodes();
-  const bool is_nearer = found && (dense.is_within() || context.cancelled() ||
-                                   (made.fit.report.outside_points > 0 && dense.figure() < dense.figure(made.fit)));
-  if (is_nearer) made.fit = dense.take();
+  if (dense.run()) {
+    made.fit = dense.take();
+  } else {
+    made.fit = fit_new_nodes();
+    const bool is_outside = (options.within || options.rms) && made.fit.report.fair.outcome == Outcome::stalled;
+    if (is_outside) made.fit = dense.take_nearest(std::move(made.fit));
+  }
   made.fit.report.fair.seconds = stopwatch.seconds();
   return made;
 }

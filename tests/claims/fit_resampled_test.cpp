@@ -161,18 +161,16 @@ TEST(FitResampled, ARootMeanSquareIsUsed) {
   EXPECT_GT(made.fit.report.after.all.rms, 0.00018);
 }
 
-TEST(FitResampled, OfTooFewNodesTheNearestAreSaidToBeOutside) {
+TEST(FitResampled, OfTooFewNodesSomeAreSaidToBeOutsideOfAFairShape) {
   const PolygonCurve table = foil(161, 0, 1);
-  const Constraints held = held_ends(table.positions());
-  const Resampling how = {.nodes = 30};
-  const FitOptions options = within(0.0001);
-  const ResampledFit made = fit_resampled(table, held, how, options);
+  const ResampledFit made = fit_resampled(table, held_ends(table.positions()), {.nodes = 30}, within(0.0001));
   EXPECT_EQ(made.fit.report.fair.outcome, Outcome::stalled);
   EXPECT_GT(made.fit.report.outside_points, 0);
   EXPECT_FALSE(made.fit.report.fair.warnings.empty());
-  const Resampled plain = resample(table, held, how);
-  const FitResult fitted = fit(plain.curve, plain.constraints, {.positions = table.positions()}, options);
-  EXPECT_LE(made.fit.report.after.all.greatest, fitted.report.after.all.greatest);
+  const CurveFigures before = measure_curve(made.resampled.curve);
+  const CurveFigures after = measure_curve(curve_of(made));
+  EXPECT_LE(after.curvature_variation, before.curvature_variation);
+  EXPECT_LE(after.curvature_extrema, before.curvature_extrema);
 }
 
 TEST(FitResampled, ByAWeightItIsTheFitOfResampledNodes) {

@@ -131,10 +131,13 @@ struct ResampledFit {
 ///
 /// With within, rms or smoothing_length a curve of up to eight nodes for each new one is fitted, so that between the
 /// points, too, curvature changes gently; the new nodes are some of its nodes. Distances are those from the chords
-/// between new nodes: where the curve rises over them it passes the points that much further out. Where these chords
-/// are not within a tolerance, and with a weight, outliers, a strength or another method, new nodes are fitted to the
-/// points as they are, from where resample() puts them. Of chords that are too long for the tolerance the report says
-/// what fit() does.
+/// between new nodes: where the curve rises over them it passes the points that much further out. How far nodes moved
+/// is said as their distance from the resampled curve.
+///
+/// Where these chords are not within a tolerance, with a weight, outliers, a strength or another method, and of curves
+/// of more than 5,000 nodes or eight for each new one, new nodes are fitted to the points as they are, from where
+/// resample() puts them. Where they are not within it either, the result is the nearest of all that was tried whose
+/// curvature varies no more than that of the resampled curve, if there is one, with outcome `stalled` and a warning.
 ///
 /// Throws as resample() and fit() do. Cost: that of three to eight fits, with more nodes than come out.
 [[nodiscard]] ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints,

@@ -137,7 +137,8 @@ class DenseFit {
     fair.fixed_positions = 0;
     for (Index i = 0; i < fair.nodes; ++i)
       ++(made_.constraints.position_fixed(i) ? fair.fixed_positions : fair.moving_nodes);
-    const Distance moves = node_distance(made_.curve.positions(), best_->positions);
+    // Along the curve they lie elsewhere, as bends are elsewhere without noise.
+    const Distance moves = distance(best_->positions, made_.curve, measuring_);
     const double nodes_per_moving = static_cast<double>(fair.nodes) / std::max<Index>(fair.moving_nodes, 1);
     fair.greatest_move = moves.greatest;
     fair.mean_move = moves.rms * std::sqrt(nodes_per_moving);

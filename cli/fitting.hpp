@@ -78,16 +78,23 @@ struct FairedOrFitted {
   [[nodiscard]] std::string lines() const { return account ? account->lines() : ""; }
 };
 
+/// shape: that was fitted to its own nodes, or those that it had.
+template <typename Shape>
+FairedOrFitted account_for(FitResult fitted, const Shape& shape, const FairingArguments& arguments,
+                           const PullArguments& pull, const Context& context) {
+  if (fitted.report.fair.outcome != Outcome::converged && fitted.report.fair.outcome != Outcome::cancelled)
+    warn_of_noise(pull, noise_of(shape, context), fitted.report.fair.warnings);
+  FitAccount account(fitted.report, pull, arguments.input, {});
+  return {{std::move(fitted.positions), std::move(fitted.report.fair)}, std::move(account)};
+}
+
 /// Fairs a shape, and draws it towards points where that is asked for: its own nodes, as the input has them.
 template <typename Shape>
 FairedOrFitted fair_or_fit(const Shape& shape, const Constraints& constraints, const ScatteredPoints& nodes,
                            const FairingArguments& arguments, const PullArguments& pull, Context& context) {
   if (!asks_to_fit(pull)) return {fair(shape, constraints, arguments.options, context), std::nullopt};
-  FitResult fitted = fit(shape, constraints, nodes, fit_options(pull, arguments.options), context);
-  if (fitted.report.fair.outcome != Outcome::converged && fitted.report.fair.outcome != Outcome::cancelled)
-    warn_of_noise(pull, noise_of(shape, context), fitted.report.fair.warnings);
-  FitAccount account(fitted.report, pull, arguments.input, {});
-  return {{std::move(fitted.positions), std::move(fitted.report.fair)}, std::move(account)};
+  return account_for(fit(shape, constraints, nodes, fit_options(pull, arguments.options), context), shape, arguments,
+                     pull, context);
 }
 
 }  // namespace vspring::cli

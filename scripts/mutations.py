@@ -215,6 +215,11 @@ MUTATIONS = {
     ],
     "src/fairness/distance.cpp": [
         ("height-over-triangle", "distance from a triangle", "height * height / area2", "height * height"),
+    ],
+    "src/shape/segment.hpp": [
         ("segment-ends", "distance from a segment", "std::clamp((point - a).dot(edge) / length2, 0.0, 1.0)", "(point - a).dot(edge) / length2"),
+    ],
+    "src/solve/fit_resampled.cpp": [
+        ("raised-points", "the dense curve is as far from its points as chords are from the table's", "point += over_chord(", "point -= over_chord("),
     ],
 }

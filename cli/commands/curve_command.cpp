@@ -48,16 +48,25 @@ int run_curve(CurveArguments arguments) {
   hold_repeated(constraints, repeats);
 
   const bool resamples = arguments.resampling.nodes || arguments.resampling.spacing;
+  std::optional<FitResult> fitted;
   if (resamples) {
-    Resampled resampled = resample(file.curve, constraints, arguments.resampling);
+    Resampled resampled = [&] {
+      if (!asks_to_fit(arguments.pull)) return resample(before, constraints, arguments.resampling);
+      ResampledFit made = fit_resampled(before, constraints, arguments.resampling,
+                                        fit_options(arguments.pull, arguments.options), fairing.context());
+      fitted = std::move(made.fit);
+      return std::move(made.resampled);
+    }();
     file.curve = std::move(resampled.curve);
     constraints = std::move(resampled.constraints);
     // What the file carried belongs to nodes that are no longer there.
     file.source = nullptr;
     file.groups.clear();
   }
-  FairedOrFitted done = fair_or_fit(file.curve, constraints, {.positions = before.positions()}, arguments,
-                                    arguments.pull, fairing.context());
+  FairedOrFitted done = fitted
+                            ? account_for(std::move(*fitted), file.curve, arguments, arguments.pull, fairing.context())
+                            : fair_or_fit(file.curve, constraints, {.positions = before.positions()}, arguments,
+                                          arguments.pull, fairing.context());
   FairResult& result = done.faired;
   if (file.source) {
     for (const Repeat& repeat : repeats)

@@ -7,6 +7,7 @@
 #include "vspring/distance.hpp"
 #include "vspring/fair.hpp"
 #include "vspring/point_file.hpp"
+#include "vspring/resample.hpp"
 
 namespace vspring {
 
@@ -118,6 +119,31 @@ struct FitResult {
                             const FitOptions& options, Context& context);
 [[nodiscard]] FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
                             const FitOptions& options = {});
+
+struct ResampledFit {
+  Resampled resampled;  ///< what resample() gives: what the fit began with
+  FitResult fit;        ///< positions of its nodes; its points are the nodes of the curve that was given
+};
+
+/// New nodes along the fair curve that fits the nodes of `curve`, as fit() finds it, where resample() puts them along
+/// the cubics through these nodes: a table with rounding or noise so gets nodes that have none of it, between its own
+/// nodes too.
+///
+/// With within, rms or smoothing_length a curve of up to eight nodes for each new one is fitted, so that between the
+/// points, too, curvature changes gently; the new nodes are some of its nodes. Distances are those from the chords
+/// between new nodes: where the curve rises over them it passes the points that much further out. How far nodes moved
+/// is said as their distance from the resampled curve.
+///
+/// Where these chords are not within a tolerance, with a weight, outliers, a strength or another method, and of curves
+/// of more than 5,000 nodes or eight for each new one, new nodes are fitted to the points as they are, from where
+/// resample() puts them. Where they are not within it either, the result is the nearest of all that was tried whose
+/// curvature varies no more than that of the resampled curve, if there is one, with outcome `stalled` and a warning.
+///
+/// Throws as resample() and fit() do. Cost: that of three to eight fits, with more nodes than come out.
+[[nodiscard]] ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints,
+                                         const Resampling& how, const FitOptions& options, Context& context);
+[[nodiscard]] ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints,
+                                         const Resampling& how, const FitOptions& options = {});
 
 /// How far points lie from a shape, node by node: at each of its nodes the greatest distance of the points that are
 /// nearest to it, 0 where there are none. distances: of every point, as FitResult has them. Throws

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "constraints/dense_resampling.hpp"
 #include "shape/cubic.hpp"
 #include "vspring/error.hpp"
 
@@ -47,12 +48,14 @@ class Resampler {
 
   void share_out(const Resampling& how) {
     share_out_edges(how);
-    if (by_ == ResamplingBy::curvature) {
-      for (Piece& piece : pieces_) follow_curvature(piece);
-    }
-    if (by_ == ResamplingBy::cosine) {
-      for (Piece& piece : pieces_) find_furthest(piece);
-    }
+    space();
+  }
+
+  /// As many edges as the pieces of another one, each cut into so many.
+  void share_out_as(const Resampler& other, Index times) {
+    for (std::size_t k = 0; k < pieces_.size(); ++k) pieces_[k].edges = other.pieces_[k].edges;
+    space();
+    for (Piece& piece : pieces_) piece.edges *= times;
   }
 
   Resampled build() {
@@ -87,6 +90,16 @@ class Resampler {
   }
 
  private:
+  /// Once it is known how many edges each piece gets.
+  void space() {
+    if (by_ == ResamplingBy::curvature) {
+      for (Piece& piece : pieces_) follow_curvature(piece);
+    }
+    if (by_ == ResamplingBy::cosine) {
+      for (Piece& piece : pieces_) find_furthest(piece);
+    }
+  }
+
   void share_out_edges(const Resampling& how) {
     if (how.spacing) {
       double nodes = 0;
@@ -358,9 +371,7 @@ class Resampler {
   std::vector<Vector3> positions_;
 };
 
-}  // namespace
-
-Resampled resample(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how) {
+void check_resampling(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how) {
   if (constraints.node_count() != curve.node_count())
     throw Error(ErrorCode::invalid_argument, fmt::format("constraints for {} nodes, the curve has {}",
                                                          constraints.node_count(), curve.node_count()));
@@ -370,9 +381,25 @@ Resampled resample(const PolygonCurve& curve, const Constraints& constraints, co
     throw Error(ErrorCode::invalid_argument, fmt::format("{} nodes: choose from 1 to {}", *how.nodes, most_nodes));
   if (how.spacing && !(*how.spacing > 0 && std::isfinite(*how.spacing)))
     throw Error(ErrorCode::invalid_argument, fmt::format("spacing must be greater than 0, not {}", *how.spacing));
+}
+
+}  // namespace
+
+Resampled resample(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how) {
+  check_resampling(curve, constraints, how);
   Resampler resampler(curve, constraints, how.by);
   resampler.share_out(how);
   return resampler.build();
+}
+
+Resampled resample_densely(const PolygonCurve& curve, const PolygonCurve& smooth, const Constraints& constraints,
+                           const Resampling& how, Index times) {
+  check_resampling(curve, constraints, how);
+  Resampler plain(curve, constraints, how.by);
+  plain.share_out(how);
+  Resampler dense(smooth, constraints, how.by);
+  dense.share_out_as(plain, times);
+  return dense.build();
 }
 
 }  // namespace vspring

@@ -11,6 +11,7 @@
 #include "fairness/counted.hpp"
 #include "shape/box_tree.hpp"
 #include "shape/frame.hpp"
+#include "shape/segment.hpp"
 #include "shape/triangles.hpp"
 #include "vspring/error.hpp"
 
@@ -21,10 +22,7 @@ namespace {
 constexpr std::size_t points_per_task = 512;
 
 double square_to_segment(const Vector3& point, const Vector3& a, const Vector3& b) {
-  const Vector3 edge = b - a;
-  const double length2 = edge.squaredNorm();
-  const double along = length2 > 0 ? std::clamp((point - a).dot(edge) / length2, 0.0, 1.0) : 0.0;
-  return (point - a - along * edge).squaredNorm();
+  return (point - a - nearest_share(point, a, b) * (b - a)).squaredNorm();
 }
 
 double square_to_triangle(const Vector3& point, const Vector3& a, const Vector3& b, const Vector3& c) {

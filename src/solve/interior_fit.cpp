@@ -32,10 +32,13 @@ constexpr double low_barrier = 1e-2;
 constexpr double greatest_approach = 0.9;
 // A point beyond counts as if it were this near to the bound, in tolerances.
 constexpr double nearest_to_bound = 1e-3;
+// Of the tolerance: what the points are held between, so that those that pull at nothing, and what a step goes too far
+// by, do not keep a fairer shape out.
+constexpr double aimed_share_of_bounds = 0.995;
 constexpr double holding = 0.99;
 constexpr double greatest_rise = 1.1;
 // Shorter steps lead nowhere.
-constexpr double least_step = 0.02;
+constexpr double least_step = 0.005;
 
 /// A point between its bounds.
 struct Bounded {
@@ -53,6 +56,7 @@ class InteriorFit {
         net_(*task.net),
         sides_(sides),
         tolerance_(tolerance),
+        bound_(aimed_share_of_bounds * tolerance),
         places_(net_.points.positions),
         weights_(net_.points.weights) {}
 
@@ -129,8 +133,8 @@ class InteriorFit {
     for (std::size_t i = 0; i < net_.moving; ++i) {
       const Vector3 across = sides_.across(net_, i);
       for (const std::uint32_t k : net_.points.of(i)) {
-        heights[k] = std::copysign(distances_[net_.points.numbers[k]] / tolerance_, sides_.side(net_, i, places_[k]));
-        excesses[k] = heights[k] - (net_.positions[i] - places_[k]).dot(across) / tolerance_;
+        heights[k] = std::copysign(distances_[net_.points.numbers[k]] / bound_, sides_.side(net_, i, places_[k]));
+        excesses[k] = heights[k] - (net_.positions[i] - places_[k]).dot(across) / bound_;
       }
     }
     std::vector<Bounded> now;
@@ -173,7 +177,7 @@ class InteriorFit {
       const Pull pull = pull_of(point, barrier);
       net_.points.weights[point.slot] = weights_[point.slot] * pull.stiffness;
       net_.points.positions[point.slot] =
-          places_[point.slot] + (pull.balance - point.excess) * tolerance_ * sides_.across(net_, node[point.slot]);
+          places_[point.slot] + (pull.balance - point.excess) * bound_ * sides_.across(net_, node[point.slot]);
     }
   }
 
@@ -240,6 +244,7 @@ class InteriorFit {
   Net& net_;
   const Sides& sides_;
   double tolerance_;
+  double bound_;
   const std::vector<Vector3> places_;
   const std::vector<double> weights_;
   std::vector<double> distances_;

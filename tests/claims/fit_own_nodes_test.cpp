@@ -26,27 +26,6 @@ FitResult fit_within(const PolygonCurve& curve, const Constraints& held, double 
   return fit(curve, held, {.positions = curve.positions()}, options);
 }
 
-struct Profile {
-  double camber;
-  double camber_at;
-  double thickness;
-};
-
-/// On a NACA profile of four digits; angle: from 0 at the tail over the upper side to 2π at the tail again.
-Vector3 on_profile(const Profile& profile, double angle) {
-  const double x = (1 + std::cos(angle)) / 2;
-  const double height =
-      5 * profile.thickness *
-      (0.2969 * std::sqrt(x) - 0.1260 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1015 * x * x * x * x);
-  const double p = profile.camber_at;
-  const double m = profile.camber;
-  const double front = x < p ? p : 1 - p;
-  const double middle = m / (front * front) * ((1 - 2 * p) * (x < p ? 0 : 1) + 2 * p * x - x * x);
-  const double slope = std::atan(2 * m / (front * front) * (p - x));
-  const double side = angle < pi ? 1 : -1;
-  return {x - side * height * std::sin(slope), middle + side * height * std::cos(slope), 0};
-}
-
 /// Of so many nodes, edges of which are eight times as long where they are not about the nose, rounded to 5 decimals.
 std::vector<Vector3> foil(const Profile& profile, int nodes) {
   constexpr int fine = 8000;

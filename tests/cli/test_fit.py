@@ -217,6 +217,27 @@ class Fit(Case):
         self.assertEqual((points["count"], self.read_json("r.json")["nodes"]), (31, 121))
         self.assertLessEqual(points["distance"]["after"]["greatest"], 0.003)
 
+    def test_new_nodes_of_a_noisy_aerofoil_have_no_more_extremes_than_the_exact_one(self):
+        draw = random.Random(2)
+        upper = lambda x: 0.6 * (0.2969 * math.sqrt(x) - 0.1260 * x - 0.3516 * x ** 2 + 0.2843 * x ** 3 - 0.1036 * x ** 4)
+        angles = [math.pi * k / 60 for k in range(-60, 61)]
+        exact = [((1 - math.cos(a)) / 2, math.copysign(upper((1 - math.cos(a)) / 2), -a)) for a in angles]
+        noisy = [exact[0], *(tuple(x + draw.uniform(-0.0003, 0.0003) for x in node) for node in exact[1:-1]), exact[-1]]
+        figures = lambda nodes: self.figures(self.write("nodes.csv", "".join(f"{x!r},{y!r}\n" for x, y in nodes)))
+        table, wanted = self.write("noisy.csv", "".join(f"{x!r},{y!r}\n" for x, y in noisy)), figures(exact)
+        for options in (["--resample-by", "cosine"], ["--resample-by", "curvature"]):
+            with self.subTest(options=options):
+                result = run("curve", table, "-o", self.folder / "out.csv", "--within", "0.0006", "--resample", "120", "--report", self.folder / "r.json", *options)
+                self.assertEqual((result.returncode, result.stderr), (0, b""))
+                self.assertLessEqual(self.read_json("r.json")["points"]["distance"]["after"]["greatest"], 0.0006)
+                made = self.figures(self.folder / "out.csv")
+                self.assertLessEqual(made["curvature_extrema"], wanted["curvature_extrema"])
+                self.assertLessEqual(made["inflections"], wanted["inflections"])
+
+    def figures(self, path):
+        self.assertEqual(run("measure", path, "--report", self.folder / "figures.json").returncode, 0)
+        return self.read_json("figures.json")["figures"]
+
     def test_a_closed_surface_that_only_points_hold(self):
         shape = self.write("ball.obj", sphere(4, radius=0.9))
         points = self.write("points.obj", sphere(12, radius=1.0))

@@ -181,4 +181,26 @@ struct Motion {
   }
 };
 
+/// Of an aerofoil.
+struct Profile {
+  double camber;
+  double camber_at;
+  double thickness;
+};
+
+/// On a NACA profile of four digits; angle: from 0 at the tail over the upper side to 2π at the tail again.
+inline Vector3 on_profile(const Profile& profile, double angle) {
+  const double x = (1 + std::cos(angle)) / 2;
+  const double height =
+      5 * profile.thickness *
+      (0.2969 * std::sqrt(x) - 0.1260 * x - 0.3516 * x * x + 0.2843 * x * x * x - 0.1015 * x * x * x * x);
+  const double p = profile.camber_at;
+  const double m = profile.camber;
+  const double front = x < p ? p : 1 - p;
+  const double middle = m / (front * front) * ((1 - 2 * p) * (x < p ? 0 : 1) + 2 * p * x - x * x);
+  const double slope = std::atan(2 * m / (front * front) * (p - x));
+  const double side = angle < std::numbers::pi ? 1 : -1;
+  return {x - side * height * std::sin(slope), middle + side * height * std::cos(slope), 0};
+}
+
 }  // namespace vspring::support

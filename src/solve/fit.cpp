@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
 #include <memory>
@@ -37,6 +38,10 @@ constexpr int most_turns_of_outliers = 12;
 constexpr int most_sweeps_of_homes = 2000;
 // In standard deviations of the noise that is to be taken off.
 constexpr double far_off = 1.5;
+// Points without a tolerance that end so far from the shape, root mean square, as a share of their box, and so many
+// times as far as before, are hardly what was asked for: springs that they hardly pull at make a balloon of few nodes.
+constexpr double left_behind = 0.05;
+constexpr double left_times = 10;
 // An expected error, as a share of the size, from which a curve on its way to an equilibrium is no use.
 constexpr double curve_is_lost_at = 1e-2;
 
@@ -71,6 +76,7 @@ class Fitting {
     report.after = summary(result.distances, run_.kept);
     report.outliers = report.points - report.after.all.count;
     if (options_.noise) say_if_far_off();
+    say_if_left_behind();
     report.outside_points = count_outside(result.distances);
     report.fair.seconds = stopwatch.seconds();
     return std::move(result);
@@ -87,6 +93,21 @@ class Fitting {
         "nodes were {:.2g} times the noise away from the shape in the root mean square: it could not follow "
         "them everywhere; they may be too few for their features, or faces folded without noise",
         distance / *options_.noise));
+  }
+
+  void say_if_left_behind() {
+    FairReport& report = run_.result.report.fair;
+    if (report.outcome != Outcome::converged || options_.within || options_.rms || options_.noise) return;
+    const double before = run_.result.report.before.all.rms;
+    const double after = run_.result.report.after.all.rms;
+    Eigen::AlignedBox3d box;
+    for (const Vector3& point : run_.points.positions) box.extend(point);
+    // The nodes themselves are no further away than smoothing takes them.
+    if (!(before > 0) || after < left_behind * box.diagonal().norm() || after < left_times * before) return;
+    report.warnings.push_back(
+        fmt::format("points are {:.2g} times as far from the shape as before, in the root mean square: give them "
+                    "a greater weight, a shorter smoothing length, or a tolerance to stay within",
+                    after / before));
   }
 
   /// Where the shape is worse than it came, it stays as it came, unless it is wanted as found.

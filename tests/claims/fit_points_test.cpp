@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -48,6 +50,27 @@ TEST(FitPoints, ThousandsOfPointsOnOneNodePullLikeTheirAverage) {
   EXPECT_EQ(many.report.most_points, 5000);
   const FitResult one = fit(curve, held_ends(curve.positions()), {.positions = {{0.5, 0.1, 0}}}, options);
   EXPECT_LT(greatest_distance(many.positions, one.positions), 1e-10);
+}
+
+TEST(FitPoints, SaysWhereTheyAreLeftBehind) {
+  // A slender loop with its ends held, most of which has no points: what hardly pulls at it lets it become a balloon.
+  std::vector<Vector3> nodes;
+  for (int k = 0; k <= 24; ++k) nodes.emplace_back(std::cos(k * pi / 12), 0.3 * std::sin(k * pi / 12), 0);
+  const PolygonCurve loop(nodes);
+  ScatteredPoints points;
+  for (const double along : {-0.9, -0.3, 0.3, 0.9})
+    points.positions.emplace_back(along, 0.3 * std::sqrt(1 - along * along), 0);
+  points.positions.emplace_back(0, -0.3, 0);
+  const auto says_so = [&](double weight) {
+    const FitResult result = fit(loop, held_ends(nodes), points, to_equilibrium(weight));
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    const auto& warnings = result.report.fair.warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("times as far from the shape as before") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(says_so(1e-3));
+  EXPECT_FALSE(says_so(1));
 }
 
 TEST(FitPoints, APointMayBeFarAway) {

@@ -267,17 +267,24 @@ Kind rings(const std::string& name, const Meridian& meridian, generate::Faces fa
 
 std::vector<Kind> kinds(const Meridian& meridian) {
   using generate::Faces;
-  return {rings("rings of triangles", meridian, Faces::triangles, 4.5),
-          rings("rings of triangles, narrow", meridian, Faces::triangles, 9),
-          rings("rings of triangles, wide", meridian, Faces::triangles, 2.25, 1, 1, Distribution::even, 3000),
-          rings("rings of quads", meridian, Faces::quads, 4.5),
-          rings("rings of quads, narrow", meridian, Faces::quads, 9),
-          {"even", [](Index nodes) { return generate::funnel(nodes); }},
-          {"random", [&](Index nodes) { return random_mesh(meridian, nodes); }},
-          rings("rings of triangles, rows 10 : 1, kept", meridian, Faces::triangles, 4.5, 10, 1, Distribution::keep),
-          rings("rings of quads, rows 10 : 1, kept", meridian, Faces::quads, 4.5, 10, 1, Distribution::keep),
-          rings("rings of triangles, columns 10 : 1", meridian, Faces::triangles, 4.5, 1, 10, Distribution::even, 3000),
-          rings("rings of quads, columns 10 : 1", meridian, Faces::quads, 4.5, 1, 10, Distribution::even, 3000)};
+  return {
+      rings("rings of triangles", meridian, Faces::triangles, 4.5),
+      rings("rings of triangles, narrow", meridian, Faces::triangles, 9),
+      rings("rings of triangles, wide", meridian, Faces::triangles, 2.25, 1, 1, Distribution::even, 3000),
+      rings("rings of quads", meridian, Faces::quads, 4.5),
+      rings("rings of quads, narrow", meridian, Faces::quads, 9),
+      {"even", [](Index nodes) { return generate::funnel(nodes); }},
+      {"random", [&](Index nodes) { return random_mesh(meridian, nodes); }},
+      rings("rings of triangles, rows 10 : 1, kept", meridian, Faces::triangles, 4.5, 10, 1, Distribution::keep),
+      rings("rings of quads, rows 10 : 1, kept", meridian, Faces::quads, 4.5, 10, 1, Distribution::keep),
+      rings("rings of triangles, columns 10 : 1", meridian, Faces::triangles, 4.5, 1, 10, Distribution::even, 3000),
+      rings("rings of quads, columns 10 : 1", meridian, Faces::quads, 4.5, 1, 10, Distribution::even, 3000),
+      rings("rings of triangles, wide, smooth", meridian, Faces::triangles, 2.25, 1, 1, Distribution::smooth, 10'000),
+      rings("rings of quads, wide, smooth", meridian, Faces::quads, 2.25, 1, 1, Distribution::smooth, 10'000),
+      rings("rings of triangles, columns 10 : 1, smooth", meridian, Faces::triangles, 4.5, 1, 10, Distribution::smooth,
+            10'000),
+      rings("rings of quads, columns 10 : 1, smooth", meridian, Faces::quads, 4.5, 1, 10, Distribution::smooth,
+            10'000)};
 }
 
 }  // namespace

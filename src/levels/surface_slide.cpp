@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "base/definite3.hpp"
@@ -14,6 +16,8 @@ namespace {
 constexpr int longest_walk = 1000;
 // Of the squared mean edge, added to squared distances: a node in the very place does not settle it alone.
 constexpr double blur = 0.1;
+// Of its length: by how much weights may miss the place.
+constexpr double greatest_miss = 0.05;
 
 /// The node nearest to a place, on the way down from `from`.
 std::size_t walk(const Net& net, std::size_t from, const Vector3& to) {
@@ -39,8 +43,8 @@ struct Neighbour {
 };
 
 /// A node and its neighbours, with weights of sum 1 near those of inverse squared distances from a place that put it in
-/// its place between them.
-void weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector<Neighbour>& neighbours) {
+/// its place between them. False where no weights from zero on do.
+bool weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector<Neighbour>& neighbours) {
   neighbours.assign(1, {centre, 0});
   double square = 0;
   for (const Link link : net.rings.links(centre)) {
@@ -67,7 +71,7 @@ void weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector
   const double size = spread.trace();
   if (!(size > 0)) {
     for (Neighbour& one : neighbours) one.weight /= sum;
-    return;
+    return true;
   }
   spread += size * normal * normal.transpose() + 1e-9 * size * Eigen::Matrix3d::Identity();
   const Vector3 slope = solve_definite(spread, mean);
@@ -76,7 +80,60 @@ void weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector
     one.weight = std::max(0.0, one.weight * (1 - slope.dot(across(one.node))));
     total += one.weight;
   }
-  for (Neighbour& one : neighbours) one.weight /= total;
+  Vector3 missed = Vector3::Zero();
+  for (Neighbour& one : neighbours) {
+    one.weight /= total;
+    missed += one.weight * across(one.node);
+  }
+  return missed.squaredNorm() <= greatest_miss * greatest_miss * square;
+}
+
+std::optional<std::size_t> last_spoke(std::span<const Link> links) {
+  for (std::size_t k = links.size(); k-- > 0;) {
+    if (links[k].spoke()) return links[k].node();
+  }
+  return std::nullopt;
+}
+
+/// The corners of the triangle between spokes that a place lies over, looked for from a moving node, with the weights
+/// that put it there. The node nearest to a place is none of them where triangles are wide and uneven. False where the
+/// search ends elsewhere.
+bool weigh_corners(const Net& net, std::size_t from, const Vector3& place, std::vector<Neighbour>& corners) {
+  for (int step = 0; step < longest_walk && from < net.moving; ++step) {
+    const Vector3& normal = net.normals[from];
+    const Vector3& centre = net.positions[from];
+    const Vector3 to = place - centre;
+    const auto links = net.rings.links(from);
+    std::size_t next = from;
+    const auto between = [&](std::size_t j, std::size_t k) {
+      const Vector3 a = net.positions[j] - centre;
+      const Vector3 b = net.positions[k] - centre;
+      const double area = a.cross(b).dot(normal);
+      const double of_a = to.cross(b).dot(normal) / area;
+      const double of_b = a.cross(to).dot(normal) / area;
+      if (!(of_a >= 0 && of_b >= 0)) return false;
+      if (of_a + of_b <= 1) {
+        corners.assign({{from, 1 - of_a - of_b}, {j, of_a}, {k, of_b}});
+      } else {
+        next = of_a > of_b ? j : k;
+      }
+      return true;
+    };
+    bool is_found = false;
+    std::optional<std::size_t> before;
+    if (!links.empty() && !links.front().start()) before = last_spoke(links);
+    for (const Link link : links) {
+      if (link.start()) before.reset();
+      if (!link.spoke()) continue;
+      is_found = before && between(*before, link.node());
+      if (is_found) break;
+      before = link.node();
+    }
+    if (!is_found) return false;
+    if (next == from) return true;
+    from = next;
+  }
+  return false;
 }
 
 }  // namespace
@@ -85,11 +142,13 @@ void slide(Net& net, std::span<const Vector3> steps, ThreadTeam& team) {
   std::vector<Place> places(net.moving);
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> neighbours;
+    std::vector<Neighbour> corners;
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3 to = net.positions[i] + steps[i];
       const std::size_t there = walk(net, i, to);
       // Beside what is held the walk may end there; what lies behind is not known.
-      weigh(net, there < net.moving ? there : i, to, neighbours);
+      const std::size_t centre = there < net.moving ? there : i;
+      if (!weigh(net, centre, to, neighbours) && weigh_corners(net, i, to, corners)) neighbours.swap(corners);
       places[i] = balance(net, [&](const auto& use) {
         for (const Neighbour& one : neighbours) use(one.node, one.weight);
       });

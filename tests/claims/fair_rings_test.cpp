@@ -177,6 +177,23 @@ TEST(FairRings, ShapesOfALatheDoNotFold) {
   }
 }
 
+TEST(FairRings, SphereSpringsTakeWideCells) {
+  // Lifted off by a tenth of the radius in the middle, so that rows have far to go from level to level.
+  for (const Faces faces : {Faces::quads, Faces::triangles}) {
+    for (const auto& [columns, rows] : {std::pair(48, 32), std::pair(72, 48)}) {
+      SCOPED_TRACE(fmt::format("{} x {} {}", columns, rows, name_of(faces)));
+      Lathe one = lathe(band(0.6, 1.2), {.faces = faces, .columns = columns, .rows = rows});
+      std::vector<Vector3> lifted = one.start.positions();
+      for (Vector3& p : lifted) p *= 1 + 0.1 * std::sin(std::numbers::pi * (std::acos(p.z()) - 0.6) / 0.6);
+      one.start = with_positions(one.start, std::move(lifted));
+      const FairResult result = faired(one);
+      EXPECT_EQ(result.report.springs, Springs::sphere);
+      EXPECT_LT(result.report.iterations, 60);
+      for (const Vector3& p : result.positions) EXPECT_NEAR(p.norm(), 1, 2e-5);
+    }
+  }
+}
+
 TEST(FairRings, AnEvenDistributionWouldFoldThem) {
   // That is what it is for.
   const Lathe one = lathe(flat(0.5), {.columns = 32, .rows = 16});

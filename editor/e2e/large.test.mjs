@@ -14,8 +14,8 @@ for (const shared of [true, false]) {
       session.generated('large.ply', 'annulus', '--nodes', '200000', '--noise', '0.001');
       const { page, faults } = await session.open('?file=files/large.ply');
       assert.equal(await page.evaluate(() => crossOriginIsolated), shared);
-      await page.locator('#size', { hasText: '200,000 nodes' }).waitFor({ timeout: 120_000 });
-      await page.getByRole('button', { name: 'Cancel' }).click({ timeout: 120_000 });
+      await page.locator('#size', { hasText: '200,000 nodes' }).waitFor();
+      await page.getByRole('button', { name: 'Cancel' }).click();
       await status(page).filter({ hasText: 'cancelled' }).waitFor();
       await page.locator('#progress').waitFor({ state: 'hidden' });
       const { x, y, node } = await find(page, /Node \d+/, [0.3, 0.6], [0.4, 0.6]);
@@ -37,12 +37,12 @@ for (const shared of [true, false]) {
       const [cancel, save, alert] = [page.getByRole('button', { name: 'Cancel' }), page.getByRole('button', { name: 'Save as' }), page.getByRole('alert')];
       let files = 0;
       page.on('download', () => ++files);
-      await cancel.click({ timeout: 120_000 });
+      await cancel.click();
       await status(page).filter({ hasText: 'cancelled' }).waitFor();
       for (const end of [() => cancel.click(), () => page.keyboard.press('Escape')]) {
         await page.locator('#progress').waitFor({ state: 'hidden' });
         await save.click();
-        await page.getByRole('progressbar', { name: 'Solving' }).waitFor({ timeout: 120_000 });
+        await page.getByRole('progressbar', { name: 'Solving' }).waitFor();
         await end();
         await alert.filter({ hasText: 'patch-fair.obj is not saved, as its solution was cancelled' }).waitFor();
         await page.getByRole('button', { name: 'Dismiss' }).click();
@@ -52,7 +52,7 @@ for (const shared of [true, false]) {
       // What is changed meanwhile is out of date at once, but the file is not.
       const { path } = await downloaded(page, async () => {
         await save.click();
-        await page.getByRole('progressbar', { name: 'Solving' }).waitFor({ timeout: 120_000 });
+        await page.getByRole('progressbar', { name: 'Solving' }).waitFor();
         for (let k = 0; k < 3; ++k) await page.keyboard.press('Shift+B');
       });
       const fair = join(session.folder, 'fair.obj');
@@ -73,7 +73,7 @@ test('after a solution is given up without shared memory, what is changed and sa
   try {
     const input = session.generated('patch.obj', 'annulus', '--nodes', '40000', '--noise', '0.01');
     const { page, faults } = await session.open('?file=files/patch.obj');
-    await page.getByRole('button', { name: 'Cancel' }).click({ timeout: 120_000 });
+    await page.getByRole('button', { name: 'Cancel' }).click();
     await status(page).filter({ hasText: 'cancelled' }).waitFor();
     await page.getByRole('button', { name: 'Normals fixed' }).click();
     await settled(page);
@@ -89,7 +89,7 @@ test('a large mesh is drawn with fewer triangles while it is dragged; pictures d
   try {
     const input = session.generated('annulus.obj', 'annulus', '--nodes', '50000');
     const { page, faults } = await session.open('?file=files/annulus.obj');
-    await page.locator('#size', { hasText: '50,000 nodes' }).waitFor({ timeout: 120_000 });
+    await page.locator('#size', { hasText: '50,000 nodes' }).waitFor();
     await settled(page);
     await page.evaluate(() => {
       window.drawn = 0;

@@ -108,7 +108,7 @@ test('points are dropped on a surface; within a tolerance the panel says how man
   await settled(page);
   assert.match(await page.locator('#name').textContent(), /annulus/);
   await page.getByLabel('Fit by').selectOption('within');
-  await figures().filter({ hasText: /\d % outside/ }).waitFor({ timeout: 120_000 });
+  await figures().filter({ hasText: /\d % outside/ }).waitFor();
   await legend().filter({ hasText: 'in red beyond the tolerance' }).waitFor();
   assert.equal(Number(await legend().locator('.marks span').last().textContent()), Number(await page.locator('#fit-value').inputValue()));
 });

@@ -49,6 +49,7 @@ export class Session {
   async open(address = '', options = {}) {
     const whole = new URL(address, this.address);
     const page = await this.browser.newPage({ viewport: { width: 1200, height: 760 }, ...options });
+    page.setDefaultTimeout(180_000); // a test that fails waits in vain; a machine that is busy with other work must not fail one
     const faults = [];
     page.on('pageerror', (error) => faults.push(String(error)));
     page.on('console', (message) => { if (message.type() === 'error') faults.push(message.text()); });
@@ -103,7 +104,7 @@ export async function choose(page, button, file) {
 // Until nothing is being solved and the last outcome is that.
 export async function settled(page, outcome = 'converged') {
   await page.locator('#progress').waitFor({ state: 'hidden' });
-  await page.locator('#status', { hasText: outcome }).waitFor({ timeout: 60_000 });
+  await page.locator('#status', { hasText: outcome }).waitFor();
 }
 
 // From a place on the view, with the left button down. held: what happens before it is let go.

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -98,7 +98,8 @@ class Run {
     if (!points_) input_ = finest.positions;
     // Coarser levels do not keep a distribution, and where points are, a start is near.
     const bool try_first = points_ && options_.distribution == Distribution::keep;
-    if (try_first || may_be_there(finest)) {
+    const Displacements displacements = greatest_displacements(finest);
+    if (try_first || may_be_there(displacements.all)) {
       const std::vector<Vector3> start = try_first ? finest.positions : std::vector<Vector3>();
       relax(last, try_first ? std::min(options_.max_iterations.value_or(near_limit), near_limit) : 1);
       if (try_first && unfinished()) {
@@ -107,6 +108,9 @@ class Run {
       }
     }
     if (report_.outcome == Outcome::iteration_limit) go_down();
+    if (!points_ && !options_.distribution && !options_.method && unfinished() &&
+        may_be_there(displacements.of_springs))
+      stay_with_input();
     if (!points_ && !options_.max_iterations && report_.outcome != Outcome::cancelled) try_winding();
     if (soundness) stay_sound(*soundness);
     // Limits that nobody gave.
@@ -150,6 +154,18 @@ class Run {
       hierarchy_.prolong_from(k);
     }
     if (may_follow_flow && unfinished()) try_flow();
+  }
+
+  /// A shape that is fair as it came, but whose nodes find no more even spacing along it, keeps the one that it has.
+  void stay_with_input() {
+    const std::size_t last = hierarchy_.count() - 1;
+    Net& net = hierarchy_.net(last);
+    const Reached found = reached(last);
+    net.positions = input_;
+    update_directions(net, model_, team_);
+    hierarchy_.set_shares(model_.present_shares(net));
+    relax(last, 1);
+    if (unfinished()) go_back(last, found);
   }
 
   /// A curve whose ends and tangents are held may unwind on coarse levels, where it should not: then from a start that
@@ -350,21 +366,37 @@ class Run {
 
   [[nodiscard]] bool lost() const { return !(report_.residual < lost_at); }
 
-  /// False where displacements are so large that corrections cannot be within the tolerance: as displacements of an
-  /// equilibrium that is off by one correction they are at most a few times as large.
-  bool may_be_there(Net& net) {
+  /// Lengths of the greatest displacements that the model asks for, and of those that its springs alone do.
+  struct Displacements {
+    double all = 0;
+    double of_springs = 0;
+  };
+
+  Displacements greatest_displacements(Net& net) {
     model_.prepare(net);
     update_directions(net, model_, team_);
-    const double greatest = greatest_displacement_ratio * options_.tolerance * size_;
-    std::atomic<bool> may_be = true;
+    std::vector<Displacements> of_ranges((net.moving + nodes_per_task - 1) / nodes_per_task);
     parallel_ranges(team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
       std::vector<NodeForce> forces(end - begin);
       model_.find_forces(net, {begin, end}, forces);
+      Displacements& greatest = of_ranges[begin / nodes_per_task];
       for (const NodeForce& force : forces) {
-        if ((force.spring + force.regularisation).squaredNorm() > greatest * greatest) may_be = false;
+        greatest.all = std::max(greatest.all, (force.spring + force.regularisation).norm());
+        greatest.of_springs = std::max(greatest.of_springs, force.spring.norm());
       }
     });
-    return may_be;
+    Displacements greatest;
+    for (const Displacements& one : of_ranges) {
+      greatest.all = std::max(greatest.all, one.all);
+      greatest.of_springs = std::max(greatest.of_springs, one.of_springs);
+    }
+    return greatest;
+  }
+
+  /// False where displacements are so large that corrections cannot be within the tolerance: as displacements of an
+  /// equilibrium that is off by one correction they are at most a few times as large.
+  [[nodiscard]] bool may_be_there(double displacement) const {
+    return displacement <= greatest_displacement_ratio * options_.tolerance * size_;
   }
 
   [[nodiscard]] bool unfinished() const {

@@ -194,6 +194,20 @@ TEST(FairRings, SphereSpringsTakeWideCells) {
   }
 }
 
+TEST(FairRings, AFairShapeWhoseNodesFindNoSpacingStays) {
+  // Bricks that are bent along a row by more than they are high: nodes have nowhere to slide to.
+  const Lathe one = lathe(band(1.4, 1.7), {.faces = Faces::hexagons, .columns = 24, .rows = 24, .ratio = 2});
+  const FairResult result = faired(one);
+  EXPECT_EQ(result.report.springs, Springs::sphere);
+  EXPECT_EQ(result.positions, one.start.positions());
+  // But not where it is not fair.
+  Lathe lifted = one;
+  std::vector<Vector3> places = one.start.positions();
+  for (Vector3& p : places) p *= 1 + 0.01 * std::sin(std::numbers::pi * (std::acos(p.z()) - 1.4) / 0.3);
+  lifted.start = with_positions(one.start, std::move(places));
+  EXPECT_NE(fair(lifted.start, lifted.constraints).positions, lifted.start.positions());
+}
+
 TEST(FairRings, AnEvenDistributionWouldFoldThem) {
   // That is what it is for.
   const Lathe one = lathe(flat(0.5), {.columns = 32, .rows = 16});

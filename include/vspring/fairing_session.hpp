@@ -25,8 +25,9 @@ class FairingSession {
   /// elsewhere or with other normals, and that one found an equilibrium, this one starts from there, and where they go
   /// on much as before from where that leads: then it costs a few iterations. The shape is the same within the expected
   /// error, not to the bit. Where there is none to be found the best shape stays, and the outcome says so. Cancelled
-  /// there, the next call starts where this one did. Otherwise, and always with other methods than the equilibrium's
-  /// and with options.fair_boundary, it costs what fair() costs. report.before is that of the mesh.
+  /// there, the next call starts where this one did. Otherwise, where a picture since the last call led nowhere or to
+  /// something worse, and always with other methods than the equilibrium's and with options.fair_boundary, it does and
+  /// costs what fair() does. report.before is that of the mesh.
   [[nodiscard]] FairResult fair(const Constraints& constraints, Context& context);
   [[nodiscard]] FairResult fair(const Constraints& constraints);
 

@@ -87,13 +87,15 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
                                       std::optional<double> tolerance) {
   const Stopwatch stopwatch;
   FairResult result;
-  const bool went_on = fits_last(constraints) && go_on(constraints, context, tolerance, result.report);
+  const bool is_doubtful = !tolerance && went_astray_;
+  const bool went_on = !is_doubtful && fits_last(constraints) && go_on(constraints, context, tolerance, result.report);
   if (!went_on) {
     result = {};
     last_.reset();
     hierarchy_.reset();
     const Net net = run(constraints, context, result.report, tolerance ? in_a_hurry(options_) : options_);
     if (!hierarchy_) {
+      went_astray_ = false;
       (void)crosses_itself(net, constraints, context, result.report);
       finish(net, constraints, result);
       result.report.seconds = stopwatch.seconds();
@@ -102,6 +104,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
   }
   const Net& net = hierarchy_->net(hierarchy_->count() - 1);
   const Outcome outcome = result.report.outcome;
+  went_astray_ = tolerance && (went_astray_ || (outcome != Outcome::converged && outcome != Outcome::cancelled));
   if (tolerance) {
     result.report.moving_nodes = static_cast<Index>(net.moving);
     // Where a hurried run has led nowhere, the input with its constraints is a better picture.

@@ -78,6 +78,9 @@ class SurfaceFairing {
   std::optional<SurfaceHierarchy> hierarchy_;
   // Of the last shape, where that is an equilibrium to go on from.
   std::optional<Constraints> last_;
+  // Since the last shape that was not a picture of a drag, one led nowhere or to something worse: equilibria that are
+  // reached from there may be others than that from the mesh.
+  bool went_astray_ = false;
 };
 
 }  // namespace vspring

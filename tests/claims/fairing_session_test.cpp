@@ -327,6 +327,24 @@ TEST(FairingSession, SaysThatADragFoldsTheShapeAndComesBackFromIt) {
   EXPECT_EQ(drag_to(0.02).report.outcome, Outcome::converged);
 }
 
+TEST(FairingSession, ADragThatCameThroughFoldsEndsWhereTheMeshLeads) {
+  // Pictures that come back from folds may have another equilibrium.
+  const PolygonMesh mesh = generate::plane({.columns = 12, .rows = 12});
+  Constraints constraints = held_boundary(mesh);
+  const Index node = 6 * 13 + 6;
+  FairingSession session(mesh, to(1e-6));
+  Context context;
+  const auto drag_to = [&](double way) {
+    constraints.fix_position(node, mesh.position(node) + Vector3(way, 0, 0));
+    return session.follow(constraints, 1e-4, context).report.outcome;
+  };
+  Outcome outcome = Outcome::converged;
+  for (double way = 0; way < 0.48 && outcome == Outcome::converged; way += 0.02) outcome = drag_to(way);
+  ASSERT_EQ(outcome, Outcome::worse_than_input);
+  ASSERT_EQ(drag_to(0.02), Outcome::converged);
+  EXPECT_EQ(session.fair(constraints, context).positions, fair(mesh, constraints, to(1e-6)).positions);
+}
+
 TEST(FairingSession, ThreadsGiveTheSameBits) {
   std::vector<std::vector<Vector3>> shapes;
   for (const int threads : {1, 3}) {

@@ -108,9 +108,7 @@ class Run {
       }
     }
     if (report_.outcome == Outcome::iteration_limit) go_down();
-    if (!points_ && !options_.distribution && unfinished() &&
-        may_be_there(displacements.of_springs))
-      stay_with_input();
+    if (!points_ && !options_.distribution && unfinished() && may_be_there(displacements.of_springs)) stay_with_input();
     if (!points_ && !options_.max_iterations && report_.outcome != Outcome::cancelled) try_winding();
     if (soundness) stay_sound(*soundness);
     // Limits that nobody gave.

@@ -10,6 +10,7 @@
 
 #include "shape/direction.hpp"
 #include "spring/bending_factor.hpp"
+#include "spring/near_nodes.hpp"
 #include "spring/net.hpp"
 
 namespace vspring {
@@ -128,27 +129,6 @@ Eigen::Matrix<double, n, 1> solve_in_place(Eigen::Matrix<double, n, n>& a, Eigen
   return b;
 }
 
-/// The nodes of a node's link, and where these are fewer than the unknowns those of their links too.
-template <typename Use>
-void for_fit_nodes(const Net& net, std::size_t i, const Use& use) {
-  constexpr std::size_t enough = 5;
-  const auto links = net.rings.links(i);
-  if (links.size() >= enough) {
-    for (const Link link : links) use(link.node());
-    return;
-  }
-  std::vector<std::size_t> nodes;
-  for (const Link link : links) {
-    nodes.push_back(link.node());
-    if (link.node() >= net.computed) continue;
-    for (const Link next : net.rings.links(link.node())) nodes.push_back(next.node());
-  }
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  std::erase(nodes, i);
-  for (const std::size_t j : nodes) use(j);
-}
-
 /// Least squares of heights over a node's link, by x and y in its tangent plane: height(j, e) for node j against the n
 /// unknowns of row(x, y, |e|²), both weighed by |e|⁻². forms_ridge and slopes_ridge: what is added to the diagonal for
 /// each unknown, times the number of nodes and times Σ |e|⁻², as their units ask.
@@ -161,7 +141,7 @@ Eigen::Matrix<double, n, 1> fit_heights(const Net& net, std::size_t i, const Vec
   Eigen::Matrix<double, n, 1> b = Eigen::Matrix<double, n, 1>::Zero();
   double inverses = 0;
   double count = 0;
-  for_fit_nodes(net, i, [&](std::size_t j) {
+  for_near_nodes(net, i, [&](std::size_t j) {
     const Vector3 e = net.positions[j] - net.positions[i];
     const double length2 = e.dot(e);
     if (!(length2 > 0)) return;

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "spring/net.hpp"
+
+namespace vspring {
+
+/// Calls use(node) for the nodes that a quadratic around a node is fitted to: those of its link, and where these are
+/// fewer than its unknowns those of their links too.
+template <typename Use>
+void for_near_nodes(const Net& net, std::size_t i, const Use& use) {
+  constexpr std::size_t enough = 5;
+  const auto links = net.rings.links(i);
+  if (links.size() >= enough) {
+    for (const Link link : links) use(link.node());
+    return;
+  }
+  std::vector<std::size_t> nodes;
+  for (const Link link : links) {
+    nodes.push_back(link.node());
+    if (link.node() >= net.computed) continue;
+    for (const Link next : net.rings.links(link.node())) nodes.push_back(next.node());
+  }
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  std::erase(nodes, i);
+  for (const std::size_t j : nodes) use(j);
+}
+
+}  // namespace vspring

@@ -1,8 +1,9 @@
-// OpenMesh's Jacobi smoother with C1 continuity: damped iterations of the bi-Laplacian, which leave the boundary and
-// the ring beside it where they are. The variant is the number of iterations.
+// OpenMesh's Jacobi smoother: damped iterations of the Laplacian (continuity C0), which leave the boundary where it is,
+// or of the bi-Laplacian (C1), which leave the ring beside it, too. The variant is the number of iterations, of C1, or
+// "C0, " and that number.
 
+#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
 #include <OpenMesh/Core/Mesh/Traits.hh>
-#include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Smoother/JacobiLaplaceSmootherT.hh>
 #include <string>
 #include <vector>
@@ -13,16 +14,15 @@ namespace {
 
 using namespace vspring;
 
-using Surface = OpenMesh::TriMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
+using Surface = OpenMesh::PolyMesh_ArrayKernelT<OpenMesh::DefaultTraitsDouble>;
 using Smoother = OpenMesh::Smoother::JacobiLaplaceSmootherT<Surface>;
 
 void build(Surface& surface, const PolygonMesh& mesh) {
   for (const Vector3& p : mesh.positions()) surface.add_vertex({p.x(), p.y(), p.z()});
   for (Index f = 0; f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    surface.add_face(surface.vertex_handle(static_cast<unsigned>(face[0])),
-                     surface.vertex_handle(static_cast<unsigned>(face[1])),
-                     surface.vertex_handle(static_cast<unsigned>(face[2])));
+    std::vector<OpenMesh::VertexHandle> corners;
+    for (const Index node : mesh.face(f)) corners.push_back(surface.vertex_handle(static_cast<unsigned>(node)));
+    surface.add_face(corners);
   }
 }
 
@@ -32,10 +32,11 @@ int main(int argc, char** argv) {
   return bench::drive(argc, argv, [](const PolygonMesh& mesh, int, const std::string& variant, bench::Cost& cost) {
     Surface surface;
     build(surface, mesh);
-    const auto iterations = static_cast<unsigned>(std::stoi(variant));
+    const bool is_laplacian = variant.rfind("C0, ", 0) == 0;
+    const auto iterations = static_cast<unsigned>(std::stoi(is_laplacian ? variant.substr(4) : variant));
     cost = bench::measure([&] {
       Smoother smoother(surface);
-      smoother.initialize(Smoother::Tangential_and_Normal, Smoother::C1);
+      smoother.initialize(Smoother::Tangential_and_Normal, is_laplacian ? Smoother::C0 : Smoother::C1);
       smoother.smooth(iterations);
     });
     std::vector<Vector3> positions;

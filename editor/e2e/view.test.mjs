@@ -98,3 +98,19 @@ test('between input and result: what is saved is what --strength makes; a drag s
   await settled(page);
   assert.deepEqual(placesOf((await saved(page)).path), whole);
 });
+
+test('a browser without WebGL 2 is told what is missing and what to do', async () => {
+  const without = await session.browser.newPage();
+  const faults = [];
+  without.on('pageerror', (error) => faults.push(String(error)));
+  await without.addInitScript(() => {
+    const get = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return kind === 'webgl2' ? null : get.call(this, kind, ...rest); };
+  });
+  await without.goto(session.address);
+  await without.getByRole('alert').filter({ hasText: /no WebGL 2.*Switch hardware acceleration on/ }).waitFor();
+  assert.equal(await without.locator('#status').textContent(), 'Cannot draw');
+  assert.ok(await without.locator('header').evaluate((header) => header.inert), 'buttons that could do nothing');
+  assert.deepEqual(faults, ['Error: no WebGL 2'], 'nothing else goes wrong');
+  await without.close();
+});

@@ -22,7 +22,7 @@ import type { Report } from './protocol';
 import { placesOf } from './shape';
 import { selectionCommands } from './selection';
 import { ServedFile } from './served';
-import { describe } from './status';
+import { describe, sayItCannotDraw } from './status';
 import { bindStrength } from './strength';
 import { startTheme, switchTheme } from './theme';
 import { Tilts } from './tilts';
@@ -104,7 +104,16 @@ const gestures = new Gestures(canvas, {
   dropped: () => { ways.end(); editor.drags.end(true); },
   cancelled: () => { ways.end(); editor.drags.end(false); },
 });
-const view = new View(canvas, panel, () => editor.frames.drawn(performance.now()));
+const view = newView();
+
+function newView(): View {
+  try {
+    return new View(canvas, panel, () => editor.frames.drawn(performance.now()));
+  } catch (error) {
+    sayItCannotDraw();
+    throw error;
+  }
+}
 
 const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
 const served = ServedFile.of(location.href, editor, format.parentElement!);

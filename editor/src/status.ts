@@ -15,6 +15,16 @@ function count(number: number, one: string, many = `${one}s`): string {
   return `${number.toLocaleString('en')} ${number === 1 ? one : many}`;
 }
 
+/** Before there is an editor. */
+export function sayItCannotDraw(): void {
+  part('fault').firstElementChild!.textContent =
+    'This browser has no WebGL 2, which the editor draws with. Switch hardware acceleration on in its settings, or take a newer browser; the program itself, vspring fair, needs none.';
+  part('fault').hidden = false;
+  part('fault').querySelector('button')!.hidden = true;
+  part('status').textContent = 'Cannot draw';
+  for (const controls of document.querySelectorAll<HTMLElement>('header, aside, .float, .card')) controls.inert = true;
+}
+
 function ofSolution({ report, dragging, drags, frames, showsInput, shape }: Editor): string {
   if (!shape) return 'Open a mesh or a curve, or drop one here';
   if (showsInput) return 'The input';

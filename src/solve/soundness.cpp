@@ -157,18 +157,9 @@ Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edg
         const Vector3& before = faces[(s + faces.size() - 1) % faces.size()];
         if (turns_back(before, faces[s]) && !is_dragged(neighbour(s + spokes.size() - 1))) ++part.turned;
       }
-      if (!with_bending) continue;
-      part.bending += bending_at(net, positions, i, spokes, faces);
-      for (std::size_t s = 0; s < spokes.size(); ++s) {
-        const std::size_t j = neighbour(s);
-        if (is_dragged(j) || !net.normal_given(j)) continue;
-        // Faces that do not lie in a given tangent plane are bent there.
-        const double square = (positions[j] - positions[i]).squaredNorm();
-        for (const Vector3& face : {faces[(s + faces.size() - 1) % faces.size()], faces[s]}) {
-          const double turn = std::atan2(face.cross(net.normals[j]).norm(), std::abs(face.dot(net.normals[j])));
-          if (face.squaredNorm() > 0) part.bending += turn * turn * square / face.norm();
-        }
-      }
+      const auto links = net.rings.links(i);
+      if (with_bending && std::none_of(links.begin(), links.end(), [&](Link link) { return is_dragged(link.node()); }))
+        part.bending += bending_at(net, positions, i, spokes, faces);
     }
   });
   Flaws flaws;
@@ -237,8 +228,7 @@ std::vector<std::uint8_t> Soundness::dragged(const Net& now) const {
 
 bool Soundness::looks_at_bending() const {
   // Of faces without area nobody knows how they are bent.
-  if (is_surface_) return !has_points_ && flaws_.collapsed == 0;
-  return !has_points_ && !has_directions_;
+  return !has_directions_ && !has_points_ && (!is_surface_ || flaws_.collapsed == 0);
 }
 
 bool Soundness::looks_at_crossings(const Net& net) const { return !has_directions_ && !net.tangents.empty(); }
@@ -285,7 +275,7 @@ std::string Soundness::fault(Net& now) const {
   const std::vector<std::uint8_t> dragged_nodes = dragged(now);
   const Flaws flaws = flaws_of(now, now.positions, edge_, *team_, looks_at_bending(), dragged_nodes);
   std::string more = more_of(flaws, now.tangents.empty());
-  if (!more.empty() || (has_directions_ && !is_surface_)) return more;
+  if (!more.empty() || has_directions_) return more;
   if (looks_at_crossings(now) && dragged_nodes.empty()) {
     const std::size_t crossings = curve_crossings(now, now.positions, *team_);
     const std::size_t before = crossings > 0 ? curve_crossings(now, input_, *team_) : 0;
@@ -301,8 +291,8 @@ std::string Soundness::fault(Net& now) const {
       return fmt::format("it is bent more, by {:.3g} in place of {:.3g} without the noise of either", smooth,
                          *smooth_bending_);
   }
-  // What bends less may have curvature that changes more, and of given normals the input's energy knows nothing.
-  if (!now.spheres.differences.empty() || has_directions_) return {};
+  // What bends less may have curvature that changes more.
+  if (!now.spheres.differences.empty()) return {};
   model_->prepare(now);
   update_directions(now, *model_, *team_);
   const double energy = spring_energy(now).sum;

@@ -25,8 +25,8 @@ struct Flaws {
       0;  ///< edges that turn by over 90°, of a surface between its two faces, of a curve from edge to edge
   std::size_t turned_at_held = 0;  ///< the same at held nodes of a curve, of which turned has none
   std::size_t collapsed = 0;       ///< edges of a curve without length; of a surface corners of faces without area
-  /// Of a surface: some ∫ κ₁² + κ₂² dA by quadratics fitted around its nodes, and by the angles between given normals
-  /// and the faces there. Of a curve: Σ θ²/ℓ over its nodes, ℓ half of both edges: some ∫ κ² ds.
+  /// Of a surface: some ∫ κ₁² + κ₂² dA by quadratics fitted around its nodes. Of a curve: Σ θ²/ℓ over its nodes, ℓ half
+  /// of both edges: some ∫ κ² ds.
   double bending = 0;
 };
 
@@ -39,10 +39,9 @@ class Soundness {
 
   /// What is worse about the shape now, in words for people; empty where nothing is: places that are no numbers or far
   /// outside the box; more flaws, but for those beside nodes that are held elsewhere than the input has them; edges
-  /// of a curve in a plane that cross each other, where no tangent is held; of a surface without points over 1.3 times
-  /// the bending, or 2.5 times that without noise; where nothing but positions holds it, over three times the V-Spring
-  /// energy (but where bending is to be least), 1.5 times that of a curve that is bent more. Updates directions. Cost:
-  /// linear.
+  /// of a curve in a plane that cross each other, where no tangent is held; where nothing but positions holds it, over
+  /// three times the V-Spring energy (but where bending is to be least), 1.5 times that of a curve that is bent more,
+  /// or of a surface over 1.3 times the bending, or 2.5 times that without noise. Updates directions. Cost: linear.
   [[nodiscard]] std::string fault(Net& now) const;
 
   /// The same where what is held has been moved since, which the energy depends on: without a look at that. Updates
@@ -71,8 +70,8 @@ class Soundness {
   std::vector<Vector3> input_;  ///< of a curve that is looked at for crossings: where the input has its nodes
   std::vector<Vector3> held_;   ///< where the input has the nodes that are held
   double energy_ = 0;
-  // Where no points pull: with its constraints, and of a surface after smooth_places(); none where constraints put
-  // nodes elsewhere than the input has them.
+  // Where nothing but positions holds it: with its constraints, and of a surface after smooth_places(); none where
+  // constraints put nodes elsewhere than the input has them.
   double bending_ = 0;
   std::optional<double> smooth_bending_;
 };

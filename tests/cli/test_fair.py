@@ -153,7 +153,7 @@ class Fair(Case):
         self.assertEqual(outputs[0], outputs[2])
 
     def test_not_converged_is_written_and_told(self):
-        result = self.fair("--max-iterations", "2", "--report", self.folder / "report.json", status=3)
+        result = self.fair("--max-iterations", "4", "--report", self.folder / "report.json", status=3)
         self.assertIn("limit of iterations", result.stdout.decode())
         self.assertEqual(self.read_json("report.json")["outcome"], "iteration-limit")
         self.assertEqual(len(vertex_lines((self.folder / "out.obj").read_text())), 49)

@@ -69,6 +69,9 @@ class Crossings {
     const Vector3 wu = w.cross(u);
     const Vector3 uv = u.cross(v);
     const double volume = u.dot(vw);
+    // Lengths are at most twice the root of three, so this is more than what is rounded below, without roots.
+    const double longest = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
+    if (std::abs(volume) > 7 * rounding * longest) return volume > 0 ? 1 : -1;
     const double areas = vw.norm() + wu.norm() + uv.norm();
     // The cross products round by the product of the lengths, which long thin triangles notice.
     const double lengths = u.norm() * v.norm() * w.norm();
@@ -86,8 +89,11 @@ class Crossings {
   /// None unless it has corners on both sides of the plane of `other`.
   [[nodiscard]] std::optional<Corners> straddling(const Triangle& triangle, const Triangle& other) const {
     std::array<int, 3> sides{};
-    for (std::size_t k = 0; k < 3; ++k)
-      sides[k] = side(at(other.nodes[0]), at(other.nodes[1]), at(other.nodes[2]), at(triangle.nodes[k]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index node = triangle.nodes[k];
+      const bool is_shared = std::find(other.nodes.begin(), other.nodes.end(), node) != other.nodes.end();
+      sides[k] = is_shared ? 0 : side(at(other.nodes[0]), at(other.nodes[1]), at(other.nodes[2]), at(node));
+    }
     const auto [least, greatest] = std::minmax({sides[0], sides[1], sides[2]});
     if (least >= 0 || greatest <= 0) return std::nullopt;
     for (std::size_t k = 0; k < 3; ++k) {

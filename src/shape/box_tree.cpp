@@ -21,7 +21,6 @@ BoxTree::BoxTree(std::vector<Box> boxes, ThreadTeam& team) : boxes_(std::move(bo
 }
 
 void BoxTree::split(std::size_t part, std::size_t parts) {
-  const auto at = [&](std::size_t k) { return items_.begin() + static_cast<std::ptrdiff_t>(k); };
   const std::size_t begin = first_item(part, parts);
   const std::size_t end = first_item(part + 1, parts);
   Box centres;
@@ -29,12 +28,13 @@ void BoxTree::split(std::size_t part, std::size_t parts) {
   if (centres.isEmpty()) return;
   Eigen::Index axis = 0;
   centres.sizes().maxCoeff(&axis);
-  const auto place = [&](Index item) { return box(item).min()[axis] + box(item).max()[axis]; };
-  std::nth_element(at(begin), at(first_item(2 * part + 1, 2 * parts)), at(end), [&](Index a, Index b) {
-    const double place_a = place(a);
-    const double place_b = place(b);
-    return place_a != place_b ? place_a < place_b : a < b;
-  });
+  // Places beside their items: what is sorted lies side by side.
+  std::vector<std::pair<double, Index>> order(end - begin);
+  for (std::size_t k = begin; k < end; ++k)
+    order[k - begin] = {box(items_[k]).min()[axis] + box(items_[k]).max()[axis], items_[k]};
+  const auto middle = static_cast<std::ptrdiff_t>(first_item(2 * part + 1, 2 * parts) - begin);
+  std::nth_element(order.begin(), order.begin() + middle, order.end());
+  for (std::size_t k = begin; k < end; ++k) items_[k] = order[k - begin].second;
 }
 
 }  // namespace vspring

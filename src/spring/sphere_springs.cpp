@@ -29,12 +29,26 @@ constexpr double least_spread = 2;
 constexpr double of_neighbours = 0.5;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-double cotangent(const Vector3& a, const Vector3& b) {
-  const double cosine = a.dot(b);
-  const double sine = a.cross(b).norm();
+double cotangent(double cosine, double sine) {
   if (!(sine * greatest_cotangent > std::abs(cosine))) return cosine < 0 ? -greatest_cotangent : greatest_cotangent;
   return cosine / sine;
 }
+
+/// Of a triangle with a corner at 0 and two others: the halves of its angles' cotangents, and twice its area.
+struct HalfCotangents {
+  double at_origin;
+  double at_a;
+  double at_b;
+  double area;
+
+  HalfCotangents(const Vector3& a, const Vector3& b) {
+    const Vector3 side = b - a;
+    area = a.cross(side).norm();
+    at_origin = 0.5 * cotangent(a.dot(b), area);
+    at_a = 0.5 * cotangent(-a.dot(side), area);
+    at_b = 0.5 * cotangent(b.dot(side), area);
+  }
+};
 
 /// Calls use(first, last) for every face around a node: the places in the walk of its nodes beside the centre, first to
 /// last, from spoke to spoke.
@@ -69,39 +83,49 @@ void find_row(Net& net, std::size_t i) {
     const Vector3 a = edge(first);
     const Vector3 b = edge(last);
     if (nodes == 3) {
-      row[first] += 0.5 * cotangent(-b, a - b);
-      row[last % count] += 0.5 * cotangent(-a, b - a);
-      spheres.areas[i] += a.cross(b).norm() / 6;
+      const HalfCotangents half(a, b);
+      row[first] += half.at_b;
+      row[last % count] += half.at_a;
+      spheres.areas[i] += half.area / 6;
       return;
     }
     // Nodes of the face: 0 is the centre, k + 1 the place first + k of the walk.
     const auto place = [&](std::size_t k) -> Vector3 {
-      if (k >= nodes) k -= nodes;
-      return k == 0 ? Vector3::Zero() : edge(first + k - 1);
+      return k == 0 || k == nodes ? Vector3::Zero() : edge(first + k - 1);
     };
     Vector3 middle = Vector3::Zero();
     Vector3 area = Vector3::Zero();
+    Vector3 before = a;
     for (std::size_t k = 1; k < nodes; ++k) {
-      middle += place(k);
-      area += place(k).cross(place(k + 1));
+      const Vector3 after = place(k + 1);
+      middle += before;
+      area += before.cross(after);
+      before = after;
     }
     middle /= static_cast<double>(nodes);
     spheres.areas[i] += 0.5 * area.norm() / static_cast<double>(nodes);
-    // Weights of the edges from each node to the middle, and their sum.
-    const auto to_middle = [&](std::size_t k) {
-      const Vector3 before = place(k + nodes - 1);
-      const Vector3 here = place(k);
-      const Vector3 after = place(k + 1);
-      return 0.5 * (cotangent(here - before, middle - before) + cotangent(here - after, middle - after));
-    };
-    double sum = 0;
-    for (std::size_t k = 0; k < nodes; ++k) sum += to_middle(k);
+    // Weights of the edges from each node to the middle go to the node by its share, and their sum to all.
     const double share = 1 / static_cast<double>(nodes);
-    const double own = to_middle(0);
-    for (std::size_t k = 1; k < nodes; ++k)
-      row[(first + k - 1) % count] += share * (own + to_middle(k)) - share * share * sum;
-    row[first] += 0.5 * cotangent(middle, middle - a);
-    row[last % count] += 0.5 * cotangent(middle, middle - b);
+    double sum = 0;
+    double own = 0;
+    const auto add = [&](std::size_t k, double weight) {
+      sum += weight;
+      if (k == 0 || k == nodes)
+        own += weight;
+      else
+        row[(first + k - 1) % count] += share * weight;
+    };
+    before.setZero();
+    for (std::size_t k = 0; k < nodes; ++k) {
+      const Vector3 after = place(k + 1);
+      const HalfCotangents half(before - middle, after - middle);
+      add(k, half.at_b);
+      add(k + 1, half.at_a);
+      if (k == 0) row[first] += half.at_origin;
+      if (k + 1 == nodes) row[last % count] += half.at_origin;
+      before = after;
+    }
+    for (std::size_t k = first; k <= last; ++k) row[k % count] += share * (own - share * sum);
   });
 }
 

@@ -40,8 +40,12 @@ constexpr int most_sweeps_of_homes = 2000;
 constexpr double far_off = 1.5;
 // Points without a tolerance that end so far from the shape, root mean square, as a share of their box, and so many
 // times as far as before, are hardly what was asked for: springs that they hardly pull at make a balloon of few nodes.
-constexpr double left_behind = 0.05;
+constexpr double left_behind = 0.02;
 constexpr double left_times = 10;
+// Nodes that went so far, root mean square, as a share of the size, to a shape so many times as far from the points,
+// are such a balloon for certain.
+constexpr double balloon_move = 0.1;
+constexpr double balloon_times = 3;
 // An expected error, as a share of the size, from which a curve on its way to an equilibrium is no use.
 constexpr double curve_is_lost_at = 1e-2;
 
@@ -110,6 +114,22 @@ class Fitting {
                     after / before));
   }
 
+  /// In words, where nodes went far, and away from the points; empty where not.
+  std::string balloon(const Net& before, const Net& now) {
+    if (options_.within || options_.rms || options_.noise) return {};
+    double squares = 0;
+    for (std::size_t i = 0; i < now.moving; ++i) squares += (now.positions[i] - before.positions[i]).squaredNorm();
+    const double share = std::sqrt(squares / std::max<double>(1, static_cast<double>(now.moving))) / diagonal(before);
+    if (!(share > balloon_move)) return {};
+    const double at_first = summary(run_.subject.distances_before(), run_.kept).all.rms;
+    const double at_last = summary(run_.distances(), run_.kept).all.rms;
+    if (!(at_last > balloon_times * at_first)) return {};
+    return fmt::format(
+        "its nodes are {:.2g} % of the size away from where they were, and it is {:.2g} from the points in place of "
+        "{:.2g}, all in the root mean square",
+        100 * share, at_last, at_first);
+  }
+
   /// Where the shape is worse than it came, it stays as it came, unless it is wanted as found.
   void stay_sound() {
     FairReport& report = run_.result.report.fair;
@@ -125,6 +145,7 @@ class Fitting {
       found.positions[i] = net.frame.to_local(run_.result.positions[static_cast<std::size_t>(net.node[i])]);
     std::string fault = soundness.fault(found);
     if (fault.empty()) fault = run_.subject.crossings(run_.result.positions);
+    if (fault.empty()) fault = balloon(net, found);
     if (fault.empty()) return;
     const bool as_found =
         options_.fair.as_found || (!soundness.fault_of_places(net).empty() && soundness.misplaced(found).empty());

@@ -166,11 +166,16 @@ class FitToTolerance {
     FairResult plain = vspring::fair(run_.subject.shape(), run_.subject.constraints(), run_.options.fair, run_.context);
     if (plain.report.outcome != Outcome::converged && !run_.context.cancelled()) return false;
     result.positions = std::move(plain.positions);
-    std::vector<double> all = run_.distances();
-    for (std::size_t j = 0; j < all.size(); ++j) all[j] *= run_.kept[j];
-    if (!run_.context.cancelled() && !(figure_of(all) <= tolerance_)) return false;
+    if (!run_.context.cancelled() && !is_within()) return false;
     result.report.fair = std::move(plain.report);
     return true;
+  }
+
+  /// Whether the shape is that is handed out, by the points that count.
+  [[nodiscard]] bool is_within() {
+    std::vector<double> all = run_.distances();
+    for (std::size_t j = 0; j < all.size(); ++j) all[j] *= run_.kept[j];
+    return figure_of(all) <= tolerance_;
   }
 
   void conclude(const ToleranceFitResult& found) {
@@ -181,7 +186,12 @@ class FitToTolerance {
     }
     const Outcome limit = fair.most_work > 0 ? Outcome::work_limit : Outcome::iteration_limit;
     fair.outcome = found.settled ? Outcome::converged : found.within ? limit : Outcome::stalled;
-    if (!found.within)
+    if (!found.within && is_within())
+      fair.warnings.emplace_back(
+          "the shape is within the tolerance, but no equilibrium was found there: more that is held, or other "
+          "tolerances, "
+          "may do");
+    else if (!found.within)
       fair.warnings.push_back(
           fmt::format("no shape of this mesh was found within {:g}: this is the one that comes nearest; points may lie "
                       "at what is held, or edges may be too long",

@@ -319,9 +319,9 @@ std::string Soundness::fault(Net& now) const {
   update_directions(now, *model_, *team_);
   const double energy = spring_energy(now).sum;
   // Of a surface it is not.
-  const double rise = asks_for_bends_ ? noticed_rise_of_directions
-                      : !is_surface_ && is_bent_more  ? noticed_rise_of_curves
-                                      : noticed_rise;
+  const double rise = asks_for_bends_                ? noticed_rise_of_directions
+                      : !is_surface_ && is_bent_more ? noticed_rise_of_curves
+                                                     : noticed_rise;
   if (!(energy <= rise * energy_ + unseen))
     return fmt::format("the V-Spring energy rose from {:.3g} to {:.3g}", energy_, energy);
   return {};

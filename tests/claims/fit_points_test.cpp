@@ -52,7 +52,7 @@ TEST(FitPoints, ThousandsOfPointsOnOneNodePullLikeTheirAverage) {
   EXPECT_LT(greatest_distance(many.positions, one.positions), 1e-10);
 }
 
-TEST(FitPoints, SaysWhereTheyAreLeftBehind) {
+TEST(FitPoints, SaysWhereTheyAreLeftBehindAndMakesNoBalloon) {
   // A slender loop with its ends held, most of which has no points: what hardly pulls at it lets it become a balloon.
   std::vector<Vector3> nodes;
   for (int k = 0; k <= 24; ++k) nodes.emplace_back(std::cos(k * pi / 12), 0.3 * std::sin(k * pi / 12), 0);
@@ -61,16 +61,22 @@ TEST(FitPoints, SaysWhereTheyAreLeftBehind) {
   for (const double along : {-0.9, -0.3, 0.3, 0.9})
     points.positions.emplace_back(along, 0.3 * std::sqrt(1 - along * along), 0);
   points.positions.emplace_back(0, -0.3, 0);
-  const auto says_so = [&](double weight) {
-    const FitResult result = fit(loop, held_ends(nodes), points, to_equilibrium(weight));
-    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  const auto fitted = [&](double weight) { return fit(loop, held_ends(nodes), points, to_equilibrium(weight)); };
+  const auto says = [](const FitResult& result, const std::string& words) {
     const auto& warnings = result.report.fair.warnings;
-    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
-      return warning.find("times as far from the shape as before") != std::string::npos;
-    });
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
   };
-  EXPECT_TRUE(says_so(1e-3));
-  EXPECT_FALSE(says_so(1));
+  const FitResult near = fitted(1);
+  EXPECT_EQ(near.report.fair.outcome, Outcome::converged);
+  EXPECT_TRUE(near.report.fair.warnings.empty());
+  const FitResult behind = fitted(0.1);
+  EXPECT_EQ(behind.report.fair.outcome, Outcome::converged);
+  EXPECT_TRUE(says(behind, "times as far from the shape as before"));
+  const FitResult balloon = fitted(1e-3);
+  EXPECT_EQ(balloon.report.fair.outcome, Outcome::worse_than_input);
+  EXPECT_TRUE(says(balloon, "of the size away from where they were"));
+  EXPECT_EQ(balloon.positions, nodes);
 }
 
 TEST(FitPoints, APointMayBeFarAway) {

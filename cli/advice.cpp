@@ -19,6 +19,7 @@ constexpr Advice all_advice[] = {
     {"a greater weight", "--weight"},
     {"a shorter smoothing length", "--smoothing-length"},
     {"a tolerance to stay within", "--within"},
+    {"only take its noise off", "--noise auto"},
     {"allow more iterations", "--max-iterations"},
     {"the root mean square of its points' distances", "--rms"},
     {"name the format", "--format"},

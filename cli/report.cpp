@@ -93,7 +93,10 @@ nlohmann::ordered_json to_json(const FairReport& report) {
 std::string summary(const FairReport& report, double diagonal, const FairOptions& options, const Terminal& terminal) {
   std::string text = fmt::format("{} after {} iterations, {:.2f} s", outcome_line(report, options, terminal),
                                  report.iterations, report.seconds);
-  if (report.expected_error) text += fmt::format(", expected error {:.1g} % of the size", 100 * *report.expected_error);
+  if (report.expected_error)
+    text += *report.expected_error < 1
+                ? fmt::format(", expected error {:.1g} % of the size", 100 * *report.expected_error)
+                : ", far from an equilibrium";
   text += "\n";
   const double share = diagonal > 0 ? 100 / diagonal : 0;
   text +=

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,6 +30,21 @@ struct FairArguments : FairingArguments {
   std::optional<SurfaceFormat> format;
   PullArguments pull;
 };
+
+// Of the size, root mean square: further than that a shape is another one.
+constexpr double far = 0.05;
+
+/// Whoever gives a scan, a head or a part as it is may not expect that all between its boundaries goes.
+std::string note_of_lost_features(const FairArguments& arguments, const PolygonMesh& mesh, const FairReport& report) {
+  if (!arguments.rules.empty() || !arguments.region.empty() || arguments.fix_directions != Hold::none ||
+      asks_to_fit(arguments.pull))
+    return {};
+  Eigen::AlignedBox<double, 3> box;
+  for (const Vector3& position : mesh.positions()) box.extend(position);
+  if (!(report.mean_move > far * box.diagonal().norm())) return {};
+  return "note: only the boundary is held, so all that was between became fair; to take nothing but noise off, give "
+         "--noise auto; to stay near, --within; to mend a part, --region\n";
+}
 
 int run_fair(FairArguments arguments) {
   settle_options(arguments, asks_to_fit(arguments.pull));
@@ -59,14 +75,14 @@ int run_fair(FairArguments arguments) {
   after.set_positions(result.positions);
   auto figures = done.figures();
   figures.update(welding.figures());
-  return fairing.finish<PolygonMesh>({mesh, after, constraints, result.report}, mesh.positions(),
-                                     welding.with_warnings(file.warnings),
-                                     {.shape = write,
-                                      .picture = {},
-                                      .welding = &welding,
-                                      .figures = std::move(figures),
-                                      .lines = welding.lines() + done.lines(),
-                                      .facts = {.own_nodes_pull = done.account.has_value()}});
+  return fairing.finish<PolygonMesh>(
+      {mesh, after, constraints, result.report}, mesh.positions(), welding.with_warnings(file.warnings),
+      {.shape = write,
+       .picture = {},
+       .welding = &welding,
+       .figures = std::move(figures),
+       .lines = welding.lines() + done.lines() + note_of_lost_features(arguments, mesh, result.report),
+       .facts = {.own_nodes_pull = done.account.has_value()}});
 }
 
 const std::map<std::string, Springs> springs = {{"edge", Springs::edge}, {"sphere", Springs::sphere}};

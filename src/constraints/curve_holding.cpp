@@ -93,10 +93,12 @@ class CurveHolding {
       data += (held(node) ? 1 : 0) + (constraints_.tangent_fixed(node) || constraints_.normal_fixed(node) ? 1 : 0);
     }
     if (holding == 0)
-      throw Error(ErrorCode::unusable_constraint,
-                  fmt::format("nothing holds the closed curve through node {} ({} nodes); hold some of its nodes by a "
-                              "rule, or let only a region move",
-                              moving, chain.nodes.size()));
+      throw Error(
+          ErrorCode::unusable_constraint,
+          fmt::format("nothing holds the closed curve through node {} ({} nodes): it would become a circle or "
+                      "shrink; hold some of its nodes by a rule, let only a region move, or give a tolerance to "
+                      "stay within",
+                      moving, chain.nodes.size()));
     if (data < data_for_a_circle)
       warnings_.push_back(
           fmt::format("what holds the closed curve through node {} leaves a family of shapes, and the result is one of "

@@ -83,10 +83,17 @@ class Holding {
       if (moves(i) && find(i) == i && held[static_cast<std::size_t>(i)] == 0)
         throw Error(
             ErrorCode::unusable_constraint,
-            fmt::format("nothing holds the component of node {} ({} nodes): it would shrink to a point; hold some of "
-                        "its nodes by a rule, fix the boundary if it has one, or let only a region move",
-                        i, size[static_cast<std::size_t>(i)]));
+            fmt::format("nothing holds the component of node {} ({} nodes{}): it would shrink to a point; {}hold some "
+                        "of its nodes by a rule, let only a region move, or only take its noise off",
+                        i, size[static_cast<std::size_t>(i)], has_boundary(i) ? "" : ", closed",
+                        has_boundary(i) ? "fix the boundary, " : ""));
     }
+  }
+
+  /// Whether the component with this node, as find() gives it, has a boundary.
+  bool has_boundary(Index component) {
+    const auto loops = boundary_loops(mesh_);
+    return std::any_of(loops.begin(), loops.end(), [&](const auto& loop) { return find(loop.front()) == component; });
   }
 
   void check_boundaries(std::vector<std::string>& warnings) {
@@ -169,14 +176,18 @@ class Holding {
         for (const Vector3& t : {across, Vector3(constraints_.normal(j).cross(across))}) add(k, 2 * p.dot(t), t, 0);
       }
     }
+    std::size_t loose = 0;
+    Index first = -1;
     for (std::size_t k = 0; k < systems.size(); ++k) {
       if (bounded[k] != 0) continue;
       if (PivotedCholesky(systems[k]).rank(no_information) >= 4) continue;
-      warnings.push_back(
-          fmt::format("what holds the component of node {} leaves a family of shapes, and the result is one of them; "
-                      "hold more nodes, or normals, to choose",
-                      first_node[k]));
+      if (loose++ == 0) first = first_node[k];
     }
+    if (loose > 0)
+      warnings.push_back(
+          fmt::format("what holds the component of node {}{} leaves a family of shapes, and the result is one of them; "
+                      "hold more nodes, or normals, to choose",
+                      first, loose > 1 ? fmt::format(" and {} more", loose - 1) : ""));
   }
 
  private:

@@ -1,5 +1,7 @@
 #include "solve/account.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +12,11 @@ double diagonal(const Net& net) {
   Eigen::AlignedBox<double, 3> box;
   for (const Vector3& position : net.positions) box.extend(position);
   return box.isEmpty() ? 1 : box.diagonal().norm();
+}
+
+std::string distance_from_equilibrium(const FairReport& report) {
+  if (!(report.expected_error.value_or(1) < 1)) return "far from one";
+  return fmt::format("expected to be {:.2g} % of the size away from one", 100 * *report.expected_error);
 }
 
 void count_nodes(const Net& net, const Constraints& constraints, FairReport& report) {

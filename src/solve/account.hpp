@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "spring/net.hpp"
 #include "vspring/fair.hpp"
 
@@ -14,5 +16,8 @@ void count_nodes(const Net& net, const Constraints& constraints, FairReport& rep
 /// Fills how far nodes moved between the shape that went in and the one that comes out.
 void measure_moves(const Net& net, const std::vector<Vector3>& before, const std::vector<Vector3>& after,
                    FairReport& report);
+
+/// How far a shape is from an equilibrium, in words: "expected to be 0.4 % of the size away from one".
+std::string distance_from_equilibrium(const FairReport& report);
 
 }  // namespace vspring

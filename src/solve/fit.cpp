@@ -241,10 +241,9 @@ class Fitting {
     if (report.outcome == Outcome::iteration_limit) report.outcome = Outcome::work_limit;
     if (!nearest || report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
     // Nodes that stay about where they are do not crumple the shape.
-    nearest->report.fair.warnings.push_back(fmt::format(
-        "no equilibrium was found: this is the nearest shape, expected to be {:.2g} % of the size away from "
-        "one; noise may have folded faces",
-        100 * nearest->report.fair.expected_error.value_or(0)));
+    nearest->report.fair.warnings.push_back(
+        fmt::format("no equilibrium was found: this is the nearest shape, {}; noise may have folded faces",
+                    distance_from_equilibrium(nearest->report.fair)));
     run_.result = std::move(*nearest);
   }
 
@@ -274,9 +273,9 @@ class Fitting {
     if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled || !may_replace()) return;
     if (report.expected_error && *report.expected_error < curve_is_lost_at) {
       report.warnings.push_back(
-          fmt::format("no equilibrium was found: this is the nearest shape, expected to be {:.2g} % of the size away "
-                      "from one; the points may be too noisy for their weight",
-                      100 * *report.expected_error));
+          fmt::format("no equilibrium was found: this is the nearest shape, {}; the points may be too noisy for their "
+                      "weight",
+                      distance_from_equilibrium(report)));
       return;
     }
     shape.go_to_spline();

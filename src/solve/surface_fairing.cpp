@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "base/stopwatch.hpp"
@@ -47,6 +48,8 @@ bool is_settled(const FairReport& report) {
 
 // On each level, of an even distribution where that of the input leads nowhere: the coarsest may need two starts.
 constexpr int iterations_of_a_try = 100;
+constexpr std::string_view ways_out =
+    "hold more nodes, or normals, let a smaller region move, or only take its noise off";
 
 /// For springs that others take over from.
 FairOptions for_a_try(FairOptions options) {
@@ -275,15 +278,15 @@ void SurfaceFairing::try_sweeps(const Constraints& constraints, Context& context
     if (!better) return;
     // In place of what was said of that.
     report.outcome = Outcome::stalled;
-    report.warnings.back() =
-        "no equilibrium was found that is no worse than the input: this is the plain iteration's "
-        "shape, which is fairer; hold more nodes, or normals, or let a smaller region move";
+    report.warnings.back() = fmt::format(
+        "no equilibrium was found that is no worse than the input: this is the plain iteration's shape, which is "
+        "fairer; {}",
+        ways_out);
     return;
   }
   report.warnings.push_back(fmt::format(
-      "no equilibrium was found (the nearest shape is expected to be {:.2g} % of the size away from one): this is {}; "
-      "hold more nodes, or normals, or let a smaller region move",
-      100 * report.expected_error.value_or(0), better ? "the plain iteration's shape, which is fairer" : "that shape"));
+      "no equilibrium was found (the nearest shape is {}): this is {}; {}", distance_from_equilibrium(report),
+      better ? "the plain iteration's shape, which is fairer" : "that shape", ways_out));
 }
 
 bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance,

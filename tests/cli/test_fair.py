@@ -178,13 +178,24 @@ class Fair(Case):
         result = run("fair", path, "-o", self.folder / "out.obj")
         self.assertEqual(result.returncode, 2)
         line = self.assert_one_line(result)
-        for word in ("node 0", "--constraints", "--region"):
+        for word in ("node 0", "closed", "--constraints", "--region", "--noise auto"):
             self.assertIn(word, line)
+        self.assertNotIn("--fix boundary", line)
         path = self.write("in.obj", hat())
         result = run("fair", path, "-o", self.folder / "out.obj", "--fix", "none")
         self.assertEqual(result.returncode, 2)
-        self.assert_one_line(result)
+        self.assertIn("--fix boundary", self.assert_one_line(result))
         self.assertEqual(self.files(), ["in.obj"])
+
+    def test_who_loses_all_between_the_boundaries_is_told_what_keeps_it(self):
+        note = "only the boundary is held"
+        said = self.fair().stdout.decode()
+        self.assertIn(note, said)
+        self.assertIn("--noise auto", said)
+        for options in (["--region", "sphere:0,0,1,0.6"], ["--within", "0.01"], ["--fix-normals", "boundary"]):
+            self.assertNotIn(note, self.fair(*options).stdout.decode(), options)
+        flat = grid(6, lambda x, y: 0.01 * math.sin(9 * x))
+        self.assertNotIn(note, self.fair(text=flat).stdout.decode())
 
     def test_a_family_of_shapes_ends_in_one_with_a_warning(self):
         self.write("rules.json", json.dumps({"rules": [{"nodes": [0], "position": "fixed"}]}))

@@ -142,6 +142,7 @@ Fairing::Fairing(const FairingArguments& arguments)
       errors_(2, arguments.colour),
       messages_(arguments.output == "-" || arguments.html == "-" ? 2 : 1, arguments.colour),
       cancelling_(context_),
+      time_limit_(context_, arguments.time_limit),
       bar_(errors_) {
   context_.threads = arguments.threads;
   if (arguments.quiet) return;
@@ -167,7 +168,8 @@ template <typename Shape>
 int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& input, std::vector<std::string> warnings,
                     const Writers& writers) {
   bar_.clear();
-  const FairReport& report = faired.report;
+  FairReport report = faired.report;
+  time_limit_.end(report);
   std::ranges::transform(report.warnings, std::back_inserter(warnings), with_options);
   RunFacts facts = writers.facts;
   facts.method = report.method;

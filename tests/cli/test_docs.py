@@ -176,6 +176,11 @@ class Docs(Case):
                         for option in re.findall(r"(?<!\S)--?[a-z][a-z-]*", words):
                             self.assertIn(option, of_it, f"{document.name}: {line}")
 
+    def test_the_reference_of_options_is_the_programs(self):
+        done = subprocess.run([ROOT / "scripts/option-reference", "--check"], env={**os.environ, "VSPRING": str(PROGRAM)},
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_links_lead_somewhere(self):
         count = 0
         for document in LINKED:

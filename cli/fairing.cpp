@@ -181,14 +181,19 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
     const UninterruptedWhileWriting guard;
     for (std::string& warning : writers.shape()) warnings.push_back(std::move(warning));
   }
-  nlohmann::ordered_json json = to_json(report);
-  json["warnings"] = warnings;
-  json["input"] = arguments_->input;
-  json["output"] = arguments_->output;
-  json.update(writers.figures);
+  // Made only for those who ask: without memory for it the library that makes it ends the program.
+  const bool is_reported = !(arguments_->report.empty() && arguments_->html.empty());
+  nlohmann::ordered_json json;
+  if (is_reported) {
+    json = to_json(report);
+    json["warnings"] = warnings;
+    json["input"] = arguments_->input;
+    json["output"] = arguments_->output;
+    json.update(writers.figures);
+  }
   MeasuredPair<Shape> shapes = {MeasuredShape(faired.before), MeasuredShape(faired.after)};
   FigurePair figures;
-  if (!context_.cancelled() && !(arguments_->report.empty() && arguments_->html.empty())) {
+  if (!context_.cancelled() && is_reported) {
     figures = measured(shapes, faired.constraints);
     if (!context_.cancelled()) {
       // Not assigned as a list: clang 14 does not destroy what such an assignment replaces.

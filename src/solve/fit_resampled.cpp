@@ -19,6 +19,7 @@
 #include "shape/frame.hpp"
 #include "shape/segment.hpp"
 #include "solve/fit_points.hpp"
+#include "solve/gentle_curve.hpp"
 #include "vspring/distance.hpp"
 #include "vspring/figures.hpp"
 #include "vspring/fit.hpp"
@@ -48,6 +49,9 @@ constexpr double hopeless_share = 1.5;
 // Of the least distance before: where it falls no more nothing is within the tolerance.
 constexpr double no_nearer_share = 0.98;
 constexpr double holds_from = 0.99;
+// Of the tolerance: where no gentle curve is within it, one is looked for up to so much further out, to so near.
+constexpr double most_times_tolerance = 8;
+constexpr double nearly = 1.05;
 
 /// Fits a curve with several nodes for each that is asked for; these are some of its nodes.
 class DenseFit {
@@ -66,16 +70,20 @@ class DenseFit {
 
   /// Whether it found new nodes within the tolerance, or somebody has cancelled: those are to be taken.
   bool run() {
-    if (curve_.node_count() > std::min(most_dense_nodes, most_times * made_.curve.node_count())) return false;
+    if (curve_.node_count() > most_dense_nodes) return false;
+    const bool is_too_large_a_table = curve_.node_count() > most_times * made_.curve.node_count();
+    if (is_too_large_a_table && !options_.within) return false;
     FitResult own = fit(curve_, constraints_, {.positions = curve_.positions()}, options_, context_);
     if (own.report.fair.outcome == Outcome::worse_than_input) return false;
     PolygonCurve smooth = curve_;
     smooth.set_positions(std::move(own.positions));
+    if (options_.within && go_gently(own, smooth)) return true;
+    if (is_too_large_a_table) return false;
     resample_to(smooth, 2);
     const Index times = times_needed();
     if (times != times_) resample_to(smooth, times);
     own.positions = dense_.curve.positions();
-    take_new_nodes(own);
+    take_new_nodes(own, dense_.curve);
     if (own.report.fair.outcome != Outcome::stalled) tried_.push_back(std::move(own));
     FitOptions options = options_;
     double aim = first_aim;
@@ -89,7 +97,7 @@ class DenseFit {
       const bool stalled = outcome == Outcome::stalled;
       if (outcome == Outcome::worse_than_input || (stalled && !(figure(found) <= hopeless_share * tolerance_))) break;
       dense_.curve.set_positions(found.positions);
-      take_new_nodes(found);
+      take_new_nodes(found, dense_.curve);
       const double share = tolerance_ > 0 ? figure(found) / tolerance_ : 0;
       const double before = std::exchange(energy, found.report.fair.after.vspring_energy);
       const bool nearer = !(share > no_nearer_share * nearest_share);
@@ -168,6 +176,46 @@ class DenseFit {
   }
 
  private:
+  /// The gentle curve of new nodes, or one that is as near as one can be whose curvature varies no more than that of
+  /// the resampled table. False where there is none, as in space.
+  bool go_gently(const FitResult& own, const PolygonCurve& smooth) {
+    resample_to(smooth, 1);
+    const auto most_extremes = static_cast<std::size_t>(measure_curve(smooth, &constraints_).curvature_extrema);
+    const auto gentle_within = [&](double tolerance) -> std::optional<FitResult> {
+      auto positions =
+          gentle_curve(dense_.curve, dense_.constraints, curve_.positions(), tolerance, most_extremes, context_);
+      if (!positions) return std::nullopt;
+      FitResult found = own;
+      PolygonCurve dense = dense_.curve;
+      dense.set_positions(*std::move(positions));
+      take_new_nodes(found, dense);
+      found.report.fair.outcome = Outcome::converged;
+      found.report.fair.warnings.clear();
+      return found;
+    };
+    best_ = gentle_within(tolerance_);
+    if (best_) best_share_ = figure(*best_) / tolerance_;
+    if (best_ && is_within()) return true;
+    best_.reset();
+    const double before = variation(made_.curve.positions());
+    double too_near = 1;
+    double share = most_times_tolerance;
+    for (double next = share; share > nearly * too_near; next = std::sqrt(share * too_near)) {
+      auto found = context_.cancelled() ? std::nullopt : gentle_within(next * tolerance_);
+      const bool is_enough = found && variation(found->positions) <= before;
+      if (is_enough) {
+        best_ = std::move(found);
+        best_share_ = figure(*best_) / tolerance_;
+        share = next;
+      } else if (!best_) {
+        return false;
+      } else {
+        too_near = next;
+      }
+    }
+    return best_.has_value();
+  }
+
   struct DenseEdge {
     std::array<Index, 2> nodes;
     std::array<Index, 2> chord;  ///< nodes of the dense curve that are new ones
@@ -264,9 +312,9 @@ class DenseFit {
   }
 
   /// In place of the nodes of the dense curve.
-  void take_new_nodes(FitResult& found) const {
-    for (std::size_t i = 0; i < dense_node_.size(); ++i) found.positions[i] = at(dense_node_[i]);
+  void take_new_nodes(FitResult& found, const PolygonCurve& dense) const {
     found.positions.resize(dense_node_.size());
+    for (std::size_t i = 0; i < dense_node_.size(); ++i) found.positions[i] = dense.position(dense_node_[i]);
     PolygonCurve made = made_.curve;
     made.set_positions(found.positions);
     found.distances = point_distances(curve_.positions(), made, measuring_);

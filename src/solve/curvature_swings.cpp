@@ -8,6 +8,13 @@
 
 namespace vspring {
 
+namespace {
+
+// So that what is left can surely not be seen.
+constexpr double share_of_visible = 0.5;
+
+}  // namespace
+
 CurvatureSwings::CurvatureSwings(std::span<const CurvatureRun> runs) {
   double squares = 0;
   double length = 0;
@@ -18,7 +25,8 @@ CurvatureSwings::CurvatureSwings(std::span<const CurvatureRun> runs) {
     }
   }
   if (!(length > 0)) return;
-  const double visible = std::max(visible_share * std::sqrt(squares / length), visible_curvature / length);
+  const double visible =
+      std::max(share_of_visible * visible_share * std::sqrt(squares / length), visible_curvature / length);
   for (const CurvatureRun& run : runs) runs_.push_back(swings_of(run, visible));
 }
 

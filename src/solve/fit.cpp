@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -148,7 +149,7 @@ class Fitting {
     const CurveFigures before = measure_curve(curve, &constraints);
     if (before.inflections + before.curvature_extrema == 0) return;
     auto gentle = gentle_curve(curve, constraints, run_.points.positions, *options_.within,
-                               static_cast<std::size_t>(before.curvature_extrema), run_.context);
+                               std::numeric_limits<std::size_t>::max(), run_.context);
     if (!gentle) return;
     curve.set_positions(*gentle);
     const CurveFigures after = measure_curve(curve, &constraints);

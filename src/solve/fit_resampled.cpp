@@ -52,6 +52,8 @@ constexpr double holds_from = 0.99;
 // Of the tolerance: where no gentle curve is within it, one is looked for up to so much further out, to so near.
 constexpr double most_times_tolerance = 8;
 constexpr double nearly = 1.05;
+// Of the variation along the resampled table.
+constexpr double greatest_strain = 1.5;
 
 /// Fits a curve with several nodes for each that is asked for; these are some of its nodes.
 class DenseFit {
@@ -176,44 +178,59 @@ class DenseFit {
   }
 
  private:
-  /// The gentle curve of new nodes, or one that is as near as one can be whose curvature varies no more than that of
-  /// the resampled table. False where there is none, as in space.
+  /// The gentle curve of new nodes within the tolerance, or one that is as near as can be without being strained. False
+  /// where there is none, as in space.
   bool go_gently(const FitResult& own, const PolygonCurve& smooth) {
     resample_to(smooth, 1);
-    const auto most_extremes = static_cast<std::size_t>(measure_curve(smooth, &constraints_).curvature_extrema);
-    const auto gentle_within = [&](double tolerance) -> std::optional<FitResult> {
-      auto positions =
-          gentle_curve(dense_.curve, dense_.constraints, curve_.positions(), tolerance, most_extremes, context_);
-      if (!positions) return std::nullopt;
-      FitResult found = own;
-      PolygonCurve dense = dense_.curve;
-      dense.set_positions(*std::move(positions));
-      take_new_nodes(found, dense);
-      found.report.fair.outcome = Outcome::converged;
-      found.report.fair.warnings.clear();
-      return found;
-    };
-    best_ = gentle_within(tolerance_);
-    if (best_) best_share_ = figure(*best_) / tolerance_;
-    if (best_ && is_within()) return true;
+    const CurveFigures figures = measure_curve(smooth, &constraints_);
+    best_ = gentle_within(own, figures, tolerance_);
+    if (best_ && figure(*best_) <= tolerance_) {
+      best_share_ = figure(*best_) / tolerance_;
+      return true;
+    }
     best_.reset();
-    const double before = variation(made_.curve.positions());
     double too_near = 1;
     double share = most_times_tolerance;
     for (double next = share; share > nearly * too_near; next = std::sqrt(share * too_near)) {
-      auto found = context_.cancelled() ? std::nullopt : gentle_within(next * tolerance_);
-      const bool is_enough = found && variation(found->positions) <= before;
-      if (is_enough) {
-        best_ = std::move(found);
-        best_share_ = figure(*best_) / tolerance_;
-        share = next;
-      } else if (!best_) {
-        return false;
-      } else {
-        too_near = next;
-      }
+      auto found = gentle_within(own, figures, next * tolerance_);
+      if (context_.cancelled() || (!found && !best_)) return false;
+      (found ? share : too_near) = next;
+      if (found) best_ = std::move(found);
     }
-    return best_.has_value();
+    best_share_ = figure(*best_) / tolerance_;
+    return true;
+  }
+
+  /// None where it is strained: where curvature varies more than along the resampled table, and has more inflections or
+  /// extremes than along the table without its noise, or varies more by half.
+  std::optional<FitResult> gentle_within(const FitResult& own, const CurveFigures& smooth, double tolerance) {
+    const double before = variation(made_.curve.positions());
+    std::optional<std::vector<Vector3>> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const LeastVariation which : {LeastVariation::in_proportion, LeastVariation::in_all}) {
+      auto places = gentle_curve(dense_.curve, dense_.constraints, curve_.positions(), tolerance,
+                                 static_cast<std::size_t>(smooth.curvature_extrema), context_, which);
+      if (!places) break;
+      PolygonCurve curve = dense_.curve;
+      curve.set_positions(*places);
+      const CurveFigures figures = measure_curve(curve, &dense_.constraints);
+      const bool has_more =
+          figures.curvature_extrema > smooth.curvature_extrema || figures.inflections > smooth.inflections;
+      const double most = has_more ? before : greatest_strain * before;
+      if (figures.curvature_variation <= most && figures.curvature_variation < least && !(best && has_more)) {
+        least = figures.curvature_variation;
+        best = std::move(places);
+      }
+      if (least <= before) break;
+    }
+    if (!best) return std::nullopt;
+    FitResult found = own;
+    PolygonCurve dense = dense_.curve;
+    dense.set_positions(*std::move(best));
+    take_new_nodes(found, dense);
+    found.report.fair.outcome = Outcome::converged;
+    found.report.fair.warnings.clear();
+    return found;
   }
 
   struct DenseEdge {

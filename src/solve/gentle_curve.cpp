@@ -42,13 +42,17 @@ constexpr double least_share_of_mean_curvature = 0.5;
 
 class GentleCurve {
  public:
-  GentleCurve(PlanarPolygon polygon, std::span<const Vector3> points, double tolerance, Context& context)
+  GentleCurve(PlanarPolygon polygon, std::span<const Vector3> points, double tolerance, LeastVariation least,
+              Context& context)
       : polygon_(std::move(polygon)),
         context_(context),
         team_(context.thread_count()),
         bound_(tolerance * polygon_.scale()) {
     for (const Vector3& point : points) points_.push_back(polygon_.flat(point));
     find_spacing();
+    if (least == LeastVariation::in_all) {
+      for (std::vector<double>& spacing : spacing_) std::fill(spacing.begin(), spacing.end(), 1.0);
+    }
     measure();
   }
 
@@ -294,10 +298,10 @@ class GentleCurve {
 
 std::optional<std::vector<Vector3>> gentle_curve(const PolygonCurve& start, const Constraints& constraints,
                                                  std::span<const Vector3> points, double tolerance,
-                                                 std::size_t most_extremes, Context& context) {
+                                                 std::size_t most_extremes, Context& context, LeastVariation least) {
   auto polygon = PlanarPolygon::of(start, constraints, points);
   if (!polygon) return std::nullopt;
-  GentleCurve gentle(std::move(*polygon), points, tolerance, context);
+  GentleCurve gentle(std::move(*polygon), points, tolerance, least, context);
   if (!gentle.run(most_extremes)) return std::nullopt;
   return gentle.polygon().lifted(start.positions());
 }

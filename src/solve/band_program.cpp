@@ -11,6 +11,8 @@ namespace {
 constexpr int most_interior_steps = 40;
 // Of the objective: what may be left of the gap to the optimum.
 constexpr double enough_gap = 1e-4;
+// Of the objective at the start.
+constexpr double next_to_nothing_left = 1e-6;
 // Of the bounds.
 constexpr double enough_miss = 1e-6;
 // Multipliers that grow so far have no bounds to go to.
@@ -133,7 +135,8 @@ class InteriorPoint {
       const double gap = complementarity();
       const double objective = scale_ * sum_of_terms();
       result.miss = greatest_miss();
-      if (result.miss < enough_miss && gap < enough_gap * objective && dual_miss_ < enough_gap) {
+      if (result.miss < enough_miss && gap < enough_gap * std::max(objective, next_to_nothing_left) &&
+          dual_miss_ < enough_gap) {
         result.found = true;
         break;
       }
@@ -186,23 +189,27 @@ class InteriorPoint {
     return sum;
   }
 
+  /// To a sum of 1 at the start, or where there is none of entries.
   void scale_terms() {
-    const double sum = sum_of_terms();
-    scale_ = sum > 0 ? 1 / sum : 1;
-    root_ = std::sqrt(scale_);
+    double entries = 0;
     double greatest = 0;
     for (const BandRow& term : program_.terms) {
-      for (const double entry : term.entries) greatest = std::max(greatest, std::abs(entry));
+      for (const double entry : term.entries) {
+        entries += entry * entry;
+        greatest = std::max(greatest, std::abs(entry));
+      }
     }
-    ridge_ = least_diagonal * root_ * greatest;
+    const double sum = sum_of_terms();
+    scale_ = 1 / (sum > 0 ? sum : std::max(entries, 1e-300));
+    root_ = std::sqrt(scale_);
+    diagonal_ = least_diagonal * root_ * greatest;
   }
 
   /// And what is left of the dual: the gradient of the objective less that of the bounds.
   void renew_misses() {
     gradient_.assign(x_.size(), 0);
     for (const BandRow& term : program_.terms) add_to(gradient_, term, scale_ * (at(term, x_) + term.offset));
-    double size = 0;
-    for (const double one : gradient_) size = std::max(size, std::abs(one));
+    for (const double one : gradient_) gradient_size_ = std::max(gradient_size_, std::abs(one));
     for (std::size_t k = 0; k < rows_.size(); ++k) {
       const double value = at(*rows_[k], x_) + rows_[k]->offset;
       double pull = 0;
@@ -215,8 +222,7 @@ class InteriorPoint {
     }
     double left = 0;
     for (const double one : gradient_) left = std::max(left, std::abs(one));
-    if (gradient_size_ == 0) gradient_size_ = std::max(size, 1e-300);
-    dual_miss_ = left / gradient_size_;
+    dual_miss_ = left / std::max(gradient_size_, 1e-300);
   }
 
   [[nodiscard]] double complementarity() const {
@@ -232,7 +238,7 @@ class InteriorPoint {
   }
 
   void factor() {
-    triangle_.clear(ridge_);
+    triangle_.clear(diagonal_);
     for (const std::size_t k : order_) {
       if (k < program_.terms.size()) {
         triangle_.add(program_.terms[k], root_);
@@ -290,7 +296,7 @@ class InteriorPoint {
   BandTriangle triangle_;
   double scale_ = 1;
   double root_ = 1;
-  double ridge_ = 0;
+  double diagonal_ = 0;
   double gradient_size_ = 0;
   double dual_miss_ = 0;
 };

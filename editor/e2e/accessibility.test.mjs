@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { choose, find, open, page, root, session, settled, useSession } from './support.mjs';
+import { choose, find, open, page, root, session, settled, solving, useSession } from './support.mjs';
 
 useSession();
 
@@ -82,10 +82,10 @@ test('a curve: every control has a name, and Tab reaches it', async () => {
 test('the progress bar has a name and so has what ends it', async () => {
   session.generated('large.ply', 'annulus', '--nodes', '200000', '--noise', '0.01');
   await open('?file=files/large.ply', { wait: false });
-  await page.getByRole('progressbar', { name: 'Solving' }).waitFor();
+  await solving(page);
   assert.ok((await names()).includes('Cancel'));
   await page.keyboard.press('Escape');
-  await page.locator('#status', { hasText: 'cancelled' }).waitFor();
+  await settled(page, 'cancelled');
 });
 
 test('the list of keys has all of the documentation, and the documentation all of the list', async () => {

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { choose, drag, drop, find, greatestDistance, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { choose, drag, drop, find, follows, greatestDistance, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -150,7 +150,7 @@ test('a curve is drawn towards points, in its plane, and follows with them in a 
   const end = await find(page, /position fixed/, [0.02, 0.5], [0.7, 0.5]);
   const said = await figures().textContent();
   await drag(page, end, 0, -30, async () => {
-    await page.locator('#status', { hasText: 'frames/s' }).waitFor();
+    await follows(page);
     await figures().filter({ hasNotText: said }).waitFor();
   });
   const pulled = await compare('--within', '0.1');

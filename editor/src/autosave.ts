@@ -30,7 +30,7 @@ export class Autosave {
     try {
       const [source, state] = (await getMany(['source', 'state'], storage)) as [Source | undefined, State | undefined];
       if (!source || state?.form !== 1) return false;
-      await editor.restore(source, state.history, state.strength);
+      await editor.restore({ source, history: state.history, strength: state.strength });
       this.kept = { source, history: editor.history, strength: editor.strength };
       this.notice.hidden = false;
       this.notice.querySelector('span')!.textContent = `Restored ${editor.name}`;

@@ -22,6 +22,8 @@ export interface Edit {
 
 export interface Constraints {
   readonly rules: readonly Rule[];
+  /** What keeps all outside a region where it is; null where all may move. It comes before the edits, and another region has others. */
+  readonly region?: readonly Rule[] | null;
   readonly edits: Readonly<Record<number, Edit>>;
   /** Of surfaces, and in no file: boundary nodes whose position is free are faired first, as curves. */
   readonly fairBoundary?: boolean;
@@ -33,6 +35,12 @@ const parts = ['position', 'normal', 'tangent'] as const;
 export type Part = (typeof parts)[number];
 
 export const initial: Constraints = { rules: [{ nodes: 'boundary', position: 'fixed' }], edits: {} };
+/** As a file is opened: nothing moves, until it is said what is to. */
+export const untouched: Constraints = { ...initial, region: [{ nodes: 'all', position: 'fixed' }] };
+
+export function isUntouched({ region }: Constraints): boolean {
+  return region === untouched.region || region?.[0]?.nodes === 'all';
+}
 
 /** Throws where the text is no constraints file; what its rules say is checked by the library. */
 export function fromFile(text: string): Constraints {
@@ -41,18 +49,27 @@ export function fromFile(text: string): Constraints {
   return { rules: rules as Rule[], edits: {} };
 }
 
-export function allRules({ rules, edits }: Constraints): Rule[] {
+export function allRules({ rules, region, edits }: Constraints): Rule[] {
+  return [...rules, ...(region ?? []), ...byHand(edits)];
+}
+
+/** Without those of the region. */
+export function ownRules({ rules, edits }: Constraints): Rule[] {
+  return [...rules, ...byHand(edits)];
+}
+
+function byHand(edits: Constraints['edits']): Rule[] {
   const nodes = Object.keys(edits).map(Number);
-  const byHand: Rule[] = [];
+  const found: Rule[] = [];
   for (const part of parts) {
     for (const hold of ['fixed', 'free'] as const) {
       const these = nodes.filter((node) => edits[node][part] === hold);
-      if (these.length > 0) byHand.push({ nodes: these, [part]: hold });
+      if (these.length > 0) found.push({ nodes: these, [part]: hold });
     }
     const given = nodes.filter((node) => Array.isArray(edits[node][part]));
-    if (given.length > 0) byHand.push({ nodes: given, [part]: given.map((node) => edits[node][part]) });
+    if (given.length > 0) found.push({ nodes: given, [part]: given.map((node) => edits[node][part]) });
   }
-  return [...rules, ...byHand];
+  return found;
 }
 
 /** Numbers come out so that they are read as the same ones. */
@@ -107,7 +124,8 @@ export interface Held {
 export function heldNodes(constraints: Constraints, boundary: Uint8Array): Held {
   const nodes = new Uint8Array(boundary.length);
   let unmarked = 0;
-  for (const rule of allRules(constraints)) {
+  // What keeps a file as it is holds nothing that anybody asked for.
+  for (const rule of isUntouched(constraints) ? ownRules(constraints) : allRules(constraints)) {
     const among = nodesOf(rule.nodes, boundary);
     if (!among) {
       ++unmarked;

@@ -1,8 +1,9 @@
 // The state of the editor, and all that changes it.
 
-import { CoreClient, Ended, Solver } from './client';
+import { CoreClient, Solver } from './client';
 import * as holding from './constraints';
 import type { Constraints, Edit, Held, Part, Vector } from './constraints';
+import { Documents, type Document } from './documents';
 import { Drags } from './drags';
 import { FrameCounter } from './frames';
 import { begun, done, redone, undone, type History } from './history';
@@ -11,7 +12,8 @@ import type { Cloud, Fit, PointSource } from './points';
 import type { Ask, FitJob, Job, Opened, Report, Solved } from './protocol';
 import { restricted } from './region';
 import { normalNear, nothing, shapeOf, type Shape } from './shape';
-import { between } from './strength';
+import { between, furthest } from './strength';
+import { counted } from './words';
 
 export interface EditorEvents {
   /** stays: where it is seen. */
@@ -25,6 +27,10 @@ export interface EditorEvents {
 const cancelled: Report = { outcome: 'cancelled', iterations: 0, seconds: 0, threads: 1, expectedError: null, movingNodes: 0, warnings: [] };
 /** What a shape was opened from: a file, or places that were clicked. */
 export type Source = NamedBytes | Ask<'draw'>;
+
+function nameOf(source: Source): string {
+  return 'places' in source ? 'curve.csv' : source.name;
+}
 
 type FaultSource = 'file' | 'solver';
 
@@ -51,6 +57,11 @@ export class Editor {
   /** How far on the way from the input to the result that is which is seen and saved: 0 to 1. */
   strength = 1;
   history: History<Constraints> = begun(holding.initial);
+  /** What is shown to be judged before it is a step, and what was there before. */
+  private tried: Constraints | null = null;
+  private before: { positions: Float64Array; strength: number; report: Report | null } = { positions: new Float64Array(), strength: 1, report: null };
+  private readonly documents = new Documents();
+  private cancels = 0;
   readonly frames = new FrameCounter();
   private positions: Float64Array = new Float64Array();
   seen: Float64Array = this.positions;
@@ -70,7 +81,21 @@ export class Editor {
   constructor(private readonly events: EditorEvents) {}
 
   get constraints(): Constraints {
-    return this.history.now.state;
+    return this.tried ?? this.history.now.state;
+  }
+
+  /** How far what is tried moves a node. */
+  get movedInTrial(): number {
+    return this.tried ? furthest(this.positions, this.before.positions) : 0;
+  }
+
+  /** How far what is seen is from the input. */
+  get moved(): number {
+    return this.shape ? furthest(this.seen, this.shape.input) : 0;
+  }
+
+  get trying(): boolean {
+    return this.tried !== null;
   }
 
   get result(): Float64Array {
@@ -99,11 +124,21 @@ export class Editor {
     return this.shape?.curve ? 'tangent' : 'normal';
   }
 
-  /** A shape or a constraints file. held: a constraints file for the shape. points: what it is drawn towards, with the weight of the paper's Fig. 12. What cannot be read leaves everything as it was. */
-  async open(name: string, bytes: Uint8Array, held?: string, points?: NamedBytes): Promise<void> {
+  /** A shape, which stays as it is until more is said, or a constraints file. What cannot be read leaves everything as it was. */
+  async open(name: string, bytes: Uint8Array): Promise<void> {
     try {
       if (name.toLowerCase().endsWith('.json')) await this.openConstraints(new TextDecoder().decode(bytes));
-      else await this.openShape(name, bytes, held === undefined ? holding.initial : holding.fromFile(held), points);
+      else await this.openShape(name, bytes, holding.untouched);
+      this.set({ fault: null });
+    } catch (error) {
+      this.setFault((error as Error).message, 'file');
+    }
+  }
+
+  /** A shape that is faired at once. held: a constraints file for it. points: what it is drawn towards, with the weight of the paper's Fig. 12. */
+  async openFair(name: string, bytes: Uint8Array, held?: string, points?: NamedBytes): Promise<void> {
+    try {
+      await this.openShape(name, bytes, held === undefined ? holding.initial : holding.fromFile(held), points);
       this.set({ fault: null });
     } catch (error) {
       this.setFault((error as Error).message, 'file');
@@ -114,11 +149,13 @@ export class Editor {
     this.solver.clear();
     const opened = await this.client.ask('open', { name, bytes, rules: holding.toFile(constraints) });
     const fit = points && { cloud: await this.cloudOf(points), kind: 'weight' as const, value: 0.01, outliers: 0 };
+    this.leave();
     this.take({ name, bytes }, opened, begun({ ...constraints, fit }));
   }
 
-  /** As it was when the page was left. */
-  async restore(source: Source, history: History<Constraints>, strength: number): Promise<void> {
+  /** As it was when the page, or it for something else, was left. */
+  async restore({ source, history, strength }: Document): Promise<void> {
+    this.solver.clear();
     const file = 'bytes' in source;
     const opened = file ? await this.client.ask('open', { ...source, rules: holding.toFile(history.now.state) }) : await this.client.ask('draw', source);
     const clouds = new Set([...history.past, history.now, ...history.future].flatMap(({ state }) => state.fit?.cloud ?? []));
@@ -133,11 +170,12 @@ export class Editor {
 
   private take(source: Source, opened: Opened, history: History<Constraints>): void {
     const drawn = 'places' in source;
-    const name = drawn ? 'curve.csv' : source.name;
+    const name = nameOf(source);
     this.source = source;
     this.drags.drop();
     this.normals = new Map();
     this.history = history;
+    this.tried = null;
     this.shape = shapeOf(opened);
     this.positions = this.seen = opened.positions;
     Object.assign(this, { name, drawn, report: null, fault: null, showsInput: false, strength: 1, picked: new Set(), hovered: -1, fileWarnings: opened.warnings });
@@ -145,9 +183,21 @@ export class Editor {
     this.settle();
   }
 
+  /** What is open, if anything was done to it. */
+  private get document(): Document | null {
+    const { source, history, strength } = this;
+    return source && history.past.length + history.future.length > 0 ? { source, history, strength } : null;
+  }
+
+  private leave(): void {
+    this.documents.opened(this.document);
+  }
+
   /** Nothing is open. */
   close(): void {
+    this.leave();
     this.source = null;
+    this.tried = null;
     this.solver.clear();
     this.drags.drop();
     this.normals = new Map();
@@ -167,6 +217,7 @@ export class Editor {
       const nodes = perSpan * (places.length - (closed ? 0 : 1)) + (closed ? 0 : 1);
       const source = { places: Float64Array.from(places.flat()), closed, nodes };
       const opened = await this.client.ask('draw', source);
+      this.leave();
       const kept = [...opened.from.keys()].filter((node) => opened.from[node] >= 0);
       const held = holding.edited(holding.initial, kept, (node) => ({ ...edit(opened.from[node]), position: places[opened.from[node]] }));
       this.take(source, opened, begun({ ...held, fit: fit && { ...fit, cloud: await this.cloudOf(fit.cloud) } }));
@@ -185,7 +236,7 @@ export class Editor {
     if (!this.shape) throw new Error('Open a shape first: constraints name its nodes');
     const constraints = holding.fromFile(text);
     await this.client.ask('hold', { rules: holding.toFile(constraints) });
-    this.apply('Load constraints', { ...constraints, fit: this.constraints.fit });
+    this.apply('Load constraints', { ...constraints, region: null, fit: this.constraints.fit });
   }
 
   async cloudOf({ name, bytes }: PointSource): Promise<Cloud> {
@@ -240,30 +291,68 @@ export class Editor {
       holding.edited(this.constraints, this.picked, change));
   }
 
-  /** All other nodes are fixed, and what moves joins them smoothly. */
+  /** All nodes but these stay where they are seen, and what moves joins them smoothly. Null where something else has been done meanwhile. */
+  async restrictedTo(nodes: ReadonlySet<number>): Promise<Constraints | null> {
+    if (!this.tried) await this.solver.rest();
+    const { history, shape } = this;
+    const constraints = history.now.state;
+    const { positions, strength } = this.tried ? this.before : { positions: this.positions, strength: this.strength };
+    const seen = between(shape!.input, positions, strength);
+    const rules = holding.toFile({ ...constraints, region: null });
+    const region = await this.client.ask('region', { rules, nodes: Int32Array.from(nodes), positions: seen });
+    return history === this.history && shape === this.shape ? restricted(constraints, nodes, region, shape!.input, seen) : null;
+  }
+
   async fairOnlyPicked(): Promise<void> {
-    const { constraints } = this;
     try {
-      const region = await this.client.ask('region', { rules: holding.toFile(constraints), nodes: Int32Array.from(this.picked) });
-      if (constraints === this.constraints) this.apply(`Fair only ${this.picked.size} ${this.picked.size === 1 ? 'node' : 'nodes'}`, restricted(constraints, region));
+      const { picked } = this;
+      this.try(null);
+      const next = await this.restrictedTo(picked);
+      if (!next) return;
+      this.strength = 1;
+      this.apply(`Fair only ${counted(picked.size, 'node')}`, next);
     } catch (error) {
       this.setFault((error as Error).message, 'solver');
     }
+  }
+
+  /** Shows what would come of these; null: what there was. */
+  try(constraints: Constraints | null): void {
+    if (constraints === this.tried) return;
+    const { positions, strength, report } = this;
+    if (!this.tried) this.before = { positions, strength, report };
+    this.tried = constraints;
+    if (!constraints) Object.assign(this, this.before);
+    this.show({ strength: constraints ? 1 : this.strength, showsInput: false }, true);
+    this.settle();
+  }
+
+  /** What is tried becomes a step, with the shape that it has. */
+  accept(label: string): void {
+    if (!this.tried) return;
+    this.history = done(this.history, label, this.tried);
+    this.tried = null;
+    this.events.changed();
   }
 
   isDraggable(node: number): boolean {
     return (this.held.nodes[node] & holding.heldPosition) !== 0;
   }
 
-  /** The bytes of a file of that name, with what now holds. */
+  /** The bytes of a file of that name, with the shape that is seen, or that is on its way. */
   async written(name: string): Promise<Uint8Array> {
-    const ask = { name, strength: this.strength, ...this.holds };
-    const bytes = await this.client.ask('write', ask, (fraction) => this.set({ saving: true, fraction })).catch((error: unknown) => {
-      if (error instanceof Ended) return null;
-      throw error;
-    }).finally(() => this.set({ saving: false }));
-    if (!bytes) throw new Error(`${name} is not saved, as its solution was cancelled`);
-    return bytes;
+    const { cancels } = this;
+    this.set({ saving: true });
+    await this.solver.rest();
+    this.set({ saving: false });
+    if (cancels !== this.cancels) throw new Error(`${name} is not saved, as its solution was cancelled`);
+    return this.client.ask('write', { name, positions: between(this.shape!.input, this.positions, this.strength) });
+  }
+
+  /** The solution that runs ends, and the last shape stays. */
+  cancel(): void {
+    ++this.cancels;
+    this.client.endNow();
   }
 
   private get holds(): { rules: string; fairBoundary: boolean; fit: FitJob | null } {
@@ -272,12 +361,35 @@ export class Editor {
     return { rules: holding.toFile(this.constraints), fairBoundary: fairBoundary ?? false, fit: job };
   }
 
+  /** What undo takes back, in words; null where there is nothing. */
+  get undoes(): string | null {
+    return this.history.past.length > 0 ? this.history.now.label : this.documents.before ? `Open ${this.name || 'nothing'}` : null;
+  }
+
+  get redoes(): string | null {
+    const { after } = this.documents;
+    return this.history.future[0]?.label ?? (after ? `Open ${nameOf(after.source)}` : null);
+  }
+
   undo(): void {
-    this.travel(undone(this.history));
+    if (this.history.past.length > 0) this.travel(undone(this.history));
+    else void this.reopen(this.documents.before, (now) => this.documents.back(now));
   }
 
   redo(): void {
-    this.travel(redone(this.history));
+    if (this.history.future.length > 0) this.travel(redone(this.history));
+    else void this.reopen(this.documents.after, (now) => this.documents.forward(now));
+  }
+
+  private async reopen(document: Document | undefined, move: (now: Document | null) => void): Promise<void> {
+    if (!document) return;
+    const { source, history, strength } = this;
+    move(source && { source, history, strength });
+    try {
+      await this.restore(document);
+    } catch (error) {
+      this.setFault((error as Error).message, 'file');
+    }
   }
 
   dragBegun(now: number): void {
@@ -308,6 +420,7 @@ export class Editor {
 
   private travel(history: History<Constraints>): void {
     this.history = history;
+    this.tried = null;
     this.settle();
   }
 

@@ -74,7 +74,8 @@ export class PointsPanel {
   refresh(): void {
     const { fit } = this;
     const box = document.getElementById('fit')!;
-    box.hidden = !fit;
+    // What is only tried has its own panel.
+    box.hidden = !fit || this.editor.trying;
     if (!fit) return;
     const { kind, value, outliers, cloud } = fit;
     const [least, most] = this.range(kind);

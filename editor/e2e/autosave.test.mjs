@@ -47,7 +47,7 @@ test('a reload after a crash', async () => {
   await freeForm(page);
   const held = await find(page, /position fixed/, [0.02, 0.55], [0.5, 0.55]);
   await drag(page, held, -20, -40);
-  await drop(page, 'one.csv', 'x,y,z\n0.7,0,0.2\n');
+  await drop(page, 'one.csv', 'x,y,z\n0.7,0,0.2\n', true);
   await page.locator('#fit-figures').filter({ hasText: 'one.csv: 1 points · at most' }).waitFor();
   await settled(page);
   await kept(page, 'Load points one.csv');

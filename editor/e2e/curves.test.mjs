@@ -82,9 +82,9 @@ test('every format of curves is read and written; a closed one is held where nod
   await page.goto(`${session.address}?file=files/ring.obj`);
   await page.locator('#size', { hasText: '48 nodes, closed curve' }).waitFor();
   assert.ok(await page.getByRole('button', { name: 'Free form' }).isDisabled(), 'nothing holds it');
-  for (const share of [0.25, 0.45, 0.65]) {
+  for (const share of [0.25, 0.4, 0.52]) {
     await leave();
-    const { x, y } = await find(page, /free/, [share, 0.1], [share, 0.9]);
+    const { x, y } = await find(page, /free/, [share, 0.1], [share + 0.06, 0.9]);
     await page.keyboard.down('Shift');
     await page.mouse.click(x, y);
     await page.keyboard.up('Shift');
@@ -238,6 +238,36 @@ test('a click on the first node closes, a double click ends, Escape gives up', a
   await page.keyboard.press('Escape');
   assert.equal(await page.getByRole('button', { name: 'Draw a curve' }).getAttribute('aria-pressed'), 'false');
   assert.match(await page.locator('#size').textContent(), /41 nodes, open curve/);
+});
+
+test('loops that nothing holds are faired between their corners, or as many nodes as are said', async () => {
+  session.generated('plate.obj', 'saddle', '--columns', '12', '--rows', '12', '--noise', '0.02');
+  await opened('plate.obj');
+  const first = () => page.getByRole('button', { name: 'Fair its loops first' });
+  await first().click();
+  await settled(page);
+  assert.ok(await page.getByRole('alert').isHidden());
+  assert.match(await page.getByRole('button', { name: 'Undo' }).getAttribute('title'), /Fair boundary loops, 4 nodes held/);
+  assert.deepEqual(JSON.parse(await rulesOf(page)).rules.find(({ position }) => position === 'fixed').nodes, [0, 12, 156, 168]);
+
+  session.generated('ring.ply', 'annulus', '--nodes', '400');
+  await opened('ring.ply');
+  await first().click();
+  await settled(page);
+  const undo = page.getByRole('button', { name: 'Undo' });
+  assert.match(await undo.getAttribute('title'), /Fair boundary loops, 16 nodes held/);
+  await page.getByLabel('Nodes held in a loop').fill('5');
+  await page.keyboard.press('Enter');
+  await undo.and(page.locator('[title*="10 nodes held"]')).waitFor();
+  await settled(page);
+  assert.ok(await page.getByRole('alert').isHidden());
+  await first().click();
+  await settled(page);
+  assert.deepEqual(JSON.parse(await rulesOf(page)).rules, [{ nodes: 'boundary', position: 'fixed' }], 'they are free again');
+  session.generated('torus.ply', 'torus', '--columns', '20', '--rows', '12');
+  await opened('torus.ply');
+  assert.ok(await first().isDisabled());
+  assert.match(await first().getAttribute('title'), /it has no boundary/);
 });
 
 test('boundary loops are faired first, then the surface, as --fair-boundary does; what holds them is dragged', async () => {

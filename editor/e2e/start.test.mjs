@@ -1,7 +1,7 @@
 // The first minutes with a file of one's own: it opens as it is, ways are tried on it, and nothing that was done is lost.
 
 import assert from 'node:assert/strict';
-import { writeFileSync } from 'node:fs';
+import { statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { choose, drop, find, greatestDistance, keep, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
@@ -26,6 +26,10 @@ function nativelyFair(input, ...options) {
   const out = join(session.folder, 'fair.obj');
   native('fair', input, '-o', out, '--quiet', ...options);
   return placesOf(out);
+}
+
+async function until(holds) {
+  while (!holds()) await new Promise((done) => setTimeout(done, 20));
 }
 
 test('a file opens as it is; smoothing is suggested from its noise, tried, given up, kept and undone', async () => {
@@ -140,4 +144,25 @@ test('a closed shape opens without a fault; only what can be done is offered', a
   await way('Smooth it').click();
   await keep(page);
   assert.ok(await page.getByRole('alert').isHidden());
+});
+
+test('what is opened is named at once, with its size and how far it is', async () => {
+  const file = session.generated('large.ply', 'annulus', '--nodes', '90000');
+  await open('', { untouched: true });
+  let answer;
+  await page.route('**/files/large.ply', (route) => { answer = () => route.fulfill({ path: file, headers: { 'Content-Length': String(statSync(file).size) } }); });
+  await page.goto(`${session.address}?file=files/large.ply`);
+  const card = page.locator('#loading');
+  await card.filter({ hasText: /^large\.ply reading$/ }).waitFor();
+  await page.evaluate(() => {
+    const card = document.getElementById('loading');
+    window.told = [];
+    new MutationObserver(() => window.told.push(card.textContent.trim())).observe(card, { subtree: true, childList: true, characterData: true });
+  });
+  await until(() => answer);
+  await answer();
+  await page.locator('#size', { hasText: '90,000 nodes' }).waitFor();
+  await card.waitFor({ state: 'hidden' });
+  const told = await page.evaluate(() => window.told);
+  for (const text of [/^large\.ply [\d.]+ MB · reading its nodes and faces$/, /^large\.ply [\d.]+ MB · 90,000 nodes, drawing$/]) assert.ok(told.some((line) => text.test(line)), `${text} in ${told}`);
 });

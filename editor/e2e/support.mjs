@@ -98,8 +98,9 @@ export async function visit(page, address) {
 
 // Where a file is as it came: the fairest shape through its boundary.
 export async function freeForm(page) {
-  if (!(await page.locator('#start').isVisible())) return;
-  await page.getByRole('button', { name: 'Free form' }).click();
+  const free = page.getByRole('button', { name: 'Free form' });
+  if (!(await page.locator('#start').isVisible()) || (await free.isDisabled())) return;
+  await free.click();
   await keep(page);
 }
 

@@ -36,7 +36,9 @@ test('curvatures have the values of --scalars, at nodes and in the legend; their
     const marks = await legend();
     range(values).forEach((end, k) => near(marks[2 * k], end, 0.01, `${name} in the legend`));
     const { node } = await find(page, new RegExp(`free · ${button.toLowerCase()}`), [0.4, 0.45], [0.4, 0.6]);
-    near(numberOf((await page.locator('#node').textContent()).split(' ').at(-1)), values[node], 0.01, `${name} of node ${node}`);
+    const said = await page.locator('#node').textContent();
+    near(numberOf(said.match(/(?:mean|gaussian) ([^ ,]+)/)[1]), values[node], 0.01, `${name} of node ${node}`);
+    if (button === 'Mean') near(Number(said.match(/, radius (\S+)$/)[1]), Math.abs(1 / values[node]), 0.01, 'radius');
     pictures.add((await page.locator('#canvas').screenshot()).toString('base64'));
     await page.keyboard.press('i');
     await page.locator('#status', { hasText: 'The input' }).waitFor();

@@ -27,6 +27,8 @@ export interface Constraints {
   readonly edits: Readonly<Record<number, Edit>>;
   /** Of surfaces, and in no file: boundary nodes whose position is free are faired first, as curves. */
   readonly fairBoundary?: boolean;
+  /** Nodes that were fixed for that, as loops are faired between nodes that are. */
+  readonly loopNodes?: readonly number[];
   /** In no file either: points that the shape is drawn towards. */
   readonly fit?: Fit;
 }
@@ -104,9 +106,15 @@ export function withBoundary(constraints: Constraints, part: Part, fixed: boolea
   return { ...constraints, rules: fixed ? [{ nodes: 'boundary', [part]: 'fixed' }, ...rest] : rest };
 }
 
-/** In place of a boundary that is fixed, and the other way round. */
-export function withFairBoundary(constraints: Constraints, fairBoundary: boolean): Constraints {
-  return { ...withBoundary(constraints, 'position', !fairBoundary), fairBoundary };
+/** In place of a boundary that is fixed, and the other way round. held: nodes to fix for it; those that were before are free again. */
+export function withFairBoundary(constraints: Constraints, fairBoundary: boolean, held: readonly number[]): Constraints {
+  const edits = { ...constraints.edits };
+  for (const node of constraints.loopNodes ?? []) {
+    const { position, ...others } = edits[node] ?? {};
+    if (position === 'fixed') edits[node] = others;
+  }
+  for (const node of held) edits[node] = { ...edits[node], position: 'fixed' };
+  return { ...withBoundary({ ...constraints, edits }, 'position', !fairBoundary), fairBoundary, loopNodes: held };
 }
 
 export const heldPosition = 1;

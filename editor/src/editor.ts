@@ -3,14 +3,16 @@
 import { CoreClient, Solver } from './client';
 import * as holding from './constraints';
 import type { Constraints, Edit, Held, Part, Vector } from './constraints';
-import { Documents, type Document } from './documents';
-import { Drags } from './drags';
+import { Drags } from './pull/drags';
 import { FrameCounter } from './frames';
-import { begun, done, redone, undone, type History } from './history';
+import { begun, done, type History } from './history';
 import type { NamedBytes } from './files';
-import type { Cloud, Fit, PointSource } from './points';
-import type { Ask, FitJob, Job, Opened, Report, Solved } from './protocol';
-import { restricted } from './region';
+import type { Cloud, PointSource } from './points';
+import type { Ask, Job, Opened, Report, Solved } from './protocol';
+import { near, within } from './pull/reach';
+import { keepsSome, restricted } from './region';
+import { heldOn, loopsOf } from './loops';
+import type { Loading } from './start/loading';
 import { normalNear, nothing, shapeOf, type Shape } from './shape';
 import { between, furthest } from './strength';
 import { counted } from './words';
@@ -28,7 +30,7 @@ const cancelled: Report = { outcome: 'cancelled', iterations: 0, seconds: 0, thr
 /** What a shape was opened from: a file, or places that were clicked. */
 export type Source = NamedBytes | Ask<'draw'>;
 
-function nameOf(source: Source): string {
+export function nameOf(source: Source): string {
   return 'places' in source ? 'curve.csv' : source.name;
 }
 
@@ -52,6 +54,8 @@ export class Editor {
   saving = false;
   fraction = 0;
   showsInput = false;
+  /** What is being opened. */
+  loading: Loading | null = null;
   /** Whether the curve was drawn here. */
   drawn = false;
   /** How far on the way from the input to the result that is which is seen and saved: 0 to 1. */
@@ -60,12 +64,14 @@ export class Editor {
   /** What is shown to be judged before it is a step, and what was there before. */
   private tried: Constraints | null = null;
   private before: { positions: Float64Array; strength: number; report: Report | null } = { positions: new Float64Array(), strength: 1, report: null };
-  private readonly documents = new Documents();
   private cancels = 0;
+  /** Null: as is usual for what is open. */
+  reach: number | null = null;
   readonly frames = new FrameCounter();
   private positions: Float64Array = new Float64Array();
   seen: Float64Array = this.positions;
-  private clouds = 0;
+  /** Numbers of points that are known to the worker. */
+  clouds = 0;
   source: Source | null = null;
   readonly client = new CoreClient((message) => this.setFault(message, 'file'));
   private readonly solver = new Solver(this.client, {
@@ -110,13 +116,13 @@ export class Editor {
     return this.saving || (this.busy && !this.dragging);
   }
 
-  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'hovered' | 'picked' | 'fault'>>): void {
+  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'hovered' | 'picked' | 'fault' | 'loading' | 'reach'>>): void {
     Object.assign(this, state);
     this.events.changed();
   }
 
   setFault(message: string, source: FaultSource): void {
-    this.set({ fault: { message, source } });
+    this.set({ fault: { message, source }, loading: null });
   }
 
   /** What the normal of a surface is to a curve: its tangent. */
@@ -124,51 +130,12 @@ export class Editor {
     return this.shape?.curve ? 'tangent' : 'normal';
   }
 
-  /** A shape, which stays as it is until more is said, or a constraints file. What cannot be read leaves everything as it was. */
-  async open(name: string, bytes: Uint8Array): Promise<void> {
-    try {
-      if (name.toLowerCase().endsWith('.json')) await this.openConstraints(new TextDecoder().decode(bytes));
-      else await this.openShape(name, bytes, holding.untouched);
-      this.set({ fault: null });
-    } catch (error) {
-      this.setFault((error as Error).message, 'file');
-    }
-  }
-
-  /** A shape that is faired at once. held: a constraints file for it. points: what it is drawn towards, with the weight of the paper's Fig. 12. */
-  async openFair(name: string, bytes: Uint8Array, held?: string, points?: NamedBytes): Promise<void> {
-    try {
-      await this.openShape(name, bytes, held === undefined ? holding.initial : holding.fromFile(held), points);
-      this.set({ fault: null });
-    } catch (error) {
-      this.setFault((error as Error).message, 'file');
-    }
-  }
-
-  private async openShape(name: string, bytes: Uint8Array, constraints: Constraints, points?: NamedBytes): Promise<void> {
+  /** Ends what is solved, as another shape is to come. */
+  halt(): void {
     this.solver.clear();
-    const opened = await this.client.ask('open', { name, bytes, rules: holding.toFile(constraints) });
-    const fit = points && { cloud: await this.cloudOf(points), kind: 'weight' as const, value: 0.01, outliers: 0 };
-    this.leave();
-    this.take({ name, bytes }, opened, begun({ ...constraints, fit }));
   }
 
-  /** As it was when the page, or it for something else, was left. */
-  async restore({ source, history, strength }: Document): Promise<void> {
-    this.solver.clear();
-    const file = 'bytes' in source;
-    const opened = file ? await this.client.ask('open', { ...source, rules: holding.toFile(history.now.state) }) : await this.client.ask('draw', source);
-    const clouds = new Set([...history.past, history.now, ...history.future].flatMap(({ state }) => state.fit?.cloud ?? []));
-    for (const cloud of clouds) {
-      const { number, name, bytes } = cloud;
-      await this.client.ask('points', { number, name, bytes });
-      this.clouds = Math.max(this.clouds, cloud.number);
-    }
-    this.take(source, opened, history);
-    this.show({ strength }, true);
-  }
-
-  private take(source: Source, opened: Opened, history: History<Constraints>): void {
+  take(source: Source, opened: Opened, history: History<Constraints>): void {
     const drawn = 'places' in source;
     const name = nameOf(source);
     this.source = source;
@@ -176,6 +143,7 @@ export class Editor {
     this.normals = new Map();
     this.history = history;
     this.tried = null;
+    this.loading = null;
     this.shape = shapeOf(opened);
     this.positions = this.seen = opened.positions;
     Object.assign(this, { name, drawn, report: null, fault: null, showsInput: false, strength: 1, picked: new Set(), hovered: -1, fileWarnings: opened.warnings });
@@ -183,19 +151,8 @@ export class Editor {
     this.settle();
   }
 
-  /** What is open, if anything was done to it. */
-  private get document(): Document | null {
-    const { source, history, strength } = this;
-    return source && history.past.length + history.future.length > 0 ? { source, history, strength } : null;
-  }
-
-  private leave(): void {
-    this.documents.opened(this.document);
-  }
-
   /** Nothing is open. */
   close(): void {
-    this.leave();
     this.source = null;
     this.tried = null;
     this.solver.clear();
@@ -208,35 +165,6 @@ export class Editor {
     Object.assign(this, { name: '', drawn: false, report: null, fault: null, showsInput: false, strength: 1, picked: new Set(), hovered: -1, fileWarnings: [] });
     this.events.opened(nothing, false);
     this.events.changed();
-  }
-
-  /** A curve through places, held there, with so many nodes a span. edit: what else holds at the place of that number. fit: what it is drawn towards. */
-  async draw(places: readonly Vector[], closed: boolean, perSpan: number, edit: (place: number) => Edit = () => ({}), fit?: Fit): Promise<void> {
-    this.solver.clear();
-    try {
-      const nodes = perSpan * (places.length - (closed ? 0 : 1)) + (closed ? 0 : 1);
-      const source = { places: Float64Array.from(places.flat()), closed, nodes };
-      const opened = await this.client.ask('draw', source);
-      this.leave();
-      const kept = [...opened.from.keys()].filter((node) => opened.from[node] >= 0);
-      const held = holding.edited(holding.initial, kept, (node) => ({ ...edit(opened.from[node]), position: places[opened.from[node]] }));
-      this.take(source, opened, begun({ ...held, fit: fit && { ...fit, cloud: await this.cloudOf(fit.cloud) } }));
-    } catch (error) {
-      this.setFault((error as Error).message, 'file');
-    }
-  }
-
-  /** The drawn curve through the nodes that are held, as they are now. */
-  redraw(closed: boolean, perSpan: number): void {
-    const held = [...this.shape!.curve!.runs.nodes].filter((node) => this.isDraggable(node));
-    void this.draw(held.map((node) => this.placeOf(node)), closed, perSpan, (k) => this.constraints.edits[held[k]], this.constraints.fit);
-  }
-
-  private async openConstraints(text: string): Promise<void> {
-    if (!this.shape) throw new Error('Open a shape first: constraints name its nodes');
-    const constraints = holding.fromFile(text);
-    await this.client.ask('hold', { rules: holding.toFile(constraints) });
-    this.apply('Load constraints', { ...constraints, region: null, fit: this.constraints.fit });
   }
 
   async cloudOf({ name, bytes }: PointSource): Promise<Cloud> {
@@ -259,7 +187,7 @@ export class Editor {
     this.show({}, false);
   }
 
-  private show(state: Partial<Pick<Editor, 'showsInput' | 'strength'>>, settled: boolean): void {
+  show(state: Partial<Pick<Editor, 'showsInput' | 'strength'>>, settled: boolean): void {
     Object.assign(this, state);
     this.seen = this.drags.shape ?? between(this.shape!.input, this.positions, this.showsInput ? 0 : this.strength);
     this.events.shape(this.seen, settled);
@@ -276,8 +204,14 @@ export class Editor {
     this.apply(`${fixed ? 'Fix' : 'Free'} boundary ${part}s`, holding.withBoundary(this.constraints, part, fixed));
   }
 
-  setFairBoundary(first: boolean): void {
-    this.apply(first ? 'Fair boundary loops' : 'Fix boundary positions', holding.withFairBoundary(this.constraints, first));
+  /** many: nodes to hold each loop by where nothing holds it and it has no corners. */
+  setFairBoundary(first: boolean, many: number): void {
+    const { constraints, shape } = this;
+    const bare = holding.withFairBoundary(constraints, first, []);
+    const held = holding.heldNodes({ ...bare, region: null }, shape!.boundary).nodes;
+    const loose = first ? loopsOf(shape!).filter((loop) => !loop.some((node) => held[node] & holding.heldPosition)) : [];
+    const nodes = loose.flatMap((loop) => heldOn(loop, shape!.input, many));
+    this.apply(first ? `Fair boundary loops${nodes.length > 0 ? `, ${counted(nodes.length, 'node')} held` : ''}` : 'Fix boundary positions', holding.withFairBoundary(constraints, first, nodes));
   }
 
   isBoundaryFixed(part: Part): boolean {
@@ -335,6 +269,20 @@ export class Editor {
     this.events.changed();
   }
 
+  /** How much of the size around what is pulled goes with it; 1: all. */
+  get reaches(): number {
+    return this.reach ?? (this.constraints.region ? near : 1);
+  }
+
+  /** What holds for only what is near to go with these nodes; null where what holds already says what does. */
+  nearby(nodes: readonly number[]): Promise<Constraints | null> | null {
+    const { constraints, reaches, shape } = this;
+    const whole = reaches >= 1;
+    const kept = constraints.region && (holding.isUntouched(constraints) || keepsSome(constraints.region, nodes));
+    if (!kept && (constraints.region || whole)) return null;
+    return whole ? Promise.resolve({ ...constraints, region: null }) : this.restrictedTo(within(shape!, this.seen, nodes, reaches));
+  }
+
   isDraggable(node: number): boolean {
     return (this.held.nodes[node] & holding.heldPosition) !== 0;
   }
@@ -355,41 +303,14 @@ export class Editor {
     this.client.endNow();
   }
 
-  private get holds(): { rules: string; fairBoundary: boolean; fit: FitJob | null } {
-    const { fairBoundary, fit } = this.constraints;
+  private get holds(): Job {
+    return this.jobOf(this.constraints);
+  }
+
+  jobOf(constraints: Constraints): Job {
+    const { fairBoundary, fit } = constraints;
     const job = fit ? { kind: fit.kind, value: fit.value, outliers: fit.outliers, points: fit.cloud.number } : null;
-    return { rules: holding.toFile(this.constraints), fairBoundary: fairBoundary ?? false, fit: job };
-  }
-
-  /** What undo takes back, in words; null where there is nothing. */
-  get undoes(): string | null {
-    return this.history.past.length > 0 ? this.history.now.label : this.documents.before ? `Open ${this.name || 'nothing'}` : null;
-  }
-
-  get redoes(): string | null {
-    const { after } = this.documents;
-    return this.history.future[0]?.label ?? (after ? `Open ${nameOf(after.source)}` : null);
-  }
-
-  undo(): void {
-    if (this.history.past.length > 0) this.travel(undone(this.history));
-    else void this.reopen(this.documents.before, (now) => this.documents.back(now));
-  }
-
-  redo(): void {
-    if (this.history.future.length > 0) this.travel(redone(this.history));
-    else void this.reopen(this.documents.after, (now) => this.documents.forward(now));
-  }
-
-  private async reopen(document: Document | undefined, move: (now: Document | null) => void): Promise<void> {
-    if (!document) return;
-    const { source, history, strength } = this;
-    move(source && { source, history, strength });
-    try {
-      await this.restore(document);
-    } catch (error) {
-      this.setFault((error as Error).message, 'file');
-    }
+    return { rules: holding.toFile(constraints), fairBoundary: fairBoundary ?? false, fit: job };
   }
 
   dragBegun(now: number): void {
@@ -418,7 +339,7 @@ export class Editor {
     this.travel(done(this.history, label, constraints));
   }
 
-  private travel(history: History<Constraints>): void {
+  travel(history: History<Constraints>): void {
     this.history = history;
     this.tried = null;
     this.settle();

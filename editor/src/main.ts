@@ -15,14 +15,19 @@ import { showFor } from './kinds';
 import { showLegend, showLengths } from './legend';
 import { Marks } from './marks';
 import { looks, type Look } from './materials';
+import { bindPresets } from './navigation/presets';
 import { Numbers } from './numbers';
+import { Opening } from './opening';
 import { pick } from './picking';
-import { arePoints, PointsPanel, type Fit } from './points';
+import { PointsPanel, type Fit } from './points';
 import type { Report } from './protocol';
+import { bindReach, showReach } from './pull/reach_slider';
 import { placesOf } from './shape';
 import { selectionCommands } from './selection';
 import { ServedFile } from './served';
 import { describe, sayItCannotDraw } from './status';
+import { Dropped } from './start/dropped';
+import { showLoading, type Loading } from './start/loading';
 import { StartPanel } from './start/start_panel';
 import type { Way } from './start/ways';
 import { bindStrength } from './strength';
@@ -30,6 +35,7 @@ import { startTheme, switchTheme } from './theme';
 import { Tilts } from './tilts';
 import { rove } from './toolbar';
 import { Tools } from './tools';
+import { bindUnit } from './units';
 import { View } from './view';
 import { Ways } from './ways';
 
@@ -38,7 +44,11 @@ const panel = document.querySelector('aside')!;
 const help = document.getElementById('help') as HTMLDialogElement;
 const format = document.getElementById('format') as HTMLSelectElement;
 const examples = new Examples(document.getElementById('example') as HTMLSelectElement, (...addresses) => void openExample(...addresses));
+const range = document.getElementById('range') as HTMLInputElement;
+const loopCount = document.querySelector<HTMLInputElement>('#loop-nodes input')!;
 const firstExample = 'examples/annulus.obj';
+/** Pixels between nodes from which on each is a target of its own, and where there are fewer a drag turns the view. */
+const distinct = 40;
 const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz';
 let look: Look = 'shaded';
 let lookBefore: Look | null = null;
@@ -61,7 +71,8 @@ const editor: Editor = new Editor({
   },
   changed,
 });
-const drawing = new Drawing(canvas, editor, () => view, () => refresh());
+const opening = new Opening(editor);
+const drawing = new Drawing(canvas, editor, opening, () => view, () => refresh());
 const fields = new Fields({
   ask: (positions) => editor.client.ask('curvatures', { positions }),
   show: (field) => {
@@ -82,7 +93,7 @@ const ways = new Ways(document.getElementById('way')!, {
   normal: () => editor.normalOf(editor.drags.node),
   moved: (way, time) => editor.drags.by(way, time),
 });
-const autosave = new Autosave(editor, document.getElementById('restored')!);
+const autosave = new Autosave(editor, opening, document.getElementById('restored')!);
 const points = new PointsPanel(editor);
 const start: StartPanel = new StartPanel(document.getElementById('start')!, editor, () => tools, { chosen: wayChosen });
 const numbers = new Numbers(document.getElementById('numbers')!, editor);
@@ -93,7 +104,7 @@ const gestures = new Gestures(canvas, {
     const seen = view.seen();
     return seen ? pick(seen, x, y, radius, (node) => editor.isDraggable(node)) : -1;
   },
-  draggable: (node) => editor.isDraggable(node),
+  draggable: (node) => editor.isDraggable(node) || editor.picked.has(node) || isCurve() || view.spacing > distinct,
   hovered: (node) => {
     if (node === editor.hovered || (node >= 0 && editor.atArrow)) return;
     editor.set({ hovered: node, atArrow: false });
@@ -116,7 +127,7 @@ function newView(): View {
 }
 
 const marks = new Marks(editor, view);
-const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
+const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('comb-clip') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
 const served = ServedFile.of(location.href, editor, format.parentElement!);
 
 const titles: Record<Look, string> = { shaded: 'Shaded', wire: 'Wire', zebra: 'Zebra', mean: 'Mean curvature', gaussian: 'Gaussian curvature', deviation: 'Deviation from the input' };
@@ -124,7 +135,7 @@ const opened = (): boolean => editor.shape !== null;
 const isCurve = (): boolean => editor.shape?.curve != null;
 const somePicked = (): boolean => editor.picked.size > 0;
 const commands: Command[] = [
-  { id: 'open', title: 'Open a mesh or a curve', keys: ['o', 'ctrl+o'], run: () => choose(shapes, open) },
+  { id: 'open', title: 'Open a mesh or a curve', keys: ['o', 'ctrl+o'], run: () => choose(shapes, open, told) },
   ...(served ? [served.command] : []),
   { id: 'save', title: 'Save the result', keys: served ? [] : ['ctrl+s'], run: () => void save(), enabled: opened,
     detail: () => (editor.strength < 1 ? `${Math.round(100 * editor.strength)} % of the way from the input` : undefined) },
@@ -134,10 +145,10 @@ const commands: Command[] = [
   ...start.commands,
   ...points.commands,
   ...drawing.commands,
-  { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => editor.undo(), enabled: () => editor.undoes !== null,
-    detail: () => editor.undoes ?? undefined },
-  { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => editor.redo(), enabled: () => editor.redoes !== null,
-    detail: () => editor.redoes ?? undefined },
+  { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => opening.undo(), enabled: () => opening.undoes !== null,
+    detail: () => opening.undoes ?? undefined },
+  { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => opening.redo(), enabled: () => opening.redoes !== null,
+    detail: () => opening.redoes ?? undefined },
   { id: 'fix-position', title: 'Fix positions of picked nodes', keys: ['f'], run: () => editor.hold('position', true), enabled: somePicked },
   { id: 'free-position', title: 'Free positions of picked nodes', keys: ['shift+f'], run: () => editor.hold('position', false), enabled: somePicked },
   { id: 'fix-normal', title: 'Fix normals or tangents of picked nodes', keys: ['n'], run: () => editor.hold(editor.direction, true), enabled: somePicked },
@@ -147,9 +158,11 @@ const commands: Command[] = [
     run: () => editor.setBoundary('position', !editor.isBoundaryFixed('position')), pressed: () => editor.isBoundaryFixed('position') },
   { id: 'boundary-normals', title: 'Fix or free boundary normals or tangents', keys: ['shift+b'], enabled: opened,
     run: () => editor.setBoundary(editor.direction, !editor.isBoundaryFixed(editor.direction)), pressed: () => editor.isBoundaryFixed(editor.direction) },
-  { id: 'fair-boundary', title: 'Fair boundary loops, then the surface', keys: ['k'], enabled: () => opened() && !isCurve(),
-    run: () => editor.setFairBoundary(!editor.constraints.fairBoundary), pressed: () => editor.constraints.fairBoundary ?? false },
+  { id: 'fair-boundary', title: 'Fair boundary loops, then the surface', keys: ['k'], enabled: () => !isCurve() && (editor.shape?.boundary.includes(1) ?? false),
+    run: () => editor.setFairBoundary(!editor.constraints.fairBoundary, loopNodes()), pressed: () => editor.constraints.fairBoundary ?? false,
+    detail: () => (editor.shape && !editor.shape.boundary.includes(1) ? 'it has no boundary' : undefined) },
   { id: 'comb', title: 'Curvature comb', keys: ['c'], run: () => curves.toggleComb(), enabled: isCurve, pressed: () => curves.comb },
+  { id: 'comb-root', title: 'Hairs by the root of the curvature', keys: [], run: () => { curves.toggleRoot(); refresh(); }, enabled: isCurve, pressed: () => curves.root },
   { id: 'plot', title: 'Plot of curvature', keys: ['p'], run: () => { curves.fold(); refresh(); }, enabled: isCurve, pressed: () => curves.unfolded },
   ...looks.map((which) => ({ id: which, title: titles[which], keys: [String(['shaded', 'wire', 'zebra', ...fieldNames].indexOf(which) + 1)],
     run: () => setLook(which), pressed: () => look === which, enabled: () => !isCurve() })),
@@ -175,8 +188,11 @@ listShortcuts(help.querySelector('dl')!, [...commands,
 function changed(): void {
   marks.refresh(look, editor.trying && start.way === 'repair');
   describe(editor, coloured);
+  showLoading(document.getElementById('loading')!, editor.loading);
   start.refresh();
   numbers.refresh();
+  showReach(document.getElementById('reach') as HTMLInputElement, editor);
+  document.getElementById('loop-nodes')!.hidden = !editor.constraints.loopNodes?.length;
   points.refresh();
   autosave.changed();
   showPoints();
@@ -198,14 +214,22 @@ function showPoints(): void {
   view.draw();
 }
 
+function loopNodes(): number {
+  return Math.max(3, Math.round(loopCount.valueAsNumber) || 8);
+}
+
+function told(loading: Loading): void {
+  editor.set({ loading });
+}
+
 function open({ name, bytes }: { name: string; bytes: Uint8Array }): void {
-  void editor.open(name, bytes);
+  void opening.open(name, bytes);
 }
 
 async function openAddress(address: string): Promise<void> {
   try {
-    const { name, bytes } = await fromAddress(address);
-    await editor.open(name, bytes);
+    const { name, bytes } = await fromAddress(address, told);
+    await opening.open(name, bytes);
     if (!editor.fault) served?.opened(address);
   } catch (error) {
     editor.setFault((error as Error).message, 'file');
@@ -217,7 +241,7 @@ async function openExample(address: string, constraints?: string, points?: strin
   try {
     const { name, bytes } = await fromAddress(address);
     const held = constraints && new TextDecoder().decode((await fromAddress(constraints)).bytes);
-    await editor.openFair(name, bytes, held, points ? await fromAddress(points) : undefined);
+    await opening.openFair(name, bytes, held, points ? await fromAddress(points) : undefined);
   } catch (error) {
     editor.setFault((error as Error).message, 'file');
   }
@@ -275,12 +299,21 @@ function toolChanged(): void {
   editor.set({ hovered: -1 });
 }
 
+range.addEventListener('input', () => {
+  range.parentElement!.querySelector('output')!.textContent = `${range.value} %`;
+  fields.setShare(range.valueAsNumber / 100);
+});
+bindUnit(document.getElementById('unit') as HTMLSelectElement, () => { fields.setShare(range.valueAsNumber / 100); changed(); });
+bindReach(document.getElementById('reach') as HTMLInputElement, editor);
+bindPresets(document.getElementById('mouse') as HTMLSelectElement, (preset) => view.setPreset(preset));
+loopCount.addEventListener('change', () => editor.setFairBoundary(true, loopNodes()));
 bindStrength(document.querySelector('#strength')!, (share, settled) => editor.setStrength(share, settled));
 rove(document.querySelector('[role=toolbar]')!);
+const dropped = new Dropped(document.getElementById('ask') as HTMLDialogElement, editor, opening, { open, points: (file) => void points.load(file) });
 acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, (file, alt) => {
-  if (editor.shape && arePoints(file.name, alt, isCurve())) void points.load(file);
-  else open(file);
-});
+  editor.set({ loading: null });
+  dropped.take(file, alt);
+}, told);
 startTheme(() => view.restyle());
 view.restyle();
 changed();

@@ -20,3 +20,9 @@ export function restricted(constraints: Constraints, nodes: Iterable<number>, { 
   }
   return { ...constraints, rules: ownRules(constraints), region, edits: {} };
 }
+
+/** Whether the rules of a region keep one of those nodes where it is. */
+export function keepsSome(region: readonly Rule[], nodes: readonly number[]): boolean {
+  const wanted = new Set<unknown>(nodes);
+  return region.some((rule) => rule.position !== undefined && Array.isArray(rule.nodes) && rule.nodes.some((node) => wanted.has(node)));
+}

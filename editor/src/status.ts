@@ -5,6 +5,7 @@ import { heldNormal, heldPosition, heldTangent, isUntouched } from './constraint
 import type { Editor } from './editor';
 import type { Field } from './fields';
 import type { Shape } from './shape';
+import { withUnit } from './units';
 import { counted, inEditorWords } from './words';
 
 function part(id: string): HTMLElement {
@@ -21,7 +22,7 @@ export function sayItCannotDraw(): void {
   for (const controls of document.querySelectorAll<HTMLElement>('header, aside, .float, .card')) controls.inert = true;
 }
 
-const words: Record<string, string> = { converged: 'Done', cancelled: 'Stopped, the last shape stays', foreseen: 'Following' };
+const words: Record<string, string> = { converged: 'Done', cancelled: 'Stopped, the last shape stays', foreseen: 'Following', 'worse-than-input': 'Worse than it was, see the warnings' };
 
 /** Whether it is done, and how far it has moved. */
 function ofSolution({ report, dragging, busy, showsInput, shape, moved, constraints }: Editor): string {
@@ -32,7 +33,7 @@ function ofSolution({ report, dragging, busy, showsInput, shape, moved, constrai
   if (!report) return '';
   const what = dragging ? 'Following' : (words[report.outcome] ?? 'Not settled');
   if (report.movingNodes === 0 && moved === 0 && report.outcome === 'converged') return 'Nothing moves: all of it is held';
-  return `${what} · moved ${moved > 0 ? `at most ${short(Number(moved.toPrecision(2)))} (${share(moved * shape.scale)})` : 'nothing'}`;
+  return `${what} · moved ${moved > 0 ? `at most ${withUnit(short(Number(moved.toPrecision(2))))} (${share(moved * shape.scale)})` : 'nothing'}`;
 }
 
 function share(part: number): string {
@@ -54,8 +55,13 @@ function ofNode({ atArrow, hovered, held, normals, shape }: Editor, field: Field
   if (atArrow) return `${shape?.curve ? 'Tangent' : 'Normal'} of node ${hovered} · ${normals.get(hovered)?.map((part) => short(Number(part.toPrecision(3)))).join(', ') ?? ''}`;
   const bits = held.nodes[hovered];
   const what = [bits & heldPosition && 'position fixed', bits & heldNormal && 'normal fixed', bits & heldTangent && 'tangent fixed'].filter(Boolean);
-  const value = field ? ` · ${field.name} ${short(field.values[hovered])}` : '';
+  const value = field ? ` · ${field.name} ${short(field.values[hovered])}${radiusOf(field, hovered)}` : '';
   return `Node ${hovered} · ${what.join(', ') || 'free'}${value}`;
+}
+
+/** What a mean curvature is to a designer. */
+function radiusOf({ name, values }: Field, node: number): string {
+  return name === 'mean' && values[node] !== 0 ? `, radius ${withUnit(short(Number(Math.abs(1 / values[node]).toPrecision(3))))}` : '';
 }
 
 function ofParts({ faces, curve }: Shape): string {

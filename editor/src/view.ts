@@ -10,7 +10,9 @@ import { Dots } from './dots';
 import { Markers } from './markers';
 import type { Field } from './fields';
 import type { Look } from './materials';
-import { assignButtons, moveByWheel } from './navigation';
+import { assignButtons, bindArrows, bindWheel } from './navigation/buttons';
+import { Gizmo } from './navigation/gizmo';
+import { buttonsOf, keptPreset, type Preset } from './navigation/presets';
 import type { Seen } from './picking';
 import { pixelOf, placeAt, towards } from './projection';
 import { drawsInSoftware } from './software';
@@ -46,6 +48,9 @@ export class View {
   private moving = 1;
   private drawnAt = 0;
   private rest = 0;
+  private preset: Preset = keptPreset();
+  private taken = false;
+  private readonly gizmo = new Gizmo(document.getElementById('gizmo')!, (from) => this.lookFrom(from));
 
   /** panel: what may lie above the right end of the view. drawn: called after each picture. Throws where the browser has no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly panel: HTMLElement, private readonly drawn: () => void) {
@@ -57,7 +62,9 @@ export class View {
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.leaveToTool(false);
-    moveByWheel(canvas, (across, down) => this.moveBy(across, down));
+    const events = { move: (across: number, down: number) => this.moveBy(across, down), turn: (across: number, down: number) => this.turnBy(across, down) };
+    bindWheel(canvas, { ...events, turns: () => buttonsOf[this.preset].wheelTurns });
+    bindArrows(canvas, events);
     this.controls.zoomToCursor = true;
     this.controls.minZoom = 0.05;
     this.controls.maxZoom = 1e4;
@@ -144,7 +151,7 @@ export class View {
     camera.position.sub(controls.target).add(middle);
     controls.target.copy(middle);
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const covered = getComputedStyle(this.panel).position === 'absolute' ? width - this.panel.offsetLeft : 0;
+    const covered = Math.max(0, this.panel.offsetLeft > 0 ? width - this.panel.offsetLeft : 0);
     camera.zoom = 1.6 / Math.max(high.y - low.y, ((high.x - low.x) * height) / Math.max(1, width - covered), 1e-3);
     const aside = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0).multiplyScalar(covered / height / camera.zoom);
     for (const end of [camera.position, controls.target]) end.add(aside);
@@ -160,7 +167,37 @@ export class View {
 
   /** taken: a tool has the left button and the single finger. */
   leaveToTool(taken: boolean): void {
-    assignButtons(this.controls, taken);
+    this.taken = taken;
+    assignButtons(this.controls, taken, this.preset);
+  }
+
+  setPreset(preset: Preset): void {
+    this.preset = preset;
+    this.leaveToTool(this.taken);
+  }
+
+  /** From a side, all of the shape in the view; upwards is Z, and from above and below Y. */
+  lookFrom([x, y, z]: Vector): void {
+    const { camera, controls } = this;
+    camera.position.copy(controls.target).add(new Vector3(x, x === 0 && y === 0 ? -1e-4 : y, z));
+    this.fit();
+  }
+
+  private turnBy(across: number, down: number): void {
+    const { camera, controls } = this;
+    const perPixel = (2 * Math.PI) / this.canvas.clientHeight;
+    const from = camera.position.clone().sub(controls.target);
+    const around = Math.atan2(from.y, from.x) - across * perPixel;
+    const above = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, Math.asin(Math.min(1, Math.max(-1, from.z / from.length()))) + down * perPixel));
+    const flat = Math.max(1e-4, Math.cos(above));
+    camera.position.copy(controls.target).add(new Vector3(flat * Math.cos(around), flat * Math.sin(around), Math.sin(above)).multiplyScalar(from.length()));
+    controls.update();
+    this.draw();
+  }
+
+  /** Pixels between neighbouring nodes, about. */
+  get spacing(): number {
+    return ((this.shape?.spacing ?? 0) * this.camera.zoom * this.canvas.clientHeight) / 2;
   }
 
   seen(): Seen | null {
@@ -224,6 +261,7 @@ export class View {
       this.setResolution(this.moving);
       this.scaleMarkers();
       this.renderer.render(this.scene, this.camera);
+      this.gizmo.turn(...([0, 1, 2].map((column) => new Vector3().setFromMatrixColumn(this.camera.matrixWorld, column).toArray()) as [Vector, Vector, Vector]));
       this.drawn();
       this.drawnAt = performance.now();
       clearTimeout(this.rest);
@@ -260,8 +298,7 @@ export class View {
 
   private scaleMarkers(): void {
     const ratio = this.renderer.getPixelRatio();
-    const spacing = ((this.shape?.spacing ?? 0) * this.camera.zoom * this.canvas.clientHeight) / 2;
-    this.markers.scale(ratio, spacing);
+    this.markers.scale(ratio, this.spacing);
     this.dots.scale(ratio);
     for (const layer of [this.curve, this.sketch]) layer.scale(ratio);
   }

@@ -7,11 +7,12 @@ import type { Editor } from '../editor';
 import type { Cloud } from '../points';
 import type { Shape } from '../shape';
 import type { Tools } from '../tools';
+import { withUnit } from '../units';
 import { counted } from '../words';
 import { freed, isHeld, isNoisy, smoothed, suggestedTolerance, type Way } from './ways';
 
 function rounded(length: number): string {
-  return short(Number(length.toPrecision(2)));
+  return withUnit(short(Number(length.toPrecision(2))));
 }
 
 export interface StartEvents {

@@ -57,14 +57,15 @@ test('deviation is how far nodes lie from the input along its normal', async () 
   await open('?file=files/plane.obj');
   await page.keyboard.press('6');
   await page.locator('#legend').waitFor();
-  const held = await find(page, /position fixed/, [0.38, 0.5], [0.38, 1]);
+  let held;
+  for (let x = 0.3; !held; x += 0.01) held = await find(page, /position fixed/, [x, 0.5], [x, 1]).catch(() => null);
   await page.mouse.down();
   for (let k = 1; k <= 6; ++k) await page.mouse.move(held.x, held.y - 8 * k);
   await page.mouse.up();
   await settled(page);
   await page.locator('#legend .marks').filter({ hasText: /≥ 0\.\d/ }).waitFor();
   const heights = placesOf((await saved(page)).path).map(([, , z]) => z);
-  const { node } = await find(page, /free · deviation/, [0.38, 0.55], [0.38, 0.75]);
+  const { node } = await find(page, /free · deviation/, [0.33, 0.5], [0.4, 0.75]);
   const value = numberOf((await page.locator('#node').textContent()).split(' ').at(-1));
   near(Math.abs(value), Math.abs(heights[node]), 0.001, `node ${node}`);
   assert.ok(Math.abs(value) > 1e-4);

@@ -60,8 +60,9 @@ const editor: Editor = new Editor({
     marks.clear();
     examples.opened(editor.name);
     showFor(shape, editor.name, format);
-    view.open(shape, stays);
+    // With the room that its plot leaves.
     curves.open(shape);
+    view.open(shape, stays);
     fields.open(shape);
   },
   shape: (positions, settled) => {

@@ -10,6 +10,12 @@ useSession();
 
 const controls = 'button, input, select, textarea, canvas, [tabindex], [role=toolbar], [role=group], dialog[open], progress';
 
+// What axe-core finds wrong with the page as it is, WCAG 2.1 AA and good practice.
+async function violations() {
+  await page.addScriptTag({ path: join(root, 'editor/node_modules/axe-core/axe.min.js') });
+  return page.evaluate(async () => (await axe.run()).violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(' | ')}`));
+}
+
 // All controls have names, as Chromium tells them to a screen reader, and no two of them the same with the same description. Returns the names.
 async function names() {
   const cdp = await page.context().newCDPSession(page);
@@ -53,6 +59,25 @@ async function walkByTab() {
     reached.add(Number(at.stop));
   }
   assert.deepEqual(all.filter((_, k) => !reached.has(k)), []);
+}
+
+for (const colorScheme of ['light', 'dark']) {
+  test(`axe-core finds nothing, ${colorScheme}: a file that is tried on, a curve, the list of keys`, async () => {
+    await open('?file=examples/saddle.ply', { untouched: true, colorScheme });
+    assert.deepEqual(await violations(), []);
+    await page.getByRole('button', { name: 'Smooth it' }).click();
+    await page.locator('#start-says', { hasText: 'Moves' }).waitFor();
+    await settled(page);
+    await page.locator('#legend').waitFor();
+    assert.deepEqual(await violations(), []);
+    await page.getByLabel('Example').selectOption({ label: 'Noisy wave' });
+    await page.locator('#size', { hasText: 'curve' }).waitFor();
+    await settled(page);
+    assert.deepEqual(await violations(), []);
+    await page.keyboard.press('?');
+    await page.getByRole('dialog', { name: 'Keyboard shortcuts' }).waitFor();
+    assert.deepEqual(await violations(), []);
+  });
 }
 
 test('a surface with points: every control has a name, and Tab reaches it', async () => {

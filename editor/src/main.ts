@@ -51,6 +51,7 @@ const firstExample = 'examples/annulus.obj';
 const distinct = 40;
 const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz';
 let look: Look = 'shaded';
+let edges = false;
 let lookBefore: Look | null = null;
 let coloured: Field | null = null;
 let dotted: { fit: Fit | undefined; report: Report | null } = { fit: undefined, report: null };
@@ -167,6 +168,7 @@ const commands: Command[] = [
   { id: 'plot', title: 'Plot of curvature', keys: ['p'], run: () => { curves.fold(); refresh(); }, enabled: isCurve, pressed: () => curves.unfolded },
   ...looks.map((which) => ({ id: which, title: titles[which], keys: [String(['shaded', 'wire', 'zebra', ...fieldNames].indexOf(which) + 1)],
     run: () => setLook(which), pressed: () => look === which, enabled: () => !isCurve() })),
+  { id: 'edges', title: 'Edges over what is shown', keys: ['7'], run: () => { edges = !edges; view.setEdges(edges); refresh(); }, pressed: () => edges, enabled: () => !isCurve() },
   { id: 'marks', title: 'Mark held nodes', keys: ['m'], run: () => { marks.toggle(); refresh(); }, enabled: opened, pressed: () => marks.visible },
   { id: 'input', title: 'Show the input or the result', keys: ['i'], run: () => editor.toggleInput(), enabled: opened, pressed: () => editor.showsInput },
   { id: 'fit', title: 'Show all', keys: ['0', 'home'], run: () => view.fit() },

@@ -31,6 +31,7 @@ export class View {
   readonly arrows = new Arrows();
   readonly curve = new CurveLayer();
   private readonly sketch = new CurveLayer();
+  private readonly input = new CurveLayer(true);
   private readonly grid = gridOfUnits();
   private readonly scene = new Scene();
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, -50, 50);
@@ -69,7 +70,7 @@ export class View {
     this.controls.minZoom = 0.05;
     this.controls.maxZoom = 1e4;
     this.controls.addEventListener('change', () => this.draw());
-    this.scene.add(...this.surface.objects, this.grid, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
+    this.scene.add(...this.surface.objects, this.grid, ...this.input.objects, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
     for (const object of this.scene.children) object.frustumCulled = false;
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
@@ -81,6 +82,7 @@ export class View {
     this.surface.open(shape);
     this.grid.visible = shape === nothing;
     this.curve.setComb(new Float32Array(), new Float32Array());
+    this.input.show(shape.curve ? placesOf(shape, shape.input) : new Float32Array(), shape.curve ? shape.edges.ends : []);
     this.show(shape.input, true);
     if (stays) this.reframe(before, shape);
     else this.fit(true);
@@ -111,6 +113,12 @@ export class View {
     this.restyle();
   }
 
+  /** Edges over whatever else is shown. */
+  setEdges(shown: boolean): void {
+    this.surface.edges = shown;
+    this.restyle();
+  }
+
   /** Takes the colours of the style sheet. */
   restyle(): void {
     const style = getComputedStyle(this.canvas);
@@ -122,6 +130,7 @@ export class View {
     this.surface.restyle(colour);
     this.curve.restyle(colour);
     this.sketch.restyle(colour);
+    this.input.restyle(colour);
     this.grid.material.color = colour('--line');
     this.markers.restyle(colour);
     this.arrows.restyle(colour);

@@ -28,7 +28,9 @@ struct FitOptions {
   /// frequency ω keep 1/(1 + (λω)⁴) of their height. See docs/fit.md for the k that it comes to.
   std::optional<double> smoothing_length = std::nullopt;
   /// The shape of least bending from which no point lies further than this, in the units of the input, more than 0; on
-  /// curves in space the fairest on the way there, by its V-Spring energy (Fairness). By Method::equilibrium only.
+  /// curves in space the fairest on the way there, by its V-Spring energy (Fairness). On a curve in a plane the one
+  /// whose curvature changes least in proportion to itself, where that has fewer inflections or extremes of curvature
+  /// (docs/curves.md). By Method::equilibrium only.
   std::optional<double> within = std::nullopt;
   /// The largest smoothing length for which the root mean square of the distances is not above this, in the units of
   /// the input, more than 0. By Method::equilibrium only.
@@ -129,8 +131,11 @@ struct ResampledFit {
 /// the cubics through these nodes: a table with rounding or noise so gets nodes that have none of it, between its own
 /// nodes too.
 ///
-/// With within, rms or smoothing_length a curve of up to eight nodes for each new one is fitted, so that between the
-/// points, too, curvature changes gently; the new nodes are some of its nodes. Distances are those from the chords
+/// With within, new nodes in a plane go to the curve within the tolerance whose curvature changes least in proportion
+/// to itself (docs/curves.md), or where there is none that is not strained to the nearest, up to eight times as far.
+///
+/// With rms or smoothing_length, and in space, a curve of up to eight nodes for each new one is fitted, so that between
+/// the points, too, curvature changes gently; the new nodes are some of its nodes. Distances are those from the chords
 /// between new nodes: where the curve rises over them it passes the points that much further out. How far nodes moved
 /// is said as their distance from the resampled curve.
 ///

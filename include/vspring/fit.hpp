@@ -28,7 +28,9 @@ struct FitOptions {
   /// of their height. docs/fit.md says which k this is.
   std::optional<double> smoothing_length = std::nullopt;
   /// The shape of least bending from which no point lies further than this, in units of the input, more than 0. On
-  /// curves in space: the shape of least V-Spring energy on the way there. Method::equilibrium only.
+  /// curves in space: the shape of least V-Spring energy on the way there. On curves in a plane: the shape whose
+  /// curvature changes least in proportion to itself, where that has fewer inflections or extremes of curvature
+  /// (docs/curves.md). Method::equilibrium only.
   std::optional<double> within = std::nullopt;
   /// The largest smoothing length for which the root mean square of the distances is not above this, in units of the
   /// input, more than 0. Method::equilibrium only.
@@ -132,10 +134,13 @@ struct ResampledFit {
 /// Puts new nodes, as resample() spaces them, on the fair curve that fits the nodes of `curve`. So a table with
 /// rounding or noise gets nodes that have none, between its own nodes too.
 ///
-/// With within, rms or smoothing_length, a denser curve of up to eight nodes for each new one is fitted, and the new
-/// nodes are some of its nodes; so curvature changes gently between the points as well. Distances are those from the
-/// chords between new nodes, which lie below a curve that bulges over them. How far nodes moved is reported as their
-/// distance from the resampled curve.
+/// With within, new nodes in a plane go to the curve within the tolerance whose curvature changes least in proportion to
+/// itself (docs/curves.md). Where there is none that is not strained they go to the nearest, up to eight times as far.
+///
+/// With rms or smoothing_length, and in space, a denser curve of up to eight nodes for each new one is fitted, and the
+/// new nodes are some of its nodes; so curvature changes gently between the points as well. Distances are those from
+/// the chords between new nodes, which lie below a curve that bulges over them. How far nodes moved is reported as
+/// their distance from the resampled curve.
 ///
 /// With a weight, outliers, a strength or another method, for curves of more than 5,000 nodes, and where the chords of
 /// the denser curve are not within a tolerance, the new nodes are fitted themselves, from where resample() puts them.

@@ -202,7 +202,7 @@ class DenseFit {
   }
 
   /// None where it is strained: where curvature varies more than along the resampled table, and has more inflections or
-  /// extremes than along the table without its noise, or varies more by half.
+  /// extremes than along the table without its noise, or varies more by half, or more at all beyond the tolerance.
   std::optional<FitResult> gentle_within(const FitResult& own, const CurveFigures& smooth, double tolerance) {
     const double before = variation(made_.curve.positions());
     std::optional<std::vector<Vector3>> best;
@@ -216,7 +216,7 @@ class DenseFit {
       const CurveFigures figures = measure_curve(curve, &dense_.constraints);
       const bool has_more =
           figures.curvature_extrema > smooth.curvature_extrema || figures.inflections > smooth.inflections;
-      const double most = has_more ? before : greatest_strain * before;
+      const double most = has_more || tolerance > tolerance_ ? before : greatest_strain * before;
       if (figures.curvature_variation <= most && figures.curvature_variation < least && !(best && has_more)) {
         least = figures.curvature_variation;
         best = std::move(places);

@@ -21,6 +21,7 @@ constexpr Advice all_advice[] = {
     {"a tolerance to stay within", "--within"},
     {"only take its noise off", "--noise auto"},
     {"allow more iterations", "--max-iterations"},
+    {"allow more time", "--time-limit"},
     {"the root mean square of its points' distances", "--rms"},
     {"name the format", "--format"},
     {"choose columns", "--columns"},

@@ -142,6 +142,7 @@ Fairing::Fairing(const FairingArguments& arguments)
       errors_(2, arguments.colour),
       messages_(arguments.output == "-" || arguments.html == "-" ? 2 : 1, arguments.colour),
       cancelling_(context_),
+      time_limit_(context_, arguments.time_limit),
       bar_(errors_) {
   context_.threads = arguments.threads;
   if (arguments.quiet) return;
@@ -167,7 +168,8 @@ template <typename Shape>
 int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& input, std::vector<std::string> warnings,
                     const Writers& writers) {
   bar_.clear();
-  const FairReport& report = faired.report;
+  FairReport report = faired.report;
+  time_limit_.end(report);
   std::ranges::transform(report.warnings, std::back_inserter(warnings), with_options);
   RunFacts facts = writers.facts;
   facts.method = report.method;
@@ -179,14 +181,19 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
     const UninterruptedWhileWriting guard;
     for (std::string& warning : writers.shape()) warnings.push_back(std::move(warning));
   }
-  nlohmann::ordered_json json = to_json(report);
-  json["warnings"] = warnings;
-  json["input"] = arguments_->input;
-  json["output"] = arguments_->output;
-  json.update(writers.figures);
+  // Made only for those who ask: without memory for it the library that makes it ends the program.
+  const bool is_reported = !(arguments_->report.empty() && arguments_->html.empty());
+  nlohmann::ordered_json json;
+  if (is_reported) {
+    json = to_json(report);
+    json["warnings"] = warnings;
+    json["input"] = arguments_->input;
+    json["output"] = arguments_->output;
+    json.update(writers.figures);
+  }
   MeasuredPair<Shape> shapes = {MeasuredShape(faired.before), MeasuredShape(faired.after)};
   FigurePair figures;
-  if (!context_.cancelled() && !(arguments_->report.empty() && arguments_->html.empty())) {
+  if (!context_.cancelled() && is_reported) {
     figures = measured(shapes, faired.constraints);
     if (!context_.cancelled()) {
       // Not assigned as a list: clang 14 does not destroy what such an assignment replaces.

@@ -14,6 +14,7 @@
 #include "progress_bar.hpp"
 #include "signals.hpp"
 #include "terminal.hpp"
+#include "time_limit.hpp"
 #include "vspring/context.hpp"
 #include "vspring/fair.hpp"
 #include "vspring/figures.hpp"
@@ -87,6 +88,7 @@ class Fairing {
   Terminal messages_;
   Context context_;
   CancelOnSignal cancelling_;
+  TimeLimit time_limit_;
   ProgressBar bar_;
   double progress_begin_ = 0;  ///< of the call among those that one bar shows
   double progress_share_ = 1;

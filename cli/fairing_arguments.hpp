@@ -26,6 +26,7 @@ struct FairingArguments {
   std::optional<double> step_tolerance;      ///< likewise
   bool paper = false;
   int threads = 0;
+  std::optional<double> time_limit;  ///< seconds
   std::string report;
   std::string html;
   PictureArguments picture;

@@ -8,9 +8,11 @@ namespace vspring::cli {
 namespace {
 
 std::atomic<Context*> cancelled_by_signal = nullptr;
-static_assert(std::atomic<Context*>::is_always_lock_free);
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<Context*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 extern "C" void cancel(int signal) {
+  interrupted.store(true);
   if (Context* context = cancelled_by_signal.load()) context->cancel();
   std::signal(signal, SIG_DFL);
 }
@@ -28,6 +30,8 @@ CancelOnSignal::~CancelOnSignal() {
   std::signal(SIGTERM, SIG_DFL);
   cancelled_by_signal.store(nullptr);
 }
+
+bool was_interrupted() noexcept { return interrupted.load(); }
 
 UninterruptedWhileWriting::UninterruptedWhileWriting() {
   sigset_t waiting;

@@ -16,6 +16,9 @@ class CancelOnSignal {
   CancelOnSignal& operator=(const CancelOnSignal&) = delete;
 };
 
+/// Whether Ctrl-C or SIGTERM has come while one of these lived.
+[[nodiscard]] bool was_interrupted() noexcept;
+
 /// While it lives, Ctrl-C and SIGTERM wait: a file that is being written is finished first.
 class UninterruptedWhileWriting {
  public:

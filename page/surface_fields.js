@@ -13,15 +13,15 @@ export function prepared({title, positions, runs, mean, gaussian, deviation}) {
 
 const about = (centre, half) => [centre - half, centre + half];
 
-// The middle 96 % of values, or about their middle where that is little: a sphere is of one colour, although its curvature is not measured to the last digit.
-export function aboutMiddle(values, least) {
-  const [low, high] = quantiles(values, [0.02, 0.98]);
+// The middle share of values, or about their middle where that is little: a sphere is of one colour, although its curvature is not measured to the last digit.
+export function aboutMiddle(values, least, share = 0.96) {
+  const [low, high] = quantiles(values, [(1 - share) / 2, (1 + share) / 2]);
   return about((low + high) / 2, Math.max((high - low) / 2, least, 0.02 * Math.abs(low + high) / 2));
 }
 
-// The least 98 % of values, without their signs.
-export function aboutZero(values, least) {
-  return about(0, Math.max(least, quantiles(values.map(Math.abs), [0.98])[0]));
+// As far as the same share reaches, without signs: the least 98 % of values.
+export function aboutZero(values, least, share = 0.96) {
+  return about(0, Math.max(least, quantiles(values.map(Math.abs), [(1 + share) / 2])[0]));
 }
 
 // Of values at nodes, those in the part that is seen first.

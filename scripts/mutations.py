@@ -133,7 +133,7 @@ MUTATIONS = {
         ("stop", "§4.6: below e", "result.residual < task.step_tolerance", "result.residual < 10 * task.step_tolerance"),
     ],
     "src/solve/equilibrium.cpp": [
-        ("expected-error", "expected error from the last corrections", "std::max({step * (1 + left), least_share * expected, rounding})",
+        ("expected-error", "expected error from the last corrections", "std::max({step * (1 + left), least_share * slower, rounding})",
          "0.01 * std::max({step * (1 + left), least_share * expected, rounding})"),
     ],
     "src/solve/force_derivative.cpp": [

@@ -93,10 +93,15 @@ class Curve {
     return result;
   }
 
-  /// What must hold besides for only those nodes to move, with the `tangents` of the rim.
-  [[nodiscard]] val region(const val& nodes) const {
-    return region_of(*constraints_, file_.curve, nodes,
+  /// What must hold besides for only those nodes to move from a shape of these positions: `fixed`, nodes that stay, and
+  /// `rim` with its `tangents`, three numbers each.
+  [[nodiscard]] val region(const val& nodes, const val& positions) const {
+    return region_of(*constraints_, file_.curve, nodes, positions,
                      {"tangents", &Constraints::tangent_fixed, &Constraints::tangent});
+  }
+  /// The standard deviation of its nodes in each coordinate, as far as that can be told; else 0.
+  [[nodiscard]] double noise() const {
+    return forwarding_errors([&] { return estimate_noise(file_.curve).deviation; });
   }
 
   /// Even nodes between those that are held, `nodes` in all; they are the curve from then on. Returns for every node
@@ -177,6 +182,7 @@ EMSCRIPTEN_BINDINGS(vspring_curve) {
       .function("freeTangent", &Curve::free_tangent)
       .function("heldTangents", &Curve::held_tangents)
       .function("region", &Curve::region)
+      .function("noise", &Curve::noise)
       .function("resample", &Curve::resample)
       .function("fair", &Curve::fair)
       .function("follow", &Curve::fair)

@@ -15,11 +15,13 @@ struct RimDirection {
   const Vector3& (Constraints::*value)(Index) const;
 };
 
-/// `fixed`, nodes that stay where the file has them, and `rim` with its directions, three numbers each: those that
-/// `constraints` does not hold already.
+/// `fixed`, nodes that stay, and `rim` with its directions, three numbers each, as a shape of these positions has them:
+/// those that `constraints` does not hold already.
 template <typename Shape>
-val region_of(const Constraints& constraints, const Shape& shape, const val& nodes, const RimDirection& direction) {
+val region_of(const Constraints& constraints, Shape shape, const val& nodes, const val& positions,
+              const RimDirection& direction) {
   return forwarding_errors([&] {
+    shape.set_positions(vectors_of(positions));
     Constraints restricted = constraints;
     restrict_to_region(restricted, shape, emscripten::convertJSArrayToNumberVector<Index>(nodes));
     std::vector<Index> fixed;

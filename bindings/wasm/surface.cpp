@@ -109,10 +109,15 @@ class Surface {
     return report;
   }
 
-  /// What must hold besides for only those nodes to move: `fixed`, nodes that stay where the file has them, and `rim`
-  /// with its `normals`, three numbers each.
-  [[nodiscard]] val region(const val& nodes) const {
-    return region_of(*constraints_, file_.mesh, nodes, {"normals", &Constraints::normal_fixed, &Constraints::normal});
+  /// What must hold besides for only those nodes to move from a shape of these positions: `fixed`, nodes that stay, and
+  /// `rim` with its `normals`, three numbers each.
+  [[nodiscard]] val region(const val& nodes, const val& positions) const {
+    return region_of(*constraints_, file_.mesh, nodes, positions,
+                     {"normals", &Constraints::normal_fixed, &Constraints::normal});
+  }
+  /// The standard deviation of its nodes in each coordinate, as far as that can be told; else 0.
+  [[nodiscard]] double noise() const {
+    return forwarding_errors([&] { return estimate_noise(file_.mesh).deviation; });
   }
   /// The principal curvatures of a shape of these nodes: `k1` and `k2`, k1 not less than k2.
   [[nodiscard]] val curvatures(const val& positions) const {
@@ -196,6 +201,7 @@ EMSCRIPTEN_BINDINGS(vspring_surface) {
       .function("foresee", &Surface::foresee)
       .function("fit", &Surface::fit)
       .function("region", &Surface::region)
+      .function("noise", &Surface::noise)
       .function("curvatures", &Surface::curvatures)
       .function("write", &Surface::write)
       .function("setPositions", &Surface::set_positions);

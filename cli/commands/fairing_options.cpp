@@ -153,6 +153,13 @@ void add_run_options(CLI::App& command, FairingArguments& arguments) {
       ->type_name("N")
       ->check(whole_number(1, 1024))
       ->group(run_group);
+  command
+      .add_option("--time-limit", arguments.time_limit,
+                  "Seconds, reading included, after which it ends with the best shape so far; the one option whose "
+                  "result may change from run to run (default: none)")
+      ->type_name("S")
+      ->check(positive_number())
+      ->group(run_group);
   command.add_option("--report", arguments.report, "Write what happened, JSON")
       ->type_name("FILE.json")
       ->group(run_group);

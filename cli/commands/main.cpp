@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -122,6 +123,9 @@ int main(int argc, char** argv) {
   try {
     return run_program(argc, argv);
   } catch (...) {
-    return exit_unusable;  // not even a message could be made
+    // Such as no memory for the message of an error.
+    constexpr std::string_view message = "vspring: error: out of memory\n";
+    (void)!::write(STDERR_FILENO, message.data(), message.size());
+    return exit_unusable;
   }
 }

@@ -4,11 +4,17 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { choose, find, open, page, root, session, settled, useSession } from './support.mjs';
+import { choose, find, open, page, root, session, settled, solving, useSession } from './support.mjs';
 
 useSession();
 
 const controls = 'button, input, select, textarea, canvas, [tabindex], [role=toolbar], [role=group], dialog[open], progress';
+
+// What axe-core finds wrong with the page as it is, WCAG 2.1 AA and good practice.
+async function violations() {
+  await page.addScriptTag({ path: join(root, 'editor/node_modules/axe-core/axe.min.js') });
+  return page.evaluate(async () => (await axe.run()).violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(' | ')}`));
+}
 
 // All controls have names, as Chromium tells them to a screen reader, and no two of them the same with the same description. Returns the names.
 async function names() {
@@ -55,6 +61,25 @@ async function walkByTab() {
   assert.deepEqual(all.filter((_, k) => !reached.has(k)), []);
 }
 
+for (const colorScheme of ['light', 'dark']) {
+  test(`axe-core finds nothing, ${colorScheme}: a file that is tried on, a curve, the list of keys`, async () => {
+    await open('?file=examples/saddle.ply', { untouched: true, colorScheme });
+    assert.deepEqual(await violations(), []);
+    await page.getByRole('button', { name: 'Smooth it' }).click();
+    await page.locator('#start-says', { hasText: 'Moves' }).waitFor();
+    await settled(page);
+    await page.locator('#legend').waitFor();
+    assert.deepEqual(await violations(), []);
+    await page.getByLabel('Example').selectOption({ label: 'Noisy wave' });
+    await page.locator('#size', { hasText: 'curve' }).waitFor();
+    await settled(page);
+    assert.deepEqual(await violations(), []);
+    await page.keyboard.press('?');
+    await page.getByRole('dialog', { name: 'Keyboard shortcuts' }).waitFor();
+    assert.deepEqual(await violations(), []);
+  });
+}
+
 test('a surface with points: every control has a name, and Tab reaches it', async () => {
   await open();
   await page.getByRole('button', { name: 'Its own nodes' }).click();
@@ -82,10 +107,10 @@ test('a curve: every control has a name, and Tab reaches it', async () => {
 test('the progress bar has a name and so has what ends it', async () => {
   session.generated('large.ply', 'annulus', '--nodes', '200000', '--noise', '0.01');
   await open('?file=files/large.ply', { wait: false });
-  await page.getByRole('progressbar', { name: 'Solving' }).waitFor();
+  await solving(page);
   assert.ok((await names()).includes('Cancel'));
   await page.keyboard.press('Escape');
-  await page.locator('#status', { hasText: 'cancelled' }).waitFor();
+  await settled(page, 'cancelled');
 });
 
 test('the list of keys has all of the documentation, and the documentation all of the list', async () => {

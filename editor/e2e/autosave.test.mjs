@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { drag, drop, find, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { drag, drop, find, freeForm, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -44,9 +44,10 @@ test('a reload after a crash', async () => {
   await drop(page, 'mine.obj', readFileSync(`${session.folder}/mine.obj`, 'utf8'));
   await page.locator('#name', { hasText: 'mine.obj' }).waitFor();
   await settled(page);
+  await freeForm(page);
   const held = await find(page, /position fixed/, [0.02, 0.55], [0.5, 0.55]);
   await drag(page, held, -20, -40);
-  await drop(page, 'one.csv', 'x,y,z\n0.7,0,0.2\n');
+  await drop(page, 'one.csv', 'x,y,z\n0.7,0,0.2\n', true);
   await page.locator('#fit-figures').filter({ hasText: 'one.csv: 1 points · at most' }).waitFor();
   await settled(page);
   await kept(page, 'Load points one.csv');

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { choose, drag, drop, find, greatestDistance, native, open, page, placesOf, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { choose, drag, drop, find, follows, freeForm, greatestDistance, native, open, page, placesOf, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession(() => {
   const wave = Array.from({ length: 61 }, (_, k) => [k / 10, Math.sin(k / 9) + 0.02 * ((k * 7) % 5)]);
@@ -19,6 +19,8 @@ useSession(() => {
 async function opened(name) {
   await open(`?file=files/${name}`, { wait: false });
   await page.locator('#name', { hasText: name }).waitFor();
+  await settled(page);
+  await freeForm(page);
 }
 
 // The pointer away from the view, so that the footer names nothing that was under it before.
@@ -37,7 +39,6 @@ function faired(input, rules, ...options) {
 
 test('a plane curve is seen from above, dragged in its plane, and saved as the native program fairs it', async () => {
   await opened('wave.csv');
-  await settled(page);
   assert.match(await page.locator('#size').textContent(), /61 nodes, open curve/);
   const untouched = placesOf((await saved(page)).path);
   const free = await find(page, /free/, [0.35, 0.02], [0.35, 0.98]);
@@ -46,7 +47,7 @@ test('a plane curve is seen from above, dragged in its plane, and saved as the n
   await settled(page);
   const still = await page.locator('#plot path.second').getAttribute('d');
   await drag(page, free, 30, -90, async () => {
-    await page.locator('#status', { hasText: 'frames/s' }).waitFor();
+    await follows(page);
     await page.waitForFunction((d) => document.querySelector('#plot path.second').getAttribute('d') !== d, still);
   });
   const rules = await rulesOf(page);
@@ -70,22 +71,20 @@ test('a plane curve is seen from above, dragged in its plane, and saved as the n
 
 test('every format of curves is read and written; a closed one is held where nodes are fixed', async () => {
   await opened('wave.dat');
-  await settled(page);
   const wave = placesOf((await saved(page)).path);
   for (const format of ['csv', 'obj', 'xyz']) assert.deepEqual(placesOf((await saved(page, format)).path), wave);
   assert.match(readFileSync((await saved(page, 'svg')).path, 'utf8'), /<svg/);
   assert.ok(greatestDistance(wave, faired('wave.dat', await rulesOf(page))) < 1e-4);
   await page.goto(`${session.address}?file=files/ring.xyz`);
   await page.locator('#name', { hasText: 'ring.xyz' }).waitFor();
-  await settled(page);
   assert.match(await page.locator('#size').textContent(), /48 nodes, open curve/);
 
   await page.goto(`${session.address}?file=files/ring.obj`);
-  await page.getByRole('alert').filter({ hasText: /held|holds|fixed/ }).waitFor();
-  assert.match(await page.locator('#size').textContent(), /48 nodes, closed curve/);
-  for (const share of [0.25, 0.45, 0.65]) {
+  await page.locator('#size', { hasText: '48 nodes, closed curve' }).waitFor();
+  assert.ok(await page.getByRole('button', { name: 'Free form' }).isDisabled(), 'nothing holds it');
+  for (const share of [0.25, 0.4, 0.52]) {
     await leave();
-    const { x, y } = await find(page, /free/, [share, 0.1], [share, 0.9]);
+    const { x, y } = await find(page, /free/, [share, 0.1], [share + 0.06, 0.9]);
     await page.keyboard.down('Shift');
     await page.mouse.click(x, y);
     await page.keyboard.up('Shift');
@@ -95,6 +94,7 @@ test('every format of curves is read and written; a closed one is held where nod
   await settled(page);
   await page.keyboard.press('n');
   await settled(page);
+  await freeForm(page);
   const rules = await rulesOf(page);
   assert.equal(JSON.parse(rules).rules.at(-1).tangent, 'fixed');
   const { path } = await saved(page);
@@ -104,7 +104,6 @@ test('every format of curves is read and written; a closed one is held where nod
 
 test('the comb and the plot follow; both can be put away', async () => {
   await opened('wave.csv');
-  await settled(page);
   const picture = async () => (await page.locator('#canvas').screenshot()).toString('base64');
   const plot = page.locator('#plot svg');
   assert.match(await plot.getAttribute('aria-label'), /curvature, 1\/unit.* against arc length, units of the input; curvature is positive to the left, input and shown/);
@@ -147,7 +146,6 @@ function fairedThrough(rules, nodes, more, ...options) {
 
 test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as the native program makes it', async () => {
   await opened('wave.csv');
-  await settled(page);
   await drawn([[0.15, 0.6], [0.3, 0.3], [0.45, 0.9], [0.45, 0.65], [0.6, 0.4]], async () => {
     for (let k = 0; k < 3; ++k) await page.keyboard.press('Backspace');
     const box = await page.locator('#canvas').boundingBox();
@@ -211,7 +209,7 @@ test('the tangent at an end is given by numbers, tilted by its arrow, and free a
     await page.mouse.move(end.x + (k % 2), end.y - 0.87 * length);
     await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
   }
-  await drag(page, { x: end.x, y: end.y - 0.87 * length }, length, 0, () => page.locator('#status', { hasText: 'frames/s' }).waitFor());
+  await drag(page, { x: end.x, y: end.y - 0.87 * length }, length, 0, () => follows(page));
   const rules = await rulesOf(page);
   const [tangent] = JSON.parse(rules).rules.find((rule) => Array.isArray(rule.tangent)).tangent;
   for (const part of tangent.slice(0, 2)) assert.ok(Math.abs(part - Math.SQRT1_2) < 0.02, `${tangent}`);
@@ -242,10 +240,39 @@ test('a click on the first node closes, a double click ends, Escape gives up', a
   assert.match(await page.locator('#size').textContent(), /41 nodes, open curve/);
 });
 
+test('loops that nothing holds are faired between their corners, or as many nodes as are said', async () => {
+  session.generated('plate.obj', 'saddle', '--columns', '12', '--rows', '12', '--noise', '0.02');
+  await opened('plate.obj');
+  const first = () => page.getByRole('button', { name: 'Fair its loops first' });
+  await first().click();
+  await settled(page);
+  assert.ok(await page.getByRole('alert').isHidden());
+  assert.match(await page.getByRole('button', { name: 'Undo' }).getAttribute('title'), /Fair boundary loops, 4 nodes held/);
+  assert.deepEqual(JSON.parse(await rulesOf(page)).rules.find(({ position }) => position === 'fixed').nodes, [0, 12, 156, 168]);
+
+  session.generated('ring.ply', 'annulus', '--nodes', '400');
+  await opened('ring.ply');
+  await first().click();
+  await settled(page);
+  const undo = page.getByRole('button', { name: 'Undo' });
+  assert.match(await undo.getAttribute('title'), /Fair boundary loops, 16 nodes held/);
+  await page.getByLabel('Nodes held in a loop').fill('5');
+  await page.keyboard.press('Enter');
+  await undo.and(page.locator('[title*="10 nodes held"]')).waitFor();
+  await settled(page);
+  assert.ok(await page.getByRole('alert').isHidden());
+  await first().click();
+  await settled(page);
+  assert.deepEqual(JSON.parse(await rulesOf(page)).rules, [{ nodes: 'boundary', position: 'fixed' }], 'they are free again');
+  session.generated('torus.ply', 'torus', '--columns', '20', '--rows', '12');
+  await opened('torus.ply');
+  assert.ok(await first().isDisabled());
+  assert.match(await first().getAttribute('title'), /it has no boundary/);
+});
+
 test('boundary loops are faired first, then the surface, as --fair-boundary does; what holds them is dragged', async () => {
   const input = session.generated('patch.obj', 'saddle', '--columns', '12', '--rows', '12', '--noise', '0.02');
   await opened('patch.obj');
-  await settled(page);
   // Of every four nodes along the sides three.
   const nodes = Array.from({ length: 169 }, (_, node) => node).filter((node) => {
     const [row, column] = [Math.floor(node / 13), node % 13];

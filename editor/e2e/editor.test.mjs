@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { beforeEach, test } from 'node:test';
-import { choose, drag, drop, faults, find, greatestDistance, native, open, page, placesOf, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { choose, drag, drop, faults, find, follows, greatestDistance, native, open, page, placesOf, root, rulesOf, saved, session, settled, solving, useSession, visit } from './support.mjs';
 
 useSession();
 beforeEach(() => open());
@@ -96,21 +96,24 @@ test('a drag that is given up leaves nothing behind, and dragging elsewhere turn
 
 test('the shape follows while the button is down', async () => {
   const held = await find(page, /position fixed/, ...leftRim);
-  const status = page.locator('#status');
-  const before = await status.textContent();
   await page.mouse.down();
   for (let k = 1; k <= 5; ++k) await page.mouse.move(held.x - 8 * k, held.y - 8 * k);
-  await status.filter({ hasText: 'frames/s' }).filter({ hasNotText: before }).waitFor();
+  await follows(page);
+  await page.locator('#status', { hasText: /Following · moved at most/ }).waitFor();
   await page.mouse.up();
-  await status.filter({ hasNotText: 'frames/s' }).waitFor();
+  await page.locator('#status', { hasText: /^Done · moved at most [\d.]+ \([\d.]+ % of the size\)$/ }).waitFor();
 });
 
-test('a long solution is cancelled with the best shape so far', async () => {
-  session.generated('large.ply', 'annulus', '--nodes', '150000', '--noise', '0.02');
-  await page.goto(`${session.address}?file=files/large.ply`);
+test('a long solution is cancelled: the last shape stays, and that is what is saved', async () => {
+  const file = session.generated('large.obj', 'annulus', '--nodes', '60000', '--noise', '0.02');
+  await page.goto(`${session.address}?file=files/large.obj`);
+  await page.locator('#size', { hasText: '60,000 nodes' }).waitFor();
+  await solving(page);
   await page.getByRole('button', { name: 'Cancel' }).click();
-  await page.locator('#status', { hasText: 'cancelled' }).waitFor();
-  assert.match(await page.locator('#size').textContent(), /150,000 nodes/);
+  await settled(page, 'cancelled');
+  assert.doesNotMatch(await page.locator('#status').textContent(), /Infinity/);
+  assert.match(await page.locator('#status').textContent(), /Stopped, the last shape stays · moved nothing/);
+  assert.deepEqual(placesOf((await saved(page)).path), placesOf(file));
 });
 
 test('boundary normals change the shape; the boundary set free is refused in the words of the library, and undone', async () => {
@@ -150,8 +153,7 @@ test('files: every format comes out; a malformed one is named and leaves the sur
 
 test('opens a file that an address names, and one that is dropped', async () => {
   session.generated('patch.ply', 'saddle', '--columns', '12', '--rows', '12', '--faces', 'mixed');
-  await page.goto(`${session.address}?file=files/patch.ply`);
-  await settled(page);
+  await visit(page, `${session.address}?file=files/patch.ply`);
   assert.equal(await page.locator('#name').textContent(), 'patch.ply');
   await drop(page, 'tent.obj', 'v 0 0 0\nv 2 0 0\nv 0 2 0\nv 1 1 1\nf 1 2 4\nf 2 3 4\nf 3 1 4\n');
   await page.locator('#name', { hasText: 'tent.obj' }).waitFor();

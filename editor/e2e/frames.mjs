@@ -1,7 +1,7 @@
 // Frames a second while the inner rim of an annulus is dragged in a circle, one line for each size: node e2e/frames.mjs [nodes...].
 // SPEED: of the pointer, in pixels a second.
 
-import { find, Session, settled } from './support.mjs';
+import { find, freeForm, Session, settled } from './support.mjs';
 
 const speed = Number(process.env.SPEED ?? 50);
 const sizes = process.argv.slice(2).map(Number);
@@ -14,7 +14,8 @@ try {
     await page.locator('#size', { hasText: 'nodes' }).waitFor();
     const picture = performance.now() - begin;
     await settled(page);
-    const anew = await page.locator('#status').textContent();
+    await freeForm(page);
+    const anew = await page.locator('#status').getAttribute('title');
     const { x, y } = await find(page, /position fixed/, [0.4, 0.4], [0.4, 0.7]);
     await page.mouse.click(x, y);
     await page.keyboard.press('l');
@@ -26,7 +27,7 @@ try {
       await new Promise((done) => setTimeout(done, 8));
     }
     await moved;
-    const following = await page.locator('#status').textContent();
+    const following = await page.locator('#status').getAttribute('title');
     await page.mouse.up();
     console.log(`${size} nodes: first picture ${Math.round(picture)} ms; anew: ${anew}; following: ${following}`);
     await page.close();

@@ -3,9 +3,7 @@
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { downloaded, expectSameAsNative, find, greatestDistance, native, placesOf, Session, settled } from './support.mjs';
-
-const status = (page) => page.locator('#status');
+import { downloaded, expectSameAsNative, find, freeForm, greatestDistance, native, placesOf, Session, settled, solving } from './support.mjs';
 
 for (const shared of [true, false]) {
   test(`a mesh of 200,000 nodes opens, its solution is given up, and nodes are picked; memory is ${shared ? '' : 'not '}shared`, async () => {
@@ -15,9 +13,9 @@ for (const shared of [true, false]) {
       const { page, faults } = await session.open('?file=files/large.ply');
       assert.equal(await page.evaluate(() => crossOriginIsolated), shared);
       await page.locator('#size', { hasText: '200,000 nodes' }).waitFor();
+      await solving(page);
       await page.getByRole('button', { name: 'Cancel' }).click();
-      await status(page).filter({ hasText: 'cancelled' }).waitFor();
-      await page.locator('#progress').waitFor({ state: 'hidden' });
+      await settled(page, 'cancelled');
       const { x, y, node } = await find(page, /Node \d+/, [0.3, 0.6], [0.4, 0.6]);
       await page.mouse.click(x, y);
       assert.equal(await page.locator('#picked').textContent(), `Node ${node}`);
@@ -37,23 +35,21 @@ for (const shared of [true, false]) {
       const [cancel, save, alert] = [page.getByRole('button', { name: 'Cancel' }), page.getByRole('button', { name: 'Save as' }), page.getByRole('alert')];
       let files = 0;
       page.on('download', () => ++files);
-      await cancel.click();
-      await status(page).filter({ hasText: 'cancelled' }).waitFor();
       for (const end of [() => cancel.click(), () => page.keyboard.press('Escape')]) {
-        await page.locator('#progress').waitFor({ state: 'hidden' });
+        await solving(page);
         await save.click();
-        await page.getByRole('progressbar', { name: 'Solving' }).waitFor();
         await end();
         await alert.filter({ hasText: 'patch-fair.obj is not saved, as its solution was cancelled' }).waitFor();
         await page.getByRole('button', { name: 'Dismiss' }).click();
+        await page.getByRole('button', { name: 'Not this' }).click();
       }
       assert.equal(files, 0);
 
-      // What is changed meanwhile is out of date at once, but the file is not.
+      // What is changed meanwhile is in the file.
+      await solving(page);
       const { path } = await downloaded(page, async () => {
         await save.click();
-        await page.getByRole('progressbar', { name: 'Solving' }).waitFor();
-        for (let k = 0; k < 3; ++k) await page.keyboard.press('Shift+B');
+        for (let k = 0; k < 4; ++k) await page.keyboard.press('Shift+B');
       });
       const fair = join(session.folder, 'fair.obj');
       native('fair', input, '-o', fair, '--quiet');
@@ -73,8 +69,9 @@ test('after a solution is given up without shared memory, what is changed and sa
   try {
     const input = session.generated('patch.obj', 'annulus', '--nodes', '40000', '--noise', '0.01');
     const { page, faults } = await session.open('?file=files/patch.obj');
+    await solving(page);
     await page.getByRole('button', { name: 'Cancel' }).click();
-    await status(page).filter({ hasText: 'cancelled' }).waitFor();
+    await settled(page, 'cancelled');
     await page.getByRole('button', { name: 'Normals fixed' }).click();
     await settled(page);
     await expectSameAsNative(session, page, input);
@@ -91,6 +88,7 @@ test('a large mesh is drawn with fewer triangles while it is dragged; pictures d
     const { page, faults } = await session.open('?file=files/annulus.obj');
     await page.locator('#size', { hasText: '50,000 nodes' }).waitFor();
     await settled(page);
+    await freeForm(page);
     await page.evaluate(() => {
       window.drawn = 0;
       const draw = WebGL2RenderingContext.prototype.drawElements;
@@ -106,7 +104,7 @@ test('a large mesh is drawn with fewer triangles while it is dragged; pictures d
     await page.mouse.down();
     for (let step = 1; step <= 10; ++step) await page.mouse.move(x, y - 3 * step);
     // On a busy machine the first second may be over before the first frame.
-    const counted = status(page).filter({ hasText: /[1-9]\d* frames\/s, \d+ solved$/ });
+    const counted = page.locator('#status[title*="frames/s, "]');
     for (let step = 0; step < 300 && !(await counted.isVisible()); ++step) {
       await page.mouse.move(x, y - 30 - (step % 3));
       await page.waitForTimeout(100);

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { beforeEach, test } from 'node:test';
-import { drag, find, greatestDistance, native, open, page, placesOf, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { drag, find, follows, greatestDistance, native, open, page, placesOf, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 beforeEach(() => open());
@@ -49,9 +49,8 @@ test('tilt a normal', async () => {
   const given = await normal();
 
   await page.mouse.down();
-  const status = page.locator('#status');
   for (let k = 1; k <= 6; ++k) await page.mouse.move(head.x - 4 * k, head.y);
-  await status.filter({ hasText: 'frames/s' }).waitFor();
+  await follows(page);
   await page.mouse.up();
   await settled(page);
   assert.match(await page.getByRole('button', { name: 'Undo' }).getAttribute('title'), new RegExp(`Tilt normal of node ${held.node}`));

@@ -5,7 +5,7 @@ import { find, root, Session, settled } from './support.mjs';
 
 const session = await Session.start();
 try {
-  for (const [name, colorScheme, example, key] of [['light', 'light', 'Pipe blend', '4'], ['dark', 'dark', 'Annulus', '3'], ['brush', 'light', 'Spot without horns', '1']]) {
+  for (const [name, colorScheme, example, key] of [['light', 'light', 'Pipe blend', '4'], ['dark', 'dark', 'Annulus', '3']]) {
     const { page } = await session.open('', { colorScheme, viewport: { width: 1100, height: 680 } });
     await settled(page);
     await page.getByLabel('Example').selectOption({ label: example });
@@ -23,14 +23,7 @@ try {
       await settled(page);
     }
     await page.keyboard.press(key);
-    if (name === 'brush') {
-      await page.keyboard.press('r');
-      await page.mouse.move(430, 330);
-      await page.mouse.down();
-      for (let k = 1; k <= 20; ++k) await page.mouse.move(430 + 9 * k, 330 - 40 * Math.sin(k / 6));
-    } else {
-      await page.mouse.move(700, 5);
-    }
+    await page.mouse.move(700, 5);
     await page.evaluate(() => document.activeElement.blur());
     await page.waitForTimeout(1500);
     await page.screenshot({ path: join(root, `docs/pictures/editor-${name}.png`) });

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { choose, drag, drop, find, greatestDistance, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { choose, drag, drop, find, follows, greatestDistance, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -101,12 +101,14 @@ test('a surface is drawn towards points, by every kind of fit, as the native pro
   assert.ok(await legend().isHidden());
 });
 
-test('points are dropped on a surface; within a tolerance the panel says how many are outside', async () => {
-  await open();
+test('points are dropped on a surface of one\'s own, as is asked; within a tolerance the panel says how many are outside', async () => {
+  session.generated('ring.obj', 'annulus', '--nodes', '400');
+  await open('?file=files/ring.obj');
   await drop(page, 'four.csv', 'x,y,z\n0.7,0,0.3\n0,0.7,0.3\n-0.7,0,0.3\n0,-0.7,0.3\n');
+  await page.getByRole('dialog', { name: 'What is four.csv?' }).getByRole('button', { name: 'Points for ring.obj' }).click();
   await figures().filter({ hasText: 'four.csv: 4 points' }).waitFor();
   await settled(page);
-  assert.match(await page.locator('#name').textContent(), /annulus/);
+  assert.equal(await page.locator('#name').textContent(), 'ring.obj');
   await page.getByLabel('Fit by').selectOption('within');
   await figures().filter({ hasText: /\d % outside/ }).waitFor();
   await legend().filter({ hasText: 'in red beyond the tolerance' }).waitFor();
@@ -150,7 +152,7 @@ test('a curve is drawn towards points, in its plane, and follows with them in a 
   const end = await find(page, /position fixed/, [0.02, 0.5], [0.7, 0.5]);
   const said = await figures().textContent();
   await drag(page, end, 0, -30, async () => {
-    await page.locator('#status', { hasText: 'frames/s' }).waitFor();
+    await follows(page);
     await figures().filter({ hasNotText: said }).waitFor();
   });
   const pulled = await compare('--within', '0.1');
@@ -160,17 +162,34 @@ test('a curve is drawn towards points, in its plane, and follows with them in a 
   assert.deepEqual(await compare('--within', '0.1'), before);
 });
 
-test('a file that is dropped on a curve has points where Alt is held; else it is opened', async () => {
+test('a file that is dropped on a curve has points where Alt is held; else that is asked, and on an untouched example it is opened', async () => {
   wave();
   await open('?file=files/wave.csv');
   await drop(page, 'four.xyz', '1 2\n2 2\n3 2\n4 2\n', true);
   await figures().filter({ hasText: 'four.xyz: 4 points · at most' }).waitFor();
   await settled(page);
   assert.equal(await page.locator('#name').textContent(), 'wave.csv');
+  const dialog = page.getByRole('dialog', { name: 'What is four.xyz?' });
   await drop(page, 'four.xyz', '1 2\n2 3\n3 2\n4 2\n');
+  await dialog.getByRole('button', { name: 'Cancel' }).click();
+  assert.equal(await page.locator('#name').textContent(), 'wave.csv');
+  await drop(page, 'four.xyz', '1 2\n2 3\n3 2\n4 2\n');
+  await dialog.getByRole('button', { name: 'A curve through its 4 rows' }).click();
   await page.locator('#name', { hasText: 'four.xyz' }).waitFor();
   await settled(page);
   assert.ok(await figures().isHidden(), 'another shape has no points');
+
+  await page.getByLabel('Example').selectOption({ label: 'Annulus' });
+  await page.locator('#name', { hasText: 'annulus.obj' }).waitFor();
+  await drop(page, 'five.csv', 'x,y\n1,2\n2,3\n3,2\n4,2\n5,2\n');
+  await page.locator('#size', { hasText: '5 nodes, open curve' }).waitFor();
+
+  // Scattered points are no curve.
+  await page.getByLabel('Example').selectOption({ label: 'Annulus' });
+  await page.locator('#name', { hasText: 'annulus.obj' }).waitFor();
+  await drop(page, 'cloud.xyz', Array.from({ length: 300 }, (_, k) => `${(k * 0.618) % 1} ${(k * 0.7548) % 1} 0\n`).join(''));
+  await page.getByRole('dialog', { name: 'What is cloud.xyz?' }).getByRole('button', { name: 'Points for annulus.obj' }).click();
+  await figures().filter({ hasText: 'cloud.xyz: 300 points' }).waitFor();
 });
 
 for (const [kind, file, command, count] of [['curve', 'wave.csv', 'curve', 61], ['surface', 'patch.obj', 'fair', 225]]) {

@@ -81,10 +81,41 @@ export function useSession(prepare = () => {}) {
   });
 }
 
-// address: as Session.open takes it. wait: until what it names is faired.
-export async function open(address, { wait = true, ...options } = {}) {
+// address: as Session.open takes it. wait: until what it names is seen. untouched: a file stays as it is; else it is then faired as a free form.
+export async function open(address, { wait = true, untouched = false, ...options } = {}) {
   ({ page, faults } = await session.open(address, options));
-  if (wait) await settled(page);
+  if (!wait) return;
+  await settled(page);
+  if (!untouched) await freeForm(page);
+}
+
+// The same in a page that is open already.
+export async function visit(page, address) {
+  await page.goto(address);
+  await settled(page);
+  await freeForm(page);
+}
+
+// Where a file is as it came: the fairest shape through its boundary.
+export async function freeForm(page) {
+  const free = page.getByRole('button', { name: 'Free form' });
+  if (!(await page.locator('#start').isVisible()) || (await free.isDisabled())) return;
+  await free.click();
+  await keep(page);
+}
+
+// A file that stays as it is, and what is then solved, from its first moment.
+export async function solving(page) {
+  await settled(page);
+  await page.getByRole('button', { name: 'Free form' }).click();
+  await page.getByRole('progressbar', { name: 'Solving' }).waitFor();
+}
+
+// What a way of the start shows is kept.
+export async function keep(page) {
+  await settled(page);
+  await page.getByRole('button', { name: 'Apply', exact: true }).click();
+  await page.locator('#start-end').waitFor({ state: 'hidden' });
 }
 
 export async function drop(page, name, text, alt = false) {
@@ -103,8 +134,12 @@ export async function choose(page, button, file) {
 
 // Until nothing is being solved and the last outcome is that.
 export async function settled(page, outcome = 'converged') {
-  await page.locator('#progress').waitFor({ state: 'hidden' });
-  await page.locator('#status', { hasText: outcome }).waitFor();
+  await page.locator(`#status[data-outcome="${outcome}"]`).waitFor();
+}
+
+// Until the shape follows the pointer.
+export async function follows(page) {
+  await page.locator('#status[title*="frames/s"]').waitFor();
 }
 
 // From a place on the view, with the left button down. held: what happens before it is let go.

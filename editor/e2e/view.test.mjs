@@ -36,7 +36,9 @@ test('curvatures have the values of --scalars, at nodes and in the legend; their
     const marks = await legend();
     range(values).forEach((end, k) => near(marks[2 * k], end, 0.01, `${name} in the legend`));
     const { node } = await find(page, new RegExp(`free · ${button.toLowerCase()}`), [0.4, 0.45], [0.4, 0.6]);
-    near(numberOf((await page.locator('#node').textContent()).split(' ').at(-1)), values[node], 0.01, `${name} of node ${node}`);
+    const said = await page.locator('#node').textContent();
+    near(numberOf(said.match(/(?:mean|gaussian) ([^ ,]+)/)[1]), values[node], 0.01, `${name} of node ${node}`);
+    if (button === 'Mean') near(Number(said.match(/, radius (\S+)$/)[1]), Math.abs(1 / values[node]), 0.01, 'radius');
     pictures.add((await page.locator('#canvas').screenshot()).toString('base64'));
     await page.keyboard.press('i');
     await page.locator('#status', { hasText: 'The input' }).waitFor();
@@ -55,14 +57,15 @@ test('deviation is how far nodes lie from the input along its normal', async () 
   await open('?file=files/plane.obj');
   await page.keyboard.press('6');
   await page.locator('#legend').waitFor();
-  const held = await find(page, /position fixed/, [0.38, 0.5], [0.38, 1]);
+  let held;
+  for (let x = 0.3; !held; x += 0.01) held = await find(page, /position fixed/, [x, 0.5], [x, 1]).catch(() => null);
   await page.mouse.down();
   for (let k = 1; k <= 6; ++k) await page.mouse.move(held.x, held.y - 8 * k);
   await page.mouse.up();
   await settled(page);
   await page.locator('#legend .marks').filter({ hasText: /≥ 0\.\d/ }).waitFor();
   const heights = placesOf((await saved(page)).path).map(([, , z]) => z);
-  const { node } = await find(page, /free · deviation/, [0.38, 0.55], [0.38, 0.75]);
+  const { node } = await find(page, /free · deviation/, [0.33, 0.5], [0.4, 0.75]);
   const value = numberOf((await page.locator('#node').textContent()).split(' ').at(-1));
   near(Math.abs(value), Math.abs(heights[node]), 0.001, `node ${node}`);
   assert.ok(Math.abs(value) > 1e-4);

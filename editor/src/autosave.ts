@@ -4,6 +4,7 @@ import { createStore, delMany, getMany, setMany } from 'idb-keyval';
 import type { Constraints } from './constraints';
 import type { Editor, Source } from './editor';
 import type { History } from './history';
+import type { Opening } from './opening';
 
 interface State {
   /** Of this form; another one is not read. */
@@ -22,7 +23,7 @@ export class Autosave {
   private begun = false;
   private complained = false;
 
-  constructor(private readonly editor: Editor, private readonly notice: HTMLElement) {}
+  constructor(private readonly editor: Editor, private readonly opening: Opening, private readonly notice: HTMLElement) {}
 
   /** What was kept comes back. Returns whether something did. */
   async restore(): Promise<boolean> {
@@ -30,7 +31,7 @@ export class Autosave {
     try {
       const [source, state] = (await getMany(['source', 'state'], storage)) as [Source | undefined, State | undefined];
       if (!source || state?.form !== 1) return false;
-      await editor.restore(source, state.history, state.strength);
+      await this.opening.restore({ source, history: state.history, strength: state.strength });
       this.kept = { source, history: editor.history, strength: editor.strength };
       this.notice.hidden = false;
       this.notice.querySelector('span')!.textContent = `Restored ${editor.name}`;

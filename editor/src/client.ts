@@ -12,8 +12,6 @@ interface Waiting {
 /** A request was given up without an answer. */
 export class Ended extends Error {}
 
-/** What may be given up. */
-const endable: readonly Kind[] = ['solve', 'write'];
 /** Milliseconds that a solution has to end by itself, with the best shape so far. */
 const patience = 40;
 
@@ -63,12 +61,12 @@ export class CoreClient {
     if (this.ended) Atomics.store(this.ended, endedSolution, this.last);
   }
 
-  /** The same now, if need be without a shape, and files that wait for one: where memory is not shared or the library is long about it, another worker takes over. */
+  /** The same now, if need be without a shape: where memory is not shared or the library is long about it, another worker takes over. */
   endNow(): void {
     const { last } = this;
     if (this.ended) Atomics.store(this.ended, endedAll, last);
     setTimeout(() => {
-      if ([...this.waiting.values()].some(({ request }) => endable.includes(request.kind) && request.number <= last)) this.restart(last);
+      if ([...this.waiting.values()].some(({ request }) => request.kind === 'solve' && request.number <= last)) this.restart(last);
     }, this.ended ? patience : 0);
   }
 
@@ -79,7 +77,7 @@ export class CoreClient {
     this.anew = true;
     for (const source of this.sources) this.worker.postMessage(source);
     for (const [number, { request, failed }] of [...this.waiting]) {
-      if (endable.includes(request.kind) && number <= last) {
+      if (request.kind === 'solve' && number <= last) {
         this.waiting.delete(number);
         failed(new Ended());
       } else {
@@ -140,6 +138,7 @@ export class Solver {
   private running: Job | null = null;
   private began = 0;
   private waiting: Job | null = null;
+  private readonly resting: (() => void)[] = [];
 
   constructor(
     private readonly client: Pick<CoreClient, 'ask' | 'endSolutions'>,
@@ -155,6 +154,14 @@ export class Solver {
     } else {
       void this.run(job);
     }
+  }
+
+  /** Until nothing is solved and nothing waits. */
+  rest(): Promise<void> {
+    return new Promise((done) => {
+      if (this.running) this.resting.push(done);
+      else done();
+    });
   }
 
   /** Forgets what waits, as another file is opened. */
@@ -177,7 +184,11 @@ export class Solver {
     this.running = null;
     const next = this.waiting;
     this.waiting = null;
-    if (next) void this.run(next);
-    else this.events.busy(false);
+    if (next) {
+      void this.run(next);
+      return;
+    }
+    this.events.busy(false);
+    for (const done of this.resting.splice(0)) done();
   }
 }

@@ -1,5 +1,6 @@
 // The curvature comb: from every node a hair away from the centre of curvature, as long as the curvature is large, and the line through their tips.
 
+import { quantiles } from '../../page/numbers.js';
 import type { Vector } from './constraints';
 
 /** As chainsOf() of page/curve.js makes them. */
@@ -16,15 +17,15 @@ const longestTooth = 0.15;  // of the size, for the sharpest place
 const straight = 0.02;      // a curve that bends by less, as a share of one over its size, has shorter hairs
 const longestTeeth = 0.4;   // where those of a shape that has changed since are cut off
 
-/** The length of a hair by curvature at which the sharpest place has one of 0.15 of the size. */
-export function toothOf(chains: readonly Chain[], size: number): number {
-  let sharpest = 0;
-  for (const { vectors } of chains) for (const vector of vectors) if (vector) sharpest = Math.max(sharpest, Math.hypot(...vector));
-  return (longestTooth * size) / Math.max(sharpest, straight / size);
+/** The length of a hair by curvature at which the sharpest place has one of 0.15 of the size, or the one that this share of all places is less sharp than. */
+export function toothOf(chains: readonly Chain[], size: number, share = 1): number {
+  const bends = chains.flatMap(({ vectors }) => vectors.flatMap((vector) => (vector ? [Math.hypot(...vector)] : [])));
+  const [sharp] = quantiles(bends, [share]);
+  return (longestTooth * size) / Math.max(sharp, straight / size);
 }
 
-/** Ends of hairs and of the envelope, six numbers a line. place: from units of the curve to those of the lines. */
-export function combOf(chains: readonly Chain[], tooth: number, size: number, place: (point: Vector) => Vector): { hairs: Float32Array; envelope: Float32Array } {
+/** Ends of hairs and of the envelope, six numbers a line. place: from units of the curve to those of the lines. root: hairs are as long as the root of the curvature, so that flat places show beside sharp ones. */
+export function combOf(chains: readonly Chain[], tooth: number, size: number, place: (point: Vector) => Vector, root = false): { hairs: Float32Array; envelope: Float32Array } {
   const hairs: number[] = [];
   const envelope: number[] = [];
   for (const { points, vectors, closed } of chains) {
@@ -32,9 +33,10 @@ export function combOf(chains: readonly Chain[], tooth: number, size: number, pl
     const tips = points.map((point, k) => {
       const vector = vectors[k];
       if (!vector) return roots[k];
-      const length = tooth * Math.hypot(...vector);
-      const cut = length > longestTeeth * size ? (longestTeeth * size) / length : 1;
-      return place(point.map((part, i) => part - tooth * cut * vector[i]) as Vector);
+      const full = tooth * Math.hypot(...vector);
+      const length = Math.min(longestTeeth * size, root ? Math.sqrt(full * longestTooth * size) : full);
+      const stretch = full > 0 ? (tooth * length) / full : 0;
+      return place(point.map((part, i) => part - stretch * vector[i]) as Vector);
     });
     tips.forEach((tip, k) => {
       hairs.push(...roots[k], ...tip);

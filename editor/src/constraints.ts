@@ -22,9 +22,13 @@ export interface Edit {
 
 export interface Constraints {
   readonly rules: readonly Rule[];
+  /** What keeps all outside a region where it is; null where all may move. It comes before the edits, and another region has others. */
+  readonly region?: readonly Rule[] | null;
   readonly edits: Readonly<Record<number, Edit>>;
   /** Of surfaces, and in no file: boundary nodes whose position is free are faired first, as curves. */
   readonly fairBoundary?: boolean;
+  /** Nodes that were fixed for that, as loops are faired between nodes that are. */
+  readonly loopNodes?: readonly number[];
   /** In no file either: points that the shape is drawn towards. */
   readonly fit?: Fit;
 }
@@ -33,6 +37,12 @@ const parts = ['position', 'normal', 'tangent'] as const;
 export type Part = (typeof parts)[number];
 
 export const initial: Constraints = { rules: [{ nodes: 'boundary', position: 'fixed' }], edits: {} };
+/** As a file is opened: nothing moves, until it is said what is to. */
+export const untouched: Constraints = { ...initial, region: [{ nodes: 'all', position: 'fixed' }] };
+
+export function isUntouched({ region }: Constraints): boolean {
+  return region === untouched.region || region?.[0]?.nodes === 'all';
+}
 
 /** Throws where the text is no constraints file; what its rules say is checked by the library. */
 export function fromFile(text: string): Constraints {
@@ -41,18 +51,27 @@ export function fromFile(text: string): Constraints {
   return { rules: rules as Rule[], edits: {} };
 }
 
-export function allRules({ rules, edits }: Constraints): Rule[] {
+export function allRules({ rules, region, edits }: Constraints): Rule[] {
+  return [...rules, ...(region ?? []), ...byHand(edits)];
+}
+
+/** Without those of the region. */
+export function ownRules({ rules, edits }: Constraints): Rule[] {
+  return [...rules, ...byHand(edits)];
+}
+
+function byHand(edits: Constraints['edits']): Rule[] {
   const nodes = Object.keys(edits).map(Number);
-  const byHand: Rule[] = [];
+  const found: Rule[] = [];
   for (const part of parts) {
     for (const hold of ['fixed', 'free'] as const) {
       const these = nodes.filter((node) => edits[node][part] === hold);
-      if (these.length > 0) byHand.push({ nodes: these, [part]: hold });
+      if (these.length > 0) found.push({ nodes: these, [part]: hold });
     }
     const given = nodes.filter((node) => Array.isArray(edits[node][part]));
-    if (given.length > 0) byHand.push({ nodes: given, [part]: given.map((node) => edits[node][part]) });
+    if (given.length > 0) found.push({ nodes: given, [part]: given.map((node) => edits[node][part]) });
   }
-  return [...rules, ...byHand];
+  return found;
 }
 
 /** Numbers come out so that they are read as the same ones. */
@@ -87,9 +106,15 @@ export function withBoundary(constraints: Constraints, part: Part, fixed: boolea
   return { ...constraints, rules: fixed ? [{ nodes: 'boundary', [part]: 'fixed' }, ...rest] : rest };
 }
 
-/** In place of a boundary that is fixed, and the other way round. */
-export function withFairBoundary(constraints: Constraints, fairBoundary: boolean): Constraints {
-  return { ...withBoundary(constraints, 'position', !fairBoundary), fairBoundary };
+/** In place of a boundary that is fixed, and the other way round. held: nodes to fix for it; those that were before are free again. */
+export function withFairBoundary(constraints: Constraints, fairBoundary: boolean, held: readonly number[]): Constraints {
+  const edits = { ...constraints.edits };
+  for (const node of constraints.loopNodes ?? []) {
+    const { position, ...others } = edits[node] ?? {};
+    if (position === 'fixed') edits[node] = others;
+  }
+  for (const node of held) edits[node] = { ...edits[node], position: 'fixed' };
+  return { ...withBoundary({ ...constraints, edits }, 'position', !fairBoundary), fairBoundary, loopNodes: held };
 }
 
 export const heldPosition = 1;
@@ -107,7 +132,8 @@ export interface Held {
 export function heldNodes(constraints: Constraints, boundary: Uint8Array): Held {
   const nodes = new Uint8Array(boundary.length);
   let unmarked = 0;
-  for (const rule of allRules(constraints)) {
+  // What keeps a file as it is holds nothing that anybody asked for.
+  for (const rule of isUntouched(constraints) ? ownRules(constraints) : allRules(constraints)) {
     const among = nodesOf(rule.nodes, boundary);
     if (!among) {
       ++unmarked;

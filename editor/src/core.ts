@@ -12,7 +12,8 @@ export interface CoreShape {
   fair(progress: ((fraction: number) => boolean) | null): Report;
   follow(progress: ((fraction: number) => boolean) | null): Report;
   fit(points: CorePoints, settings: object, progress: (fraction: number) => boolean): Report;
-  region(nodes: Int32Array): Region;
+  region(nodes: Int32Array, positions: Float64Array): Region;
+  noise(): number;
   setPositions(positions: Float64Array): void;
   write(name: string): Uint8Array;
   delete(): void;

@@ -14,7 +14,9 @@ export class CurveLayer {
   private readonly hairs = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.55 }));
   private readonly envelope = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
 
-  constructor() {
+  /** behind: of another shape to compare with, thin and without its nodes. */
+  constructor(private readonly behind = false) {
+    if (behind) this.line.material.linewidth = 1;
     this.dots.material.uniforms.rimWidth.value = 0;
     this.dots.material.uniforms.lift.value = 0.001;
     this.show(new Float32Array(), []);
@@ -33,7 +35,7 @@ export class CurveLayer {
     this.line.geometry.dispose();
     this.line.geometry = new LineSegmentsGeometry();
     if (this.line.visible) this.line.geometry.setPositions(segments);
-    this.dots.visible = places.length > 0 && places.length / 3 <= mostDots;
+    this.dots.visible = !this.behind && places.length > 0 && places.length / 3 <= mostDots;
     replace(this.dots, this.dots.visible ? places.slice() : new Float32Array());
   }
 
@@ -51,7 +53,7 @@ export class CurveLayer {
   }
 
   restyle(colour: (name: string) => Color): void {
-    this.line.material.color = colour('--curve');
+    this.line.material.color = colour(this.behind ? '--quiet' : '--curve');
     this.dots.material.uniforms.inside.value = this.dots.material.uniforms.rim.value = colour('--curve');
     this.hairs.material.color = this.envelope.material.color = colour('--comb');
   }

@@ -12,16 +12,20 @@ export class CurvePanel {
   private chains: Chain[] = [];
   private tooth = 0;
   private asked = false;
-  unfolded = true;
+  /** A small screen has no room for it. */
+  root = false;
+  unfolded = innerWidth > 768;
 
-  /** slider: how long hairs are, 1 as is good for most. dock: where the plot is, with its switch. drawn: has the view drawn. */
+  /** slider: how long hairs are, 1 as is good for most. clip: the share of the curve that is shown in full. dock: where the plot is, with its switch. drawn: has the view drawn. */
   constructor(
     private readonly layer: CurveLayer,
     private readonly slider: HTMLInputElement,
+    private readonly clip: HTMLInputElement,
     private readonly dock: HTMLElement,
     private readonly drawn: () => void,
   ) {
     slider.addEventListener('input', () => this.refresh());
+    clip.addEventListener('input', () => { this.scaleTeeth(); this.refresh(); });
     new ResizeObserver(() => this.refresh()).observe(dock);
   }
 
@@ -51,7 +55,19 @@ export class CurvePanel {
   show(positions: Float64Array, settled: boolean): void {
     if (!this.shape) return;
     this.chains = this.chainsAt(positions);
-    if (settled || this.tooth === 0) this.tooth = toothOf(this.chains, 1 / this.shape.scale);
+    if (settled || this.tooth === 0) this.scaleTeeth();
+    this.refresh();
+  }
+
+  /** What is sharper than this share of the curve has hairs that are cut off, so that the rest is seen. */
+  private scaleTeeth(): void {
+    const share = Number(this.clip.value) / 100;
+    this.clip.parentElement!.querySelector('output')!.textContent = share < 1 ? `${this.clip.value} %` : 'off';
+    if (this.shape) this.tooth = toothOf(this.chains, 1 / this.shape.scale, share);
+  }
+
+  toggleRoot(): void {
+    this.root = !this.root;
     this.refresh();
   }
 
@@ -74,7 +90,7 @@ export class CurvePanel {
 
   private drawComb({ centre, scale }: Shape): void {
     const tooth = this.tooth * Number(this.slider.value);
-    const { hairs, envelope } = combOf(tooth > 0 ? this.chains : [], tooth, 1 / scale, (point) => point.map((part, i) => (part - centre[i]) * scale) as typeof point);
+    const { hairs, envelope } = combOf(tooth > 0 ? this.chains : [], tooth, 1 / scale, (point) => point.map((part, i) => (part - centre[i]) * scale) as typeof point, this.root);
     this.layer.setComb(hairs, envelope);
     this.drawn();
   }

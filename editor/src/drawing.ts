@@ -4,6 +4,7 @@ import type { Command } from './commands';
 import type { Vector } from './constraints';
 import { DrawTool } from './draw';
 import type { Editor } from './editor';
+import type { Opening } from './opening';
 import type { View } from './view';
 
 export class Drawing {
@@ -13,18 +14,18 @@ export class Drawing {
   private readonly tool: DrawTool;
 
   /** To be made before all else that listens to the canvas. refresh: brings the buttons up to date. */
-  constructor(canvas: HTMLCanvasElement, private readonly editor: Editor, private readonly view: () => View, private readonly refresh: () => void) {
+  constructor(canvas: HTMLCanvasElement, private readonly editor: Editor, private readonly opening: Opening, private readonly view: () => View, private readonly refresh: () => void) {
     this.tool = new DrawTool(canvas, {
       placeAt: (x, y) => view().placeAt(x, y, this.normal),
       pixelOf: (place) => view().pixelOf(place),
       changed: (nodes, next) => view().showSketch(next ? [...nodes, next] : nodes),
       ended: (nodes, closed) => {
         this.tell();
-        if (nodes.length > 0) void editor.draw(nodes, closed, this.nodesPerSpan);
+        if (nodes.length > 0) void opening.draw(nodes, closed, this.nodesPerSpan);
       },
     });
     this.perSpan.addEventListener('change', () => {
-      if (editor.drawn) editor.redraw(this.closed, this.nodesPerSpan);
+      if (editor.drawn) opening.redraw(this.closed, this.nodesPerSpan);
     });
   }
 
@@ -32,7 +33,7 @@ export class Drawing {
     return [
       { id: 'new-curve', title: 'New curve in an empty plane', keys: [], run: () => this.begin(true) },
       { id: 'draw', title: 'Draw a curve in the plane of the view', keys: ['d'], run: () => (this.tool.draws ? this.tool.end(false) : this.begin(false)), pressed: () => this.tool.draws },
-      { id: 'closed', title: 'Close or open the drawn curve', keys: [], run: () => this.editor.redraw(!this.closed, this.nodesPerSpan),
+      { id: 'closed', title: 'Close or open the drawn curve', keys: [], run: () => this.opening.redraw(!this.closed, this.nodesPerSpan),
         enabled: () => this.editor.drawn, pressed: () => this.closed },
     ];
   }
@@ -47,7 +48,7 @@ export class Drawing {
 
   /** Where nothing is open, in the plane z = 0, seen from above; else in the plane of the view through the origin. */
   private begin(empty: boolean): void {
-    if (empty) this.editor.close();
+    if (empty) this.opening.close();
     this.normal = this.editor.shape ? this.view().towards : [0, 0, 1];
     this.tool.start();
     this.tell();

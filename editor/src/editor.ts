@@ -1,17 +1,21 @@
 // The state of the editor, and all that changes it.
 
-import { CoreClient, Ended, Solver } from './client';
+import { CoreClient, Solver } from './client';
 import * as holding from './constraints';
 import type { Constraints, Edit, Held, Part, Vector } from './constraints';
-import { Drags } from './drags';
+import { Drags } from './pull/drags';
 import { FrameCounter } from './frames';
-import { begun, done, redone, undone, type History } from './history';
+import { begun, done, type History } from './history';
 import type { NamedBytes } from './files';
-import type { Cloud, Fit, PointSource } from './points';
-import type { Ask, FitJob, Job, Opened, Report, Solved } from './protocol';
-import { restricted } from './region';
+import type { Cloud, PointSource } from './points';
+import type { Ask, Job, Opened, Report, Solved } from './protocol';
+import { near, within } from './pull/reach';
+import { keepsSome, restricted } from './region';
+import { heldOn, loopsOf } from './loops';
+import type { Loading } from './start/loading';
 import { normalNear, nothing, shapeOf, type Shape } from './shape';
-import { between } from './strength';
+import { between, furthest } from './strength';
+import { counted } from './words';
 
 export interface EditorEvents {
   /** stays: where it is seen. */
@@ -25,6 +29,10 @@ export interface EditorEvents {
 const cancelled: Report = { outcome: 'cancelled', iterations: 0, seconds: 0, threads: 1, expectedError: null, movingNodes: 0, warnings: [] };
 /** What a shape was opened from: a file, or places that were clicked. */
 export type Source = NamedBytes | Ask<'draw'>;
+
+export function nameOf(source: Source): string {
+  return 'places' in source ? 'curve.csv' : source.name;
+}
 
 type FaultSource = 'file' | 'solver';
 
@@ -46,15 +54,24 @@ export class Editor {
   saving = false;
   fraction = 0;
   showsInput = false;
+  /** What is being opened. */
+  loading: Loading | null = null;
   /** Whether the curve was drawn here. */
   drawn = false;
   /** How far on the way from the input to the result that is which is seen and saved: 0 to 1. */
   strength = 1;
   history: History<Constraints> = begun(holding.initial);
+  /** What is shown to be judged before it is a step, and what was there before. */
+  private tried: Constraints | null = null;
+  private before: { positions: Float64Array; strength: number; report: Report | null } = { positions: new Float64Array(), strength: 1, report: null };
+  private cancels = 0;
+  /** Null: as is usual for what is open. */
+  reach: number | null = null;
   readonly frames = new FrameCounter();
   private positions: Float64Array = new Float64Array();
   seen: Float64Array = this.positions;
-  private clouds = 0;
+  /** Numbers of points that are known to the worker. */
+  clouds = 0;
   source: Source | null = null;
   readonly client = new CoreClient((message) => this.setFault(message, 'file'));
   private readonly solver = new Solver(this.client, {
@@ -70,7 +87,21 @@ export class Editor {
   constructor(private readonly events: EditorEvents) {}
 
   get constraints(): Constraints {
-    return this.history.now.state;
+    return this.tried ?? this.history.now.state;
+  }
+
+  /** How far what is tried moves a node. */
+  get movedInTrial(): number {
+    return this.tried ? furthest(this.positions, this.before.positions) : 0;
+  }
+
+  /** How far what is seen is from the input. */
+  get moved(): number {
+    return this.shape ? furthest(this.seen, this.shape.input) : 0;
+  }
+
+  get trying(): boolean {
+    return this.tried !== null;
   }
 
   get result(): Float64Array {
@@ -85,13 +116,13 @@ export class Editor {
     return this.saving || (this.busy && !this.dragging);
   }
 
-  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'hovered' | 'picked' | 'fault'>>): void {
+  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'hovered' | 'picked' | 'fault' | 'loading' | 'reach'>>): void {
     Object.assign(this, state);
     this.events.changed();
   }
 
   setFault(message: string, source: FaultSource): void {
-    this.set({ fault: { message, source } });
+    this.set({ fault: { message, source }, loading: null });
   }
 
   /** What the normal of a surface is to a curve: its tangent. */
@@ -99,45 +130,20 @@ export class Editor {
     return this.shape?.curve ? 'tangent' : 'normal';
   }
 
-  /** A shape or a constraints file. held: a constraints file for the shape. points: what it is drawn towards, with the weight of the paper's Fig. 12. What cannot be read leaves everything as it was. */
-  async open(name: string, bytes: Uint8Array, held?: string, points?: NamedBytes): Promise<void> {
-    try {
-      if (name.toLowerCase().endsWith('.json')) await this.openConstraints(new TextDecoder().decode(bytes));
-      else await this.openShape(name, bytes, held === undefined ? holding.initial : holding.fromFile(held), points);
-      this.set({ fault: null });
-    } catch (error) {
-      this.setFault((error as Error).message, 'file');
-    }
-  }
-
-  private async openShape(name: string, bytes: Uint8Array, constraints: Constraints, points?: NamedBytes): Promise<void> {
+  /** Ends what is solved, as another shape is to come. */
+  halt(): void {
     this.solver.clear();
-    const opened = await this.client.ask('open', { name, bytes, rules: holding.toFile(constraints) });
-    const fit = points && { cloud: await this.cloudOf(points), kind: 'weight' as const, value: 0.01, outliers: 0 };
-    this.take({ name, bytes }, opened, begun({ ...constraints, fit }));
   }
 
-  /** As it was when the page was left. */
-  async restore(source: Source, history: History<Constraints>, strength: number): Promise<void> {
-    const file = 'bytes' in source;
-    const opened = file ? await this.client.ask('open', { ...source, rules: holding.toFile(history.now.state) }) : await this.client.ask('draw', source);
-    const clouds = new Set([...history.past, history.now, ...history.future].flatMap(({ state }) => state.fit?.cloud ?? []));
-    for (const cloud of clouds) {
-      const { number, name, bytes } = cloud;
-      await this.client.ask('points', { number, name, bytes });
-      this.clouds = Math.max(this.clouds, cloud.number);
-    }
-    this.take(source, opened, history);
-    this.show({ strength }, true);
-  }
-
-  private take(source: Source, opened: Opened, history: History<Constraints>): void {
+  take(source: Source, opened: Opened, history: History<Constraints>): void {
     const drawn = 'places' in source;
-    const name = drawn ? 'curve.csv' : source.name;
+    const name = nameOf(source);
     this.source = source;
     this.drags.drop();
     this.normals = new Map();
     this.history = history;
+    this.tried = null;
+    this.loading = null;
     this.shape = shapeOf(opened);
     this.positions = this.seen = opened.positions;
     Object.assign(this, { name, drawn, report: null, fault: null, showsInput: false, strength: 1, picked: new Set(), hovered: -1, fileWarnings: opened.warnings });
@@ -148,6 +154,7 @@ export class Editor {
   /** Nothing is open. */
   close(): void {
     this.source = null;
+    this.tried = null;
     this.solver.clear();
     this.drags.drop();
     this.normals = new Map();
@@ -158,34 +165,6 @@ export class Editor {
     Object.assign(this, { name: '', drawn: false, report: null, fault: null, showsInput: false, strength: 1, picked: new Set(), hovered: -1, fileWarnings: [] });
     this.events.opened(nothing, false);
     this.events.changed();
-  }
-
-  /** A curve through places, held there, with so many nodes a span. edit: what else holds at the place of that number. fit: what it is drawn towards. */
-  async draw(places: readonly Vector[], closed: boolean, perSpan: number, edit: (place: number) => Edit = () => ({}), fit?: Fit): Promise<void> {
-    this.solver.clear();
-    try {
-      const nodes = perSpan * (places.length - (closed ? 0 : 1)) + (closed ? 0 : 1);
-      const source = { places: Float64Array.from(places.flat()), closed, nodes };
-      const opened = await this.client.ask('draw', source);
-      const kept = [...opened.from.keys()].filter((node) => opened.from[node] >= 0);
-      const held = holding.edited(holding.initial, kept, (node) => ({ ...edit(opened.from[node]), position: places[opened.from[node]] }));
-      this.take(source, opened, begun({ ...held, fit: fit && { ...fit, cloud: await this.cloudOf(fit.cloud) } }));
-    } catch (error) {
-      this.setFault((error as Error).message, 'file');
-    }
-  }
-
-  /** The drawn curve through the nodes that are held, as they are now. */
-  redraw(closed: boolean, perSpan: number): void {
-    const held = [...this.shape!.curve!.runs.nodes].filter((node) => this.isDraggable(node));
-    void this.draw(held.map((node) => this.placeOf(node)), closed, perSpan, (k) => this.constraints.edits[held[k]], this.constraints.fit);
-  }
-
-  private async openConstraints(text: string): Promise<void> {
-    if (!this.shape) throw new Error('Open a shape first: constraints name its nodes');
-    const constraints = holding.fromFile(text);
-    await this.client.ask('hold', { rules: holding.toFile(constraints) });
-    this.apply('Load constraints', { ...constraints, fit: this.constraints.fit });
   }
 
   async cloudOf({ name, bytes }: PointSource): Promise<Cloud> {
@@ -208,7 +187,7 @@ export class Editor {
     this.show({}, false);
   }
 
-  private show(state: Partial<Pick<Editor, 'showsInput' | 'strength'>>, settled: boolean): void {
+  show(state: Partial<Pick<Editor, 'showsInput' | 'strength'>>, settled: boolean): void {
     Object.assign(this, state);
     this.seen = this.drags.shape ?? between(this.shape!.input, this.positions, this.showsInput ? 0 : this.strength);
     this.events.shape(this.seen, settled);
@@ -225,8 +204,14 @@ export class Editor {
     this.apply(`${fixed ? 'Fix' : 'Free'} boundary ${part}s`, holding.withBoundary(this.constraints, part, fixed));
   }
 
-  setFairBoundary(first: boolean): void {
-    this.apply(first ? 'Fair boundary loops' : 'Fix boundary positions', holding.withFairBoundary(this.constraints, first));
+  /** many: nodes to hold each loop by where nothing holds it and it has no corners. */
+  setFairBoundary(first: boolean, many: number): void {
+    const { constraints, shape } = this;
+    const bare = holding.withFairBoundary(constraints, first, []);
+    const held = holding.heldNodes({ ...bare, region: null }, shape!.boundary).nodes;
+    const loose = first ? loopsOf(shape!).filter((loop) => !loop.some((node) => held[node] & holding.heldPosition)) : [];
+    const nodes = loose.flatMap((loop) => heldOn(loop, shape!.input, many));
+    this.apply(first ? `Fair boundary loops${nodes.length > 0 ? `, ${counted(nodes.length, 'node')} held` : ''}` : 'Fix boundary positions', holding.withFairBoundary(constraints, first, nodes));
   }
 
   isBoundaryFixed(part: Part): boolean {
@@ -240,44 +225,92 @@ export class Editor {
       holding.edited(this.constraints, this.picked, change));
   }
 
-  /** All other nodes are fixed, and what moves joins them smoothly. */
+  /** All nodes but these stay where they are seen, and what moves joins them smoothly. Null where something else has been done meanwhile. */
+  async restrictedTo(nodes: ReadonlySet<number>): Promise<Constraints | null> {
+    if (!this.tried) await this.solver.rest();
+    const { history, shape } = this;
+    const constraints = history.now.state;
+    const { positions, strength } = this.tried ? this.before : { positions: this.positions, strength: this.strength };
+    const seen = between(shape!.input, positions, strength);
+    const rules = holding.toFile({ ...constraints, region: null });
+    const region = await this.client.ask('region', { rules, nodes: Int32Array.from(nodes), positions: seen });
+    return history === this.history && shape === this.shape ? restricted(constraints, nodes, region, shape!.input, seen) : null;
+  }
+
   async fairOnlyPicked(): Promise<void> {
-    const { constraints } = this;
     try {
-      const region = await this.client.ask('region', { rules: holding.toFile(constraints), nodes: Int32Array.from(this.picked) });
-      if (constraints === this.constraints) this.apply(`Fair only ${this.picked.size} ${this.picked.size === 1 ? 'node' : 'nodes'}`, restricted(constraints, region));
+      const { picked } = this;
+      this.try(null);
+      const next = await this.restrictedTo(picked);
+      if (!next) return;
+      this.strength = 1;
+      this.apply(`Fair only ${counted(picked.size, 'node')}`, next);
     } catch (error) {
       this.setFault((error as Error).message, 'solver');
     }
+  }
+
+  /** Shows what would come of these; null: what there was. */
+  try(constraints: Constraints | null): void {
+    if (constraints === this.tried) return;
+    const { positions, strength, report } = this;
+    if (!this.tried) this.before = { positions, strength, report };
+    this.tried = constraints;
+    if (!constraints) Object.assign(this, this.before);
+    this.show({ strength: constraints ? 1 : this.strength, showsInput: false }, true);
+    this.settle();
+  }
+
+  /** What is tried becomes a step, with the shape that it has. */
+  accept(label: string): void {
+    if (!this.tried) return;
+    this.history = done(this.history, label, this.tried);
+    this.tried = null;
+    this.events.changed();
+  }
+
+  /** How much of the size around what is pulled goes with it; 1: all. */
+  get reaches(): number {
+    return this.reach ?? (this.constraints.region ? near : 1);
+  }
+
+  /** What holds for only what is near to go with these nodes; null where what holds already says what does. */
+  nearby(nodes: readonly number[]): Promise<Constraints | null> | null {
+    const { constraints, reaches, shape } = this;
+    const whole = reaches >= 1;
+    const kept = constraints.region && (holding.isUntouched(constraints) || keepsSome(constraints.region, nodes));
+    if (!kept && (constraints.region || whole)) return null;
+    return whole ? Promise.resolve({ ...constraints, region: null }) : this.restrictedTo(within(shape!, this.seen, nodes, reaches));
   }
 
   isDraggable(node: number): boolean {
     return (this.held.nodes[node] & holding.heldPosition) !== 0;
   }
 
-  /** The bytes of a file of that name, with what now holds. */
+  /** The bytes of a file of that name, with the shape that is seen, or that is on its way. */
   async written(name: string): Promise<Uint8Array> {
-    const ask = { name, strength: this.strength, ...this.holds };
-    const bytes = await this.client.ask('write', ask, (fraction) => this.set({ saving: true, fraction })).catch((error: unknown) => {
-      if (error instanceof Ended) return null;
-      throw error;
-    }).finally(() => this.set({ saving: false }));
-    if (!bytes) throw new Error(`${name} is not saved, as its solution was cancelled`);
-    return bytes;
+    const { cancels } = this;
+    this.set({ saving: true });
+    await this.solver.rest();
+    this.set({ saving: false });
+    if (cancels !== this.cancels) throw new Error(`${name} is not saved, as its solution was cancelled`);
+    return this.client.ask('write', { name, positions: between(this.shape!.input, this.positions, this.strength) });
   }
 
-  private get holds(): { rules: string; fairBoundary: boolean; fit: FitJob | null } {
-    const { fairBoundary, fit } = this.constraints;
+  /** The solution that runs ends, and the last shape stays. */
+  cancel(): void {
+    ++this.cancels;
+    this.client.endNow();
+  }
+
+  private get holds(): Job {
+    return this.jobOf(this.constraints);
+  }
+
+  jobOf(constraints: Constraints): Job {
+    const { fairBoundary, fit } = constraints;
     const job = fit ? { kind: fit.kind, value: fit.value, outliers: fit.outliers, points: fit.cloud.number } : null;
-    return { rules: holding.toFile(this.constraints), fairBoundary: fairBoundary ?? false, fit: job };
-  }
-
-  undo(): void {
-    this.travel(undone(this.history));
-  }
-
-  redo(): void {
-    this.travel(redone(this.history));
+    return { rules: holding.toFile(constraints), fairBoundary: fairBoundary ?? false, fit: job };
   }
 
   dragBegun(now: number): void {
@@ -306,8 +339,9 @@ export class Editor {
     this.travel(done(this.history, label, constraints));
   }
 
-  private travel(history: History<Constraints>): void {
+  travel(history: History<Constraints>): void {
     this.history = history;
+    this.tried = null;
     this.settle();
   }
 

@@ -5,6 +5,7 @@ import { deviationsOf, normalsOf } from '../../page/mesh.js';
 import { aboutMiddle, aboutZero } from '../../page/surface_fields.js';
 import type { Curvatures } from './protocol';
 import type { Shape } from './shape';
+import { unitOf } from './units';
 
 export const fieldNames = ['mean', 'gaussian', 'deviation'] as const;
 export type FieldName = (typeof fieldNames)[number];
@@ -27,9 +28,11 @@ export interface FieldEvents {
   failed: (message: string) => void;
 }
 
-const titles: Record<FieldName, string> = {
-  mean: 'Mean curvature, 1 / unit of the file', gaussian: 'Gaussian curvature, 1 / unit²', deviation: 'Deviation from the input, units of the file',
-};
+function titleOf(name: FieldName): string {
+  const unit = unitOf();
+  if (name === 'mean') return `Mean curvature, 1 / ${unit || 'unit of the file'}`;
+  return name === 'gaussian' ? `Gaussian curvature, 1 / ${unit || 'unit'}²` : `Deviation from the input, ${unit || 'units of the file'}`;
+}
 // What may be asked of the library before the next shape of a drag, in milliseconds.
 const cheap = 12;
 
@@ -44,6 +47,7 @@ export class Fields {
   private busy = false;
   private settled = true;
   private cost = 0;
+  private share = 0.96;
 
   constructor(private readonly events: FieldEvents) {}
 
@@ -66,24 +70,31 @@ export class Fields {
     void this.update();
   }
 
+  /** The share of the nodes whose values the colours are spread over; others have the colours of the ends. */
+  setShare(share: number): void {
+    Object.assign(this, { share, range: null, settled: true });
+    void this.update();
+  }
+
   private async update(): Promise<void> {
     const { name, shape, seen, result, settled } = this;
     if (!name || !shape || shape.curve || this.busy || (!settled && name !== 'deviation' && this.cost > cheap)) return;
     this.busy = true;
     const begin = performance.now();
+    const { share } = this;
     try {
       const values = await this.valuesOf(name, shape, seen);
       this.cost = performance.now() - begin;
-      const known = this.range ?? rangeOf(name, seen === result ? values : await this.valuesOf(name, shape, result), 1 / shape.scale);
+      const known = this.range ?? rangeOf(name, seen === result ? values : await this.valuesOf(name, shape, result), 1 / shape.scale, share);
       if (name === this.name && shape === this.shape) {
-        if (result === this.result) this.range = known;
-        this.events.show({ name, title: titles[name], map: name === 'mean' ? sequential : diverging, range: known, values });
+        if (result === this.result && share === this.share) this.range = known;
+        this.events.show({ name, title: titleOf(name), map: name === 'mean' ? sequential : diverging, range: known, values });
       }
     } catch (error) {
       this.events.failed((error as Error).message);
     }
     this.busy = false;
-    if (name !== this.name || seen !== this.seen || result !== this.result) void this.update();
+    if (name !== this.name || seen !== this.seen || result !== this.result || share !== this.share) void this.update();
   }
 
   private async valuesOf(name: FieldName, shape: Shape, positions: Float64Array): Promise<Values> {
@@ -97,7 +108,7 @@ export class Fields {
 }
 
 /** size: of the shape, for the least range, as in the page of --html. */
-function rangeOf(name: FieldName, values: Values, size: number): [number, number] {
-  if (name === 'mean') return aboutMiddle(values, 0.01 / size) as [number, number];
-  return aboutZero(values, name === 'gaussian' ? 0.01 / size ** 2 : 1e-6 * size) as [number, number];
+function rangeOf(name: FieldName, values: Values, size: number, share: number): [number, number] {
+  if (name === 'mean') return aboutMiddle(values, 0.01 / size, share) as [number, number];
+  return aboutZero(values, name === 'gaussian' ? 0.01 / size ** 2 : 1e-6 * size, share) as [number, number];
 }

@@ -3,7 +3,7 @@
 import { sequential } from '../../page/colours.js';
 import { Autosave } from './autosave';
 import { bindCommands, listShortcuts, type Command } from './commands';
-import { heldPosition, toFile } from './constraints';
+import { toFile } from './constraints';
 import { CurvePanel } from './curve_panel';
 import { Drawing } from './drawing';
 import { Editor } from './editor';
@@ -13,21 +13,29 @@ import { Fields, fieldNames, type Field } from './fields';
 import { Gestures } from './gestures';
 import { showFor } from './kinds';
 import { showLegend, showLengths } from './legend';
+import { Marks } from './marks';
 import { looks, type Look } from './materials';
-import { rim } from './neighbours';
+import { bindPresets } from './navigation/presets';
 import { Numbers } from './numbers';
+import { Opening } from './opening';
 import { pick } from './picking';
-import { arePoints, PointsPanel, type Fit } from './points';
+import { PointsPanel, type Fit } from './points';
 import type { Report } from './protocol';
+import { bindReach, showReach } from './pull/reach_slider';
 import { placesOf } from './shape';
 import { selectionCommands } from './selection';
 import { ServedFile } from './served';
 import { describe, sayItCannotDraw } from './status';
+import { Dropped } from './start/dropped';
+import { showLoading, type Loading } from './start/loading';
+import { StartPanel } from './start/start_panel';
+import type { Way } from './start/ways';
 import { bindStrength } from './strength';
 import { startTheme, switchTheme } from './theme';
 import { Tilts } from './tilts';
 import { rove } from './toolbar';
 import { Tools } from './tools';
+import { bindUnit } from './units';
 import { View } from './view';
 import { Ways } from './ways';
 
@@ -35,24 +43,27 @@ const canvas = document.getElementById('canvas') as HTMLCanvasElement;
 const panel = document.querySelector('aside')!;
 const help = document.getElementById('help') as HTMLDialogElement;
 const format = document.getElementById('format') as HTMLSelectElement;
-const examples = new Examples(document.getElementById('example') as HTMLSelectElement, (...addresses) => void openAddress(...addresses));
+const examples = new Examples(document.getElementById('example') as HTMLSelectElement, (...addresses) => void openExample(...addresses));
+const range = document.getElementById('range') as HTMLInputElement;
+const loopCount = document.querySelector<HTMLInputElement>('#loop-nodes input')!;
 const firstExample = 'examples/annulus.obj';
+/** Pixels between nodes from which on each is a target of its own, and where there are fewer a drag turns the view. */
+const distinct = 40;
 const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz';
 let look: Look = 'shaded';
+let edges = false;
+let lookBefore: Look | null = null;
 let coloured: Field | null = null;
-let held: Uint8Array = new Uint8Array();
 let dotted: { fit: Fit | undefined; report: Report | null } = { fit: undefined, report: null };
-let marked: { normals: Editor['normals']; picked: ReadonlySet<number>; hovered: number } = { normals: new Map(), picked: new Set(), hovered: -1 };
 
 const editor: Editor = new Editor({
   opened: (shape, stays) => {
-    view.markers.clear();
-    view.arrows.set(new Map(), new Set());
-    held = new Uint8Array();
+    marks.clear();
     examples.opened(editor.name);
     showFor(shape, editor.name, format);
-    view.open(shape, stays);
+    // With the room that its plot leaves.
     curves.open(shape);
+    view.open(shape, stays);
     fields.open(shape);
   },
   shape: (positions, settled) => {
@@ -62,7 +73,8 @@ const editor: Editor = new Editor({
   },
   changed,
 });
-const drawing = new Drawing(canvas, editor, () => view, () => refresh());
+const opening = new Opening(editor);
+const drawing = new Drawing(canvas, editor, opening, () => view, () => refresh());
 const fields = new Fields({
   ask: (positions) => editor.client.ask('curvatures', { positions }),
   show: (field) => {
@@ -83,8 +95,9 @@ const ways = new Ways(document.getElementById('way')!, {
   normal: () => editor.normalOf(editor.drags.node),
   moved: (way, time) => editor.drags.by(way, time),
 });
-const autosave = new Autosave(editor, document.getElementById('restored')!);
+const autosave = new Autosave(editor, opening, document.getElementById('restored')!);
 const points = new PointsPanel(editor);
+const start: StartPanel = new StartPanel(document.getElementById('start')!, editor, () => tools, { chosen: wayChosen });
 const numbers = new Numbers(document.getElementById('numbers')!, editor);
 const tilts = new Tilts(canvas, editor, () => view, () => tools.tool === 'pick');
 const gestures = new Gestures(canvas, {
@@ -93,7 +106,7 @@ const gestures = new Gestures(canvas, {
     const seen = view.seen();
     return seen ? pick(seen, x, y, radius, (node) => editor.isDraggable(node)) : -1;
   },
-  draggable: (node) => editor.isDraggable(node),
+  draggable: (node) => editor.isDraggable(node) || editor.picked.has(node) || isCurve() || view.spacing > distinct,
   hovered: (node) => {
     if (node === editor.hovered || (node >= 0 && editor.atArrow)) return;
     editor.set({ hovered: node, atArrow: false });
@@ -115,7 +128,8 @@ function newView(): View {
   }
 }
 
-const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
+const marks = new Marks(editor, view);
+const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('comb-clip') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
 const served = ServedFile.of(location.href, editor, format.parentElement!);
 
 const titles: Record<Look, string> = { shaded: 'Shaded', wire: 'Wire', zebra: 'Zebra', mean: 'Mean curvature', gaussian: 'Gaussian curvature', deviation: 'Deviation from the input' };
@@ -123,19 +137,20 @@ const opened = (): boolean => editor.shape !== null;
 const isCurve = (): boolean => editor.shape?.curve != null;
 const somePicked = (): boolean => editor.picked.size > 0;
 const commands: Command[] = [
-  { id: 'open', title: 'Open a mesh or a curve', keys: ['o', 'ctrl+o'], run: () => choose(shapes, open) },
+  { id: 'open', title: 'Open a mesh or a curve', keys: ['o', 'ctrl+o'], run: () => choose(shapes, open, told) },
   ...(served ? [served.command] : []),
   { id: 'save', title: 'Save the result', keys: served ? [] : ['ctrl+s'], run: () => void save(), enabled: opened,
     detail: () => (editor.strength < 1 ? `${Math.round(100 * editor.strength)} % of the way from the input` : undefined) },
   { id: 'load-constraints', title: 'Load constraints', keys: [], run: () => choose('.json', open), enabled: opened },
   { id: 'save-constraints', title: 'Save constraints', keys: ['ctrl+shift+s'], enabled: opened,
     run: () => download(`${stem(editor.name)}-constraints.json`, toFile(editor.constraints)) },
+  ...start.commands,
   ...points.commands,
   ...drawing.commands,
-  { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => editor.undo(), enabled: () => editor.history.past.length > 0,
-    detail: () => editor.history.now.label },
-  { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => editor.redo(), enabled: () => editor.history.future.length > 0,
-    detail: () => editor.history.future[0]?.label },
+  { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => opening.undo(), enabled: () => opening.undoes !== null,
+    detail: () => opening.undoes ?? undefined },
+  { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => opening.redo(), enabled: () => opening.redoes !== null,
+    detail: () => opening.redoes ?? undefined },
   { id: 'fix-position', title: 'Fix positions of picked nodes', keys: ['f'], run: () => editor.hold('position', true), enabled: somePicked },
   { id: 'free-position', title: 'Free positions of picked nodes', keys: ['shift+f'], run: () => editor.hold('position', false), enabled: somePicked },
   { id: 'fix-normal', title: 'Fix normals or tangents of picked nodes', keys: ['n'], run: () => editor.hold(editor.direction, true), enabled: somePicked },
@@ -145,21 +160,25 @@ const commands: Command[] = [
     run: () => editor.setBoundary('position', !editor.isBoundaryFixed('position')), pressed: () => editor.isBoundaryFixed('position') },
   { id: 'boundary-normals', title: 'Fix or free boundary normals or tangents', keys: ['shift+b'], enabled: opened,
     run: () => editor.setBoundary(editor.direction, !editor.isBoundaryFixed(editor.direction)), pressed: () => editor.isBoundaryFixed(editor.direction) },
-  { id: 'fair-boundary', title: 'Fair boundary loops, then the surface', keys: ['k'], enabled: () => opened() && !isCurve(),
-    run: () => editor.setFairBoundary(!editor.constraints.fairBoundary), pressed: () => editor.constraints.fairBoundary ?? false },
+  { id: 'fair-boundary', title: 'Fair boundary loops, then the surface', keys: ['k'], enabled: () => !isCurve() && (editor.shape?.boundary.includes(1) ?? false),
+    run: () => editor.setFairBoundary(!editor.constraints.fairBoundary, loopNodes()), pressed: () => editor.constraints.fairBoundary ?? false,
+    detail: () => (editor.shape && !editor.shape.boundary.includes(1) ? 'it has no boundary' : undefined) },
   { id: 'comb', title: 'Curvature comb', keys: ['c'], run: () => curves.toggleComb(), enabled: isCurve, pressed: () => curves.comb },
+  { id: 'comb-root', title: 'Hairs by the root of the curvature', keys: [], run: () => { curves.toggleRoot(); refresh(); }, enabled: isCurve, pressed: () => curves.root },
   { id: 'plot', title: 'Plot of curvature', keys: ['p'], run: () => { curves.fold(); refresh(); }, enabled: isCurve, pressed: () => curves.unfolded },
   ...looks.map((which) => ({ id: which, title: titles[which], keys: [String(['shaded', 'wire', 'zebra', ...fieldNames].indexOf(which) + 1)],
-    run: () => setLook(which), pressed: () => look === which, enabled: () => !isCurve() || !fieldNames.some((name) => name === which) })),
+    run: () => setLook(which), pressed: () => look === which, enabled: () => !isCurve() })),
+  { id: 'edges', title: 'Edges over what is shown', keys: ['7'], run: () => { edges = !edges; view.setEdges(edges); refresh(); }, pressed: () => edges, enabled: () => !isCurve() },
+  { id: 'marks', title: 'Mark held nodes', keys: ['m'], run: () => { marks.toggle(); refresh(); }, enabled: opened, pressed: () => marks.visible },
   { id: 'input', title: 'Show the input or the result', keys: ['i'], run: () => editor.toggleInput(), enabled: opened, pressed: () => editor.showsInput },
   { id: 'fit', title: 'Show all', keys: ['0', 'home'], run: () => view.fit() },
   { id: 'zoom-in', title: 'Zoom in', keys: ['+', '='], run: () => view.zoomBy(1.25) },
   { id: 'zoom-out', title: 'Zoom out', keys: ['-'], run: () => view.zoomBy(0.8) },
   { id: 'escape', title: 'Give up what is dragged, solved or picked', keys: ['escape'], run: escape },
-  { id: 'end', title: 'End the solution that runs', keys: [], run: () => editor.client.endNow(), enabled: () => editor.canEnd },
+  { id: 'end', title: 'End the solution that runs', keys: [], run: () => editor.cancel(), enabled: () => editor.canEnd },
   { id: 'theme', title: 'Light or dark', keys: ['t'], run: () => { switchTheme(); view.restyle(); } },
   { id: 'help', title: 'Keyboard shortcuts', keys: ['?'], run: () => help.showModal() },
-  { id: 'afresh', title: 'Forget what was restored', keys: [], run: () => void autosave.forget().then(() => openAddress(firstExample)).then(() => autosave.begin()) },
+  { id: 'afresh', title: 'Forget what was restored', keys: [], run: () => void autosave.forget().then(() => openExample(firstExample)).then(() => autosave.begin()) },
   { id: 'dismiss-restored', title: 'Dismiss the notice', keys: [], run: () => { document.getElementById('restored')!.hidden = true; } },
   { id: 'dismiss', title: 'Dismiss the message', keys: [], run: () => editor.set({ fault: null }) },
 ];
@@ -170,22 +189,13 @@ listShortcuts(help.querySelector('dl')!, [...commands,
 ]);
 
 function changed(): void {
-  if (held !== editor.held.nodes) {
-    held = editor.held.nodes;
-    const fixed = [...held.keys()].filter((node) => held[node] & heldPosition);
-    // Where most are held, as around a region, marks on all would hide it.
-    view.markers.set('held', 2 * fixed.length > held.length && !isCurve() ? [...rim(editor.shape!, fixed)] : fixed);
-    view.draw();
-  }
-  if (marked.normals !== editor.normals || marked.picked !== editor.picked || marked.hovered !== editor.hovered) {
-    marked = { normals: editor.normals, picked: editor.picked, hovered: editor.hovered };
-    view.arrows.set(editor.normals, new Set(editor.hovered < 0 ? editor.picked : [...editor.picked, editor.hovered]));
-    view.markers.set('picked', [...editor.picked]);
-    view.markers.set('hovered', editor.hovered < 0 || editor.picked.has(editor.hovered) ? [] : [editor.hovered]);
-    view.draw();
-  }
+  marks.refresh(look, editor.trying && start.way === 'repair');
   describe(editor, coloured);
+  showLoading(document.getElementById('loading')!, editor.loading);
+  start.refresh();
   numbers.refresh();
+  showReach(document.getElementById('reach') as HTMLInputElement, editor);
+  document.getElementById('loop-nodes')!.hidden = !editor.constraints.loopNodes?.length;
   points.refresh();
   autosave.changed();
   showPoints();
@@ -198,23 +208,43 @@ function showPoints(): void {
   dotted = { fit, report };
   const distances = report?.distances?.length === (fit?.cloud.positions.length ?? 0) / 3 ? report!.distances! : null;
   const limit = fit?.kind === 'within' ? fit.value : report?.fit?.greatest || 1;
-  view.dots.set(fit && shape ? placesOf(shape, fit.cloud.positions) : new Float32Array(), distances, limit);
+  // How far a surface is from its own nodes, Deviation shows.
+  const drawn = fit && shape && (fit.cloud.bytes || shape.curve);
+  view.dots.set(drawn ? placesOf(shape, fit.cloud.positions) : new Float32Array(), distances, limit);
   const legend = document.getElementById('points-legend')!;
-  legend.hidden = !fit || !distances;
+  legend.hidden = !drawn || !distances;
   if (!legend.hidden) showLengths(legend, `Distance of the points${fit!.kind === 'within' ? ', in red beyond the tolerance' : ''}`, sequential, limit);
   view.draw();
 }
 
-function open({ name, bytes }: { name: string; bytes: Uint8Array }): void {
-  void editor.open(name, bytes);
+function loopNodes(): number {
+  return Math.max(3, Math.round(loopCount.valueAsNumber) || 8);
 }
 
-async function openAddress(address: string, constraints?: string, points?: string): Promise<void> {
+function told(loading: Loading): void {
+  editor.set({ loading });
+}
+
+function open({ name, bytes }: { name: string; bytes: Uint8Array }): void {
+  void opening.open(name, bytes);
+}
+
+async function openAddress(address: string): Promise<void> {
+  try {
+    const { name, bytes } = await fromAddress(address, told);
+    await opening.open(name, bytes);
+    if (!editor.fault) served?.opened(address);
+  } catch (error) {
+    editor.setFault((error as Error).message, 'file');
+  }
+}
+
+/** Faired, with what it shows. */
+async function openExample(address: string, constraints?: string, points?: string): Promise<void> {
   try {
     const { name, bytes } = await fromAddress(address);
     const held = constraints && new TextDecoder().decode((await fromAddress(constraints)).bytes);
-    await editor.open(name, bytes, held, points ? await fromAddress(points) : undefined);
-    if (!editor.fault) served?.opened(address);
+    await opening.openFair(name, bytes, held, points ? await fromAddress(points) : undefined);
   } catch (error) {
     editor.setFault((error as Error).message, 'file');
   }
@@ -230,22 +260,38 @@ async function save(): Promise<void> {
 }
 
 /** What the address names, or else what was open last. */
-async function start(): Promise<void> {
+async function begin(): Promise<void> {
   const file = new URLSearchParams(location.search).get('file');
-  if (file || !(await autosave.restore())) await openAddress(file ?? firstExample);
+  if (file) await openAddress(file);
+  else if (!(await autosave.restore())) await openExample(firstExample);
   autosave.begin();
+}
+
+/** What would move is coloured by how far, until a way is kept or given up. */
+function wayChosen(way: Way | null): void {
+  toolChanged();
+  if (isCurve()) return;
+  if (way === 'smooth' || way === 'free') {
+    lookBefore ??= look;
+    setLook('deviation');
+  } else if (lookBefore) {
+    setLook(lookBefore);
+    lookBefore = null;
+  }
 }
 
 function setLook(which: Look): void {
   look = which;
   view.setLook(which);
+  marks.refresh(look, false);
   fields.choose(fieldNames.find((name) => name === which) ?? null);
   refresh();
 }
 
 function escape(): void {
   if (tilts.cancel() || gestures.cancel() || tools.cancel()) return;
-  if (editor.canEnd) editor.client.endNow();
+  if (editor.canEnd) editor.cancel();
+  else if (start.dismiss()) return;
   else if (somePicked()) editor.pick(-1, false);
   else tools.set('pick');
   toolChanged();
@@ -256,13 +302,22 @@ function toolChanged(): void {
   editor.set({ hovered: -1 });
 }
 
+range.addEventListener('input', () => {
+  range.parentElement!.querySelector('output')!.textContent = `${range.value} %`;
+  fields.setShare(range.valueAsNumber / 100);
+});
+bindUnit(document.getElementById('unit') as HTMLSelectElement, () => { fields.setShare(range.valueAsNumber / 100); changed(); });
+bindReach(document.getElementById('reach') as HTMLInputElement, editor);
+bindPresets(document.getElementById('mouse') as HTMLSelectElement, (preset) => view.setPreset(preset));
+loopCount.addEventListener('change', () => editor.setFairBoundary(true, loopNodes()));
 bindStrength(document.querySelector('#strength')!, (share, settled) => editor.setStrength(share, settled));
 rove(document.querySelector('[role=toolbar]')!);
+const dropped = new Dropped(document.getElementById('ask') as HTMLDialogElement, editor, opening, { open, points: (file) => void points.load(file) });
 acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, (file, alt) => {
-  if (editor.shape && arePoints(file.name, alt, isCurve())) void points.load(file);
-  else open(file);
-});
+  editor.set({ loading: null });
+  dropped.take(file, alt);
+}, told);
 startTheme(() => view.restyle());
 view.restyle();
 changed();
-void start();
+void begin();

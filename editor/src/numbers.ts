@@ -1,7 +1,7 @@
 // Positions and normals, or tangents, of picked nodes as numbers; Enter applies them.
 
 import { placed, type Part, type Vector } from './constraints';
-import { labelOf } from './drags';
+import { labelOf } from './pull/drags';
 import type { Editor } from './editor';
 
 /** null: not three numbers. An empty field counts as zero if another one is filled. */

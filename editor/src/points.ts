@@ -29,11 +29,6 @@ const ranges: Record<FitKind, [number, number]> = { smoothingLength: [1e-3, 1], 
 const usual: Record<FitKind, number> = { smoothingLength: 0.05, within: 0.02, rms: 0.01, weight: 0.01 };
 const titles: Record<FitKind, string> = { smoothingLength: 'Smoothing length', within: 'Tolerance', rms: 'Root mean square', weight: 'Weight' };
 
-/** A file that is dropped on a shape has points, and not another shape. */
-export function arePoints(name: string, alt: boolean, onCurve: boolean): boolean {
-  return alt || (!onCurve && /\.(xyz|csv)$/i.test(name));
-}
-
 export class PointsPanel {
   private readonly kind = this.part<HTMLSelectElement>('fit-kind');
   private readonly slider = this.part<HTMLInputElement>('fit-slider');
@@ -74,7 +69,8 @@ export class PointsPanel {
   refresh(): void {
     const { fit } = this;
     const box = document.getElementById('fit')!;
-    box.hidden = !fit;
+    // What is only tried has its own panel.
+    box.hidden = !fit || this.editor.trying;
     if (!fit) return;
     const { kind, value, outliers, cloud } = fit;
     const [least, most] = this.range(kind);

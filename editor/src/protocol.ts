@@ -93,7 +93,7 @@ export interface Curvatures {
   k2: Float64Array;
 }
 
-/** What must hold besides for only some nodes to move: nodes that stay where the input has them, and the rim with its normals, three numbers each. */
+/** What must hold besides for only some nodes to move: nodes that stay, and the rim with its normals, three numbers each. */
 export interface Region {
   fixed: Int32Array;
   rim: Int32Array;
@@ -111,11 +111,14 @@ export interface Requests {
   hold: { ask: { rules: string }; answer: null };
   /** Reads scattered points, which the jobs name by that number; without bytes they are the nodes of the input. Another shape has none. */
   points: { ask: { number: number; name: string; bytes: Uint8Array | null }; answer: { positions: Float64Array } };
-  region: { ask: { rules: string; nodes: Int32Array }; answer: Region };
+  /** Of a shape of those positions. */
+  region: { ask: { rules: string; nodes: Int32Array; positions: Float64Array }; answer: Region };
+  /** The standard deviation of the nodes of the input, as far as that can be told; else 0. */
+  noise: { ask: null; answer: number };
   solve: { ask: Job; answer: Solved };
   curvatures: { ask: { positions: Float64Array }; answer: Curvatures };
-  /** The bytes of a file of that name, with the shape that what holds gives from the input, or that share of the way to it. Null where that shape was given up. */
-  write: { ask: { name: string; strength: number; rules: string; fairBoundary: boolean; fit: FitJob | null }; answer: Uint8Array | null };
+  /** The bytes of a file of that name, with those positions. */
+  write: { ask: { name: string; positions: Float64Array }; answer: Uint8Array };
 }
 
 export type Kind = keyof Requests;

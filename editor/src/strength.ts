@@ -6,6 +6,13 @@ export function between(input: Float64Array, result: Float64Array, share: number
   return share === 1 ? result : result.map((end, k) => input[k] + share * (end - input[k]));
 }
 
+/** The greatest distance between nodes of the same number. */
+export function furthest(a: Float64Array, b: Float64Array): number {
+  let most = 0;
+  for (let k = 0; k < a.length; k += 3) most = Math.max(most, (a[k] - b[k]) ** 2 + (a[k + 1] - b[k + 1]) ** 2 + (a[k + 2] - b[k + 2]) ** 2);
+  return Math.sqrt(most);
+}
+
 /** The slider goes from 0 to 100; settled: it has been let go. */
 export function bindStrength(slider: HTMLInputElement, set: (share: number, settled: boolean) => void): void {
   slider.addEventListener('input', () => set(slider.valueAsNumber / 100, false));

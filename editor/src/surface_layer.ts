@@ -19,6 +19,7 @@ export class SurfaceLayer {
   /** Those of a drag, where they are fewer; made when the first picture of one is drawn. */
   private fewer: { triangles: BufferAttribute; part: Part } | null = null;
   private look: Look = 'shaded';
+  edges = false;
   private field: Field | null = null;
 
   /** software: there is no graphics card. */
@@ -73,7 +74,7 @@ export class SurfaceLayer {
     fill.value = colour(this.look === 'wire' ? '--stage' : '--surface');
     this.lines.material.color = colour('--wire');
     this.features.material.color = colour('--feature');
-    this.lines.visible = this.look === 'wire';
+    this.lines.visible = this.look === 'wire' || this.edges;
     this.colour();
   }
 

@@ -46,6 +46,11 @@ export class Tools {
     canvas.addEventListener('pointerleave', () => this.overlay.replaceChildren());
   }
 
+  /** Whether something is being drawn. */
+  get busy(): boolean {
+    return this.stroke !== null;
+  }
+
   set(tool: Tool): void {
     this.cancel();
     this.tool = tool;

@@ -10,7 +10,9 @@ import { Dots } from './dots';
 import { Markers } from './markers';
 import type { Field } from './fields';
 import type { Look } from './materials';
-import { assignButtons, moveByWheel } from './navigation';
+import { assignButtons, bindArrows, bindWheel } from './navigation/buttons';
+import { Gizmo } from './navigation/gizmo';
+import { buttonsOf, keptPreset, type Preset } from './navigation/presets';
 import type { Seen } from './picking';
 import { pixelOf, placeAt, towards } from './projection';
 import { drawsInSoftware } from './software';
@@ -29,6 +31,7 @@ export class View {
   readonly arrows = new Arrows();
   readonly curve = new CurveLayer();
   private readonly sketch = new CurveLayer();
+  private readonly input = new CurveLayer(true);
   private readonly grid = gridOfUnits();
   private readonly scene = new Scene();
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, -50, 50);
@@ -46,6 +49,9 @@ export class View {
   private moving = 1;
   private drawnAt = 0;
   private rest = 0;
+  private preset: Preset = keptPreset();
+  private taken = false;
+  private readonly gizmo = new Gizmo(document.getElementById('gizmo')!, (from) => this.lookFrom(from));
 
   /** panel: what may lie above the right end of the view. drawn: called after each picture. Throws where the browser has no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly panel: HTMLElement, private readonly drawn: () => void) {
@@ -57,12 +63,14 @@ export class View {
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
     this.leaveToTool(false);
-    moveByWheel(canvas, (across, down) => this.moveBy(across, down));
+    const events = { move: (across: number, down: number) => this.moveBy(across, down), turn: (across: number, down: number) => this.turnBy(across, down) };
+    bindWheel(canvas, { ...events, turns: () => buttonsOf[this.preset].wheelTurns });
+    bindArrows(canvas, events);
     this.controls.zoomToCursor = true;
     this.controls.minZoom = 0.05;
     this.controls.maxZoom = 1e4;
     this.controls.addEventListener('change', () => this.draw());
-    this.scene.add(...this.surface.objects, this.grid, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
+    this.scene.add(...this.surface.objects, this.grid, ...this.input.objects, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
     for (const object of this.scene.children) object.frustumCulled = false;
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
@@ -74,6 +82,7 @@ export class View {
     this.surface.open(shape);
     this.grid.visible = shape === nothing;
     this.curve.setComb(new Float32Array(), new Float32Array());
+    this.input.show(shape.curve ? placesOf(shape, shape.input) : new Float32Array(), shape.curve ? shape.edges.ends : []);
     this.show(shape.input, true);
     if (stays) this.reframe(before, shape);
     else this.fit(true);
@@ -104,6 +113,12 @@ export class View {
     this.restyle();
   }
 
+  /** Edges over whatever else is shown. */
+  setEdges(shown: boolean): void {
+    this.surface.edges = shown;
+    this.restyle();
+  }
+
   /** Takes the colours of the style sheet. */
   restyle(): void {
     const style = getComputedStyle(this.canvas);
@@ -115,6 +130,7 @@ export class View {
     this.surface.restyle(colour);
     this.curve.restyle(colour);
     this.sketch.restyle(colour);
+    this.input.restyle(colour);
     this.grid.material.color = colour('--line');
     this.markers.restyle(colour);
     this.arrows.restyle(colour);
@@ -144,7 +160,7 @@ export class View {
     camera.position.sub(controls.target).add(middle);
     controls.target.copy(middle);
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const covered = getComputedStyle(this.panel).position === 'absolute' ? width - this.panel.offsetLeft : 0;
+    const covered = Math.max(0, this.panel.offsetLeft > 0 ? width - this.panel.offsetLeft : 0);
     camera.zoom = 1.6 / Math.max(high.y - low.y, ((high.x - low.x) * height) / Math.max(1, width - covered), 1e-3);
     const aside = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0).multiplyScalar(covered / height / camera.zoom);
     for (const end of [camera.position, controls.target]) end.add(aside);
@@ -160,7 +176,37 @@ export class View {
 
   /** taken: a tool has the left button and the single finger. */
   leaveToTool(taken: boolean): void {
-    assignButtons(this.controls, taken);
+    this.taken = taken;
+    assignButtons(this.controls, taken, this.preset);
+  }
+
+  setPreset(preset: Preset): void {
+    this.preset = preset;
+    this.leaveToTool(this.taken);
+  }
+
+  /** From a side, all of the shape in the view; upwards is Z, and from above and below Y. */
+  lookFrom([x, y, z]: Vector): void {
+    const { camera, controls } = this;
+    camera.position.copy(controls.target).add(new Vector3(x, x === 0 && y === 0 ? -1e-4 : y, z));
+    this.fit();
+  }
+
+  private turnBy(across: number, down: number): void {
+    const { camera, controls } = this;
+    const perPixel = (2 * Math.PI) / this.canvas.clientHeight;
+    const from = camera.position.clone().sub(controls.target);
+    const around = Math.atan2(from.y, from.x) - across * perPixel;
+    const above = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, Math.asin(Math.min(1, Math.max(-1, from.z / from.length()))) + down * perPixel));
+    const flat = Math.max(1e-4, Math.cos(above));
+    camera.position.copy(controls.target).add(new Vector3(flat * Math.cos(around), flat * Math.sin(around), Math.sin(above)).multiplyScalar(from.length()));
+    controls.update();
+    this.draw();
+  }
+
+  /** Pixels between neighbouring nodes, about. */
+  get spacing(): number {
+    return ((this.shape?.spacing ?? 0) * this.camera.zoom * this.canvas.clientHeight) / 2;
   }
 
   seen(): Seen | null {
@@ -224,6 +270,7 @@ export class View {
       this.setResolution(this.moving);
       this.scaleMarkers();
       this.renderer.render(this.scene, this.camera);
+      this.gizmo.turn(...([0, 1, 2].map((column) => new Vector3().setFromMatrixColumn(this.camera.matrixWorld, column).toArray()) as [Vector, Vector, Vector]));
       this.drawn();
       this.drawnAt = performance.now();
       clearTimeout(this.rest);
@@ -260,8 +307,7 @@ export class View {
 
   private scaleMarkers(): void {
     const ratio = this.renderer.getPixelRatio();
-    const spacing = ((this.shape?.spacing ?? 0) * this.camera.zoom * this.canvas.clientHeight) / 2;
-    this.markers.scale(ratio, spacing);
+    this.markers.scale(ratio, this.spacing);
     this.dots.scale(ratio);
     for (const layer of [this.curve, this.sketch]) layer.scale(ratio);
   }

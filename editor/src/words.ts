@@ -1,9 +1,13 @@
-// What messages of the library advise, and what it is called in the editor.
+// Words: numbers of things, and what messages of the library advise as it is called in the editor.
 
 const words: [RegExp, string][] = [
   [/fix the (?:boundary|ends)/g, '$& (“Positions fixed”)'],
   [/let only a region move/g, '$& (“Fair only these nodes”)'],
 ];
+
+export function counted(number: number, one: string, many = `${one}s`): string {
+  return `${number.toLocaleString('en')} ${number === 1 ? one : many}`;
+}
 
 export function inEditorWords(message: string): string {
   return words.reduce((text, [advice, ours]) => text.replace(advice, ours), message);

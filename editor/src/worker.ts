@@ -3,15 +3,12 @@
 import { describe, describeCurve, loadFastest, openShape, type Core, type CoreCurve, type CoreSurface } from './core';
 import { Fits } from './fits';
 import { endedAll, endedSolution, type Answer, type Ask, type Drag, type HeldNormals, type Job, type Kind, type Reply, type Report, type Request, type Start } from './protocol';
-import { between } from './strength';
 
 declare function postMessage(reply: Reply, transfer?: Transferable[]): void;
 
 let core: Core;
 let shape: CoreSurface | CoreCurve | null = null;
 let ended: Int32Array | null = null;
-/** What holds the shape, where it is the one that this gives from the input. */
-let settled: string | null = null;
 const fits = new Fits();
 let input: Float64Array = new Float64Array();
 
@@ -31,11 +28,9 @@ function take(next: CoreSurface | CoreCurve): void {
   fits.clear();
   shape = next;
   input = next.positions();
-  settled = null;
 }
 
 function hold(target: CoreSurface | CoreCurve, { rules, fairBoundary, fit }: Job): void {
-  settled = null;
   if (fit !== undefined) fits.use(fit);
   if (rules !== undefined) target.setRules(rules);
   if (fairBoundary !== undefined && 'setFairBoundary' in target) target.setFairBoundary(fairBoundary);
@@ -82,17 +77,18 @@ const handlers: Handlers = {
   },
   hold({ rules }) {
     opened().setRules(rules);
-    settled = null;
     return null;
   },
   points({ number, name, bytes }) {
     // As the program does: a shape that is drawn to its own nodes leaves them about where they are.
     return { positions: fits.add(number, bytes ? new core.Points(bytes, name) : core.Points.at(input), !bytes) };
   },
-  region({ rules, nodes }) {
+  region({ rules, nodes, positions }) {
     opened().setRules(rules);
-    settled = null;
-    return opened().region(nodes);
+    return opened().region(nodes, positions);
+  },
+  noise() {
+    return opened().noise();
   },
   solve({ rules, fairBoundary, fit, drag }, progress) {
     const target = opened();
@@ -101,32 +97,29 @@ const handlers: Handlers = {
     if (drag) holdAt(target, drag);
     const foreseen = drag?.rough ? (target as CoreSurface).foresee() : null;
     if (foreseen) return { positions: foreseen, report: rough };
+    const before = target.positions();
     const report = drag ? fits.follow(target, progress) : fits.fair(target, progress);
-    if (!drag && report.outcome !== 'cancelled') settled = JSON.stringify([rules, fairBoundary, fit]);
+    // What was given up on the way may be crumpled.
+    if (report.outcome === 'cancelled') target.setPositions(before);
     return { positions: target.positions(), report, normals };
   },
   curvatures({ positions }) {
     return (opened() as CoreSurface).curvatures(positions);  // nobody asks it of curves
   },
-  write({ name, strength, rules, fairBoundary, fit }, progress) {
+  write({ name, positions }) {
     const target = opened();
-    const holds = JSON.stringify([rules, fairBoundary, fit]);
-    if (settled !== holds) {
-      hold(target, { rules, fairBoundary, fit });
-      progress(0);
-      if (fits.fair(target, progress).outcome === 'cancelled') return null;
-      settled = holds;
+    const before = target.positions();
+    target.setPositions(positions);
+    try {
+      return target.write(name);
+    } finally {
+      target.setPositions(before);
     }
-    const result = target.positions();
-    target.setPositions(between(input, result, strength));
-    const bytes = target.write(name);
-    target.setPositions(result);
-    return bytes;
   },
 };
 
 function transferables(answer: Answer<Kind>): Transferable[] {
-  if (answer === null) return [];
+  if (answer === null || typeof answer === 'number') return [];
   return [answer, ...(ArrayBuffer.isView(answer) ? [] : Object.values(answer))].filter(ArrayBuffer.isView).map((array) => array.buffer as ArrayBuffer);
 }
 

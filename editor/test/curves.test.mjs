@@ -8,7 +8,7 @@ const { shapeOf } = await compiled('shape');
 const { withParts, grown } = await compiled('neighbours');
 const { planeOf } = await compiled('curve_plane');
 const { combOf, toothOf } = await compiled('comb');
-const { Pull } = await compiled('pull');
+const { Pull } = await compiled('pull/pull');
 const { tiltedWithin } = await compiled('turning');
 const { heldNodes, toFile, edited, initial } = await compiled('constraints');
 

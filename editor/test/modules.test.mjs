@@ -11,7 +11,7 @@ const { pick } = await compiled('picking');
 const { verticesOf, setNormals, partOf } = await compiled('vertices');
 const { shapeOf, placesOf } = await compiled('shape');
 const { withLoops } = await compiled('loops');
-const { Pull } = await compiled('pull');
+const { Pull } = await compiled('pull/pull');
 const { FrameCounter } = await compiled('frames');
 
 test('constraints come out of the file that they are written to', () => {
@@ -158,7 +158,7 @@ test('a long way is made in steps, shorter ones where they take many iterations,
 });
 
 test('a picture is ahead of the library as its last shapes went, and not too far', async () => {
-  const { Ahead } = await compiled('ahead');
+  const { Ahead } = await compiled('pull/ahead');
   // Two nodes: one is dragged, the other goes half as far, turned by a right angle, and a little up.
   const shape = ([x, y, z]) => Float64Array.of(x, y, z, -y / 2, x / 2, z + 0.1 * (x * x + y * y));
   const near = (a, b, within) => a.forEach((part, k) => assert.ok(Math.abs(part - b[k]) < within, `${[...a]} is not ${[...b]}`));
@@ -177,7 +177,7 @@ test('a picture is ahead of the library as its last shapes went, and not too far
 });
 
 test('a drag of many nodes shows what is foreseen, then what is solved, both moved on to the pointer; one of few waits', async () => {
-  const { Drags } = await compiled('drags');
+  const { Drags } = await compiled('pull/drags');
   globalThis.requestAnimationFrame ??= (call) => setTimeout(call);
   const start = Float64Array.of(0, 0, 0, 5, 0, 0);
   const at = (x) => Float64Array.of(x, 0, 0, 5 + x / 2, 0, 0);
@@ -186,7 +186,7 @@ test('a drag of many nodes shows what is foreseen, then what is solved, both mov
     let shown = 0;
     const editor = {
       picked: new Set([0]), busy: false, result: start, report: { movingNodes }, shape: { curve: null, scale: 0.01 }, isDraggable: () => true,
-      placeOf: () => [0, 0, 0], dragBegun() {}, showDrag() { ++shown; },
+      placeOf: () => [0, 0, 0], dragBegun() {}, nearby: () => null, showDrag() { ++shown; },
     };
     const drags = new Drags(editor, { push: ({ drag }) => asked.push(drag) });
     drags.begin('position', 0, 0);

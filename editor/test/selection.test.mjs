@@ -58,12 +58,17 @@ test('rings, connected parts, all and the rest', () => {
   assert.deepEqual(sorted(inverted(shape, withParts(shape, new Set([0])))), [10, 11, 12, 13, 14, 15]);
 });
 
-test('a region comes after what held already, as rules of a constraints file', () => {
+test('a region comes after what held already, as rules of a constraints file; another one takes its place and keeps what it moved', () => {
   const held = edited(initial, [3], () => ({ position: [1, 2, 3] }));
-  const constraints = restricted(held, { fixed: Int32Array.of(7, 8), rim: Int32Array.of(7), normals: Float64Array.of(0, 0.6, 0.8) });
-  assert.deepEqual(JSON.parse(toFile(constraints)).rules, [
-    { nodes: 'boundary', position: 'fixed' }, { nodes: [3], position: [[1, 2, 3]] },
-    { nodes: [7, 8], position: 'fixed' }, { nodes: [7], normal: [[0, 0.6, 0.8]] },
-  ]);
-  assert.equal(restricted(initial, { fixed: new Int32Array(), rim: new Int32Array(), normals: new Float64Array() }).rules.length, 1);
+  const input = new Float64Array(30);
+  const seen = input.slice();
+  const rules = (constraints) => JSON.parse(toFile(constraints)).rules;
+  const before = [{ nodes: 'boundary', position: 'fixed' }, { nodes: [3], position: [[1, 2, 3]] }];
+  const first = restricted(held, [0, 1, 2], { fixed: Int32Array.of(7, 8), rim: Int32Array.of(7), normals: Float64Array.of(0, 0.6, 0.8) }, input, seen);
+  assert.deepEqual(rules(first), [...before, { nodes: [7, 8], position: 'fixed' }, { nodes: [7], normal: [[0, 0.6, 0.8]] }]);
+  seen.set([4, 5, 6], 3);
+  const none = { rim: new Int32Array(), normals: new Float64Array() };
+  const second = restricted(first, [8], { ...none, fixed: Int32Array.of(0, 1, 2, 7) }, input, seen);
+  assert.deepEqual(rules(second), [...before, { nodes: [0, 2, 7], position: 'fixed' }, { nodes: [1], position: [[4, 5, 6]] }]);
+  assert.equal(rules(restricted(initial, [0], { ...none, fixed: new Int32Array() }, input, input)).length, 1);
 });

@@ -5,9 +5,9 @@
 
 namespace vspring {
 
-/// The columns of a table (CSV, XYZ) in which x, y and, in space, z stand, in this order: of each its number, from 1,
-/// or, in CSV, the name that the header gives it, with or without its unit, in any case. Two or three of them; empty:
-/// the reader finds them.
+/// The columns of a table (CSV, XYZ) that hold x, y and, in space, z, in this order: each by its number from 1 or, in
+/// CSV, by its name in the header, with or without its unit, in any case. Two or three entries; empty: the reader finds
+/// the columns.
 using ColumnChoice = std::vector<std::string>;
 
 }  // namespace vspring

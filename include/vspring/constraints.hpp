@@ -13,8 +13,8 @@
 
 namespace vspring {
 
-/// What each node of a shape may do (paper §4.5, direct constraints): its position fixed or free, its normal given or
-/// computed, in any combination. Nodes of curves may have a tangent given as well.
+/// What each node of a shape may do (paper §4.5, direct constraints): its position is fixed or free, its normal given
+/// or computed, in any combination. Nodes of curves may also have a tangent given.
 class Constraints {
  public:
   /// All positions and normals free.
@@ -22,24 +22,24 @@ class Constraints {
 
   [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(flags_.size()); }
 
-  /// The node stays at `position`. Whether it is finite is asked where a moving node looks at it, see
-  /// check_constraints().
+  /// The node stays at `position`, in units of the shape. Whether it is finite is checked by check_constraints(), where
+  /// a moving node depends on it.
   void fix_position(Index node, const Vector3& position);
   void free_position(Index node);
   [[nodiscard]] bool position_fixed(Index node) const { return (flags_[at(node)] & position_flag) != 0; }
   /// Meaningful where position_fixed().
   [[nodiscard]] const Vector3& position(Index node) const { return positions_.of(at(node)); }
 
-  /// The node's normal is `normal`, made unit length; its sense does not matter. Throws Error(unusable_constraint)
-  /// naming the node when it is zero or not finite.
+  /// Gives the node a normal. Any length but zero; its sense does not matter. Throws Error(unusable_constraint) naming
+  /// the node when it is zero or not finite.
   void fix_normal(Index node, const Vector3& normal);
   void free_normal(Index node);
   [[nodiscard]] bool normal_fixed(Index node) const { return (flags_[at(node)] & normal_flag) != 0; }
   /// Unit length; meaningful where normal_fixed().
   [[nodiscard]] const Vector3& normal(Index node) const { return normals_.of(at(node)); }
 
-  /// Of curves: the tangent at the node is `tangent`, made unit length, in the direction in which the curve runs.
-  /// Throws Error(unusable_constraint) naming the node when it is zero or not finite.
+  /// Curves: gives the node a tangent, in the direction in which the curve runs. Any length but zero. Throws
+  /// Error(unusable_constraint) naming the node when it is zero or not finite.
   void fix_tangent(Index node, const Vector3& tangent);
   void free_tangent(Index node);
   [[nodiscard]] bool tangent_fixed(Index node) const { return (flags_[at(node)] & tangent_flag) != 0; }
@@ -71,51 +71,53 @@ class Constraints {
   Vectors tangents_;
 };
 
-/// Fixes the boundary nodes of the mesh, or the end nodes of the curve, where they are. Cost: linear.
+/// Fixes the boundary nodes of the mesh, or the end nodes of the curve, at their present positions. Cost: linear.
 void fix_boundary_positions(Constraints& constraints, const PolygonMesh& mesh);
 void fix_boundary_positions(Constraints& constraints, const PolygonCurve& curve);
 
-/// Gives the boundary nodes the normals that the mesh has there, by estimate_normals(). Cost: linear.
+/// Gives the boundary nodes the normals of the mesh there, by estimate_normals(). Cost: linear.
 void fix_boundary_normals(Constraints& constraints, const PolygonMesh& mesh);
 
-/// Gives the end nodes of the curve the tangents that it has there, by estimate_tangents(). Cost: linear.
+/// Gives the end nodes the tangents of the curve there, by estimate_tangents(). Cost: linear.
 void fix_boundary_tangents(Constraints& constraints, const PolygonCurve& curve);
 
-/// The normals of a mesh at some of its nodes, of second order in the node spacing on smooth shapes also at boundaries,
-/// where the nodes around lie on one side only, and exact on spheres and planes: a least-squares fit of
-/// e·N = c|e|² + a quadratic form without trace, over the nodes e around. Follows the sense of the faces.
+/// The normals of a mesh at some of its nodes, in the sense of the faces: from a least-squares fit of e·N = c|e|² + a
+/// quadratic form without trace over the nodes e around. Exact on spheres and planes, of second order in the spacing
+/// elsewhere, also at boundaries.
 ///
-/// nodes: where. usable_face: one entry per face, 0 for faces that must not be looked at; empty for all.
-/// Returns one unit vector per entry of nodes; zero where no usable face touches the node.
-/// Cost: proportional to the nodes asked for, after a linear preparation.
+/// nodes: where. usable_face: one entry per face, 0 for faces that must not be looked at; empty for all. Returns one
+/// unit vector per entry of nodes; zero where no usable face touches the node. Cost: linear preparation, then
+/// proportional to the nodes asked for.
 [[nodiscard]] std::vector<Vector3> estimate_normals(const PolygonMesh& mesh, std::span<const Index> nodes,
                                                     std::span<const std::uint8_t> usable_face = {});
 
-/// The tangents of a curve at some of its nodes, of second order in the node spacing and exact on circles: of the
-/// circle through the node and its neighbours, or, at ends, the next two nodes; along the edge where there is no third
-/// node.
+/// The tangents of a curve at some of its nodes: those of the circle through the node and its neighbours (at ends the
+/// next two nodes), or of the edge where there is no third node. Exact on circles, of second order in the spacing
+/// elsewhere.
 ///
-/// nodes: where. usable_node: one entry per node, 0 for nodes that must not be looked at; empty for all.
-/// Returns one unit vector per entry of nodes, along the first chain that has the node; zero where no edge gives a
-/// direction. Cost: linear.
+/// nodes: where. usable_node: one entry per node, 0 for nodes that must not be looked at; empty for all. Returns one
+/// unit vector per entry of nodes, along the first chain that has the node; zero where no edge gives a direction. Cost:
+/// linear.
 [[nodiscard]] std::vector<Vector3> estimate_tangents(const PolygonCurve& curve, std::span<const Index> nodes,
                                                      std::span<const std::uint8_t> usable_node = {});
 
-/// The normals of a curve at some of its nodes: across estimate_tangents(), in the plane of a planar curve; along the
-/// principal normal of a space curve. Zero where a node has none. Cost: linear.
+/// The normals of a curve at some of its nodes: perpendicular to estimate_tangents(), in the plane of a planar curve,
+/// along the principal normal of a space curve. Returns one unit vector per entry of nodes; zero where a node has none.
+/// Cost: linear.
 [[nodiscard]] std::vector<Vector3> estimate_normals(const PolygonCurve& curve, std::span<const Index> nodes);
 
-/// Whether a curve, where it is held and the directions that are given lie in one plane, to 1e-9 of their extent: then
-/// it stays there, and CurveRules::normal_plane makes no difference. A straight line lies in no one plane. Coordinates
-/// that are not finite do not count. Throws Error(unusable_constraint) for constraints of fewer nodes. Cost: linear.
+/// Whether the curve, its fixed positions and its given directions lie in one plane, to 1e-9 of their extent. If so it
+/// stays there, and CurveRules::normal_plane makes no difference. False for a straight line. Coordinates that are not
+/// finite are left out. Throws Error(unusable_constraint) for constraints of fewer nodes. Cost: linear.
 [[nodiscard]] bool lies_in_a_plane(const PolygonCurve& curve, const Constraints& constraints);
 
-/// Only the nodes of `region` may move: all others are fixed where the mesh has them. Normals of their neighbours among
-/// the fixed nodes (the rim) are computed from all faces around these, moving or not, so that the faired patch meets
-/// the rest smoothly. Those at the boundary of the mesh, which have faces on one side only, get the tangent planes of
-/// the faces without a moving node, to second order; without such a face the normal stays free: the patch turns about
-/// the node. What `constraints` says already about nodes of the region stays. Throws Error(unusable_constraint) naming
-/// a node out of range. Cost: linear.
+/// Lets only the nodes of `region` move; all others are fixed at their present positions. What `constraints` says of
+/// nodes of the region stays.
+///
+/// The normals of the rim (fixed nodes next to moving ones) are computed in every iteration from all faces around them,
+/// so the faired patch meets the rest smoothly. Rim nodes at the boundary of the mesh, which have faces on one side
+/// only, get the tangent plane of the faces without a moving node, to second order; where there is none their normal is
+/// free, and the patch turns about them. Throws Error(unusable_constraint) naming a node out of range. Cost: linear.
 void restrict_to_region(Constraints& constraints, const PolygonMesh& mesh, std::span<const Index> region);
 
 /// The same for a curve: the rim gets the tangents of what lies outside.
@@ -125,51 +127,53 @@ struct Welded;
 
 using Groups = std::map<std::string, std::vector<Index>>;
 
-/// The nodes that a region specification names, ascending: `sphere:x,y,z,r`, `box:x0,y0,z0,x1,y1,z1` (both include
-/// their surface), `group:NAME`, or the path of a JSON file with a list of node numbers.
-/// Throws Error(unusable_constraint) for a malformed or empty region, an unknown group or a node out of range, and
-/// Error(unusable_file) for a file that cannot be read.
+/// The nodes that a region names, ascending. specification: `sphere:x,y,z,r` or `box:x0,y0,z0,x1,y1,z1` (with their
+/// surface; units of the positions), `group:NAME`, or the path of a JSON file with a list of node numbers. Throws
+/// Error(unusable_constraint) for a malformed or empty region, an unknown group or a node out of range, and
+/// Error(unusable_file) for a file that cannot be read. Cost: linear.
 [[nodiscard]] std::vector<Index> select_region(const std::vector<Vector3>& positions, const std::string& specification,
                                                const Groups& groups = {});
 
-/// What rules may refer to beside the mesh.
+/// What rules may refer to besides the mesh.
 struct RuleInput {
   const Groups* groups = nullptr;                 ///< for {"group": NAME}
   const std::vector<Vector3>* normals = nullptr;  ///< the file's own, for "normal": "file"
   const Welded* welded = nullptr;                 ///< of a surface whose mesh is that of weld()
 };
 
-/// Applies rules, in order, the later one winning, as a JSON text:
+/// Applies rules from a JSON text, in order, the later one winning:
 ///   {"rules": [{"nodes": SELECTION, "position": P, "normal": N}, …]}
 /// SELECTION: "all", "boundary", "interior", "non-manifold", {"group": NAME}, {"region": SPECIFICATION}, or a list of
-/// node numbers. P: "fixed" (where the input has it), "free", [x, y, z], or a list of those, one per node in the
-/// selection's order. N: "fixed" (estimate_normals() of the input), "file" (the file's own), "free", [x, y, z] or a
-/// list, node by node. Throws Error(unusable_constraint) naming the rule, and line or node where it can; constraints
-/// are then unchanged. Cost: linear in the mesh, once, and in the nodes named.
+/// node numbers. P: "fixed" (as in the mesh), "free", [x, y, z], or a list of those, one per node in the order of the
+/// selection. N: "fixed" (estimate_normals()), "file" (the file's own), "free", [x, y, z] or a list, node by node.
 ///
-/// Of a welded surface, rules name nodes by their numbers before, and hold or free what each has become one with.
-/// Nodes that are one may not be told different things by one rule, or by several that name them (or their groups or
-/// regions): Error(unusable_constraint) names both.
+/// On a welded surface, rules use the numbers before welding and apply to all nodes joined with those. Joined nodes
+/// that are told different things by one rule, or by several that name them (or their groups or regions), are refused.
+///
+/// Throws Error(unusable_constraint) naming the rule, and line or nodes where it can; constraints are then unchanged.
+/// Cost: linear in the mesh, once, and in the nodes named.
 void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view json, const RuleInput& input = {});
 
 /// The same for a curve. "boundary" are the ends of its chains. Rules may also have "tangent": "fixed"
-/// (estimate_tangents() of the input), "free", [x, y, z] or a list; all vectors may have two numbers instead of three.
+/// (estimate_tangents()), "free", [x, y, z] or a list. Vectors may have two numbers instead of three.
 void apply_rules(Constraints& constraints, const PolygonCurve& curve, std::string_view json,
                  const RuleInput& input = {});
 
-/// Refuses what would shrink, drift or vanish: throws Error(unusable_constraint), with the reason and the ways out, for
-/// a component with moving nodes that nothing holds, and for one with a boundary loop of which fewer than three nodes
-/// are fixed; Error(unusable_shape) where a face of a moving node has fewer than three nodes or a coordinate is not
-/// finite. Returns warnings, one line each, for nodes that cannot move (edges of more than two faces, faces in several
-/// fans, repeated nodes and faces) and are held where they are, for constraints that leave a family of shapes (a closed
-/// surface held by too little to tell one sphere from another) and for boundary nodes that are free to be drawn in.
-/// Cost: linear.
+/// Checks that a surface can be faired under these constraints.
+///
+/// Throws Error(unusable_constraint), with the reason and ways out, for a component with moving nodes that nothing
+/// holds, and for a boundary loop of which fewer than three nodes are fixed; Error(unusable_shape) where a face of a
+/// moving node has fewer than three nodes or a coordinate is not finite.
+///
+/// Returns warnings, one line each: nodes that cannot move and are held (edges of more than two faces, faces in several
+/// fans, repeated nodes and faces); a closed surface held by so little that more than one sphere fits; boundary nodes
+/// that are free to be drawn in. Cost: linear.
 std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints);
 
-/// The same for a curve: refuses ends that are free to be drawn in and closed chains of which nothing is held, with
-/// Error(unusable_constraint); with Error(unusable_shape) nodes that would have to move where chains meet, where
-/// a coordinate is not finite, or in a closed chain of fewer than three nodes. Warns of closed chains held by so little
-/// that a family of circles fits. Cost: linear.
+/// The same for a curve. Throws Error(unusable_constraint) for free ends and for closed chains of which nothing is
+/// held; Error(unusable_shape) where a node that would have to move lies where chains meet, in a closed chain of fewer
+/// than three nodes, or at a coordinate that is not finite. Warns of closed chains held by so little that more than one
+/// circle fits. Cost: linear.
 std::vector<std::string> check_constraints(const PolygonCurve& curve, const Constraints& constraints);
 
 }  // namespace vspring

@@ -8,10 +8,10 @@ namespace vspring {
 
 /// How far a long call has come.
 struct Progress {
-  std::string_view stage;  ///< what is being done, a word or two; static storage
+  std::string_view stage;  ///< what is being done, in a word or two; static storage
   double fraction = 0;     ///< of the whole call, 0 to 1, never falling
   int iteration = 0;       ///< iterations done so far; 0 outside iterations
-  double residual = 0;     ///< the figure that the termination test compares; 0 outside iterations
+  double residual = 0;     ///< the figure that the stopping test compares; 0 outside iterations
 };
 
 /// Progress, cancellation and threads of one call or of several. Every long loop of the library asks it.

@@ -16,29 +16,29 @@ struct NodeCurvature {
   double k2 = 0;
   Vector3 direction1 = Vector3::Zero();  ///< along which the normal curvature is k1; unit length, of either sense
   Vector3 direction2 = Vector3::Zero();
-  double k1_along_1 = 0;  ///< derivative of k1 by length along direction1, and so on
+  double k1_along_1 = 0;  ///< derivative of k1 along direction1, 1/length²; the others likewise
   double k1_along_2 = 0;
   double k2_along_1 = 0;
   double k2_along_2 = 0;
-  /// Of the polynomial that the nodes around determine, 0 to 4. Below 3 the derivatives of curvature are zero, below 2
-  /// the curvatures and their directions, and at 0 the normal is zero or only estimated.
+  /// Degree of the polynomial that the nodes around determine, 0 to 4. Below 3 the derivatives of curvature are zero,
+  /// below 2 also curvatures and their directions; at 0 the normal is zero or only estimated.
   int degree = 0;
 
   [[nodiscard]] double mean() const noexcept { return (k1 + k2) / 2; }
   [[nodiscard]] double gaussian() const noexcept { return k1 * k2; }
 };
 
-/// The curvatures of a surface at all nodes, from a least-squares polynomial of fourth degree through the node and near
-/// the nodes around (the osculating jet of Cazals and Pouget 2005), over two to five rings of faces of any number of
-/// nodes. On smooth surfaces of any meshing, also at boundaries, curvatures err with the third power of the spacing and
-/// their derivatives with the second. Never NaN: see NodeCurvature::degree. The same bits for every number of threads.
-/// Cost: linear, some microseconds per node. When cancelled, nodes not yet looked at have degree 0.
+/// The curvatures of a surface, one entry per node: from a polynomial of fourth degree through the node that fits the
+/// nodes around by least squares (osculating jets: Cazals and Pouget 2005), over two to five rings of faces. On smooth
+/// surfaces of any meshing, also at boundaries, curvatures err with the third power of the spacing and their
+/// derivatives with the second. Never NaN: see NodeCurvature::degree. The same bits for every number of threads. Cost:
+/// linear, some microseconds per node. When cancelled, nodes not yet looked at have degree 0.
 [[nodiscard]] std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Context& context);
 [[nodiscard]] std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh);
 
-/// The curvature of a curve at its nodes, 1/length: of the circle through the node and its two neighbours, not
-/// negative. Zero at open ends and where there is no circle; where several chains run through a node, that of the last.
-/// On smooth curves of even spacing it errs with the square of the spacing. Cost: linear.
+/// The curvature of a curve, one entry per node, 1/length, not negative: that of the circle through the node and its
+/// two neighbours. Zero at open ends and where there is no circle; where several chains run through a node, that of the
+/// last. On smooth curves of even spacing it errs with the square of the spacing. Cost: linear.
 [[nodiscard]] std::vector<double> curvatures(const PolygonCurve& curve);
 
 }  // namespace vspring

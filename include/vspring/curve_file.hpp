@@ -21,68 +21,70 @@ enum class CurveFormat { obj, csv, dat, xyz, svg };
 
 class CurveSource;  // the bytes of a file and where its coordinates are; private to the library
 
-/// A curve and all else that its file carried.
+/// A curve and everything else that its file carried.
 struct CurveFile {
   PolygonCurve curve;
   /// Whether the file gives two coordinates per node; z is then 0.
   bool planar = false;
   /// Nodes of each named group (OBJ `g` and `o`: all nodes of the lines that follow), ascending.
   std::map<std::string, std::vector<Index>> groups;
-  /// The name that the file gives the curve (first line of DAT), or empty.
+  /// The name that the file gives the curve (first line of DAT); empty if none.
   std::string name;
   CurveFormat format = CurveFormat::obj;
-  /// What a person should know: what was skipped or joined while reading.
+  /// For people: what was skipped or joined while reading.
   std::vector<std::string> warnings;
   /// Keeps what the format carried besides positions, for writing; null for a curve that no file gave.
   std::shared_ptr<const CurveSource> source;
 };
 
-/// Reads a curve. path: a file, or "-" for standard input.
+/// Reads a curve. path: a file, or "-" for standard input. format: where not given, the extension's; for "-" or an
+/// unknown extension it is found from the content. columns: of CSV and XYZ, which columns hold x, y and z; empty: the
+/// reader finds them.
 ///
-/// OBJ: `l` elements, several curves in one file, in any order of segments (see chains_of_segments()); nodes are all
-/// `v`, in file order; a segment given twice counts once; everything else is kept. CSV: one node per row, 2 or 3
-/// columns x, y[, z] (those in `columns`, else those that a header names, with or without units, else the first ones
-/// that hold numbers; refused where they cannot be told from others), separated by commas, semicolons, tabs or spaces;
-/// other columns, comments (#) and the header are kept; an empty row begins another chain. XYZ: the same without
-/// header, separated by white space, the coordinates first. DAT: aerofoils, Selig (name, then x y around from the
-/// trailing edge) or Lednicer (name, numbers of points of upper and lower side, each from the leading edge on: one
-/// chain from the trailing edge over the upper side and back; nodes in file order, the leading edge one node where both
-/// sides give it). A chain whose last node repeats the position of the first stays open; only the same number (OBJ)
-/// closes it.
+/// OBJ: `l` elements, several curves in one file, segments in any order (chains_of_segments()); nodes are all `v`, in
+/// file order; a segment given twice counts once. CSV: one node per row, 2 or 3 columns x, y[, z], separated by commas,
+/// semicolons, tabs or spaces: those that a header names, with or without units, else the first that hold numbers;
+/// refused where they cannot be told from other columns. An empty row begins another chain. XYZ: the same without
+/// header, separated by white space. DAT: aerofoils as Selig (name, then x y around from the trailing edge) or Lednicer
+/// (name, numbers of points of upper and lower side, each from the leading edge on) arranged them. Lednicer's become
+/// one chain from the trailing edge over the upper side and back; the leading edge is one node where both sides give
+/// it. All else in the file is kept for writing.
 ///
-/// The format is `format`, else the extension's; for "-" or an unknown extension it is found from the content. Throws
-/// Error(unusable_file) naming path and line for anything that cannot be read whole, and for a file without a curve;
-/// Error(invalid_argument) where `columns` is given and is no choice of columns, or the file is neither CSV nor XYZ.
-/// Cost: linear; the bytes of the file stay in memory.
+/// A chain whose last node repeats the position of the first stays open; only the same number (OBJ) closes it.
+///
+/// Throws Error(unusable_file), naming path and line, for anything that cannot be read whole and for a file without a
+/// curve; Error(invalid_argument) where `columns` is given and is no choice of columns, or the file is neither CSV nor
+/// XYZ. Cost: linear; the bytes of the file stay in memory.
 [[nodiscard]] CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format = std::nullopt,
                                    const ColumnChoice& columns = {});
 
 /// What a written picture shows.
 struct CurvePicture {
-  /// The curve before, drawn thin behind; null draws none. One chain structure of its own.
+  /// The curve before, drawn thin behind; null draws none. It has chains of its own.
   const PolygonCurve* before = nullptr;
-  /// Points that the curve is to come near to, drawn as dots; of very many every so-manieth, 20,000 at most.
+  /// Points that the curve was fitted to, drawn as dots, 20,000 at most.
   std::span<const Vector3> points = {};
-  /// Only what is seen in this box is drawn, in units of the curve; where none is given, all.
+  /// The part that is drawn, in units of the curve; where not given, all.
   std::optional<Eigen::AlignedBox<double, 3>> part = std::nullopt;
 };
 
 /// Writes the curve with `positions` in place of its own. path: a file, or "-" for standard output. format: where not
 /// given, the extension's, and without one the source's own.
 ///
-/// In the source's own format everything but coordinates is written as it was read, byte for byte; coordinates of nodes
-/// whose position is unchanged are too, the others as the shortest decimals that read back the same. In another format:
-/// chains and positions; a planar curve stays one of two columns while it stays in its plane; CSV, XYZ and DAT have the
-/// nodes along the chains, and the first node of a closed chain once more at its end. SVG: a picture, the curve with
-/// its nodes and its curvature comb (lines along the curvature vector of the circle through three successive nodes),
-/// before and after, see CurvePicture; space curves are drawn as seen along the normal of their best plane. Below it
-/// the curvature against arc length, with a sign for planar curves.
+/// In the source's own format everything but the coordinates of nodes that moved is written as it was read, byte for
+/// byte; new coordinates are the shortest decimals that read back the same. In another format: chains and positions. A
+/// planar curve keeps two columns while it stays in its plane. CSV, XYZ and DAT have the nodes along the chains, and
+/// the first node of a closed chain once more at its end. SVG is a picture: the curve with its nodes and its curvature
+/// comb (lines along the curvature vector of the circle through three successive nodes), before and after, and below it
+/// curvature against arc length, with a sign for planar curves. Space curves are drawn as seen along the normal of
+/// their best plane.
 ///
-/// The file appears whole or not at all, see write_file(). Throws Error(unusable_file) when it cannot be, and
-/// Error(invalid_argument) unless there is one position per node, finite where it is not the one that was read; also
-/// for a node that leaves z = 0 in a file of two columns, and for several chains or a curve in space as DAT. Returns
-/// what the source carried and the output does not, one line each, empty when nothing is lost and for a picture. Cost:
-/// linear.
+/// Returns what the source carried and the output does not, one line each; empty when nothing is lost, and for a
+/// picture. The file appears whole or not at all, see write_file().
+///
+/// Throws Error(unusable_file) when it cannot be written; Error(invalid_argument) unless there is one position per
+/// node, finite where it is not the one that was read, for a node that leaves z = 0 in a file of two columns, and for
+/// several chains or a space curve as DAT. Cost: linear.
 std::vector<std::string> write_curve(const std::string& path, const CurveFile& file,
                                      const std::vector<Vector3>& positions,
                                      std::optional<CurveFormat> format = std::nullopt,
@@ -94,7 +96,7 @@ std::vector<std::string> write_curve(const std::string& path, const CurveFile& f
                                      const CurvePicture& picture = {});
 
 /// Writes a curve that no file gave. format: where not given, the extension's. planar: write two coordinates. Throws as
-/// above; every position has to be finite.
+/// above; every position must be finite.
 void write_curve(const std::string& path, const PolygonCurve& curve, std::optional<CurveFormat> format = std::nullopt,
                  bool planar = false);
 

@@ -9,7 +9,7 @@
 
 namespace vspring {
 
-/// How far points lie from something else, in the units of the input.
+/// How far points lie from a shape or from other points, in units of the input.
 struct Distance {
   double greatest = 0;
   double rms = 0;   ///< root mean square over the points
@@ -18,15 +18,13 @@ struct Distance {
   Index count = 0;
 };
 
-/// Between the same nodes before and after. Throws Error(invalid_argument) unless there are as many of both.
-/// Cost: linear.
+/// Between each node before and after. Throws Error(invalid_argument) unless there are as many of both. Cost: linear.
 [[nodiscard]] Distance node_distance(std::span<const Vector3> before, std::span<const Vector3> after);
 
-/// From every point to the nearest place on the polygons of a mesh, or on the edges of a curve, of any connectivity:
-/// `of_points` to `shape`, which is not the same as the other way round. Faces that are not flat are taken as
-/// triangles, see docs/fairness.md. Throws Error(unusable_shape) for a shape without a face (edge) of finite
-/// coordinates. The same bits for every number of threads. Cost: n log n. When cancelled, only the points looked at so
-/// far count.
+/// From every point to the nearest place on the polygons of a mesh, or on the edges of a curve, of any connectivity.
+/// There and back are not the same. Faces that are not flat are taken as triangles (docs/fairness.md). The same bits
+/// for every number of threads. Throws Error(unusable_shape) for a shape without a face (edge) of finite coordinates.
+/// Cost: n log n. When cancelled, only the points looked at so far count.
 [[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonMesh& to_shape,
                                 const Context& context);
 [[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonMesh& to_shape);
@@ -34,7 +32,8 @@ struct Distance {
                                 const Context& context);
 [[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonCurve& to_shape);
 
-/// The distances that distance() sums up, one for each point; zero for points that are not measured. Throws as it does.
+/// The distances of distance() one by one: an entry per point, zero for points that are not finite. Throws and costs as
+/// it does.
 [[nodiscard]] std::vector<double> point_distances(std::span<const Vector3> of_points, const PolygonMesh& to_shape,
                                                   const Context& context);
 [[nodiscard]] std::vector<double> point_distances(std::span<const Vector3> of_points, const PolygonCurve& to_shape,

@@ -9,7 +9,7 @@ enum class ErrorCode {
   invalid_argument,    ///< an option or argument outside its range
   unusable_file,       ///< a file that cannot be opened, read, understood or written
   unusable_shape,      ///< connectivity or coordinates that cannot be faired where a node has to move
-  unusable_constraint  ///< constraints that contradict themselves or leave the shape unheld
+  unusable_constraint  ///< constraints that contradict each other or leave the shape unheld
 };
 
 /// The one exception type of the library. The message names the file, line, node or face, says what is

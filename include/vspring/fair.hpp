@@ -15,54 +15,53 @@
 namespace vspring {
 
 enum class Method {
-  equilibrium,  ///< the accelerated solver that goes to the true equilibrium
+  equilibrium,  ///< the accelerated solver, which goes to the equilibrium itself; see docs/solver.md
   multigrid,    ///< the paper's V-cycle over coarser levels (§4.7)
   sweep         ///< the paper's plain iteration (§4.1)
 };
 
 struct FairOptions {
-  /// Where not given: equilibrium; of a surface for which that finds none, and max_iterations is not given, the shape
-  /// of sweep, with a warning.
+  /// Empty: equilibrium. If that finds none on a surface, and max_iterations is not given, the plain iteration is tried
+  /// last, with a warning.
   std::optional<Method> method = std::nullopt;
-  /// Of surfaces.
+  /// Surfaces: how normals follow from the nodes around.
   PseudoNormals pseudo_normals = PseudoNormals::link;
-  /// Of surfaces, by the method equilibrium; the others, and fits, take edge. So do, by themselves, shapes whose
-  /// boundary moves, which are held so little that spheres of many sizes are fair, or with a normal that is given where
-  /// nodes move on more sides than one; and, with a warning, those of which sphere springs find no equilibrium.
+  /// Surfaces, method equilibrium: which springs. Edge springs are taken all the same by other methods and fits; where
+  /// the boundary moves; where so little is held that spheres of many sizes are fair; where a normal is given at a node
+  /// with moving nodes on more sides than one; and, with a warning, where sphere springs find no equilibrium.
   Springs springs = Springs::sphere;
-  /// Of surfaces, with sphere springs: edge springs know curvature only. Where no shape of least bending is found, or
-  /// sphere springs were asked for and edge springs taken by themselves, the result is that of curvature, with a
-  /// warning.
+  /// Surfaces with sphere springs: what is made even or least. The result is that of curvature, with a warning, where
+  /// no shape of least bending is found or edge springs take over.
   FairBy fair_by = FairBy::curvature;
-  /// Printed ones are for comparisons with the paper.
+  /// `printed` is for comparison with the paper.
   Forces forces = Forces::steady;
-  /// Of curves.
+  /// Curves: tangents, weights and the plane of the force.
   CurveRules curve = {};
-  /// Where not given: smooth, and even where that finds no equilibrium; of curves, and of multigrid and sweep if they
-  /// are asked for, even.
+  /// Empty: smooth for surfaces, and even where that finds no equilibrium; even for curves, and where multigrid or
+  /// sweep is asked for.
   std::optional<Distribution> distribution = std::nullopt;
-  /// Of surfaces: boundary nodes whose position is free are faired first, as the closed curves that they form between
-  /// the held ones (§4.5), and stay there while the surface follows. Else they are drawn in with the surface.
+  /// Surfaces: boundary nodes whose position is free are faired first, as closed curves between the held ones (§4.5),
+  /// and stay there while the surface follows. Otherwise they move with the surface, which draws them in.
   bool fair_boundary = false;
-  /// Equilibrium: stop when no node is expected to be further than this share of the diagonal of the box around the
-  /// moving nodes and their rim from its final place.
+  /// Equilibrium: stop when no node is expected to be further from its final place than this share of the diagonal of
+  /// the box around the moving nodes and their rim. More than 0.
   double tolerance = 1e-5;
-  /// Multigrid and sweep: the paper's e (§4.6): stop when no node moves further in one iteration than this share of the
+  /// Multigrid and sweep: the paper's e (§4.6). Stop when no node moves further in one iteration than this share of the
   /// mean length of its edges.
   double step_tolerance = 1e-3;
-  /// Where not given: 10,000 sweeps, with multigrid on each level; 200 iterations of the equilibrium solver on each of
-  /// its levels (30 on the finest with sphere springs that are not near by then) and no more than
-  /// FairReport::most_work, another distribution included, and on surfaces where these lead nowhere steps
-  /// along the flow of the plain iteration.
+  /// Stop after so many iterations, on each level; no other springs, distributions or methods are then tried. Empty:
+  /// 10,000 sweeps; with equilibrium 200 iterations on each level (30 on the finest with sphere springs that are not
+  /// near by then), no more work than FairReport::most_work, and where that leads nowhere the fallbacks of
+  /// docs/solver.md.
   std::optional<int> max_iterations = std::nullopt;
-  /// Multigrid: levels, the shape itself among them; fewer where that has too few nodes. Where not given: 6 as in the
-  /// paper, but fewer where the coarsest would have under 60 moving nodes, and more where there are enough for another;
-  /// on curves as many as there are, down to 24 to 47 edges between held nodes.
+  /// Multigrid: number of levels, the shape itself among them; fewer where it has too few nodes. Empty: as many as
+  /// leave 60 moving nodes or more on the coarsest (6 as in the paper for 60,000 to 250,000 nodes); on curves as leave
+  /// 24 to 47 edges between held nodes.
   std::optional<int> levels = std::nullopt;
   /// Multigrid: iterations on each level on the way down.
   int pre_smoothing = 5;
-  /// A shape that is worse than the input is returned as it was found, with a warning, and nothing else is tried: for
-  /// comparisons of methods and distributions.
+  /// Return a shape that is worse than the input as it was found, with a warning, and try nothing else: for comparisons
+  /// of methods and distributions.
   bool as_found = false;
   /// result = input + strength × (fair − input) for moving nodes; 0 to 1.
   double strength = 1;
@@ -70,7 +69,7 @@ struct FairOptions {
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
 
-  /// What is given, or else taken, for the distribution of surfaces.
+  /// The distribution given, or else the default, of surfaces.
   [[nodiscard]] Distribution distribution_taken() const {
     const bool papers_own = method && *method != Method::equilibrium;
     return distribution.value_or(papers_own ? Distribution::even : Distribution::smooth);
@@ -87,50 +86,49 @@ struct FairOptions {
 [[nodiscard]] const char* name(Method method) noexcept;
 
 enum class Outcome {
-  converged,         ///< nothing is expected to be further away than the tolerance
-  iteration_limit,   ///< FairOptions::max_iterations; of multigrid and sweep also where it was left at its default
-  work_limit,        ///< FairReport::most_work, or a limit nobody gave: what is left is not worth more time
-  stalled,           ///< further iterations do not lead nearer
-  worse_than_input,  ///< what was found has folds, crossing or collapsed faces, places, bending or an energy that the
-                     ///< input had not, or lacks windings that it had, see docs/distribution.md; unless
-                     ///< FairOptions::as_found, the positions are the best shape that is not worse, at worst the input
-                     ///< with its constraints applied
+  converged,        ///< no node is expected to be further from its final place than the tolerance
+  iteration_limit,  ///< FairOptions::max_iterations was reached; with multigrid and sweep also its default
+  work_limit,       ///< FairReport::most_work, or the default limit of iterations, was reached
+  stalled,          ///< further iterations do not come nearer
+  /// The shape found has folds, crossings, bending or the like that the input has not; docs/distribution.md has the
+  /// list. Unless FairOptions::as_found, the positions are the best shape that is not worse, at worst the input with
+  /// its constraints applied.
+  worse_than_input,
   cancelled
 };
 
 /// "converged", "iteration-limit", "work-limit", "stalled", "worse-than-input" or "cancelled".
 [[nodiscard]] const char* name(Outcome outcome) noexcept;
 
-/// The work on one level of the hierarchy, the coarsest first. Outcome: of that level's own test; `cancelled` where it
-/// was not reached.
+/// The work on one level of the hierarchy.
 struct LevelReport {
   Index moving_nodes = 0;
   int iterations = 0;
-  Outcome outcome = Outcome::converged;
+  Outcome outcome = Outcome::converged;  ///< of the level's own test; `cancelled` where it was not reached
   double seconds = 0;
 };
 
 struct FairReport {
   Outcome outcome = Outcome::converged;
   Method method = Method::sweep;
-  /// Of surfaces.
+  /// Surfaces: the springs that were used in the end, and what they made.
   Springs springs = Springs::edge;
   FairBy fair_by = FairBy::curvature;
   int iterations = 0;
-  /// Multigrid and sweep: largest displacement of the last iteration, relative to the mean edge length at its node
-  /// (§4.6). Equilibrium: predicted largest distance of a node from its final place, relative to the diagonal of the
-  /// box.
+  /// The figure that the stopping test compares. Multigrid and sweep: the largest displacement of the last iteration
+  /// over the mean edge length at its node (§4.6). Equilibrium: the expected error.
   double residual = 0;
-  /// That figure for every iteration, over all levels.
+  /// That figure after every iteration, over all levels.
   std::vector<double> history;
-  /// Predicted largest distance of a node from its final place, relative to the diagonal of the box around the moving
-  /// nodes and their rim; none where the method cannot tell.
+  /// Predicted largest distance of a node from its final place, as a share of the diagonal of the box around the moving
+  /// nodes and their rim. Empty with sweep, which cannot tell.
   std::optional<double> expected_error;
-  /// What was done on coarser versions of the shape and at last on itself.
+  /// The levels that were worked on, the coarsest first. With equilibrium, one iteration on the shape itself may come
+  /// before them, which asks whether it is at its equilibrium already. Empty with sweep.
   std::vector<LevelReport> levels;
-  /// What was done on all levels together, in iterations of the equilibrium solver on one moving node (a step of the
-  /// flow counts 60, a sweep 1/16, a new factor of a matrix 0.1 to 6), and the most that would have been done, sweeps
-  /// as a last resort not counted; 0 where iterations are limited instead.
+  /// Work done on all levels, in iterations of the equilibrium solver on one moving node. A step of the flow counts 60,
+  /// a sweep 1/16, a new factor of a matrix 0.1 to 6 iterations. most_work is the most that would have been done,
+  /// without the sweeps as a last resort; 0 where iterations are limited instead.
   double work = 0;
   double most_work = 0;
   Index nodes = 0;
@@ -139,14 +137,14 @@ struct FairReport {
   Index fixed_positions = 0;
   Index fixed_normals = 0;
   Index fixed_tangents = 0;
-  /// How far nodes moved from the input: largest, and root mean square over the moving nodes; in units of the input.
+  /// How far moving nodes are from the input: largest, and root mean square; in units of the input.
   double greatest_move = 0;
   double mean_move = 0;
   double seconds = 0;
   int threads = 1;
   Fairness before;
   Fairness after;
-  /// Of the boundary's own fairing, where it was asked for.
+  /// With FairOptions::fair_boundary: the report of the boundary's own fairing.
   std::shared_ptr<const FairReport> boundary;
   std::vector<std::string> warnings;
 };
@@ -158,22 +156,24 @@ struct FairResult {
 
 /// Fairs a polygonal surface or curve under constraints (paper §4.1 and Fig. 3; §4.8 for curves).
 ///
-/// Curves go to the equilibrium of the V-Spring equations: between constraints curvature is linear in arc length, an
-/// Euler spiral; see docs/curves.md. An end without a tangent is free to turn. A given normal leaves the tangent free
-/// to turn about it; on a planar curve it gives the tangent.
+/// Curves: between constraints curvature becomes linear in arc length, an Euler spiral; see docs/curves.md. An end
+/// without a tangent is free to turn. A given normal leaves the tangent free to turn about it; on a planar curve it
+/// gives the tangent.
 ///
-/// Surfaces by Method::equilibrium go to where no node is displaced any more; the report says how far off they are
-/// expected to be. Memory: about 0.7 kB for every
-/// moving node, all in.
+/// Surfaces: nodes go to where no node is displaced any more (Method::equilibrium); see docs/solver.md. With
+/// options.fair_boundary the boundary is faired first, as a curve, always to its equilibrium, under the positions and
+/// tangents that the constraints give there (normals act on the surface); throws as for a curve.
 ///
-/// With options.fair_boundary the boundary of a surface is faired first as a curve, under the positions and tangents
-/// that the constraints give there (normals act on the surface), always to its equilibrium; throws as for a curve.
+/// Nodes with a fixed position come out exactly at it; isolated nodes stay. The result has the same bits for every
+/// number of threads. Cancellation returns the shape so far with outcome `cancelled`. Arguments are unchanged.
 ///
-/// Nodes with a fixed position come out exactly at it; isolated nodes stay. Nothing is silently lost: throws as
-/// check_constraints() does for what cannot be faired; Error(invalid_argument) for options out of range or constraints
-/// of another node count. Arguments are unchanged. Cancellation ends with the shape so far and outcome `cancelled`. The
-/// result is the same, bit for bit, for every number of threads. Cost: linear in the nodes, once, and in the moving
-/// nodes for every iteration.
+/// Throws as check_constraints() does for what cannot be faired, and Error(invalid_argument) for options out of range
+/// or constraints of another node count.
+///
+/// Cost: linear in all nodes, once, and in the moving nodes for every iteration; three to six iterations on the finest
+/// level where all goes well. Where it does not, the work is bounded by FairReport::most_work: 450 iterations of every
+/// moving node, or 1.35 million of one node where that is more, some two seconds for 3,000 nodes, besides sweeps as a
+/// last resort. Memory: about 0.7 kB for every moving node.
 [[nodiscard]] FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const FairOptions& options,
                               Context& context);
 [[nodiscard]] FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const FairOptions& options = {});

@@ -8,12 +8,12 @@
 
 namespace vspring {
 
-/// Fairs one mesh again and again while somebody moves its constraints: levels, equations and their factors are kept,
-/// and each shape starts from the one before.
+/// Fairs one mesh again and again while its constraints move, as in an editor. Levels, equations and their factors are
+/// kept between calls, and each call starts from the last shape. See docs/solver.md.
 class FairingSession {
  public:
-  /// Throws as fair() does for options out of range. threads: how many work on every call, whatever its context says;
-  /// 0: as many as the machine has.
+  /// threads: how many work on every call, whatever its context says; 0: as many as the machine has. Throws
+  /// Error(invalid_argument) for options out of range.
   explicit FairingSession(PolygonMesh mesh, const FairOptions& options = {}, int threads = 0);
   ~FairingSession();
   FairingSession(FairingSession&&) noexcept;
@@ -21,27 +21,31 @@ class FairingSession {
   FairingSession(const FairingSession&) = delete;
   FairingSession& operator=(const FairingSession&) = delete;
 
-  /// As fair(), with the constraints as they are now. Where they hold the same nodes as at the last call, only
-  /// elsewhere or with other normals, and that one found an equilibrium, this one starts from there, and where they go
-  /// on much as before from where that leads: then it costs a few iterations. The shape is the same within the expected
-  /// error, not to the bit. Where there is none to be found the best shape stays, and the outcome says so. Cancelled
-  /// there, the next call starts where this one did. Otherwise, where a picture since the last call led nowhere or to
-  /// something worse, and always with other methods than the equilibrium's and with options.fair_boundary, it does and
-  /// costs what fair() does. report.before is that of the mesh.
+  /// Fairs under the constraints as they are now. The result is that of vspring::fair() within the expected error, not
+  /// to the bit; report.before is that of the mesh.
+  ///
+  /// If the last call found an equilibrium, and the constraints hold the same nodes as then, at other positions or with
+  /// other normals, the call starts from the last shape and costs a few iterations. If the constraints go on moving as
+  /// they did, it starts from where that leads. A call that is cancelled leaves the session where it was.
+  ///
+  /// Otherwise it does and costs what vspring::fair() does. So it does after a follow() that found no equilibrium or a
+  /// shape worse than the input, with methods other than equilibrium, and with options.fair_boundary. Throws as
+  /// vspring::fair() does.
   [[nodiscard]] FairResult fair(const Constraints& constraints, Context& context);
   [[nodiscard]] FairResult fair(const Constraints& constraints);
 
-  /// The same for pictures of a drag: no node is expected to be further from its final place than `tolerance`, in place
-  /// of that of the options, and nothing is measured: `before`, `after`, moves and counts of what is held are left out
-  /// of the report. Where it cannot go on from the last shape it makes at most 40 iterations on each level; a shape
-  /// that is worse than the input is said to be (Outcome::worse_than_input), and fair() looks for a better one. Costs
-  /// one or two iterations, each linear in the moving nodes, where constraints go on much as at the last calls. Throws
-  /// as fair() does, and for a tolerance out of range.
+  /// Fairs for a picture during a drag, to `tolerance` in place of the options' (the same share of the diagonal).
+  /// Nothing is measured: `before`, `after`, moves and counts of what is held are left out of the report.
+  ///
+  /// If it cannot start from the last shape, it makes at most 40 iterations on each level. A shape worse than the input
+  /// is returned with Outcome::worse_than_input; fair() then looks for a better one. Cost: one or two iterations while
+  /// the constraints move steadily, each linear in the moving nodes. Throws as fair() does, and Error(invalid_argument)
+  /// for a tolerance out of range.
   [[nodiscard]] FairResult follow(const Constraints& constraints, double tolerance, Context& context);
 
-  /// About where follow() would lead, for a first picture of a large shape: as the last steps went, and for what these
-  /// do not tell as if slopes were small, when two tenths of the way may be missing. The session stays as it is. None
-  /// where follow() would not start from the last shape. Costs at most about one iteration.
+  /// Predicts the positions that follow() would return, one per node, for a first picture of a large shape. At the
+  /// beginning of a drag a node may be two tenths of its way beside its place. The session stays as it is. Empty where
+  /// follow() would not start from the last shape. Cost: at most about one iteration.
   [[nodiscard]] std::optional<std::vector<Vector3>> foresee(const Constraints& constraints, double tolerance);
 
  private:

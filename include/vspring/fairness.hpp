@@ -8,7 +8,8 @@
 
 namespace vspring {
 
-/// Figures of fairness of a surface or a curve. All are free of scale.
+/// The figures of fairness that every report has. All are free of scale. Definitions of these and others:
+/// docs/fairness.md.
 struct Fairness {
   /// Σ over edges ((t_j − t_i)/ℓ)²: the springs' disagreement (Eq. 4) relative to the edge length ℓ.
   double vspring_energy = 0;
@@ -19,12 +20,12 @@ struct Fairness {
   double mean_turn = 0;
 };
 
-/// Measures a surface. Pseudo-normals are Max's around the link, or the given ones where a constraint fixes them.
-/// Faces without area and edges without two faces are left out. Cost: linear.
+/// Measures a surface. Pseudo-normals are Max's around the link, or the given ones where a constraint fixes them. Faces
+/// without area and edges without two faces are left out. Cost: linear.
 [[nodiscard]] Fairness measure(const PolygonMesh& mesh, const Constraints* constraints = nullptr);
 
 /// Measures a curve, with the tangents of the circles through successive nodes, or the given ones where a constraint
-/// fixes them; with constraints only what lies at moving nodes. Cost: linear.
+/// fixes them. With constraints only what lies at moving nodes is measured. Cost: linear.
 [[nodiscard]] Fairness measure(const PolygonCurve& curve, const Constraints* constraints = nullptr);
 
 }  // namespace vspring

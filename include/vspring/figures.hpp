@@ -37,7 +37,7 @@ struct SurfaceFigures : Fairness {
   double least_mean_curvature = 0;
   double greatest_gaussian_curvature = 0;  ///< times D²
   double least_gaussian_curvature = 0;
-  /// Local extremes of H inside the surface that stand out by more than 5 % of the root mean square of √(κ1² + κ2²),
+  /// Local extrema of H inside the surface that stand out by more than 5 % of the root mean square of √(κ1² + κ2²),
   /// and by more than 1/(1000 D).
   Index mean_curvature_extrema = 0;
   /// Faces that point against the faces around them at every one of their nodes.
@@ -50,12 +50,12 @@ struct SurfaceFigures : Fairness {
   double greatest_angle = 0;
   Index zero_length_edges = 0;
   Index zero_area_faces = 0;
-  /// Nodes where too few nodes around are known for κ1 and κ2; they count nothing in the figures of curvature.
+  /// Nodes with too few nodes around for κ1 and κ2; they count as flat.
   Index nodes_without_curvature = 0;
-  /// Nodes where they are too few for derivatives of curvature.
+  /// Nodes with too few nodes around for derivatives of curvature; they count as uniform.
   Index nodes_without_variation = 0;
-  /// Largest angle between a given normal and the surface's own, by estimate_normals() over faces with a moving node,
-  /// degrees. None without given normals.
+  /// Largest angle between a given normal and that of the surface, by estimate_normals() over faces with a moving node,
+  /// degrees. Empty without given normals.
   std::optional<double> normal_error;
 };
 
@@ -64,31 +64,31 @@ struct CurveFigures : Fairness {
   double diagonal = 0;  ///< of the box around the curve, in units of the input
   /// L ∫ κ² ds.
   double bending_energy = 0;
-  /// L³ ∫ (dκ/ds)² ds, κ being the curvature vector in a frame that does not turn about the curve.
+  /// L³ ∫ (dκ/ds)² ds, κ being the curvature vector in a rotation-minimising frame.
   double curvature_variation = 0;
   double greatest_curvature = 0;  ///< largest |κ| L
-  /// Local extremes of curvature between the ends that stand out by more than 5 % of its root mean square, and by more
-  /// than 1/(1000 L). Signed: through an inflection curvature goes on and does not turn back.
+  /// Local extrema of curvature between the ends that stand out by more than 5 % of its root mean square, and by more
+  /// than 1/(1000 L). Curvature is signed, so an inflection is no extremum.
   Index curvature_extrema = 0;
-  /// Places where curvature changes to the other side, from more than that threshold to more than that threshold.
+  /// Changes from curvature above that threshold to curvature above it on the other side.
   Index inflections = 0;
   double edge_spread = 1;               ///< longest edge over shortest
   double neighbouring_edge_spread = 1;  ///< the largest such ratio of successive edges
   Index zero_length_edges = 0;
   /// Largest angle between a given tangent, or the plane across a given normal, and the curve's own tangent on the
-  /// sides that move, degrees. None without given directions.
+  /// sides that move, degrees. Empty without given directions.
   std::optional<double> normal_error;
 };
 
-/// Measures all. With constraints, only what lies at moving nodes (faces and edges with a moving node), and how well
-/// given normals are met. Progress is told in the stage "measuring". The same bits for every number of threads. Cost:
-/// n log n, some microseconds per node. When cancelled, the figures are of a part and mean nothing.
+/// Measures a surface. With constraints, only faces and edges with a moving node, and how well given normals are met.
+/// Progress is reported in the stage "measuring". The same bits for every number of threads. Cost: n log n, some
+/// microseconds per node. When cancelled, the figures are of a part and mean nothing.
 [[nodiscard]] SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints,
                                              const Context& context);
 [[nodiscard]] SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints = nullptr);
 
-/// The same with curvatures that are known already: of all nodes, as curvatures(mesh, context) gives them for this
-/// mesh. They take most of the time. The same bits as without. Throws Error(invalid_argument) unless there is one for
+/// The same with curvatures that are known already, which take most of the time: one entry per node, as
+/// curvatures(mesh, context) returns. The same bits as without. Throws Error(invalid_argument) unless there is one for
 /// each node.
 [[nodiscard]] SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints,
                                              std::span<const NodeCurvature> curvatures, const Context& context);
@@ -96,7 +96,7 @@ struct CurveFigures : Fairness {
 /// The same for a curve. Cost: linear.
 [[nodiscard]] CurveFigures measure_curve(const PolygonCurve& curve, const Constraints* constraints = nullptr);
 
-/// A figure with what people and scripts need to know of it.
+/// A figure with its name, unit and definition.
 struct Figure {
   std::string_view key;         ///< for scripts, like "bending_energy"
   std::string_view name;        ///< for people, like "bending energy"
@@ -106,7 +106,7 @@ struct Figure {
   bool whole;  ///< a count
 };
 
-/// The figures in the order in which they are shown, those that were measured. Texts are static.
+/// The figures that were measured, in the order in which they are shown. Texts are static.
 [[nodiscard]] std::vector<Figure> list_figures(const SurfaceFigures& figures);
 [[nodiscard]] std::vector<Figure> list_figures(const CurveFigures& figures);
 

@@ -7,10 +7,10 @@
 
 namespace vspring {
 
-/// Shapes for examples, tests and benchmarks. Lengths are in the units of their arguments and lie between 1e-100 and
-/// 1e100, angles are in degrees. Faces run counter-clockwise seen from outside (closed and tubular shapes) or from
-/// above
-/// (+z; all others). Every node belongs to a face. The same arguments give the same bits in every run.
+/// Shapes for examples, tests and benchmarks. Lengths are in the units of their arguments, between 1e-100 and 1e100;
+/// angles are in degrees. Faces run counter-clockwise seen from outside (closed and tubular shapes) or from above (+z;
+/// all others). Every node belongs to a face. The same arguments give the same bits in every run.
+///
 /// Every function throws Error(invalid_argument) naming the argument that is out of its range, and for more than
 /// 100,000,000 nodes. Cost: linear in the nodes.
 namespace generate {
@@ -23,15 +23,15 @@ enum class Faces {
   hexagons  ///< bricks of two cells, shifted by one cell from row to row: six nodes a face, three edges a node
 };
 
-/// A grid of cells. Nodes are numbered row by row, within a row by column. Where the columns run around a shape, the
-/// last is followed by the first, and hexagons need an even number of them from 4, mixed faces a multiple of 4, others
-/// 3 or more; likewise rows. Otherwise 1 or more; single cells left over at the ends of rows are quads.
+/// A grid of cells. Nodes are numbered row by row, within a row by column. Along a closed direction hexagons need an
+/// even number of cells from 4, mixed faces a multiple of 4, others 3 or more; along an open one 1 or more, and single
+/// cells left over at the ends of rows are quads.
 struct Grid {
   int columns = 20;
   int rows = 20;
   Faces faces = Faces::triangles;
-  /// 0 to 0.5: every node inside lies at random in a box of this share of a cell about its place in the grid, exactly
-  /// on the shape. Up to 0.5 no face of a plane turns over. Nodes of the boundary keep their places.
+  /// 0 to 0.5: every inner node lies at random in a box of this share of a cell about its place in the grid, exactly on
+  /// the shape. Up to 0.5 no face of a plane turns over. Boundary nodes keep their places.
   double jitter = 0;
   std::uint64_t seed = 1;  ///< of the jitter
 };
@@ -107,8 +107,8 @@ struct AnnulusOptions {
 };
 
 /// A triangulated ring around the z axis with 2 · nodes − boundary_nodes faces. The outer circle lies at z = 0. Nodes
-/// go ring by ring from the inner circle to the outer. The spacing is even where boundary_nodes allow it. Rings inside
-/// need three nodes each: with boundary_nodes given, there are none or at least 3 more nodes, at least 6 for steps.
+/// go ring by ring from the inner circle to the outer. The spacing is even as far as boundary_nodes allow. Each inner
+/// ring needs three nodes: with boundary_nodes given, there are none or at least 3 more nodes, at least 6 for steps.
 [[nodiscard]] PolygonMesh annulus(const AnnulusOptions& options = {});
 
 /// The annulus with a cone between circles of radius 1 and 0.35, the inner one at z = 0.5.
@@ -127,10 +127,9 @@ struct PipeBlendOptions {
   Faces faces = Faces::quads;                                             ///< quads or triangles
 };
 
-/// A cube about the origin with pipes in place of some sides: a start shape with sharp corners for a blend of pipes.
-/// Each pipe goes over from the square to a circle in the first half of its length and ends in an exact circle of
-/// 4 · cells nodes. Closed elsewhere. Nodes: sides without a pipe first, then the pipes from the cube outwards, in the
-/// order of Side.
+/// A cube about the origin with pipes in place of some sides: a start with sharp corners for a blend of pipes. In the
+/// first half of its length each pipe changes from a square to a circle; it ends in an exact circle of 4 · cells nodes.
+/// Closed elsewhere. Nodes: sides without a pipe first, then the pipes from the cube outwards, in the order of Side.
 [[nodiscard]] PolygonMesh pipe_blend(const PipeBlendOptions& options = {});
 
 /// Options of polygon_patch().
@@ -142,9 +141,9 @@ struct PolygonPatchOptions {
 };
 
 /// One polygon amid rings of quads; the boundary is a circle about the origin at z = 0. Around a polygon of up to 8
-/// sides rings grow as around a cell of a square grid: four edges at every node inside, sides · (2 · rings + 1) nodes
-/// on the boundary. Around one of more sides spokes go outwards: as many nodes on every ring, three edges at the
-/// polygon's own. Nodes go ring by ring outwards; face 0 is the polygon, of nodes 0 to sides − 1.
+/// sides rings grow as around a cell of a square grid, with four edges at every inner node and sides · (2 · rings + 1)
+/// nodes on the boundary. Around one of more sides every ring has as many nodes, and the polygon's own have three
+/// edges. Nodes go ring by ring outwards; face 0 is the polygon, of nodes 0 to sides − 1.
 [[nodiscard]] PolygonMesh polygon_patch(const PolygonPatchOptions& options = {});
 
 /// Options of genus().
@@ -170,7 +169,7 @@ struct Shuffled {
   std::vector<Index> new_face_number;  ///< of each face of the original
 };
 
-/// The same mesh with nodes and faces in random order. Each face begins with the same node as before.
+/// The same mesh with nodes and faces in random order. Each face begins at the same node as before.
 [[nodiscard]] Shuffled shuffle(const PolygonMesh& mesh, std::uint64_t seed = 1);
 
 }  // namespace generate

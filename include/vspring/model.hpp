@@ -10,34 +10,39 @@ enum class PseudoNormals {
   angle     ///< weighted by the angles of the faces at the node
 };
 
-/// Where the tangential regularisation (§4.4) sends a node.
+/// Where the regularisation (§4.4) moves a node along the shape. A node's share of a neighbour is the weight of that
+/// neighbour in the mean that the node goes to. See docs/distribution.md.
 enum class Distribution {
-  even,    ///< to the mean of its neighbours, as in the paper
-  smooth,  ///< to the share between its neighbours that it has in the input once noise is taken out of its spacing:
-           ///< aspects and gradings of cells stay, roughness within some three edges goes
-  keep     ///< to the share between its neighbours that it has in the input; where points draw a surface also back,
-           ///< across its normal, to where it was, which counts as much as all neighbours do; where they draw a curve
-           ///< back along its tangent to where it was, and nothing else
+  /// To the mean of its neighbours, as in the paper.
+  even,
+  /// To the mean with the shares that the input has once noise is taken out of its spacing: long cells and gradings
+  /// stay, roughness within some three edges goes.
+  smooth,
+  /// To the mean with the shares that the input has. Where points draw a surface, its nodes are also drawn back, across
+  /// the normal, to their places in the input, as strongly as by all neighbours together. Where they draw a curve, its
+  /// nodes are drawn back along the tangent to their places, and by nothing else.
+  keep
 };
 
-/// What the springs of neighbouring nodes of a surface agree in.
+/// What the springs of neighbouring nodes of a surface agree in. See docs/springs.md.
 enum class Springs {
-  edge,   ///< the difference of their lengths along every edge (Eq. 4), which sees which way edges run
-  sphere  ///< the radii of their mean-curvature spheres: the same shape on every mesh, see docs/springs.md
+  edge,   ///< the difference of their lengths along every edge (Eq. 4), so the shape depends on how edges run
+  sphere  ///< the radii of their mean-curvature spheres: the same shape on every mesh
 };
 
-/// What is least, or even, in the equilibrium of sphere springs.
+/// What the equilibrium of sphere springs makes even or least. See docs/springs.md.
 enum class FairBy {
   curvature,  ///< mean curvature changes as evenly as it can: ΔH = 0
-  bending  ///< bending energy ∫ κ1² + κ2² dA, among shapes nearby: ΔH + 2H(H² − K) = 0; see docs/springs.md
+  bending     ///< bending energy ∫ κ1² + κ2² dA is least among shapes nearby: ΔH + 2H(H² − K) = 0
 };
 
-/// How closely forces keep to the paper's equations. In either way an equilibrium is where they vanish.
+/// How closely forces keep to the paper's equations. The equilibrium is where they vanish, in either way.
 enum class Forces {
-  steady,  ///< without jumps, and stable however much points weigh
-  printed  ///< as printed: a neighbour's normal turns round at once at a right angle (Eq. 4), what points ask for is
-           ///< done in full (Eq. 9; weights of 1 and more may oscillate), and a node of a planar curve between two
-           ///< neighbours in line with it has no normal and stays (§4.8)
+  steady,  ///< without jumps, and stable for every weight of points
+  /// As printed. A neighbour's normal turns round at once at a right angle (Eq. 4). Points move their node by the full
+  /// distance times k (Eq. 9), so weights of 1 and more may oscillate. A node of a planar curve in line with both
+  /// neighbours has no normal and stays (§4.8).
+  printed
 };
 
 /// The tangent of a curve at a node (§4.8).
@@ -46,13 +51,13 @@ enum class CurveTangents {
   chord    ///< along the chord of the neighbours, as in the paper: exact where spacing is even
 };
 
-/// What the neighbours of a node of a curve count, by the length ℓ of the edge to them.
+/// The weights w_j of a curve's neighbours (Eq. 8), by the length ℓ of the edge to them.
 enum class CurveWeights {
   inverse_cube,  ///< 1/ℓ³: the equilibrium does not depend on the spacing
   inverse        ///< 1/ℓ, as in the paper (Eq. 8)
 };
 
-/// Along what the nodes of a space curve are sprung (§4.8).
+/// The directions in which the force acts on nodes of a space curve (§4.8).
 enum class NormalPlane {
   full,      ///< the whole normal plane, along both N and B
   principal  ///< the principal normal N only: the paper's own variant. Planar curves take their in-plane normal

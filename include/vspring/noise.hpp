@@ -11,16 +11,16 @@ struct NoiseEstimate {
   /// The standard deviation of the nodes in each coordinate, in the units of the input; 0 where nothing is known.
   double deviation = 0;
   double edges = 0;  ///< the same in median edges
-  Index nodes = 0;   ///< that it was told from
+  Index nodes = 0;   ///< from how many nodes it was estimated
 };
 
-/// Estimates the noise of a surface from how far nodes lie off the best quadratic over a node, its neighbours and
-/// theirs: what 30 of 100 places have less of, in terms of what the same share of places with nothing but noise would
-/// have. What the shape itself bends within that counts as noise: of coarse shapes and sharp edges some of it. Nodes
-/// with too little around are left out. Cost: linear, some 5 µs a node; the same bits for every number of threads.
+/// Estimates the noise of a surface. Over each node, its neighbours and theirs, the best quadratic leaves a residual;
+/// the value that 30 of 100 nodes stay below is compared with what pure noise would give (docs/fit.md). What the shape
+/// itself bends within that distance counts as noise, so of coarse shapes and sharp edges some of it does. Nodes with
+/// too few around are left out. The same bits for every number of threads. Cost: linear, some 5 µs a node.
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context = {});
 
-/// The same of a curve, from seven nodes in a row; across it.
+/// The same of a curve, across it, from seven nodes in a row.
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonCurve& curve);
 
 }  // namespace vspring

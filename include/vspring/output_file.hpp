@@ -7,13 +7,13 @@ namespace vspring {
 
 /// Writes a whole file: it appears with all of `bytes` or not at all. path: a file, or "-" for standard output.
 ///
-/// A regular file is written beside its place and renamed, so a file that was there before stays until the new one is
-/// complete; it hands on its permissions, and a symbolic link stays a link. What exists and is not a regular file (a
+/// A regular file is written beside its place and renamed, so an older file stays until the new one is complete. The
+/// new one keeps the permissions of the old, and a symbolic link stays a link. What exists and is not a regular file (a
 /// device, a pipe) is written directly. Throws Error(unusable_file) naming the path and the system's reason; no
 /// temporary file is left behind. Cost: linear.
 void write_file(const std::string& path, std::string_view bytes);
 
-/// Throws as write_file() does where a file cannot be written to `path`, before anything long begins. Leaves nothing.
+/// Throws as write_file() does if a file cannot be written to `path`; for use before long work. Leaves no file.
 void check_writable(const std::string& path);
 
 }  // namespace vspring

@@ -8,11 +8,11 @@
 
 namespace vspring {
 
-/// A polygonal curve: node positions and the chains of nodes that run through them. Most curves are one chain, open
-/// or closed; a drawing has many, which may meet at nodes that stay in place.
+/// A polygonal curve: node positions and the chains of nodes that run through them. Most curves are one chain, open or
+/// closed; a drawing has many, which may meet at nodes that stay in place.
 ///
-/// Chains are fixed at construction; positions may change. Only memory safety is checked here: see check() for what can
-/// be wrong with a curve, and fair() for what is refused.
+/// Chains are fixed at construction; positions may change. Only memory safety is checked here; check_constraints() says
+/// what cannot be faired.
 class PolygonCurve {
  public:
   struct Chain {
@@ -41,12 +41,12 @@ class PolygonCurve {
   std::vector<Chain> chains_;
 };
 
-/// The nodes where chains begin or end: 1, else 0; one entry per node. Closed chains have none. Cost: linear.
+/// 1 for each node where an open chain begins or ends, else 0; one entry per node. Cost: linear.
 [[nodiscard]] std::vector<std::uint8_t> boundary_nodes(const PolygonCurve& curve);
 
-/// Chains from segments between two nodes each, in any order and direction: maximal runs through nodes of two
-/// segments; other nodes end chains. Chains come in the order of their first segments and run in the direction of
-/// those. A segment from a node to itself is left out. Cost: linear.
+/// Joins segments, each between two nodes and in any order and direction, to chains: maximal runs through nodes of
+/// exactly two segments. Chains come in the order of their first segments and run in the direction of those. A segment
+/// from a node to itself is left out. Cost: linear.
 [[nodiscard]] std::vector<PolygonCurve::Chain> chains_of_segments(const std::vector<std::pair<Index, Index>>& segments,
                                                                   Index node_count);
 

@@ -10,9 +10,9 @@ namespace vspring {
 
 /// A polygonal surface: node positions and faces of any number of nodes (triangles, quads, n-gons, mixed).
 ///
-/// Connectivity is fixed at construction; positions may change. Only memory safety is checked here: a mesh may hold
-/// non-manifold spots, repeated nodes, isolated nodes or coordinates that are not finite. They are refused
-/// when such a place would have to move, see fair(); check() lists them.
+/// Connectivity is fixed at construction; positions may change. Only memory safety is checked here: a mesh may have
+/// non-manifold spots, repeated or isolated nodes, or coordinates that are not finite. check() lists these; fair()
+/// refuses them where a node would have to move there.
 class PolygonMesh {
  public:
   PolygonMesh() = default;

@@ -23,12 +23,13 @@ enum class ScalarFormat { vtp, ply };
 [[nodiscard]] std::optional<ScalarFormat> scalar_format(std::string_view extension);
 
 /// Writes a shape with numbers at its nodes, for ParaView and the like. path: a file, whose extension gives the format.
+/// VTP: VTK's XML of polygonal data, version 1.0, in text; faces as polygons, chains as lines. PLY: binary, surfaces
+/// only; numbers as vertex properties in double precision. Nodes keep their order. The file appears whole or not at
+/// all, see write_file().
 ///
-/// VTP: VTK's XML of polygonal data, version 1.0, in text; faces as polygons, chains as lines. PLY: binary, numbers as
-/// properties of vertices in double precision; surfaces only. Nodes keep their order. The file appears whole or not at
-/// all, see write_file(). Throws Error(unusable_file) when it cannot be, Error(invalid_argument) for another extension,
-/// for a curve as PLY, unless there is a value per node, all of them and the positions finite, and for a name with
-/// anything but letters, digits and underscores. Cost: linear.
+/// Throws Error(unusable_file) when it cannot be written; Error(invalid_argument) for another extension, for a curve as
+/// PLY, unless there is one value per node, for values or positions that are not finite, and for a name with anything
+/// but letters, digits and underscores. Cost: linear.
 void write_scalars(const std::string& path, const PolygonMesh& mesh, std::span<const NodeScalar> scalars);
 void write_scalars(const std::string& path, const PolygonCurve& curve, std::span<const NodeScalar> scalars);
 

@@ -8,13 +8,12 @@
 
 namespace vspring {
 
-/// The pairs of faces that cross each other: each reaches from one side of the other to its other side, along some
-/// length. Faces that only touch (at a node, along an edge, in one plane) do not count, nor do two that share an edge
-/// (see flipped faces for folds). Touching is told from crossing to within the rounding of coordinates. Faces that are
-/// not flat are taken as triangles, see docs/fairness.md.
+/// The pairs of faces that cross: each reaches from one side of the other to its other side, along some length. Faces
+/// that only touch, to within the rounding of coordinates, do not count, nor do two that share an edge (flipped faces
+/// show such folds). Faces that are not flat are taken as triangles (docs/fairness.md).
 ///
-/// Each pair once, the smaller face first, ascending. The same for every number of threads. Cost: n log n, and the
-/// number of pairs of faces with overlapping boxes, which around a node is the square of its faces. When cancelled,
+/// Each pair once, the smaller face first, in ascending order; the same for every number of threads. Cost: n log n, and
+/// the number of pairs of faces with overlapping boxes, which around a node is the square of its faces. When cancelled,
 /// only the pairs found so far.
 [[nodiscard]] std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh, const Context& context);
 [[nodiscard]] std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh);

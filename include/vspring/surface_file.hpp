@@ -19,7 +19,7 @@ enum class SurfaceFormat { obj, off, ply, stl };
 
 class SurfaceSource;  // the bytes of a file and where its coordinates and normals are; private to the library
 
-/// A mesh and all else that its file carried.
+/// A mesh and everything else that its file carried.
 struct SurfaceFile {
   PolygonMesh mesh;
   /// Nodes of each named group (OBJ `g` and `o`: all nodes of the faces that follow), ascending. Other formats have
@@ -28,37 +28,40 @@ struct SurfaceFile {
   /// The file's own normal of every node, unit length; empty where the file gives none, zero where a node has none.
   std::vector<Vector3> normals;
   SurfaceFormat format = SurfaceFormat::obj;
-  /// What a person should know: what was skipped, welded or repaired while reading.
+  /// For people: what was skipped, welded or repaired while reading.
   std::vector<std::string> warnings;
   /// Keeps what the format carried besides positions, for writing; null for a mesh that no file gave.
   std::shared_ptr<const SurfaceSource> source;
 };
 
-/// Reads OBJ, OFF (with its N, C and ST variants), PLY (ASCII, both binary byte orders) or STL (ASCII, binary; equal
-/// positions are welded). path: a file, or "-" for standard input. The format is found from the content; `format`,
-/// where given, or the extension decide only where the content leaves it open. Throws Error(unusable_file) naming path
-/// and line (or byte) for anything that cannot be read whole, and for a file without nodes. Cost: linear; the bytes of
-/// the file stay in memory.
+/// Reads OBJ, OFF (also its N, C and ST variants), PLY (text, both binary byte orders) or STL (text, binary; corners at
+/// equal positions become one node). path: a file, or "-" for standard input. The format is found from the content;
+/// `format`, where given, or the extension decide only what the content leaves open.
+///
+/// Throws Error(unusable_file), naming path and line (or byte), for anything that cannot be read whole and for a file
+/// without nodes. Cost: linear; the bytes of the file stay in memory.
 [[nodiscard]] SurfaceFile read_surface(const std::string& path, std::optional<SurfaceFormat> format = std::nullopt);
 
-/// Writes the surface with `positions` in place of its own. path: a file, or "-" for standard output. format: where
-/// not given, the extension's, and without one the source's own.
+/// Writes the surface with `positions` in place of its own. path: a file, or "-" for standard output. format: where not
+/// given, the extension's, and without one the source's own.
 ///
-/// In the source's own format everything but positions is written as it was read, byte for byte; coordinates of nodes
-/// whose position is unchanged are too. Normals that the file gave are computed anew at nodes that moved and their
-/// neighbours, with Max's weights. Single precision stays single; whole-number coordinates of PLY become doubles once a
-/// node moves. In another format: nodes and faces, and node normals where the source has them; PLY is then binary in
-/// double precision, STL binary, of triangles cut from the first node of each face.
+/// In the source's own format everything but the coordinates of nodes that moved is written as it was read, byte for
+/// byte. Normals that the file gave are computed anew, with Max's weights, at nodes that moved and their neighbours.
+/// Single precision stays single; whole-number coordinates of PLY become doubles once a node moves. In another format:
+/// nodes and faces, and node normals where the source has them; PLY is then binary in double precision, STL binary, of
+/// triangles cut from the first node of each face.
 ///
-/// The file appears whole or not at all, see write_file(). Throws Error(unusable_file) when it cannot be, and
-/// Error(invalid_argument) unless there is one position per node, finite where it is not the one that was read, and
-/// within the range of what holds it; also for a mesh without triangles as STL. Returns what the source carried and the
-/// output does not, one line each, empty when nothing is lost. Cost: linear.
+/// Returns what the source carried and the output does not, one line each; empty when nothing is lost. The file appears
+/// whole or not at all, see write_file().
+///
+/// Throws Error(unusable_file) when it cannot be written; Error(invalid_argument) unless there is one position per
+/// node, finite where it is not the one that was read, and within the range of the number type of the file; also for a
+/// mesh without triangles as STL. Cost: linear.
 std::vector<std::string> write_surface(const std::string& path, const SurfaceFile& surface,
                                        const std::vector<Vector3>& positions,
                                        std::optional<SurfaceFormat> format = std::nullopt);
 
-/// Writes a mesh that no file gave. format: where not given, the extension's. Throws as above; every position has to be
+/// Writes a mesh that no file gave. format: where not given, the extension's. Throws as above; every position must be
 /// finite.
 void write_surface(const std::string& path, const PolygonMesh& mesh,
                    std::optional<SurfaceFormat> format = std::nullopt);

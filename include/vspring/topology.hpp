@@ -8,21 +8,21 @@
 
 namespace vspring {
 
-/// Nodes with an edge that belongs to one face only: 1, else 0; one entry per node. Cost: linear.
+/// 1 for each node with an edge that belongs to one face only, else 0; one entry per node. Cost: linear.
 [[nodiscard]] std::vector<std::uint8_t> boundary_nodes(const PolygonMesh& mesh);
 
-/// Chains of boundary edges, each a list of nodes in order; the first node is not repeated at the end. At a node
-/// where more than two boundary edges meet, loops are told apart by the faces between them. Cost: linear.
+/// The loops of boundary edges, each a list of nodes in order; the first node is not repeated at the end. Where more
+/// than two boundary edges meet at a node, loops are told apart by the faces between them. Cost: linear.
 [[nodiscard]] std::vector<std::vector<Index>> boundary_loops(const PolygonMesh& mesh);
 
 /// The boundary loops as closed chains of a curve that has all nodes of the mesh under their numbers. Cost: linear.
 [[nodiscard]] PolygonCurve boundary_curve(const PolygonMesh& mesh);
 
-/// The component of every node (nodes that share a face are in one component), numbered from 0 in the order of their
-/// first nodes. An isolated node is a component of its own. Cost: linear.
+/// The component of every node, numbered from 0 in the order of their first nodes. Nodes that share a face are in one
+/// component; an isolated node is one by itself. Cost: linear.
 [[nodiscard]] std::vector<Index> components(const PolygonMesh& mesh);
 
-/// What can be wrong with a mesh. `node`, `other` and `face` are −1 where they do not apply.
+/// A defect of a mesh. `node`, `other` and `face` are −1 where they do not apply.
 struct Defect {
   enum class Kind {
     not_finite,         ///< node: a coordinate is not finite

@@ -34,6 +34,16 @@ bool write_all(int number, std::string_view bytes) {
   return true;
 }
 
+/// False with errno set where the system could not write to its disk what a file or folder has become; some file
+/// systems have no such thing.
+bool reaches_the_disk(int number) {
+  while (::fsync(number) != 0) {
+    if (errno == EINTR) continue;
+    return errno == EINVAL || errno == ENOTSUP || errno == EROFS;
+  }
+  return true;
+}
+
 void write_directly(const std::string& path, std::string_view bytes) {
   FileDescriptor target(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_TRUNC));
   if (!target.valid() || !write_all(target.number(), bytes) || !target.close()) refuse_file(path, written, errno);
@@ -96,7 +106,13 @@ void write_beside(const std::string& path, const fs::path& target, const struct 
     const mode_t mode = before->st_mode & (owner_kept ? 07777 : 0777);
     if (::fchmod(descriptor.number(), mode) != 0) refuse_file(path, written, errno);
   }
-  if (!descriptor.close() || !temporary.move_to(target)) refuse_file(path, written, errno);
+  // After a power cut there is the old file or the new one: its bytes are there before its name is.
+  if (!reaches_the_disk(descriptor.number()) || !descriptor.close() || !temporary.move_to(target))
+    refuse_file(path, written, errno);
+  // What cannot be told of the folder is no reason to fail: the file is there.
+  const fs::path parent = target.parent_path();
+  const FileDescriptor folder(::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.valid()) (void)reaches_the_disk(folder.number());
 }
 
 /// Where a file goes, and what is there already.

@@ -21,7 +21,7 @@ constexpr int patience = 12;
 // Of an accelerated step, what the next one will be at most where they are on their way.
 constexpr double greatest_rate = 0.5;
 // Of the error by corrections alone, where the accelerated step says that there is less.
-constexpr double least_share = 0.5;
+constexpr double least_share = 0.6;
 // Iterations in a row that expect to be off by more than the shape's size: no level that went on from so many ever
 // arrived (12 was the most of 494 that did, in 300 tasks at random, and 29 once of 23 nodes, where they cost nothing).
 constexpr int lost_patience = 20;
@@ -58,6 +58,7 @@ class Solver {
     EquilibriumResult result;
     BestShape best(net_, 1);
     double before = 0;
+    double rate_before = 0;
     double last_step = 0;
     int without_gain = 0;
     int lost = 0;
@@ -74,6 +75,7 @@ class Solver {
       forget();
       best = BestShape(net_, 1);
       before = 0;
+      rate_before = 0;
       last_step = 0;
       without_gain = 0;
       return true;
@@ -98,7 +100,8 @@ class Solver {
       }
       // Corrections shrink about geometrically. Never by less than half: then a shape that was once near enough still
       // is when it is looked at without its history.
-      expected = size / (1 - std::clamp(before > 0 ? size / before : 0, 0.5, 0.75));
+      const double rate = std::clamp(before > 0 ? size / before : 0, 0.5, 0.75);
+      expected = size / (1 - rate);
       without_gain = expected < 0.7 * best.residual() ? 0 : without_gain + 1;
       best.look(expected);
       if (task.on_iteration) task.on_iteration(expected);
@@ -108,7 +111,9 @@ class Solver {
       // The last step is not taken: what it says of the shape is true of the shape before it.
       if (expected < task.tolerance && turn <= greatest_turn) {
         const double left = last_step > 0 ? std::min(step / last_step, greatest_rate) : greatest_rate;
-        const double error = std::max({step * (1 + left), least_share * expected, rounding});
+        // Corrections that shrink by fits and starts are as slow as the slower one.
+        const double slower = size / (1 - std::max(rate, rate_before));
+        const double error = std::max({step * (1 + left), least_share * slower, rounding});
         if (error < task.tolerance) {
           if (task.take_last) (void)take_step(turn);
           if (last_changes < task.most_changes && renew_ties(false)) {
@@ -125,6 +130,7 @@ class Solver {
       if (limited) without_gain = 0;
       lost = expected > shape_size ? lost + 1 : 0;
       before = limited ? 0 : size;
+      rate_before = limited ? 0 : rate;
       if (without_gain >= patience || lost >= most_lost) {
         result.outcome = Outcome::stalled;
         break;

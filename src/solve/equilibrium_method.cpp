@@ -172,6 +172,7 @@ class Run {
     const std::size_t last = hierarchy_.count() - 1;
     Net& net = hierarchy_.net(last);
     if (!unfinished() && !hierarchy_.has_unwound(input_)) return;
+    has_looked_for_winding_ = true;
     const Reached found = reached(last);
     net.positions = input_;
     if (hierarchy_.wind()) {
@@ -191,7 +192,11 @@ class Run {
   /// What is worse with the shape than with the start; empty where nothing is.
   std::string fault(const Soundness& soundness) {
     std::string fault = soundness.fault(hierarchy_.net(hierarchy_.count() - 1));
-    if (fault.empty() && !points_ && hierarchy_.has_unwound(input_)) fault = "it winds otherwise than the input";
+    has_unwound_ = fault.empty() && !points_ && hierarchy_.has_unwound(input_);
+    if (has_unwound_)
+      fault = has_looked_for_winding_
+                  ? "it winds otherwise than the input, as does every fair curve with these ends that was found"
+                  : "it winds otherwise than the input";
     return fault;
   }
 
@@ -203,6 +208,7 @@ class Run {
     if (options_.as_found) return say_if_worse(soundness, net, report_);
     const std::string fault = this->fault(soundness);
     if (fault.empty()) return;
+    const bool is_unwound = has_unwound_;
     const bool was_cancelled = report_.outcome == Outcome::cancelled;
     const Reached found = reached(last);
     const bool is_nowhere = !soundness.misplaced(net).empty();
@@ -243,13 +249,13 @@ class Run {
     go_back(last, best ? *best : input_is_better ? Reached{input_, found.outcome, found.residual} : found);
     report_.outcome = cancelled ? Outcome::cancelled : Outcome::worse_than_input;
     report_.warnings.push_back(fmt::format(
-        "no equilibrium was found that is no worse than the input ({}): this is {}; hold more nodes or normals, let a "
-        "smaller part move, or refine it",
-        fault,
+        "no equilibrium was found that is no worse than the input ({}): this is {}; {}", fault,
         is_input_smoothed ? "the input without its noise"
         : best            ? "the fairest shape on the way"
         : input_is_better ? "the input with its constraints"
-                          : "that shape, as the input with its constraints is no better"));
+                          : "that shape, as the input with its constraints is no better",
+        is_unwound ? "hold a node in each winding, or fit it to its own nodes with a tolerance to stay within"
+                   : "hold more nodes or normals, let a smaller part move, or refine it"));
   }
 
   /// The input without its noise, where that is little, and the shape then is fairer than such an energy and no worse.
@@ -465,6 +471,8 @@ class Run {
   std::vector<Vector3> input_;
   Anderson<float>* memory_ = nullptr;
   bool take_last_ = false;
+  bool has_looked_for_winding_ = false;
+  bool has_unwound_ = false;  ///< what fault() found last
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,9 +23,11 @@
 #include "solve/fit_points.hpp"
 #include "solve/fit_run.hpp"
 #include "solve/fit_to_tolerance.hpp"
+#include "solve/gentle_curve.hpp"
 #include "solve/noise_fit.hpp"
 #include "solve/soundness.hpp"
 #include "solve/sweep_method.hpp"
+#include "vspring/figures.hpp"
 
 namespace vspring {
 
@@ -46,6 +49,8 @@ constexpr double left_times = 10;
 // are such a balloon for certain.
 constexpr double balloon_move = 0.1;
 constexpr double balloon_times = 3;
+// Of a tolerance: a point that is further away holds the shape.
+constexpr double holds_from_share = 0.99;
 // An expected error, as a share of the size, from which a curve on its way to an equilibrium is no use.
 constexpr double curve_is_lost_at = 1e-2;
 
@@ -70,6 +75,7 @@ class Fitting {
     } else {
       fit(progress, false);
     }
+    if constexpr (std::is_same_v<Subject, FitCurve>) go_gently();
     stay_sound();
 
     report.fair.before = run_.subject.fairness(shape.positions());
@@ -130,26 +136,74 @@ class Fitting {
         100 * share, at_last, at_first);
   }
 
+  /// The curve of least bending within a tolerance may swing beside a nose of few points and is straight at ends that
+  /// are free to turn: where the gentle one has fewer inflections and extremes of curvature, it is taken.
+  void go_gently() {
+    FitReport& report = run_.result.report;
+    const bool is_found = report.fair.outcome == Outcome::converged || report.fair.outcome == Outcome::work_limit;
+    const bool all_count = options_.outliers == 0 && run_.points.weights.empty();
+    if (!options_.within || !is_found || !report.smoothing_length || !all_count) return;
+    const Constraints& constraints = run_.subject.constraints();
+    PolygonCurve curve = run_.subject.shape();
+    curve.set_positions(run_.result.positions);
+    const CurveFigures before = measure_curve(curve, &constraints);
+    if (before.inflections + before.curvature_extrema == 0) return;
+    auto gentle = gentle_curve(curve, constraints, run_.points.positions, *options_.within,
+                               std::numeric_limits<std::size_t>::max(), run_.context);
+    if (!gentle) return;
+    curve.set_positions(*gentle);
+    const CurveFigures after = measure_curve(curve, &constraints);
+    const bool has_more = after.inflections > before.inflections || after.curvature_extrema > before.curvature_extrema;
+    const bool has_fewer = after.inflections < before.inflections || after.curvature_extrema < before.curvature_extrema;
+    if (has_more || !has_fewer) return;
+    const std::vector<Vector3> own = std::exchange(run_.result.positions, std::move(*gentle));
+    const std::vector<double> distances = run_.distances();
+    if (*std::max_element(distances.begin(), distances.end()) > *options_.within ||
+        !InputAndFound(*this).fault.empty()) {
+      run_.result.positions = own;
+      return;
+    }
+    const auto holds = [&](double distance) { return distance > holds_from_share * *options_.within; };
+    report.active_points = static_cast<Index>(std::count_if(distances.begin(), distances.end(), holds));
+    auto gathered = run_.gather();
+    measure_moves(net_of(gathered), run_.subject.shape().positions(), run_.result.positions, report.fair);
+  }
+
+  /// The input with its constraints, the shape that was found, and what is worse about it, in words.
+  struct InputAndFound {
+    explicit InputAndFound(Fitting& fitting)
+        : gathered(fitting.run_.gather()), input(net_of(gathered)), model(model_of(gathered, fitting.options_.fair)) {
+      auto& run = fitting.run_;
+      for (const Vector3& point : run.points.positions) input.points.positions.push_back(input.frame.to_local(point));
+      soundness.emplace(input, *model, run.team);
+      input.points = {};
+      found = input;
+      for (std::size_t i = 0; i < input.moving; ++i)
+        found.positions[i] = input.frame.to_local(run.result.positions[static_cast<std::size_t>(input.node[i])]);
+      fault = soundness->fault(found);
+      if (fault.empty()) fault = run.subject.crossings(run.result.positions);
+      if (fault.empty()) fault = fitting.balloon(input, found);
+    }
+
+    decltype(std::declval<FitRun<Subject>&>().gather()) gathered;
+    Net& input;
+    std::unique_ptr<const Model> model;
+    std::optional<Soundness> soundness;
+    Net found;
+    std::string fault;
+  };
+
   /// Where the shape is worse than it came, it stays as it came, unless it is wanted as found.
   void stay_sound() {
     FairReport& report = run_.result.report.fair;
     if (report.outcome == Outcome::worse_than_input) return;
-    auto gathered = run_.gather();
-    Net& net = net_of(gathered);
-    for (const Vector3& point : run_.points.positions) net.points.positions.push_back(net.frame.to_local(point));
-    const auto model = model_of(gathered, options_.fair);
-    const Soundness soundness(net, *model, run_.team);
-    net.points = {};
-    Net found = net;
-    for (std::size_t i = 0; i < net.moving; ++i)
-      found.positions[i] = net.frame.to_local(run_.result.positions[static_cast<std::size_t>(net.node[i])]);
-    std::string fault = soundness.fault(found);
-    if (fault.empty()) fault = run_.subject.crossings(run_.result.positions);
-    if (fault.empty()) fault = balloon(net, found);
+    const InputAndFound shapes(*this);
+    const std::string& fault = shapes.fault;
     if (fault.empty()) return;
+    const bool input_is_faulty = !shapes.soundness->fault_of_places(shapes.input).empty();
     const bool as_found =
-        options_.fair.as_found || (!soundness.fault_of_places(net).empty() && soundness.misplaced(found).empty());
-    if (!as_found) run_.finish(net);
+        options_.fair.as_found || (input_is_faulty && shapes.soundness->misplaced(shapes.found).empty());
+    if (!as_found) run_.finish(shapes.input);
     if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
     report.warnings.push_back(
         as_found ? "what was found is worse than the input: " + fault

@@ -19,6 +19,7 @@
 #include "shape/frame.hpp"
 #include "shape/segment.hpp"
 #include "solve/fit_points.hpp"
+#include "solve/gentle_curve.hpp"
 #include "vspring/distance.hpp"
 #include "vspring/figures.hpp"
 #include "vspring/fit.hpp"
@@ -48,6 +49,11 @@ constexpr double hopeless_share = 1.5;
 // Of the least distance before: where it falls no more nothing is within the tolerance.
 constexpr double no_nearer_share = 0.98;
 constexpr double holds_from = 0.99;
+// Of the tolerance: where no gentle curve is within it, one is looked for up to so much further out, to so near.
+constexpr double most_times_tolerance = 8;
+constexpr double nearly = 1.05;
+// Of the variation along the resampled table.
+constexpr double greatest_strain = 1.5;
 
 /// Fits a curve with several nodes for each that is asked for; these are some of its nodes.
 class DenseFit {
@@ -66,16 +72,20 @@ class DenseFit {
 
   /// Whether it found new nodes within the tolerance, or somebody has cancelled: those are to be taken.
   bool run() {
-    if (curve_.node_count() > std::min(most_dense_nodes, most_times * made_.curve.node_count())) return false;
+    if (curve_.node_count() > most_dense_nodes) return false;
+    const bool is_too_large_a_table = curve_.node_count() > most_times * made_.curve.node_count();
+    if (is_too_large_a_table && !options_.within) return false;
     FitResult own = fit(curve_, constraints_, {.positions = curve_.positions()}, options_, context_);
     if (own.report.fair.outcome == Outcome::worse_than_input) return false;
     PolygonCurve smooth = curve_;
     smooth.set_positions(std::move(own.positions));
+    if (options_.within && go_gently(own, smooth)) return true;
+    if (is_too_large_a_table) return false;
     resample_to(smooth, 2);
     const Index times = times_needed();
     if (times != times_) resample_to(smooth, times);
     own.positions = dense_.curve.positions();
-    take_new_nodes(own);
+    take_new_nodes(own, dense_.curve);
     if (own.report.fair.outcome != Outcome::stalled) tried_.push_back(std::move(own));
     FitOptions options = options_;
     double aim = first_aim;
@@ -89,7 +99,7 @@ class DenseFit {
       const bool stalled = outcome == Outcome::stalled;
       if (outcome == Outcome::worse_than_input || (stalled && !(figure(found) <= hopeless_share * tolerance_))) break;
       dense_.curve.set_positions(found.positions);
-      take_new_nodes(found);
+      take_new_nodes(found, dense_.curve);
       const double share = tolerance_ > 0 ? figure(found) / tolerance_ : 0;
       const double before = std::exchange(energy, found.report.fair.after.vspring_energy);
       const bool nearer = !(share > no_nearer_share * nearest_share);
@@ -168,6 +178,61 @@ class DenseFit {
   }
 
  private:
+  /// The gentle curve of new nodes within the tolerance, or one that is as near as can be without being strained. False
+  /// where there is none, as in space.
+  bool go_gently(const FitResult& own, const PolygonCurve& smooth) {
+    resample_to(smooth, 1);
+    const CurveFigures figures = measure_curve(smooth, &constraints_);
+    best_ = gentle_within(own, figures, tolerance_);
+    if (best_ && figure(*best_) <= tolerance_) {
+      best_share_ = figure(*best_) / tolerance_;
+      return true;
+    }
+    best_.reset();
+    double too_near = 1;
+    double share = most_times_tolerance;
+    for (double next = share; share > nearly * too_near; next = std::sqrt(share * too_near)) {
+      auto found = gentle_within(own, figures, next * tolerance_);
+      if (context_.cancelled() || (!found && !best_)) return false;
+      (found ? share : too_near) = next;
+      if (found) best_ = std::move(found);
+    }
+    best_share_ = figure(*best_) / tolerance_;
+    return true;
+  }
+
+  /// None where it is strained: where curvature varies more than along the resampled table, and has more inflections or
+  /// extremes than along the table without its noise, or varies more by half.
+  std::optional<FitResult> gentle_within(const FitResult& own, const CurveFigures& smooth, double tolerance) {
+    const double before = variation(made_.curve.positions());
+    std::optional<std::vector<Vector3>> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const LeastVariation which : {LeastVariation::in_proportion, LeastVariation::in_all}) {
+      auto places = gentle_curve(dense_.curve, dense_.constraints, curve_.positions(), tolerance,
+                                 static_cast<std::size_t>(smooth.curvature_extrema), context_, which);
+      if (!places) break;
+      PolygonCurve curve = dense_.curve;
+      curve.set_positions(*places);
+      const CurveFigures figures = measure_curve(curve, &dense_.constraints);
+      const bool has_more =
+          figures.curvature_extrema > smooth.curvature_extrema || figures.inflections > smooth.inflections;
+      const double most = has_more ? before : greatest_strain * before;
+      if (figures.curvature_variation <= most && figures.curvature_variation < least && !(best && has_more)) {
+        least = figures.curvature_variation;
+        best = std::move(places);
+      }
+      if (least <= before) break;
+    }
+    if (!best) return std::nullopt;
+    FitResult found = own;
+    PolygonCurve dense = dense_.curve;
+    dense.set_positions(*std::move(best));
+    take_new_nodes(found, dense);
+    found.report.fair.outcome = Outcome::converged;
+    found.report.fair.warnings.clear();
+    return found;
+  }
+
   struct DenseEdge {
     std::array<Index, 2> nodes;
     std::array<Index, 2> chord;  ///< nodes of the dense curve that are new ones
@@ -264,9 +329,9 @@ class DenseFit {
   }
 
   /// In place of the nodes of the dense curve.
-  void take_new_nodes(FitResult& found) const {
-    for (std::size_t i = 0; i < dense_node_.size(); ++i) found.positions[i] = at(dense_node_[i]);
+  void take_new_nodes(FitResult& found, const PolygonCurve& dense) const {
     found.positions.resize(dense_node_.size());
+    for (std::size_t i = 0; i < dense_node_.size(); ++i) found.positions[i] = dense.position(dense_node_[i]);
     PolygonCurve made = made_.curve;
     made.set_positions(found.positions);
     found.distances = point_distances(curve_.positions(), made, measuring_);

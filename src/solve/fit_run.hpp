@@ -61,7 +61,7 @@ class FitRun {
     if constexpr (std::is_same_v<Subject, FitCurve>)
       smooth_noise(gathered);
     else
-      unfold(gathered, options.noise ? Unfold::where_any_edge_turns : Unfold::where_many_edges_turn, team);
+      unfold(gathered, team);
     // Else the nodes slide along a shape that noise has crumpled until it comes apart.
     net.homes.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
     return gathered;

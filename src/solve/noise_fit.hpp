@@ -5,8 +5,8 @@
 
 namespace vspring {
 
-/// A fit of a surface to its own nodes that takes FitOptions::noise off: in turns, to the equilibrium and with weights
-/// that even_residuals() asks for there. Throws Error(invalid_argument) for other points.
+/// Takes FitOptions::noise off a surface whose own nodes are the points: without_noise(), and where normals are given,
+/// the equilibrium next to its result that has them. Throws Error(invalid_argument) for other points.
 void fit_without_noise(FitRun<FitSurface>& run, LoosePoints points, ProgressReporter& progress);
 
 }  // namespace vspring

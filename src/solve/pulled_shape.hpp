@@ -16,7 +16,6 @@
 #include "levels/surface_levels.hpp"
 #include "solve/curve_hierarchy.hpp"
 #include "solve/equilibrium_method.hpp"
-#include "solve/even_residuals.hpp"
 #include "solve/multigrid_method.hpp"
 #include "solve/point_levels.hpp"
 #include "solve/smooth_start.hpp"
@@ -156,31 +155,6 @@ class PulledShape {
     report.expected_error.reset();
     report.work += work_of_sweep * static_cast<double>(swept.iterations) * static_cast<double>(net().moving);
     update_directions(net(), *model_, *team_);
-  }
-
-  /// How far each moving node is displaced, in its mean edges.
-  [[nodiscard]] std::vector<double> displacements() {
-    model_->prepare(net());
-    update_directions(net(), *model_, *team_);
-    std::vector<double> result(net().moving, 0);
-    parallel_ranges(*team_, net().moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-      std::vector<NodeForce> forces(end - begin);
-      model_->find_forces(net(), {begin, end}, forces);
-      for (std::size_t k = 0; k < forces.size(); ++k)
-        result[begin + k] = (forces[k].spring + forces[k].regularisation).norm() / forces[k].mean_edge;
-    });
-    return result;
-  }
-
-  double rms_residual() {
-    update_directions(net(), *model_, *team_);
-    return vspring::rms_residual(net());
-  }
-
-  /// See even_residuals().
-  void even_out(double noise) {
-    update_directions(net(), *model_, *team_);
-    even_residuals(net(), noise, *team_);
   }
 
  private:

@@ -37,10 +37,10 @@ std::vector<std::uint8_t> with_neighbours(const Net& net, const std::vector<std:
 
 }  // namespace
 
-void unfold(Net& net, Unfold when, ThreadTeam& team) {
+void unfold(Net& net, ThreadTeam& team) {
   const double links = static_cast<double>(net.rings.link_count());
   const auto turned = static_cast<double>(turned_edges(net, team));
-  if (turned < 0.5 * (when == Unfold::where_any_edge_turns ? 0 : least_folded) * links || turned == 0) return;
+  if (turned < 0.5 * least_folded * links || turned == 0) return;
   const std::vector<Vector3> before = net.positions;
   std::vector<Vector3> next = net.positions;
   const auto step = [&](double share, const std::vector<std::uint8_t>& where) {

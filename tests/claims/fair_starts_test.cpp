@@ -65,7 +65,7 @@ struct Problem {
   std::string name;
   PolygonMesh mesh;
   Constraints constraints;
-  /// Around rings: one folded over along a line across it has another equilibrium, see docs/solver.md.
+  /// Around rings: one folded over along a line across it has another equilibrium, see docs/notes/solver.md.
   Vector3 across = Vector3::UnitX();
 };
 

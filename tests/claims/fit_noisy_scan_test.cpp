@@ -90,6 +90,50 @@ TEST(FitNoisyScan, NoiseIsTakenOffOnEveryKindOfFace) {
   }
 }
 
+TEST(FitNoisyScan, ASmoothShapeIsFoundFromNoiseOfItsEdges) {
+  // Fits with a weight at every node leave 0.17 of this noise, windowed sinc filters of the best band 0.08.
+  const PolygonMesh torus = generate::torus({.columns = 64, .rows = 48, .jitter = 0.2}, 1, minor_radius);
+  const double deviation = 0.02;
+  const PolygonMesh noisy = generate::add_noise(torus, std::sqrt(5.0) * deviation, 1);
+  const FitResult result = fit_to_itself(noisy, without_noise(deviation));
+  ASSERT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_LT(rms_from_torus(result.positions), 0.12 * rms_from_torus(noisy.positions()));
+}
+
+TEST(FitNoisyScan, SharpEdgesStaySharp) {
+  // Low passes, which round them off, leave half of this noise at their best.
+  const PolygonMesh block = generate::genus({.holes = 1, .cells = 8});
+  const auto face = block.face(0);
+  const double deviation = 0.25 * (block.position(face[0]) - block.position(face[1])).norm();
+  const PolygonMesh noisy = generate::add_noise(block, std::sqrt(5.0) * deviation, 1);
+  const FitResult result = fit_to_itself(noisy, without_noise(deviation));
+  ASSERT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_LT(distance(result.positions, block).rms, 0.3 * distance(noisy.positions(), block).rms);
+}
+
+TEST(FitNoisyScan, OutliersThatAreLeftOutTellNothing) {
+  const PolygonMesh torus = generate::torus({.columns = 32, .rows = 16}, 1, minor_radius);
+  PolygonMesh noisy = generate::add_noise(torus, 0.05, 1);
+  std::vector<Vector3> positions = noisy.positions();
+  for (std::size_t i = 7; i < positions.size(); i += 101) positions[i] *= 1.4;
+  noisy.set_positions(positions);
+  FitOptions options = without_noise(deviation_in_ball(0.05));
+  options.outliers = 0.02;
+  const FitResult result = fit_to_itself(noisy, options);
+  EXPECT_LT(distance(result.positions, torus).greatest, 0.08);
+}
+
+TEST(FitNoisyScan, NormalsThatAreGivenAreKept) {
+  const PolygonMesh cap = generate::cap({.nodes = 900});
+  const PolygonMesh noisy = generate::add_noise(cap, 0.03, 1);
+  Constraints held(noisy.node_count());
+  fix_boundary_positions(held, noisy);
+  fix_boundary_normals(held, noisy);
+  const FitResult result = fit(noisy, held, {.positions = noisy.positions()}, without_noise(deviation_in_ball(0.03)));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_LT(distance(result.positions, cap).rms, 0.5 * distance(noisy.positions(), cap).rms);
+}
+
 TEST(FitNoisyScan, WhatIsMoreThanNoiseStays) {
   // A bump of a few edges on a plane. Smoothed alike everywhere to the same distance the shape loses more of it.
   PolygonMesh exact_bump = generate::plane({.columns = 30, .rows = 30, .faces = generate::Faces::quads});

@@ -1,4 +1,4 @@
-"""Every command in README.md and docs/ runs, and options that they name are options."""
+"""Every command in README.md and docs/ runs, options that they name are options, and links lead somewhere."""
 import json
 import math
 import os
@@ -14,6 +14,8 @@ from support import PROGRAM, Case, run
 
 ROOT = pathlib.Path(__file__).parents[2]
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+# Notes are a record: their commands may be of earlier versions.
+LINKED = [*DOCUMENTS, *sorted((ROOT / "docs/notes").glob("*.md"))]
 PROGRAMS = ("vspring ", "build/release/vspring ")
 # In a block with commands, these make their files.
 HELPERS = ("echo ", "cat ")
@@ -99,6 +101,25 @@ def is_complete(words):
     return "-o" in words or (len(words) >= least and not words[2].startswith("-"))
 
 
+def prose(text):
+    """A document without its code."""
+    text = re.sub(r"^```.*?^```", "", text, flags=re.MULTILINE | re.DOTALL)
+    lines = (line for line in text.splitlines() if not line.startswith("    "))
+    return "\n".join(re.sub(r"`[^`]*`", lambda code: code[0].strip("`").replace("[", ""), line) for line in lines)
+
+
+def anchors(text):
+    """What links may name in a document: headings as GitHub spells them, and explicit anchors."""
+    found = re.findall(r'<a id="([^"]+)">', text)
+    seen = {}
+    for heading in re.findall(r"^#+ +(.*)$", prose(text), re.MULTILINE):
+        words = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", heading).strip().lower()
+        slug = re.sub(r"[^\w\- ]", "", words).replace(" ", "-")
+        found.append(f"{slug}-{seen[slug]}" if slug in seen else slug)
+        seen[slug] = seen.get(slug, 0) + 1
+    return found
+
+
 def options_of(command):
     return set(re.findall(r"(?<![\w-])--?[a-z][a-z-]*", run(*command, "--help").stdout.decode()))
 
@@ -154,6 +175,26 @@ class Docs(Case):
                         self.assertTrue(of_it, f"{document.name}: {line}: is there such a command?")
                         for option in re.findall(r"(?<!\S)--?[a-z][a-z-]*", words):
                             self.assertIn(option, of_it, f"{document.name}: {line}")
+
+    def test_the_reference_of_options_is_the_programs(self):
+        done = subprocess.run([ROOT / "scripts/option-reference", "--check"], env={**os.environ, "VSPRING": str(PROGRAM)},
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_links_lead_somewhere(self):
+        count = 0
+        for document in LINKED:
+            for link in re.findall(r"\]\(([^)\s]+)\)", prose(document.read_text())):
+                if re.match(r"[a-z]+:", link):
+                    continue
+                count += 1
+                path, _, anchor = link.partition("#")
+                target = document.parent / path if path else document
+                with self.subTest(document=document.name, link=link):
+                    self.assertTrue(target.exists(), "no such file")
+                    if anchor:
+                        self.assertIn(anchor, anchors(target.read_text()), "no such heading")
+        self.assertGreater(count, 100, "links that this looks for are still written so")
 
     def test_there_are_commands(self):
         count = sum(len(block) for document in DOCUMENTS for block in commands(document.read_text()))

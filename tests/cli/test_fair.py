@@ -158,6 +158,18 @@ class Fair(Case):
         self.assertEqual(self.read_json("report.json")["outcome"], "iteration-limit")
         self.assertEqual(len(vertex_lines((self.folder / "out.obj").read_text())), 49)
 
+    def test_a_time_limit_ends_with_a_shape_and_says_so(self):
+        support.run("generate", "annulus", "--nodes", "60000", "--noise", "0.01", "-o", self.folder / "large.obj")
+        text = (self.folder / "large.obj").read_text()
+        ended = self.fair("--time-limit", "0.05", "--report", self.folder / "report.json", text=text, status=3)
+        self.assertEqual(self.read_json("report.json")["outcome"], "work-limit")
+        self.assertIn("--time-limit", ended.stderr.decode())
+        self.assertEqual(len(vertex_lines((self.folder / "out.obj").read_text())), len(vertex_lines(text)))
+        self.fair("--time-limit", "1000")
+        within = (self.folder / "out.obj").read_bytes()
+        self.fair()
+        self.assertEqual(within, (self.folder / "out.obj").read_bytes())
+
     def test_other_formats(self):
         for name in ("out.ply", "out.off", "out.stl"):
             before = self.write("in.obj", hat())

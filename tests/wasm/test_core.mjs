@@ -124,9 +124,12 @@ test('what holds a region is what --region holds, and curvatures are those of --
   const path = generated('saddle.ply', 'saddle', '--columns', '14', '--rows', '14', '--noise', '0.01');
   const surface = opened(path, 'saddle.ply');
   const nodes = Int32Array.of(80, 81, 82, 94, 95, 96, 108, 109, 110, 111);
-  const { fixed, rim } = surface.region(nodes);
+  const { fixed, rim } = surface.region(nodes, surface.positions());
   // With faces all round, normals of the rim follow from these.
   assert.equal(rim.length, 0);
+  native('measure', path, '--report', join(folder, 'measured.json'));
+  const { noise: deviation } = JSON.parse(readFileSync(join(folder, 'measured.json'), 'utf8')).figures;
+  assert.ok(Math.abs(surface.noise() - deviation) < 1e-6 * deviation, `${surface.noise()}`);
   surface.setRules(JSON.stringify({ rules: [...JSON.parse(rules).rules, { nodes: [...fixed], position: 'fixed' }] }));
   surface.fair(null);
   writeFileSync(join(folder, 'region.json'), JSON.stringify([...nodes]));
@@ -135,7 +138,7 @@ test('what holds a region is what --region holds, and curvatures are those of --
   const expected = opened(fair, 'saddle.ply');
   assert.ok(greatestDistance(surface.positions(), expected.positions()) < 1e-6);
   assert.ok(greatestDistance(surface.positions(), opened(path, 'saddle.ply').positions()) > 1e-3);
-  assert.throws(() => surface.region(Int32Array.of(-1)), /node -1 does not exist/);
+  assert.throws(() => surface.region(Int32Array.of(-1), surface.positions()), /node -1 does not exist/);
 
   const scalars = join(folder, 'scalars.vtp');
   native('measure', fair, '--scalars', scalars);

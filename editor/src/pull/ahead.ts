@@ -1,8 +1,8 @@
 // Where a large shape goes while the library is still at work on it: on from its last shapes, as these went with the pointer. So the picture
 // keeps up with a pointer that the library cannot keep up with.
 
-import type { Vector } from './constraints';
-import { dot } from './turning';
+import type { Vector } from '../constraints';
+import { dot } from '../turning';
 
 interface Reached {
   way: Vector;

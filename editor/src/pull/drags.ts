@@ -1,12 +1,12 @@
 // What is held and goes with the pointer: positions of nodes, or their normals or tangents, which turn. The shape follows; on release it is faired anew.
 
 import { Ahead } from './ahead';
-import type { Solver } from './client';
-import { placed, type Part, type Vector } from './constraints';
-import type { Editor } from './editor';
-import type { Drag, Solved } from './protocol';
+import type { Solver } from '../client';
+import { placed, type Constraints, type Part, type Vector } from '../constraints';
+import type { Editor } from '../editor';
+import type { Drag, Solved } from '../protocol';
 import { Pull } from './pull';
-import { turned } from './turning';
+import { turned } from '../turning';
 
 /** Moving nodes from which on the library is taken to be slower than the pointer; and seconds in which it is not. */
 const many = 30_000;
@@ -25,6 +25,10 @@ export class Drags {
   private foresees = false;
   private shown = true;
   private asked = false;
+  /** What holds while only what is near goes along, once that is known. */
+  private near: Promise<Constraints | null> | null = null;
+  private base: Constraints | null = null;
+  private waits = false;
   /** The one that the pointer has taken. */
   node = -1;
 
@@ -34,12 +38,12 @@ export class Drags {
     return this.pull?.part ?? null;
   }
 
-  /** Takes the node, and with it all picked ones that are held if it is one of them. */
+  /** Takes the node, and with it the picked ones if it is one of them: of a node that is held those that are, of a free one all. */
   begin(part: Part, node: number, now: number): void {
     const { editor } = this;
     if (!editor.picked.has(node)) editor.pick(node, false);
     const turns = part !== 'position';
-    const nodes = [...editor.picked].filter((other) => (turns ? editor.normals.has(other) : editor.isDraggable(other)));
+    const nodes = [...editor.picked].filter((other) => (turns ? editor.normals.has(other) : editor.isDraggable(other) || !editor.isDraggable(node)));
     const start = Float64Array.from(nodes.flatMap((other) => (turns ? editor.normals.get(other)! : editor.placeOf(other))));
     const at = (way: Vector): Float64Array => (turns ? turned(start, way) : start.map((place, k) => place + way[k % 3]));
     this.node = node;
@@ -50,6 +54,19 @@ export class Drags {
     this.pull = new Pull(part, nodes, at, turns ? Math.PI : 1 / shape!.scale, first);
     editor.dragBegun(now);
     this.foresees = this.slow;
+    this.base = null;
+    this.near = turns ? null : editor.nearby(nodes);
+    this.waits = this.near !== null;
+    if (this.near) void this.wait(this.pull, this.near);
+  }
+
+  /** The pointer goes on meanwhile. */
+  private async wait(pull: Pull, near: Promise<Constraints | null>): Promise<void> {
+    const base = await near.catch(() => null);
+    if (pull !== this.pull) return;
+    this.base = base;
+    this.waits = false;
+    this.solver.push({ ...(base && this.editor.jobOf(base)), drag: pull.step() });
   }
 
   /** The shape where the pointer is, as far as that is known before it is solved; null where it is soon enough solved. */
@@ -61,6 +78,7 @@ export class Drags {
   by(way: Vector, time: number): void {
     if (!this.pull) return;
     this.pull.aim(way, time);
+    if (this.waits) return;
     if (this.pull.part !== 'position') this.editor.turnNormals(this.pull.nodes, this.pull.vectors);
     if (this.foresees) this.solver.push({ drag: { ...this.pull.whole(), rough: true } });
     this.foresees = false;
@@ -82,18 +100,23 @@ export class Drags {
 
   end(keep: boolean): void {
     if (!this.pull) return;
+    const { editor, waits, near } = this;
     const { part, nodes, vectors } = this.pull;
+    const apply = (base: Constraints | null): void => editor.apply(labelOf(part, nodes), placed(base ?? editor.constraints, nodes, vectors, part));
+    const { base } = this;
     this.drop();
-    if (keep) this.editor.apply(labelOf(part, nodes), placed(this.editor.constraints, nodes, vectors, part));
-    else this.editor.settle();
+    if (!keep) editor.settle();
+    else if (waits) void near!.then(apply, (error: Error) => editor.setFault(error.message, 'solver'));
+    else apply(base);
   }
 
   drop(): void {
-    this.pull = this.ahead = null;
+    this.pull = this.ahead = this.near = this.base = null;
+    this.waits = false;
   }
 
   solved(drag: Drag, { positions, report }: Solved): void {
-    if (!this.pull) return;
+    if (!this.pull || this.waits) return;
     const rough = report.outcome === 'foreseen';
     this.ahead?.add(drag.way, positions, rough);
     if (rough) {

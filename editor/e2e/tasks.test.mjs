@@ -1,0 +1,213 @@
+// Three tasks as people have them, from the file to the saved one, each in at most 15 actions: a click, a drag, a turn of the wheel, an entry.
+// With PICTURES=FOLDER each step leaves a picture there: docs/pictures has those of docs/editor.md.
+
+import assert from 'node:assert/strict';
+import { copyFileSync, readFileSync, writeFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { choose, downloaded, find, greatestDistance, native, open, page, placesOf, root, session, settled, useSession } from './support.mjs';
+
+useSession();
+
+const most = 15;
+let actions;
+let task;
+
+async function act(what) {
+  ++actions;
+  return what();
+}
+
+async function picture(step) {
+  if (!process.env.PICTURES) return;
+  await page.mouse.move(640, 3);
+  await page.evaluate(() => document.activeElement.blur());
+  await page.waitForTimeout(1200);
+  await page.screenshot({ path: join(process.env.PICTURES, `editor-${task}-${step}.png`) });
+}
+
+async function begin(name) {
+  task = name;
+  actions = 0;
+  await open('', { viewport: { width: 1100, height: 680 } });
+}
+
+const button = (name) => page.getByRole('button', { name });
+const says = (text) => page.locator('#start-says', { hasText: text }).waitFor();
+
+// Returns the path of the file that is saved, under that name.
+async function done(what, name) {
+  const { path } = await act(() => downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click()));
+  assert.ok(actions <= most, `${what} took ${actions} actions`);
+  const own = join(session.folder, name);
+  copyFileSync(path, own);
+  return own;
+}
+
+// Half of a hull of 6 m, from the transom to near the bow and from the sheer to the keel; noise of 1 mm as of measured offsets.
+function hull(noise) {
+  const [along, down] = [48, 18];
+  let text = '';
+  let state = 7;
+  const random = () => {
+    state = (state * 16807) % 2147483647;
+    return state / 2147483647 - 0.5;
+  };
+  for (let i = 0; i <= along; ++i) {
+    for (let j = 0; j <= down; ++j) {
+      const [x, girth] = [(0.97 * i) / along, (Math.PI / 2) * (j / down)];
+      const [beam, depth, sheer] = [1.3 + 0.8 * x - 2.05 * x ** 3, 1.3 * (1 - x ** 5) + 0.05, 0.9 + 0.4 * x * x];
+      const inner = i > 0 && i < along && j > 0 && j < down ? noise : 0;
+      text += `v ${[6 * x + inner * random(), -beam * Math.cos(girth) + inner * random(), sheer - (sheer + depth) * Math.sin(girth) + inner * random()].join(' ')}\n`;
+    }
+  }
+  for (let i = 0; i < along; ++i) for (let j = 1; j <= down; ++j) {
+    const a = i * (down + 1) + j;
+    text += `f ${a} ${a + down + 1} ${a + down + 2} ${a + 1}\n`;
+  }
+  return text;
+}
+
+// How unevenly a shape bends.
+function unrest(path) {
+  const report = join(session.folder, 'measured.json');
+  native('measure', path, '--report', report);
+  return JSON.parse(readFileSync(report, 'utf8')).figures.mean_curvature_variation;
+}
+
+test('a hull is faired within 2 mm, from its file to the saved one', async () => {
+  await begin('hull');
+  const text = hull(0.002);
+  await act(() => choose(page, 'Open…', { name: 'hull.obj', text }));
+  await page.locator('#name', { hasText: 'hull.obj' }).waitFor();
+  await settled(page);
+  await act(() => page.getByLabel('Unit').selectOption('m'));
+  await act(() => button('Zebra').click());
+  await picture(1);
+  await act(() => button('Smooth it').click());
+  await says('Its noise seems to be');
+  await act(async () => {
+    await page.getByLabel('Tolerance', { exact: true }).fill('0.002');
+    await page.getByLabel('Tolerance', { exact: true }).press('Enter');
+  });
+  await says('within 0.002 m');
+  await settled(page);
+  await picture(2);
+  await act(() => button('Apply').click());
+  await settled(page);
+  await act(() => button('Zebra').click());
+  await picture(3);
+  const fair = await done('the hull', 'fair-hull.obj');
+  const path = join(session.folder, 'hull.obj');
+  writeFileSync(path, text);
+  assert.ok(greatestDistance(placesOf(fair), placesOf(path)) < 0.003, 'every node is about where it was');
+  assert.ok(unrest(fair) < 0.3 * unrest(path), `reflections on the hull are calm: ${unrest(fair)}, ${unrest(path)}`);
+});
+
+// Spot with three dents in its side. Returns places without dents and with them, and the middles and the radius of the dents.
+function dented() {
+  const places = placesOf(join(root, 'examples/spot.obj'));
+  const middles = [[0.02, -0.02], [0.35, 0.12], [0.62, 0.1]].map(([y, z]) => places.filter(([x]) => x > 0.15)
+    .reduce((best, place) => (Math.hypot(place[1] - y, place[2] - z) < Math.hypot(best[1] - y, best[2] - z) ? place : best)));
+  const radius = 0.12;
+  const bent = places.map(([x, y, z]) => {
+    const far = Math.min(...middles.map((middle) => Math.hypot(x - middle[0], y - middle[1], z - middle[2])));
+    return far < radius ? [x - 0.05 * (1 - (far / radius) ** 2) ** 2, y, z] : [x, y, z];
+  });
+  return { places, bent, middles, radius };
+}
+
+test('three dents of a scan are repaired', async () => {
+  await begin('dents');
+  const { places, bent, middles, radius } = dented();
+  const lines = readFileSync(join(root, 'examples/spot.obj'), 'utf8').split('\n').filter((line) => line.startsWith('f '));
+  const text = `${bent.map((place) => `v ${place.join(' ')}`).join('\n')}\n${lines.map((line) => line.replace(/\/[^ ]*/g, '')).join('\n')}\n`;
+  await act(() => choose(page, 'Open…', { name: 'scan.obj', text }));
+  await page.locator('#name', { hasText: 'scan.obj' }).waitFor();
+  await settled(page);
+  await act(() => page.getByRole('button', { name: 'View from the right, X' }).click());
+  await picture(1);
+  await act(() => button('Repair a part').click());
+  const box = await page.locator('#canvas').boundingBox();
+  const at = await pixelsOf(places, box);
+  for (const [k, middle] of middles.entries()) {
+    const [x, y] = at(middle);
+    await act(async () => {
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+      const around = at([middle[0], middle[1] + radius, middle[2]])[0] - x;
+      for (let turn = 0; turn <= 24; ++turn) await page.mouse.move(x + 0.75 * around * Math.cos(turn / 3.5), y + 0.75 * around * Math.sin(turn / 3.5));
+      await page.mouse.up();
+    });
+    await says(/^Moves [\d,]+ nodes/);
+    if (k === 0) await picture(2);
+    await act(() => button('Apply').click());
+    await says('Paint over');
+  }
+  await act(() => button('Done').click());
+  await picture(3);
+  const fair = placesOf(await done('the scan', 'fair-scan.obj'));
+  const off = (shape, k) => Math.max(...shape.flatMap((place, n) => (Math.hypot(...places[n].map((part, i) => part - middles[k][i])) < radius ? [Math.abs(place[0] - places[n][0])] : [])));
+  middles.forEach((_, k) => assert.ok(off(fair, k) < 0.5 * off(bent, k), `dent ${k}: ${off(fair, k)} of ${off(bent, k)}`));
+  places.forEach(([x], n) => { if (x < -0.1) assert.ok(greatestDistance([fair[n]], [bent[n]]) < 1e-9, 'the other side stays'); });
+});
+
+// Where places are seen from the right, as all of the shape is in the view, left of the panel.
+async function pixelsOf(places, box) {
+  const panel = await page.locator('aside').boundingBox();
+  const bounds = (i) => [Math.min(...places.map((place) => place[i])), Math.max(...places.map((place) => place[i]))];
+  const [[left, right], [low, high]] = [bounds(1), bounds(2)];
+  const width = panel.x - box.x;
+  const perUnit = 0.8 * Math.min(box.height / (high - low), width / (right - left));
+  return ([, y, z]) => [box.x + width / 2 + perUnit * (y - (left + right) / 2), box.y + box.height / 2 - perUnit * (z - (low + high) / 2)];
+}
+
+// How much the curvature of a plane curve goes up and down, in all.
+function unevenness(places) {
+  const minus = (a, b) => a.map((part, i) => part - b[i]);
+  const bends = places.slice(1, -1).map((place, k) => {
+    const [a, b] = [minus(place, places[k]), minus(places[k + 2], place)];
+    return (2 * Math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])) / (Math.hypot(...a) + Math.hypot(...b));
+  });
+  return bends.slice(1).reduce((sum, bend, k) => sum + Math.abs(bend - bends[k]), 0);
+}
+
+test('the nose of an aerofoil is redesigned by its comb', async () => {
+  await begin('nose');
+  const places = placesOf(join(root, 'examples/naca-2412.dat'));
+  // Some millimetres of a metre flattened.
+  const flat = places.map(([x, y], n) => [x < 0.02 ? Math.max(x, 0.004) : x, y + (x < 0.06 ? 0.0012 * Math.sin(2.4 * n) : 0)]);
+  const text = `Mine\n${flat.map((row) => row.join(' ')).join('\n')}\n`;
+  await act(() => choose(page, 'Open…', { name: 'mine.dat', text }));
+  await page.locator('#name', { hasText: 'mine.dat' }).waitFor();
+  await settled(page);
+  await act(() => button('Root scale').click());
+  await picture(1);
+  const seen = await find(page, /Node (29|30|31) /, [0.03, 0.52], [0.3, 0.54]);
+  await act(async () => {
+    await page.mouse.move(seen.x, seen.y);
+    for (let k = 0; k < 8; ++k) await page.mouse.wheel(0, -120);
+  });
+  await act(() => page.getByLabel('A pull reaches').fill('25'));
+  await page.evaluate(() => new Promise((ready) => requestAnimationFrame(() => requestAnimationFrame(ready))));
+  const box = await page.locator('#canvas').boundingBox();
+  let nose;
+  for (let y = (seen.y - box.y) / box.height - 0.15; !nose && y < 0.9; y += 0.02) nose = await find(page, new RegExp(`Node ${seen.node} `), [0.05, y], [0.2, y]).catch(() => null);
+  const plot = () => page.locator('#plot path.second').getAttribute('d');
+  const before = await plot();
+  await act(async () => {
+    await page.mouse.move(nose.x, nose.y);
+    await page.mouse.down();
+    await page.mouse.move(nose.x - 9, nose.y, { steps: 5 });
+    await page.mouse.up();
+  });
+  await button('Undo').and(page.locator('[title*="Move node"]')).waitFor();
+  await settled(page);
+  assert.notEqual(await plot(), before, 'the comb and its plot have followed');
+  await picture(2);
+  await act(() => page.keyboard.press('0'));
+  await picture(3);
+  const fair = placesOf(await done('the nose', 'fair-nose.dat'));
+  assert.ok(Math.min(...fair.map(([x]) => x)) < 0.003, 'the nose is further forward');
+  assert.ok(unevenness(fair) < 0.5 * unevenness(flat), `the comb is calm: ${unevenness(fair)}, ${unevenness(flat)}`);
+});

@@ -1,0 +1,58 @@
+// Which nodes are marked: those that are held, picked, and under the pointer.
+
+import { heldPosition } from './constraints';
+import type { Editor } from './editor';
+import type { Look } from './materials';
+import { rim } from './neighbours';
+import type { View } from './view';
+
+export class Marks {
+  private held: Uint8Array = new Uint8Array();
+  private shown = { normals: new Map() as Editor['normals'], picked: new Set() as ReadonlySet<number>, hovered: -1, edgeOnly: false };
+  /** Marks of held nodes cover what reflection lines and colours show. */
+  private hidden = false;
+  private look: Look = 'shaded';
+
+  constructor(private readonly editor: Editor, private readonly view: View) {}
+
+  /** Another shape has other nodes. */
+  clear(): void {
+    this.view.markers.clear();
+    this.view.arrows.set(new Map(), new Set());
+    this.held = new Uint8Array();
+    this.shown.picked = new Set();
+  }
+
+  get visible(): boolean {
+    return !this.hidden;
+  }
+
+  toggle(): void {
+    this.hidden = !this.hidden;
+    this.held = new Uint8Array();
+    this.refresh(this.look, this.shown.edgeOnly);
+  }
+
+  /** edgeOnly: of what is picked, as what lies within is to be seen. */
+  refresh(look: Look, edgeOnly: boolean): void {
+    const { editor, view, shown } = this;
+    const { held: { nodes: held }, shape, picked, hovered, normals } = editor;
+    if (look !== this.look) Object.assign(this, { look, hidden: look !== 'shaded' && look !== 'wire', held: new Uint8Array() });
+    const curve = shape?.curve != null;
+    if (this.held !== held || shown.edgeOnly !== edgeOnly) {
+      this.held = held;
+      const fixed = [...held.keys()].filter((node) => held[node] & heldPosition);
+      // Where most are held, as around a region, marks on all would hide it.
+      const some = 2 * fixed.length > held.length && !curve ? [...rim(shape!, fixed)] : fixed;
+      view.markers.set('held', this.hidden || edgeOnly ? [] : some);
+      view.draw();
+    }
+    if (shown.normals !== normals || shown.picked !== picked || shown.hovered !== hovered || shown.edgeOnly !== edgeOnly) {
+      this.shown = { normals, picked, hovered, edgeOnly };
+      view.arrows.set(normals, new Set(hovered < 0 ? picked : [...picked, hovered]));
+      view.markers.set('picked', edgeOnly && !curve ? [...rim(shape!, [...picked])] : [...picked]);
+      view.markers.set('hovered', hovered < 0 || picked.has(hovered) ? [] : [hovered]);
+      view.draw();
+    }
+  }
+}

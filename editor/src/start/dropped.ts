@@ -1,0 +1,51 @@
+// What becomes of a file that is dropped: opened, or points that what is open is drawn towards. Where it could be either, that is asked.
+
+import type { Editor } from '../editor';
+import type { NamedBytes } from '../files';
+import type { Opening } from '../opening';
+import { counted } from '../words';
+import { areScattered, rowsOf } from './tables';
+
+export interface DropEvents {
+  open: (file: NamedBytes) => void;
+  points: (file: NamedBytes) => void;
+}
+
+export class Dropped {
+  private file: NamedBytes | null = null;
+
+  constructor(private readonly dialog: HTMLDialogElement, private readonly editor: Editor, private readonly opening: Opening, private readonly events: DropEvents) {
+    dialog.addEventListener('close', () => {
+      const { file } = this;
+      this.file = null;
+      if (file && dialog.returnValue === 'open') events.open(file);
+      else if (file && dialog.returnValue === 'points') events.points(file);
+    });
+  }
+
+  /** alt: it is said to be points. */
+  take(file: NamedBytes, alt: boolean): void {
+    const { editor, events } = this;
+    if (!editor.shape || !(alt || /\.(xyz|csv)$/i.test(file.name))) {
+      events.open(file);
+      return;
+    }
+    if (alt) {
+      events.points(file);
+      return;
+    }
+    const rows = rowsOf(new TextDecoder().decode(file.bytes));
+    if (!this.opening.isOwn && !areScattered(rows)) events.open(file);
+    else this.ask(file, rows.length);
+  }
+
+  private ask(file: NamedBytes, rows: number): void {
+    this.file = file;
+    const part = (name: string): HTMLElement => this.dialog.querySelector(`[data-part=${name}]`)!;
+    part('file').textContent = `What is ${file.name}?`;
+    part('open').textContent = `A curve through its ${counted(rows, 'row')}`;
+    part('points').textContent = `Points for ${this.editor.name}`;
+    this.dialog.returnValue = '';
+    this.dialog.showModal();
+  }
+}

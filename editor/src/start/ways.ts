@@ -1,0 +1,36 @@
+// What may be done to a shape that is as it is in its file: the constraints of each way.
+
+import { heldPosition, type Constraints, type Held } from '../constraints';
+import type { Cloud } from '../points';
+
+export const ways = ['smooth', 'repair', 'free'] as const;
+export type Way = (typeof ways)[number];
+
+/** In standard deviations of the noise, as `--within auto`. */
+const deviations = 3;
+/** Of the size, where there is no noise to speak of. */
+const small = 1e-3;
+const noticeable = 1e-6;
+
+/** noise: its standard deviation. size: of the shape. */
+export function suggestedTolerance(noise: number, size: number): number {
+  return Number((noise > noticeable * size ? deviations * noise : small * size).toPrecision(2));
+}
+
+export function isNoisy(noise: number, size: number): boolean {
+  return noise > noticeable * size;
+}
+
+/** own: the nodes of the shape itself. */
+export function smoothed(constraints: Constraints, own: Cloud, tolerance: number): Constraints {
+  return { ...constraints, region: null, fit: { cloud: own, kind: 'within', value: tolerance, outliers: 0 } };
+}
+
+export function freed(constraints: Constraints): Constraints {
+  return { ...constraints, region: null, fit: undefined };
+}
+
+/** Whether something would hold a shape that is free besides. */
+export function isHeld({ nodes, unmarked }: Held): boolean {
+  return unmarked > 0 || nodes.some((bits) => (bits & heldPosition) !== 0);
+}

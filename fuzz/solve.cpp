@@ -1,0 +1,71 @@
+// Fairs and fits small shapes under any constraints and options.
+#include <type_traits>
+
+#include "shapes.hpp"
+
+using namespace vspring;
+using namespace vspring::fuzz;
+
+namespace {
+
+FairOptions options_of(FuzzedDataProvider& data) {
+  FairOptions options;
+  constexpr std::array methods = {Method::equilibrium, Method::multigrid, Method::sweep};
+  constexpr std::array distributions = {Distribution::smooth, Distribution::even, Distribution::keep};
+  if (data.ConsumeIntegralInRange(0, 3) == 0) options.method = data.PickValueInArray(methods);
+  if (data.ConsumeIntegralInRange(0, 3) == 0) options.distribution = data.PickValueInArray(distributions);
+  options.springs = data.ConsumeBool() ? Springs::sphere : Springs::edge;
+  options.fair_by = data.ConsumeIntegralInRange(0, 3) == 0 ? FairBy::bending : FairBy::curvature;
+  options.fair_boundary = data.ConsumeIntegralInRange(0, 7) == 0;
+  options.strength = data.ConsumeIntegralInRange(0, 3) == 0 ? 0.5 : 1;
+  options.tolerance = data.ConsumeBool() ? 1e-5 : 1e-3;
+  // The paper's methods take as long as they are let.
+  if (options.method && *options.method != Method::equilibrium) options.max_iterations = 100;
+  return options;
+}
+
+template <typename Shape>
+void solve(FuzzedDataProvider& data, const Shape& shape) {
+  Context context;
+  context.threads = data.ConsumeIntegralInRange(1, 2);
+  FairOptions options = options_of(data);
+  const bool fits = data.ConsumeIntegralInRange(0, 2) == 0;
+  const int pull = data.ConsumeIntegralInRange(0, 4);
+  const bool own_nodes = data.ConsumeBool();
+  ScatteredPoints points;
+  for (int k = fits && !own_nodes ? data.ConsumeIntegralInRange(1, 8) : 0; k > 0; --k)
+    points.positions.push_back(vector(data));
+  const Constraints held = constraints(data, shape);
+  if (!fits) {
+    attempt([&] {
+      const FairResult result = fair(shape, held, options, context);
+      if (options.strength == 1) check(shape, held, result.report, options.tolerance, result.positions);
+    });
+    return;
+  }
+  if (own_nodes) {
+    points.positions = shape.positions();
+    options.distribution = Distribution::keep;
+  }
+  FitOptions how;
+  how.fair = options;
+  if (pull == 1) how.within = 0.1;
+  if (pull == 2) how.rms = 0.05;
+  if (pull == 3) how.smoothing_length = 0.5;
+  if (pull == 4 && std::is_same_v<Shape, PolygonMesh>) how.noise = 0.05;
+  attempt([&] {
+    const FitResult result = fit(shape, held, points, how, context);
+    if (options.strength == 1) check(shape, held, result.report.fair, options.tolerance, result.positions);
+  });
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  FuzzedDataProvider data(bytes, size);
+  if (data.ConsumeBool())
+    solve(data, curve(data));
+  else
+    solve(data, mesh(data));
+  return 0;
+}

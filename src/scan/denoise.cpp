@@ -1,0 +1,166 @@
+#include "scan/denoise.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+#include "base/random.hpp"
+#include "scan/flat_faces.hpp"
+#include "scan/low_pass.hpp"
+
+namespace vspring {
+
+namespace {
+
+// From waves of two edges to some thirty.
+constexpr Band bands[] = {{1.6, 4},   {0.8, 4},   {0.4, 4},   {0.2, 4}, {0.1, 4}, {0.05, 4}, {0.035, 5}, {0.025, 6},
+                          {0.018, 6}, {0.013, 6}, {0.009, 6}, {1.2, 2}, {0.6, 2}, {0.3, 2},  {0.15, 2},  {0.075, 2}};
+// Whose normals noise is looked at along.
+constexpr std::size_t band_of_normals = 1;
+// Small features ask for few nodes around, much noise and smooth shapes for many; last the same everywhere.
+const std::vector<Choice> choices_of_bands = {{6, 0, 5}, {12, 0, 8}, {30, 0, 20}, {120, 0.2, 60}, {120, 1, 1e4}};
+const std::vector<Choice> last_choice = {{300, 0.3, 100}};
+// Which of these get flat faces, and in how many turns.
+constexpr std::size_t sharpest = 0;
+constexpr std::size_t middle = 2;
+constexpr std::size_t whole = 4;
+constexpr std::array turns_of_sharpest = {6, 15};
+constexpr std::array turns_of_middle = {12};
+constexpr std::array turns_of_whole = {10};
+
+// Random fields that tell how much of its own noise a node's place follows: the low passes'; and of the choices,
+// where they are disturbed by so much of the noise (S. Ramani, T. Blu, M. Unser, "Monte-Carlo SURE", IEEE TIP 17,
+// 2008).
+constexpr int fields_of_bands = 2;
+using Four = Eigen::Array4d;
+constexpr int fields_of_choices = 3;
+constexpr double disturbed = 0.05;
+
+// Of the way to the neighbours' mean.
+constexpr int steps_of_unknown = 20;
+
+std::vector<const Places*> pointers(const std::vector<Places>& shapes) {
+  std::vector<const Places*> result;
+  for (const Places& shape : shapes) result.push_back(&shape);
+  return result;
+}
+
+void append(std::vector<Places>& shapes, std::vector<Places> more) {
+  shapes.insert(shapes.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+class Denoiser {
+ public:
+  Denoiser(const ScanMesh& mesh, Places noisy, const std::vector<std::uint8_t>& known, double deviation,
+           ThreadTeam& team)
+      : mesh_(mesh), noisy_(std::move(noisy)), known_(known), deviation_(deviation), low_pass_(bands), team_(team) {
+    place_unknown();
+  }
+
+  Places run(const std::function<bool()>& ended) {
+    find_followed();
+    low_ = low_pass_.filter(mesh_, noisy_, team_);
+    normals_ = node_normals(mesh_, low_[band_of_normals], team_);
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+      if (known_[i] == 0) normals_[i].setZero();
+    }
+    const std::vector<Places> shapes = shapes_of(noisy_, low_);
+    std::vector<double> followed(mesh_.moving * shapes.size(), 0);
+    for (int field = 0; field < fields_of_choices; ++field) {
+      if (ended()) return noisy_;
+      add_followed(shapes, followed);
+    }
+    const Risks risks = risks_of(mesh_, pointers(shapes), noisy_, normals_, followed, deviation_, team_);
+    return choose(mesh_, pointers(shapes), risks, last_choice, deviation_, team_).front();
+  }
+
+ private:
+  void place_unknown() {
+    for (int step = 0; step < steps_of_unknown; ++step) {
+      for (std::size_t i = 0; i < known_.size(); ++i) {
+        const auto neighbours = mesh_.neighbours.of(i);
+        if (known_[i] != 0 || neighbours.empty()) continue;
+        noisy_[i].setZero();
+        for (const std::uint32_t j : neighbours) noisy_[i] += noisy_[j] / static_cast<double>(neighbours.size());
+      }
+    }
+  }
+
+  /// The diagonals of the low passes.
+  void find_followed() {
+    const std::size_t width = std::size(bands) + 1;
+    followed_.assign(mesh_.moving * width, 0);
+    for (int k = 0; k < fields_of_bands; ++k) {
+      std::vector<Four> signs(mesh_.nodes, Four::Zero());
+      for (std::size_t i = 0; i < mesh_.moving; ++i) {
+        for (double& sign : signs[i]) sign = random_.below(2) == 0 ? -1 : 1;
+      }
+      const auto filtered = low_pass_.filter(mesh_, signs, team_);
+      for (std::size_t i = 0; i < mesh_.moving; ++i) {
+        followed_[i * width] = 1;
+        for (std::size_t band = 0; band < filtered.size(); ++band)
+          followed_[i * width + 1 + band] += (signs[i] * filtered[band][i]).mean() / fields_of_bands;
+      }
+    }
+  }
+
+  /// All that stand to choose from. low: what the low passes make of these places.
+  std::vector<Places> shapes_of(const Places& places, const std::vector<Places>& low) {
+    std::vector<const Places*> all = {&places};
+    for (const Places& one : low) all.push_back(&one);
+    const Risks risks = risks_of(mesh_, all, places, normals_, followed_, deviation_, team_);
+    std::vector<Places> shapes = choose(mesh_, all, risks, choices_of_bands, deviation_, team_);
+    append(shapes, with_flat_faces(mesh_, shapes[sharpest], turns_of_sharpest, team_));
+    append(shapes, with_flat_faces(mesh_, shapes[middle], turns_of_middle, team_));
+    append(shapes, with_flat_faces(mesh_, shapes[whole], turns_of_whole, team_));
+    return shapes;
+  }
+
+  void add_followed(const std::vector<Places>& shapes, std::vector<double>& followed) {
+    const double length = disturbed * deviation_;
+    std::vector<double> signs(mesh_.moving);
+    Places places(mesh_.nodes, Vector3::Zero());
+    for (std::size_t i = 0; i < mesh_.moving; ++i) {
+      signs[i] = random_.normal();
+      places[i] = length * signs[i] * normals_[i];
+    }
+    std::vector<Places> low = low_pass_.filter(mesh_, places, team_);
+    for (std::size_t k = 0; k < low.size(); ++k) add(low[k], low_[k]);
+    add(places, noisy_);
+    const std::vector<Places> others = shapes_of(places, low);
+    for (std::size_t i = 0; i < mesh_.moving; ++i) {
+      for (std::size_t k = 0; k < shapes.size(); ++k)
+        followed[i * shapes.size() + k] +=
+            signs[i] * (others[k][i] - shapes[k][i]).dot(normals_[i]) / (length * fields_of_choices);
+    }
+  }
+
+  static void add(Places& places, const Places& others) {
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] += others[i];
+  }
+
+  const ScanMesh& mesh_;
+  Places noisy_;
+  const std::vector<std::uint8_t>& known_;
+  double deviation_;
+  LowPass low_pass_;
+  ThreadTeam& team_;
+  Random random_{1};
+  std::vector<double> followed_;
+  std::vector<Places> low_;
+  std::vector<Vector3> normals_;
+};
+
+}  // namespace
+
+Places without_noise(const ScanMesh& mesh, Places noisy, const std::vector<std::uint8_t>& known, double deviation,
+                     const std::function<bool()>& ended, ThreadTeam& team) {
+  if (mesh.moving == 0) return noisy;
+  return Denoiser(mesh, std::move(noisy), known, deviation, team).run(ended);
+}
+
+}  // namespace vspring

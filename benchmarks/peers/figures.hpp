@@ -11,7 +11,9 @@ namespace vspring::bench {
 void compare_figures(const std::filesystem::path& drivers, const std::vector<std::string>& meshes);
 
 /// Ten regions of each mesh by vspring, fair by curvature and by bending, and CGAL: prints in how many each is next to
-/// the best of the three by every figure, and the rows in which vspring is not.
-void compare_regions(const std::filesystem::path& drivers, const std::vector<std::string>& meshes);
+/// the best of the three by every figure, and the rows in which vspring is not. shapes: a folder that keeps the starts
+/// and what becomes of them, as MESH-NODE-start.ply and so on, or empty.
+void compare_regions(const std::filesystem::path& drivers, const std::vector<std::string>& meshes,
+                     const std::filesystem::path& shapes);
 
 }  // namespace vspring::bench

@@ -2,7 +2,8 @@
 // Caps of 60° that start flat, with and without noise, rim and its tangent planes held; and the annulus of the paper's
 // table. Every run is a process of its own. `bench_peers 1000000` goes on to that many nodes;
 // a second argument is the only size of the caps, without the annulus. `bench_peers figures MESH…` compares how fair
-// the results are, `bench_peers regions MESH…` those of ten regions of each mesh.
+// the results are, `bench_peers regions MESH…` those of ten regions of each mesh; `--out FOLDER` before the meshes
+// keeps all shapes there.
 
 #include <fmt/format.h>
 
@@ -115,7 +116,8 @@ int main(int argc, char** argv) {
       return 0;
     }
     if (argc > 1 && std::string(argv[1]) == "regions") {
-      compare_regions(drivers, {argv + 2, argv + argc});
+      const bool keeps_shapes = argc > 3 && std::string(argv[2]) == "--out";
+      compare_regions(drivers, {argv + (keeps_shapes ? 4 : 2), argv + argc}, keeps_shapes ? argv[3] : "");
       return 0;
     }
     const auto last = static_cast<Index>(argc > 1 ? std::atoi(argv[1]) : 65'000);

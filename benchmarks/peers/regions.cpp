@@ -29,10 +29,12 @@ struct Program {
   const char* name;
   const char* driver;
   const char* variant;
+  const char* file;
 };
 
-constexpr std::array programs = {Program{"by curvature", "vspring", "rings"},
-                                 Program{"by bending", "vspring", "rings,bending"}, Program{"CGAL", "cgal", "cholmod"}};
+constexpr std::array programs = {Program{"by curvature", "vspring", "rings", "curvature"},
+                                 Program{"by bending", "vspring", "rings,bending", "bending"},
+                                 Program{"CGAL", "cgal", "cholmod", "cgal"}};
 constexpr std::size_t ours = 2;  // the first ones
 constexpr std::size_t cgal = 2;
 
@@ -86,17 +88,24 @@ struct Row {
   Results results;
 };
 
-Row run(const std::string& name, const PolygonMesh& mesh, std::uint64_t draw, const std::filesystem::path& drivers) {
+/// shapes: a folder that keeps the start and what each program makes of it, or empty.
+Row run(const std::string& name, const PolygonMesh& mesh, std::uint64_t draw, const std::filesystem::path& drivers,
+        const std::filesystem::path& shapes) {
   const Region region = random_region(mesh, region_radius * support::diagonal(mesh), draw);
   const PolygonMesh patch = triangulated(cut_out(mesh, region.nodes));
   const std::vector<std::uint8_t> held = two_outer_rings(patch);
   Row row{name, region.seed, static_cast<Index>(std::count(held.begin(), held.end(), 0)), measure_surface(patch), {}};
   const TemporaryFolder folder;
-  const std::string start = folder.file("start.ply");
-  const std::string result = folder.file("result.ply");
+  const auto file = [&](const std::string& what) {
+    if (shapes.empty()) return folder.file(what + ".ply");
+    return (shapes / fmt::format("{}-{}-{}.ply", std::filesystem::path(name).stem().string(), region.seed, what))
+        .string();
+  };
+  const std::string start = file("start");
   (void)write_surface(start, patch);
   for (std::size_t k = 0; k < programs.size(); ++k) {
     const std::filesystem::path driver = drivers / fmt::format("peer_{}", programs[k].driver);
+    const std::string result = file(programs[k].file);
     if (run_driver(driver, start, result, 1, programs[k].variant))
       row.results[k] = measure_surface(read_surface(result).mesh);
   }
@@ -164,12 +173,14 @@ void print_shares(const std::vector<Row>& rows, std::size_t program, std::span<c
 
 }  // namespace
 
-void compare_regions(const std::filesystem::path& drivers, const std::vector<std::string>& meshes) {
+void compare_regions(const std::filesystem::path& drivers, const std::vector<std::string>& meshes,
+                     const std::filesystem::path& shapes) {
+  if (!shapes.empty()) std::filesystem::create_directories(shapes);
   std::vector<Row> rows;
   for (const std::string& path : meshes) {
     const PolygonMesh mesh = read_surface(path).mesh;
     for (std::uint64_t draw = 1; draw <= regions_of_each; ++draw)
-      rows.push_back(run(std::filesystem::path(path).filename().string(), mesh, draw, drivers));
+      rows.push_back(run(std::filesystem::path(path).filename().string(), mesh, draw, drivers, shapes));
   }
   fmt::print(
       "Of {} regions:\n\n| | beside | an answer | bending within 2 % | variation within 10 % | no more extrema | no "

@@ -48,6 +48,8 @@ bool is_settled(const FairReport& report) {
 
 // On each level, of an even distribution where that of the input leads nowhere: the coarsest may need two starts.
 constexpr int iterations_of_a_try = 100;
+// Of the work that is allowed: what that try may take at least, where the flow from other spacing has left none.
+constexpr double work_of_a_try = 0.2;
 constexpr std::string_view ways_out =
     "hold more nodes, or normals, let a smaller region move, or only take its noise off";
 
@@ -238,9 +240,11 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
   options.as_found = true;
   FairReport even = at_first;
   even.iterations = report.iterations;
-  even.work = report.work;
+  const double beyond = std::max(0.0, report.work - (1 - work_of_a_try) * report.most_work);
+  even.work = report.work - beyond;
   even.most_work = report.most_work;
   run_with(options.springs, fair_by, constraints, context, progress, even, options);
+  even.work += beyond;
   if (was_found(even)) {
     report = std::move(even);
     if (report.outcome == Outcome::cancelled) return true;

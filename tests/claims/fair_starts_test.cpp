@@ -159,6 +159,25 @@ TEST(Starts, WhereTheSpacingOfTheInputLeadsNowhereAnEvenOneMay) {
   EXPECT_LT(result.report.work, result.report.most_work);
 }
 
+TEST(Starts, AnEvenSpacingIsTriedWhereAllElseHasTakenTheWorkThatIsAllowed) {
+  // An ear that leans over, with noise.
+  const PolygonMesh plane = generate::plane({.columns = 19, .rows = 19});
+  std::vector<Vector3> ear = plane.positions();
+  for (Vector3& p : ear) {
+    const double height = 3 * std::exp(-18.75 * (p - Vector3(0.5, 0.5, 0)).squaredNorm());
+    p += Vector3(2.2 / 3 * height * height, 0, height);
+  }
+  const PolygonMesh mesh = generate::add_noise(with_positions(plane, ear), 0.1, 5);
+  Constraints constraints(mesh.node_count());
+  fix_boundary_positions(constraints, mesh);
+  const FairResult result = fair(mesh, constraints);
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  ASSERT_FALSE(result.report.warnings.empty());
+  EXPECT_NE(result.report.warnings.back().find("go to the mean of their neighbours"), std::string::npos);
+  EXPECT_GT(result.report.work, 0.95 * result.report.most_work) << "or it would show nothing";
+  EXPECT_LT(result.report.work, 1.2 * result.report.most_work);
+}
+
 /// With a triangle more below and above every edge of the rims.
 PolygonMesh with_teeth(const PolygonMesh& tube) {
   MeshBuilder builder;

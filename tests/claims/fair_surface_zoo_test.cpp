@@ -98,6 +98,23 @@ TEST(Zoo, CylindersToTheirOrder) {
   }
 }
 
+TEST(Zoo, CylindersOfGradedAndJitteredGrids) {
+  const Normal from_axis = [](const Vector3& p) { return Vector3(p.x(), p.y(), 0); };
+  for (const Faces faces : {Faces::triangles, Faces::quads}) {
+    for (const Disorder& disorder : {Disorder{.jitter = 0.3}, Disorder{.ratio = 10}}) {
+      SCOPED_TRACE(fmt::format("{}, jitter {}, graded {}", name_of(faces), disorder.jitter, disorder.ratio));
+      const Specimen specimen =
+          on_chart("", cylinder_chart, false, {.columns = 24, .rows = 24, .faces = faces}, disorder, from_axis);
+      FairOptions options = to_equilibrium(1e-9);
+      options.distribution = Distribution::keep;
+      const FairResult result = fair(specimen.start, specimen.constraints, options);
+      EXPECT_EQ(result.report.outcome, Outcome::converged);
+      EXPECT_EQ(result.report.springs, Springs::sphere);
+      for (const Vector3& p : result.positions) ASSERT_LT(std::abs(p.head<2>().norm() - 1), 1e-4);
+    }
+  }
+}
+
 TEST(Zoo, TheTrueErrorIsWithinAFactorOfThreeOfTheExpectedOne) {
   for (const Specimen& specimen : specimens(12)) {
     if (specimen.hard) continue;

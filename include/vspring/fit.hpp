@@ -134,8 +134,9 @@ struct ResampledFit {
 /// Puts new nodes, as resample() spaces them, on the fair curve that fits the nodes of `curve`. So a table with
 /// rounding or noise gets nodes that have none, between its own nodes too.
 ///
-/// With within, new nodes in a plane go to the curve within the tolerance whose curvature changes least in proportion to
-/// itself (docs/curves.md). Where there is none that is not strained they go to the nearest, up to eight times as far.
+/// With within, new nodes in a plane go to the curve within the tolerance whose curvature changes least in proportion
+/// to itself (docs/curves.md). Where there is none that is not strained they go to the nearest, up to eight times as
+/// far.
 ///
 /// With rms or smoothing_length, and in space, a denser curve of up to eight nodes for each new one is fitted, and the
 /// new nodes are some of its nodes; so curvature changes gently between the points as well. Distances are those from

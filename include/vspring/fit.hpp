@@ -38,7 +38,7 @@ struct FitOptions {
   /// Surfaces whose own nodes are the points, with Distribution::keep: takes noise of this standard deviation in each
   /// coordinate off, in the units of the input, more than 0. No equilibrium, but filters, each where it is expected to
   /// be nearest to the true shape; nodes go along the surface, too, to where these put them. Where normals are given,
-  /// an equilibrium next to that. See estimate_noise() and docs/fit.md. Cost: linear. Memory: about 1,700 bytes a node.
+  /// an equilibrium next to that. See estimate_noise() and docs/fit.md. Cost: linear. Memory: about 2,500 bytes a node.
   std::optional<double> noise = std::nullopt;
   /// The share of the points, from 0 to less than 1, that is left out: those furthest from the shape. Shape and
   /// outliers are found in turns.

@@ -43,6 +43,61 @@ constexpr double disturbed = 0.05;
 // Of the way to the neighbours' mean.
 constexpr int steps_of_unknown = 20;
 
+// Edges that turn by more than 115° are folds: those of blocks turn by about 90°.
+constexpr double folded = -0.42;
+constexpr int most_rounds = 20;
+constexpr int steps_of_round = 3;
+
+/// 1 for each moving node of two faces that are folded onto each other.
+std::vector<std::uint8_t> nodes_at_folds(const ScanMesh& mesh, const Places& places, ThreadTeam& team) {
+  std::vector<Vector3> normals = face_areas(mesh, places, team);
+  for (Vector3& normal : normals) normal.stableNormalize();
+  std::vector<std::uint8_t> found(mesh.moving, 0);
+  const auto mark = [&](std::uint32_t face) {
+    for (const std::uint32_t i : mesh.faces.of(face)) {
+      if (i < mesh.moving) found[i] = 1;
+    }
+  };
+  for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    for (const std::uint32_t g : mesh.around.of(f)) {
+      if (g <= f || normals[f].dot(normals[g]) > folded) continue;
+      const auto corners = mesh.faces.of(g);
+      const auto shares = [&](std::uint32_t i) {
+        return std::find(corners.begin(), corners.end(), i) != corners.end();
+      };
+      const auto own = mesh.faces.of(f);
+      if (std::count_if(own.begin(), own.end(), shares) < 2) continue;
+      mark(f);
+      mark(g);
+    }
+  }
+  return found;
+}
+
+/// Steps towards the neighbours' mean where faces are folded. Where half of these nodes stay folded, that is what the
+/// shape is like, and it is left alone.
+void unfold(const ScanMesh& mesh, Places& places, ThreadTeam& team) {
+  const Places start = places;
+  std::vector<std::uint8_t> found = nodes_at_folds(mesh, places, team);
+  const auto at_first = std::count(found.begin(), found.end(), 1);
+  auto left = at_first;
+  for (int round = 0; round < most_rounds && left > 0; ++round) {
+    for (int step = 0; step < steps_of_round; ++step) {
+      const Places before = places;
+      for (std::size_t i = 0; i < mesh.moving; ++i) {
+        const auto neighbours = mesh.neighbours.of(i);
+        if (found[i] == 0 || neighbours.empty()) continue;
+        Vector3 mean = Vector3::Zero();
+        for (const std::uint32_t j : neighbours) mean += before[j] / static_cast<double>(neighbours.size());
+        places[i] = (before[i] + mean) / 2;
+      }
+    }
+    found = nodes_at_folds(mesh, places, team);
+    left = std::count(found.begin(), found.end(), 1);
+  }
+  if (2 * left > at_first) places = start;
+}
+
 std::vector<const Places*> pointers(const std::vector<Places>& shapes) {
   std::vector<const Places*> result;
   for (const Places& shape : shapes) result.push_back(&shape);
@@ -75,7 +130,9 @@ class Denoiser {
       add_followed(shapes, followed);
     }
     const Risks risks = risks_of(mesh_, pointers(shapes), noisy_, normals_, followed, deviation_, team_);
-    return choose(mesh_, pointers(shapes), risks, last_choice, deviation_, team_).front();
+    Places result = choose(mesh_, pointers(shapes), risks, last_choice, deviation_, team_).front();
+    unfold(mesh_, result, team_);
+    return result;
   }
 
  private:

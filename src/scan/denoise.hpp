@@ -17,7 +17,7 @@ namespace vspring {
 /// noisy: places of all nodes. known: of the moving ones, 0 for outliers, whose places tell nothing; empty: all do.
 /// deviation: of the noise in each coordinate. ended: asked between steps; once it says yes the result is of no use.
 /// Held nodes stay. The same bits on any number of threads. Cost: linear, some 1,000 means over neighbours. Memory:
-/// about 1,500 bytes a node.
+/// about 2,000 bytes a node.
 Places without_noise(const ScanMesh& mesh, Places noisy, const std::vector<std::uint8_t>& known, double deviation,
                      const std::function<bool()>& ended, ThreadTeam& team);
 

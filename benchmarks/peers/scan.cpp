@@ -41,8 +41,8 @@ double median_edge(const PolygonMesh& mesh) {
   return *middle;
 }
 
-PolygonMesh with_noise(PolygonMesh mesh, double deviation) {
-  std::mt19937 generator(1);
+PolygonMesh with_noise(PolygonMesh mesh, double deviation, unsigned seed) {
+  std::mt19937 generator(seed);
   std::normal_distribution<double> normal(0, deviation);
   std::vector<Vector3> positions = mesh.positions();
   for (Vector3& p : positions) {
@@ -64,11 +64,11 @@ std::string cell(const Result& result) {
   return std::isfinite(result.off) ? fmt::format("{:.1f}, {:.0f}°", result.off, result.turn) : "none";
 }
 
-void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drivers) {
+void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drivers, unsigned seed) {
   if (mesh.face_count() == 0) return;  // a curve
   const double edge = median_edge(mesh);
   for (const double level : levels) {
-    const PolygonMesh noisy = with_noise(mesh, level * edge);
+    const PolygonMesh noisy = with_noise(mesh, level * edge, seed);
     const auto look = [&](const std::vector<Vector3>& positions) {
       PolygonMesh shape = mesh;
       shape.set_positions(positions);
@@ -134,10 +134,12 @@ int main(int argc, char** argv) {
       "deviation | sinc "
       "at its best | Taubin at its best | OpenMesh at its best |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   const fs::path drivers = fs::path(argv[0]).parent_path();
-  run("torus", generate::torus({.columns = 64, .rows = 48, .jitter = 0.2}, 1, 0.5), drivers);
-  run("block", generate::genus({.holes = 1, .cells = 8}), drivers);
-  run("blend of pipes", generate::pipe_blend(), drivers);
+  const unsigned seed = argc > 2 ? static_cast<unsigned>(std::stoul(argv[2])) : 1;
+  run("torus", generate::torus({.columns = 64, .rows = 48, .jitter = 0.2}, 1, 0.5), drivers, seed);
+  run("block", generate::genus({.holes = 1, .cells = 8}), drivers, seed);
+  run("blend of pipes", generate::pipe_blend(), drivers, seed);
   if (argc > 1)
-    for_each_surface(argv[1], [&](const std::string& name, const PolygonMesh& mesh) { run(name, mesh, drivers); });
+    for_each_surface(argv[1],
+                     [&](const std::string& name, const PolygonMesh& mesh) { run(name, mesh, drivers, seed); });
   return 0;
 }

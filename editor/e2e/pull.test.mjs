@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { drag, expectSameAsNative, find, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { drag, expectSameAsNative, find, native, open, page, picture, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -64,14 +64,10 @@ test('a picked free node of a surface is pulled, and the whole surface goes alon
 
 test('the view is turned by arrow keys, looks from each side, and is turned by other buttons as other programs have it', async () => {
   await open();
-  const picture = async () => {
-    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-    return (await page.locator('#canvas').screenshot()).toString('base64');
-  };
   const changes = async (act) => {
-    const before = await picture();
+    const before = await picture(page);
     await act();
-    return (await picture()) !== before;
+    return (await picture(page)) !== before;
   };
   const by = (button) => async () => {
     await page.mouse.move(200, 650);
@@ -85,7 +81,7 @@ test('the view is turned by arrow keys, looks from each side, and is turned by o
   const seen = new Set();
   for (const side of ['top, Z', 'front, −Y', 'right, X']) {
     await views.getByRole('button', { name: side }).click();
-    seen.add(await picture());
+    seen.add(await picture(page));
   }
   assert.equal(seen.size, 3);
   assert.ok(await changes(by('left')));

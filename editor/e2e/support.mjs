@@ -142,6 +142,15 @@ export async function follows(page) {
   await page.locator('#status[title*="frames/s"]').waitFor();
 }
 
+// What the view shows at last: without a graphics card pictures are drawn more finely once all has been still.
+export async function picture(page, clip) {
+  await page.evaluate(async () => {
+    for (let k = 0; k < 4; ++k) await new Promise((done) => requestAnimationFrame(done));
+  });
+  await page.locator('#canvas[data-picture="fine"]').waitFor();
+  return (await (clip ? page.screenshot({ clip }) : page.locator('#canvas').screenshot())).toString('base64');
+}
+
 // From a place on the view, with the left button down. held: what happens before it is let go.
 export async function drag(page, { x, y }, across, down, held = async () => {}) {
   await page.mouse.move(x, y);

@@ -188,7 +188,7 @@ test('the nose of an aerofoil is redesigned by its comb', async () => {
     await page.mouse.move(seen.x, seen.y);
     for (let k = 0; k < 8; ++k) await page.mouse.wheel(0, -120);
   });
-  await act(() => page.getByLabel('A pull reaches').fill('25'));
+  await act(() => page.getByLabel('A pull reaches').fill('6'));
   await page.evaluate(() => new Promise((ready) => requestAnimationFrame(() => requestAnimationFrame(ready))));
   const box = await page.locator('#canvas').boundingBox();
   let nose;

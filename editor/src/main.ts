@@ -9,12 +9,12 @@ import { Drawing } from './drawing';
 import { Editor } from './editor';
 import { Examples } from './examples';
 import { acceptDrops, choose, download, fromAddress, stem } from './files';
-import { Fields, fieldNames, type Field } from './fields';
+import { Fields, type Field } from './fields';
 import { Gestures } from './gestures';
 import { showFor } from './kinds';
 import { showLegend, showLengths } from './legend';
-import { Marks } from './marks';
-import { looks, type Look } from './materials';
+import { Looks } from './look/looks';
+import { Marks } from './look/marks';
 import { bindPresets } from './navigation/presets';
 import { Numbers } from './numbers';
 import { Opening } from './opening';
@@ -50,9 +50,6 @@ const firstExample = 'examples/annulus.obj';
 /** Pixels between nodes from which on each is a target of its own, and where there are fewer a drag turns the view. */
 const distinct = 40;
 const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz';
-let look: Look = 'shaded';
-let edges = false;
-let lookBefore: Look | null = null;
 let coloured: Field | null = null;
 let dotted: { fit: Fit | undefined; report: Report | null } = { fit: undefined, report: null };
 
@@ -64,6 +61,7 @@ const editor: Editor = new Editor({
     // With the room that its plot leaves.
     curves.open(shape);
     view.open(shape, stays);
+    looks.opened(shape);
     fields.open(shape);
   },
   shape: (positions, settled) => {
@@ -129,10 +127,10 @@ function newView(): View {
 }
 
 const marks = new Marks(editor, view);
+const looks: Looks = new Looks(editor, view, fields, marks, document.getElementById('wipe')!, () => refresh());
 const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('comb-clip') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
 const served = ServedFile.of(location.href, editor, format.parentElement!);
 
-const titles: Record<Look, string> = { shaded: 'Shaded', wire: 'Wire', zebra: 'Zebra', mean: 'Mean curvature', gaussian: 'Gaussian curvature', deviation: 'Deviation from the input' };
 const opened = (): boolean => editor.shape !== null;
 const isCurve = (): boolean => editor.shape?.curve != null;
 const somePicked = (): boolean => editor.picked.size > 0;
@@ -166,10 +164,7 @@ const commands: Command[] = [
   { id: 'comb', title: 'Curvature comb', keys: ['c'], run: () => curves.toggleComb(), enabled: isCurve, pressed: () => curves.comb },
   { id: 'comb-root', title: 'Hairs by the root of the curvature', keys: [], run: () => { curves.toggleRoot(); refresh(); }, enabled: isCurve, pressed: () => curves.root },
   { id: 'plot', title: 'Plot of curvature', keys: ['p'], run: () => { curves.fold(); refresh(); }, enabled: isCurve, pressed: () => curves.unfolded },
-  ...looks.map((which) => ({ id: which, title: titles[which], keys: [String(['shaded', 'wire', 'zebra', ...fieldNames].indexOf(which) + 1)],
-    run: () => setLook(which), pressed: () => look === which, enabled: () => !isCurve() })),
-  { id: 'edges', title: 'Edges over what is shown', keys: ['7'], run: () => { edges = !edges; view.setEdges(edges); refresh(); }, pressed: () => edges, enabled: () => !isCurve() },
-  { id: 'marks', title: 'Mark held nodes', keys: ['m'], run: () => { marks.toggle(); refresh(); }, enabled: opened, pressed: () => marks.visible },
+  ...looks.commands,
   { id: 'input', title: 'Show the input or the result', keys: ['i'], run: () => editor.toggleInput(), enabled: opened, pressed: () => editor.showsInput },
   { id: 'fit', title: 'Show all', keys: ['0', 'home'], run: () => view.fit() },
   { id: 'zoom-in', title: 'Zoom in', keys: ['+', '='], run: () => view.zoomBy(1.25) },
@@ -189,7 +184,7 @@ listShortcuts(help.querySelector('dl')!, [...commands,
 ]);
 
 function changed(): void {
-  marks.refresh(look, editor.trying && start.way === 'repair');
+  marks.refresh(looks.look, editor.trying && start.way === 'repair');
   describe(editor, coloured);
   showLoading(document.getElementById('loading')!, editor.loading);
   start.refresh();
@@ -267,25 +262,9 @@ async function begin(): Promise<void> {
   autosave.begin();
 }
 
-/** What would move is coloured by how far, until a way is kept or given up. */
 function wayChosen(way: Way | null): void {
   toolChanged();
-  if (isCurve()) return;
-  if (way === 'smooth' || way === 'free') {
-    lookBefore ??= look;
-    setLook('deviation');
-  } else if (lookBefore) {
-    setLook(lookBefore);
-    lookBefore = null;
-  }
-}
-
-function setLook(which: Look): void {
-  look = which;
-  view.setLook(which);
-  marks.refresh(look, false);
-  fields.choose(fieldNames.find((name) => name === which) ?? null);
-  refresh();
+  looks.showDeviation(way === 'smooth' || way === 'free');
 }
 
 function escape(): void {

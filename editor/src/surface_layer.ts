@@ -1,6 +1,6 @@
 // The surface in the view: its triangles, its edges, and those that are sharp.
 
-import { BufferAttribute, BufferGeometry, type Color, LineBasicMaterial, LineSegments, Mesh, type Object3D } from 'three';
+import { BufferAttribute, BufferGeometry, type Color, Group, LineBasicMaterial, LineSegments, Mesh } from 'three';
 import type { Field } from './fields';
 import { kindOf, surfaceMaterial, type Look } from './materials';
 import type { Shape } from './shape';
@@ -14,6 +14,7 @@ export class SurfaceLayer {
   private readonly surface = new Mesh(new BufferGeometry(), surfaceMaterial());
   private readonly lines = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
   private readonly features = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
+  readonly object = new Group().add(this.surface, this.lines, this.features);
   private vertices: Vertices | null = null;
   private triangles = new BufferAttribute(new Uint32Array(), 1);
   /** Those of a drag, where they are fewer; made when the first picture of one is drawn. */
@@ -25,10 +26,6 @@ export class SurfaceLayer {
   /** software: there is no graphics card. */
   constructor(private readonly software: boolean) {
     if (software) loadSimplifier().catch((error: unknown) => console.warn('Pictures of a drag have all triangles:', error));
-  }
-
-  get objects(): Object3D[] {
-    return [this.surface, this.lines, this.features];
   }
 
   open(shape: Shape): void {

@@ -18,6 +18,7 @@ import { pixelOf, placeAt, towards } from './projection';
 import { drawsInSoftware } from './software';
 import { nothing, placesOf, type Shape } from './shape';
 import { SurfaceLayer } from './surface_layer';
+import { Wipe } from './look/wipe';
 
 /** Milliseconds between pictures of a drag beyond which they have fewer pixels, and beyond which nobody drags. */
 const slow = 45;
@@ -43,6 +44,8 @@ export class View {
   /** Smooth edges come from the card; without one, from a finer picture when all has been still for a while. */
   private readonly software = drawsInSoftware();
   private readonly surface = new SurfaceLayer(this.software);
+  private readonly wipe = new Wipe(this.software, document.getElementById('wipe-line')!);
+  private look: Look = 'shaded';
   /** Pixels of the picture to one of the page, along each side. */
   private resolution = 1;
   /** That of pictures that follow the pointer. */
@@ -70,8 +73,8 @@ export class View {
     this.controls.minZoom = 0.05;
     this.controls.maxZoom = 1e4;
     this.controls.addEventListener('change', () => this.draw());
-    this.scene.add(...this.surface.objects, this.grid, ...this.input.objects, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
-    for (const object of this.scene.children) object.frustumCulled = false;
+    this.scene.add(this.surface.object, this.wipe.object, this.grid, ...this.input.objects, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
+    this.scene.traverse((object) => { object.frustumCulled = false; });
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
 
@@ -80,6 +83,7 @@ export class View {
     const before = this.shape ?? nothing;
     this.shape = shape;
     this.surface.open(shape);
+    this.wipe.set(this.wipe.share, shape);
     this.grid.visible = shape === nothing;
     this.curve.setComb(new Float32Array(), new Float32Array());
     this.input.show(shape.curve ? placesOf(shape, shape.input) : new Float32Array(), shape.curve ? shape.edges.ends : []);
@@ -109,7 +113,14 @@ export class View {
   }
 
   setLook(look: Look): void {
+    this.look = look;
     this.surface.setLook(look);
+    this.restyle();
+  }
+
+  /** The input left of a line at that share of the view; null: no line. */
+  setWipe(share: number | null): void {
+    this.wipe.set(share, this.shape);
     this.restyle();
   }
 
@@ -128,6 +139,7 @@ export class View {
     };
     this.renderer.setClearColor(colour('--stage'));
     this.surface.restyle(colour);
+    this.wipe.restyle(this.look, this.surface.edges, colour);
     this.curve.restyle(colour);
     this.sketch.restyle(colour);
     this.input.restyle(colour);
@@ -160,7 +172,7 @@ export class View {
     camera.position.sub(controls.target).add(middle);
     controls.target.copy(middle);
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const covered = Math.max(0, this.panel.offsetLeft > 0 ? width - this.panel.offsetLeft : 0);
+    const { covered } = this;
     camera.zoom = 1.6 / Math.max(high.y - low.y, ((high.x - low.x) * height) / Math.max(1, width - covered), 1e-3);
     const aside = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0).multiplyScalar(covered / height / camera.zoom);
     for (const end of [camera.position, controls.target]) end.add(aside);
@@ -269,13 +281,30 @@ export class View {
       this.arrows.scale(this.camera.zoom);
       this.setResolution(this.moving);
       this.scaleMarkers();
-      this.renderer.render(this.scene, this.camera);
+      this.paint();
       this.gizmo.turn(...([0, 1, 2].map((column) => new Vector3().setFromMatrixColumn(this.camera.matrixWorld, column).toArray()) as [Vector, Vector, Vector]));
       this.drawn();
       this.drawnAt = performance.now();
+      this.canvas.dataset.picture = this.software ? 'quick' : 'fine';
       clearTimeout(this.rest);
       if (this.software) this.rest = window.setTimeout(() => this.refine(), still);
     });
+  }
+
+  private paint(): void {
+    const { renderer, scene, camera, canvas: { clientWidth: width, clientHeight: height } } = this;
+    renderer.render(scene, camera);
+    this.wipe.paint(this.surface.object, width - this.covered, (pixels) => {
+      renderer.setScissorTest(true);
+      renderer.setScissor(0, 0, pixels, height);
+      renderer.render(scene, camera);
+      renderer.setScissorTest(false);
+    });
+  }
+
+  /** What the panel covers of the width. */
+  private get covered(): number {
+    return this.panel.offsetLeft > 0 ? this.canvas.clientWidth - this.panel.offsetLeft : 0;
   }
 
   private reframe(from: Shape, to: Shape): void {
@@ -289,7 +318,8 @@ export class View {
 
   private refine(): void {
     this.setResolution(2);
-    this.renderer.render(this.scene, this.camera);
+    this.paint();
+    this.canvas.dataset.picture = 'fine';
   }
 
   private setResolution(resolution: number): void {

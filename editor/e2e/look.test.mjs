@@ -1,0 +1,92 @@
+// What helps to judge a shape: marks out of the way, edges, ranges of colours and combs that are set, units.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { find, open, page, picture, settled, useSession } from './support.mjs';
+
+useSession();
+
+async function seen(clip) {
+  await page.mouse.move(3, 3);
+  return picture(page, clip);
+}
+
+const numberOf = (text) => Number(text.replace('−', '-').replace(/^[≤≥ ]+/, ''));
+const marks = () => page.getByRole('button', { name: 'Marks' });
+
+test('marks of held nodes hide under reflection lines, and a key shows them; edges lie over any look', async () => {
+  await open();
+  assert.equal(await marks().getAttribute('aria-pressed'), 'true');
+  await page.keyboard.press('3');
+  assert.equal(await marks().getAttribute('aria-pressed'), 'false');
+  const bare = await seen();
+  await page.keyboard.press('m');
+  const marked = await seen();
+  assert.ok(marked !== bare);
+  await page.keyboard.press('m');
+  assert.ok((await seen()) === bare);
+  await page.keyboard.press('7');
+  assert.ok((await seen()) !== bare);
+  await page.keyboard.press('7');
+  assert.ok((await seen()) === bare);
+  await page.keyboard.press('1');
+  assert.equal(await marks().getAttribute('aria-pressed'), 'true');
+});
+
+test('colours are spread over as many nodes as the slider says; legend and footer have the unit and the radius', async () => {
+  await open();
+  await page.getByLabel('Example').selectOption({ label: 'Pipe blend' });
+  await page.locator('#name', { hasText: 'pipe-blend' }).waitFor();
+  await settled(page);
+  await page.keyboard.press('4');
+  await page.locator('#legend').waitFor();
+  const widths = [];
+  for (const share of [60, 96, 100]) {
+    const before = await page.locator('#legend .marks').textContent();
+    await page.getByRole('slider', { name: 'Middle' }).fill(String(share));
+    if (share !== 96 || widths.length > 0) await page.waitForFunction((old) => document.querySelector('#legend .marks').textContent !== old, before);
+    const [low, , high] = (await page.locator('#legend .marks span').allTextContents()).map(numberOf);
+    widths.push(high - low);
+  }
+  assert.ok(widths[0] < widths[1] && widths[1] < widths[2], `${widths}`);
+  await page.getByLabel('Unit').selectOption('mm');
+  await page.locator('#legend figcaption', { hasText: 'Mean curvature, 1 / mm' }).waitFor();
+  await page.locator('#status', { hasText: /moved at most [\d.]+ mm/ }).waitFor();
+  await find(page, /mean [−\d.]+, radius [\d.]+ mm$/, [0.3, 0.4], [0.3, 0.7]);
+});
+
+test('a comb has a root scale, and its sharpest places can be cut off', async () => {
+  await open();
+  await page.getByLabel('Example').selectOption({ label: 'Aerofoil NACA 2412' });
+  await page.locator('#size', { hasText: 'curve' }).waitFor();
+  await settled(page);
+  const pictures = new Set([await seen()]);
+  await page.getByRole('button', { name: 'Root scale' }).click();
+  pictures.add(await seen());
+  await page.getByLabel('Cut off beyond').fill('80');
+  pictures.add(await seen());
+  await page.getByRole('button', { name: 'Root scale' }).click();
+  pictures.add(await seen());
+  assert.equal(pictures.size, 4);
+});
+
+test('input and result are compared left and right of a line, which is moved', async () => {
+  await open();
+  await page.keyboard.press('m');
+  // Left of the panel, below the buttons, without the line.
+  const part = () => seen({ x: 80, y: 200, width: 640, height: 380 });
+  const result = await part();
+  await page.keyboard.press('i');
+  const input = await part();
+  assert.ok(input !== result);
+  await page.keyboard.press('i');
+  await page.getByRole('button', { name: 'Compare' }).click();
+  const slider = page.getByLabel('The input left of the line');
+  const half = await part();
+  assert.ok(half !== input);
+  assert.ok(half !== result);
+  await slider.fill('100');
+  assert.ok((await part()) === input, 'all of the input');
+  await slider.fill('0');
+  assert.ok((await part()) === result, 'all of the result');
+});

@@ -1,0 +1,69 @@
+// How the shape is shown: shaded, by lines or colours, with edges over it, and beside its input.
+
+import type { Command } from '../commands';
+import type { Editor } from '../editor';
+import { fieldNames, type Fields } from '../fields';
+import type { Marks } from './marks';
+import { looks, type Look } from '../materials';
+import type { Shape } from '../shape';
+import type { View } from '../view';
+
+const titles: Record<Look, string> = { shaded: 'Shaded', wire: 'Wire', zebra: 'Zebra', mean: 'Mean curvature', gaussian: 'Gaussian curvature', deviation: 'Deviation from the input' };
+
+export class Looks {
+  look: Look = 'shaded';
+  private before: Look | null = null;
+  private edges = false;
+
+  /** wipe: the slider between input and result, in its card. changed: the buttons are to be brought up to date. */
+  constructor(private readonly editor: Editor, private readonly view: View, private readonly fields: Fields, private readonly marks: Marks, private readonly wipe: HTMLElement,
+    private readonly changed: () => void) {
+    wipe.addEventListener('input', () => this.setWipe());
+  }
+
+  get commands(): Command[] {
+    const { editor, marks, wipe } = this;
+    const surface = (): boolean => editor.shape?.curve == null;
+    const then = (act: () => void) => (): void => {
+      act();
+      this.changed();
+    };
+    return [
+      ...looks.map((which) => ({ id: which, title: titles[which], keys: [String(['shaded', 'wire', 'zebra', ...fieldNames].indexOf(which) + 1)],
+        run: () => this.set(which), pressed: () => this.look === which, enabled: surface })),
+      { id: 'edges', title: 'Edges over what is shown', keys: ['7'], run: then(() => this.view.setEdges((this.edges = !this.edges))), pressed: () => this.edges, enabled: surface },
+      { id: 'marks', title: 'Mark held nodes', keys: ['m'], run: then(() => marks.toggle()), enabled: () => editor.shape !== null, pressed: () => marks.visible },
+      { id: 'wipe', title: 'Input and result side by side', keys: ['8'], run: then(() => { wipe.hidden = !wipe.hidden; this.setWipe(); }), pressed: () => !wipe.hidden,
+        enabled: () => editor.shape !== null && surface() },
+    ];
+  }
+
+  opened(shape: Shape): void {
+    this.wipe.hidden ||= shape.curve !== null;
+    this.setWipe();
+  }
+
+  set(which: Look): void {
+    this.look = which;
+    this.view.setLook(which);
+    this.marks.refresh(which, false);
+    this.fields.choose(fieldNames.find((name) => name === which) ?? null);
+    this.changed();
+  }
+
+  /** What would move is coloured by how far while something is tried. */
+  showDeviation(tries: boolean): void {
+    if (this.editor.shape?.curve) return;
+    if (tries) {
+      this.before ??= this.look;
+      this.set('deviation');
+    } else if (this.before) {
+      this.set(this.before);
+      this.before = null;
+    }
+  }
+
+  private setWipe(): void {
+    this.view.setWipe(this.wipe.hidden ? null : this.wipe.querySelector('input')!.valueAsNumber / 100);
+  }
+}

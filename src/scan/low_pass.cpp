@@ -38,8 +38,8 @@ std::vector<double> coefficients_of(const Band& band) {
 }  // namespace
 
 LowPass::LowPass(std::span<const Band> bands) {
-  for (const Band& band : bands) {
-    coefficients_.push_back(coefficients_of(band));
+  for (const Band& one : bands) {
+    coefficients_.push_back(coefficients_of(one));
     most_ = std::max(most_, coefficients_.back().size());
   }
 }

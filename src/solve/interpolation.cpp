@@ -9,7 +9,7 @@ namespace vspring {
 
 namespace {
 
-constexpr std::size_t nearest = 4;
+constexpr std::size_t most_sources = 4;
 // Of the unscaled shares, what has to be left where they are made to reproduce linear functions.
 constexpr double least_share_left = 0.2;
 constexpr double ridge_share = 0.01;
@@ -82,7 +82,7 @@ Interpolation interpolation(const Net& fine, const Net& coarse, std::span<const 
       sources.erase(std::unique(sources.begin(), sources.end(),
                                 [](const Source& a, const Source& b) { return a.node == b.node; }),
                     sources.end());
-      if (sources.size() > nearest) sources.resize(nearest);
+      if (sources.size() > most_sources) sources.resize(most_sources);
       find_shares(positions[i], positions, sources, shares);
       for (std::size_t k = 0; k < sources.size(); ++k) {
         if (sources[k].node < fine.moving) row.push_back({number[sources[k].node], static_cast<float>(shares[k])});

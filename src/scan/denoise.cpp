@@ -17,8 +17,9 @@ namespace vspring {
 namespace {
 
 // From waves of two edges to some thirty.
-constexpr Band low_passes[] = {{1.6, 4},   {0.8, 4},   {0.4, 4},   {0.2, 4}, {0.1, 4}, {0.05, 4}, {0.035, 5}, {0.025, 6},
-                          {0.018, 6}, {0.013, 6}, {0.009, 6}, {1.2, 2}, {0.6, 2}, {0.3, 2},  {0.15, 2},  {0.075, 2}};
+constexpr Band low_passes[] = {{1.6, 4},   {0.8, 4},   {0.4, 4},   {0.2, 4},   {0.1, 4},   {0.05, 4},
+                               {0.035, 5}, {0.025, 6}, {0.018, 6}, {0.013, 6}, {0.009, 6}, {1.2, 2},
+                               {0.6, 2},   {0.3, 2},   {0.15, 2},  {0.075, 2}};
 // Whose normals noise is looked at along.
 constexpr std::size_t band_of_normals = 1;
 // Small features ask for few nodes around, much noise and smooth shapes for many; last the same everywhere.
@@ -112,7 +113,12 @@ class Denoiser {
  public:
   Denoiser(const ScanMesh& mesh, Places noisy, const std::vector<std::uint8_t>& known, double deviation,
            ThreadTeam& team)
-      : mesh_(mesh), noisy_(std::move(noisy)), known_(known), deviation_(deviation), low_pass_(low_passes), team_(team) {
+      : mesh_(mesh),
+        noisy_(std::move(noisy)),
+        known_(known),
+        deviation_(deviation),
+        low_pass_(low_passes),
+        team_(team) {
     place_unknown();
   }
 

@@ -21,7 +21,7 @@ constexpr int patience = 12;
 // Of an accelerated step, what the next one will be at most where they are on their way.
 constexpr double greatest_rate = 0.5;
 // Of the error by corrections alone, where the accelerated step says that there is less.
-constexpr double least_share = 0.6;
+constexpr double least_share = 0.54;
 // Iterations in a row that expect to be off by more than the shape's size: no level that went on from so many ever
 // arrived (12 was the most of 494 that did, in 300 tasks at random, and 29 once of 23 nodes, where they cost nothing).
 constexpr int lost_patience = 20;

@@ -29,17 +29,12 @@ constexpr double box_of_directions = 10;
 constexpr double noticed_rise = 3;
 // Of a curve, that is bent more too.
 constexpr double noticed_rise_of_curves = 1.5;
-// Of a surface with normals that are given: what these ask for, the input has as energy at them.
-constexpr double noticed_rise_of_directions = 10;
 constexpr double unseen_turn = 1e-3;
 // Of the bending, of a surface or a curve, which hardly changes where nodes slide. Springs may ask for more of it than
 // a fair shape has where a rim is free to turn.
 constexpr double risen_bending = 1.3;
 // Of the same without noise, of which an input may have more than the bending that a shape should not have.
 constexpr double risen_smooth_bending = 2.5;
-// The cosine of the angle from which on a normal that is given is another one than the input has there: at a rim, faces
-// on one side alone tell that to half a turn.
-constexpr double as_given = 0.94;
 // Of the product of two vectors, what tells of an angle beyond 90° in spite of rounding.
 constexpr double beyond_right = -1e-6;
 // Of mean edges: shorter ones, and faces of less than the square of that, are as good as nothing.
@@ -176,22 +171,6 @@ Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edg
   return flaws;
 }
 
-/// Whether the normals that are given are others than the faces have there.
-bool asks_for_bends(const Net& net) {
-  std::vector<std::size_t> spokes;
-  std::vector<Vector3> faces;
-  for (std::size_t i = 0; i < net.computed; ++i) {
-    if (!net.normal_given(i)) continue;
-    find_faces(net, net.positions, i, spokes, faces);
-    Vector3 sum = Vector3::Zero();
-    for (const Vector3& face : faces) {
-      if (face.allFinite()) sum += face;
-    }
-    if (!(sum.dot(net.normals[i]) >= as_given * sum.norm())) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 std::size_t turned_edges(const Net& net, ThreadTeam& team) {
@@ -219,7 +198,6 @@ Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(
   has_points_ = !start.points.positions.empty();
   is_surface_ = start.tangents.empty();
   edge_ = mean_edge(start);
-  asks_for_bends_ = is_surface_ ? asks_for_bends(start) : has_directions_;
   const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
   flaws_ = flaws_of(start, input, edge_, team, start.input.empty() && looks_at_bending());
   held_.assign(input.begin() + static_cast<std::ptrdiff_t>(start.moving), input.end());
@@ -250,7 +228,7 @@ std::vector<std::uint8_t> Soundness::dragged(const Net& now) const {
 
 bool Soundness::looks_at_bending() const {
   // Of faces without area nobody knows how they are bent.
-  return !asks_for_bends_ && !has_points_ && (!is_surface_ || flaws_.collapsed == 0);
+  return !has_directions_ && !has_points_ && (!is_surface_ || flaws_.collapsed == 0);
 }
 
 bool Soundness::looks_at_crossings(const Net& net) const { return !has_directions_ && !net.tangents.empty(); }
@@ -297,7 +275,7 @@ std::string Soundness::fault(Net& now) const {
   const std::vector<std::uint8_t> dragged_nodes = dragged(now);
   const Flaws flaws = flaws_of(now, now.positions, edge_, *team_, looks_at_bending(), dragged_nodes);
   std::string more = more_of(flaws, now.tangents.empty());
-  if (!more.empty() || (has_directions_ && !is_surface_)) return more;
+  if (!more.empty() || has_directions_) return more;
   if (looks_at_crossings(now) && dragged_nodes.empty()) {
     const std::size_t crossings = curve_crossings(now, now.positions, *team_);
     const std::size_t before = crossings > 0 ? curve_crossings(now, input_, *team_) : 0;
@@ -306,22 +284,19 @@ std::string Soundness::fault(Net& now) const {
   if (has_points_) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
   const bool is_bent_more = flaws.bending > risen_bending * bending_ + unseen;
-  if (is_surface_ && looks_at_bending()) {
+  if (now.tangents.empty()) {
     if (is_bent_more) return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", flaws.bending, bending_);
     const double smooth = smooth_bending_ ? bending_without_noise(now) : 0;
     if (smooth > risen_smooth_bending * smooth_bending_.value_or(0) + unseen)
       return fmt::format("it is bent more, by {:.3g} in place of {:.3g} without the noise of either", smooth,
                          *smooth_bending_);
   }
-  // What bends less may have curvature that changes more. Of faces without area nobody knows what normals ask of them.
-  if (!now.spheres.differences.empty() || (has_directions_ && flaws_.collapsed > 0)) return {};
+  // What bends less may have curvature that changes more.
+  if (!now.spheres.differences.empty()) return {};
   model_->prepare(now);
   update_directions(now, *model_, *team_);
   const double energy = spring_energy(now).sum;
-  // Of a surface it is not.
-  const double rise = asks_for_bends_                ? noticed_rise_of_directions
-                      : !is_surface_ && is_bent_more ? noticed_rise_of_curves
-                                                     : noticed_rise;
+  const double rise = !is_surface_ && is_bent_more ? noticed_rise_of_curves : noticed_rise;
   if (!(energy <= rise * energy_ + unseen))
     return fmt::format("the V-Spring energy rose from {:.3g} to {:.3g}", energy_, energy);
   return {};

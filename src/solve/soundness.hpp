@@ -41,8 +41,7 @@ class Soundness {
   /// outside the box; more flaws, but for those beside nodes that are held elsewhere than the input has them; edges
   /// of a curve in a plane that cross each other, where no tangent is held; where nothing but positions holds it, over
   /// three times the V-Spring energy (but where bending is to be least), 1.5 times that of a curve that is bent more,
-  /// or of a surface over 1.3 times the bending, or 2.5 times that without noise; where normals are given and no points
-  /// pull, over ten times the energy. Updates directions. Cost: linear.
+  /// or of a surface over 1.3 times the bending, or 2.5 times that without noise. Updates directions. Cost: linear.
   [[nodiscard]] std::string fault(Net& now) const;
 
   /// The same where what is held has been moved since, which the energy depends on: without a look at that. Updates
@@ -65,7 +64,6 @@ class Soundness {
   Eigen::AlignedBox3d box_;
   bool has_directions_ = false;  ///< some are given
   bool has_points_ = false;
-  bool asks_for_bends_ = false;  ///< directions are given that the input has not got
   bool is_surface_ = false;
   double edge_ = 0;  ///< the mean one
   Flaws flaws_;

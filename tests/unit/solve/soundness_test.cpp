@@ -98,35 +98,6 @@ TEST(Soundness, TellsWhatIsBentMoreFromNoise) {
   }
 }
 
-TEST(Soundness, SeesEnergyBesideGivenNormalsThatTheyDoNotAskFor) {
-  ThreadTeam team(1);
-  const auto model = surface_model(PseudoNormals::link);
-  const auto dome = [](double height, double of_normals, double waves) {
-    const PolygonMesh plane = generate::plane({.columns = 12, .rows = 12});
-    // z = height x (1 − x) y (1 − y), and the normals of that with another height.
-    std::vector<Vector3> places = plane.positions();
-    for (Vector3& p : places) {
-      const double bump = p.x() * (1 - p.x()) * p.y() * (1 - p.y());
-      p.z() = bump * (height + waves * std::sin(20 * p.x()));
-    }
-    const PolygonMesh mesh = with_positions(plane, places);
-    return gather_net(mesh, held_boundary(mesh, [&](const Vector3& p) -> Vector3 {
-                        const double along_x = (1 - 2 * p.x()) * p.y() * (1 - p.y());
-                        const double along_y = (1 - 2 * p.y()) * p.x() * (1 - p.x());
-                        return Vector3(-of_normals * along_x, -of_normals * along_y, 1).normalized();
-                      }));
-  };
-  Net right = dome(2, 2, 0);
-  const Soundness of_dome(right, *model, team);
-  EXPECT_EQ(of_dome.fault(right), "");
-  Net wavy = dome(2, 2, 1);
-  EXPECT_TRUE(contains(of_dome.fault(wavy), "energy rose")) << of_dome.fault(wavy);
-  // Normals that ask for a dome of a plane are at odds with it: then the dome is no fault.
-  Net flat = dome(0, 2, 0);
-  const Soundness of_plane(flat, *model, team);
-  EXPECT_EQ(of_plane.fault(right), "");
-}
-
 TEST(Soundness, BendingHardlySeesHowLongCellsLie) {
   // Bands of a sphere: rows of cells of 6 : 1 bent along their columns, as sliding leaves them.
   ThreadTeam team(1);

@@ -144,11 +144,11 @@ class Words(Case):
         arc, ring = self.write("arc.csv", ARC), self.write("ring.csv", RING)
         broken = self.write("nan.obj", hat().replace("v 0 0 1\n", "v 0 0 nan\n"))
         for arguments, words in (
-            (("fair", closed), ("by a rule (--constraints)", "fix the boundary (--fix boundary)", "let only a region move (--region)")),
+            (("fair", closed), ("by a rule (--constraints)", "let only a region move (--region)", "only take its noise off (--noise auto)")),
             (("fair", surface, "--fix", "none"), ("fix the boundary (--fix boundary)", "by a rule (--constraints)")),
             (("fair", broken), ("by a rule (--constraints) such as", "let only a region move (--region), one without them")),
             (("curve", arc, "--fix", "none"), ("fix the ends (--fix boundary)", "let only a region move (--region)")),
-            (("curve", ring, "--closed"), ("by a rule (--constraints)", "let only a region move (--region)")),
+            (("curve", ring, "--closed"), ("by a rule (--constraints)", "let only a region move (--region)", "a tolerance to stay within (--within)")),
             (("curve", star, "--constraints", free), ("by a rule (--constraints) such as",)),
             (("curve", arc, "--noise", "1"), ("the root mean square of its points' distances (--rms)",)),
         ):

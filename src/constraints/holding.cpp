@@ -93,7 +93,8 @@ class Holding {
   /// Whether the component with this node, as find() gives it, has a boundary.
   bool has_boundary(Index component) {
     const auto loops = boundary_loops(mesh_);
-    return std::any_of(loops.begin(), loops.end(), [&](const auto& loop) { return find(loop.front()) == component; });
+    return std::any_of(loops.begin(), loops.end(),
+                       [&](const auto& loop) { return moves(loop.front()) && find(loop.front()) == component; });
   }
 
   void check_boundaries(std::vector<std::string>& warnings) {

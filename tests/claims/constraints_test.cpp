@@ -65,7 +65,7 @@ TEST(Constraints, NormalsAreMadeUnitLengthWhateverTheirSize) {
 TEST(Constraints, AClosedComponentThatNothingHoldsIsRefused) {
   const PolygonMesh torus = generate::torus();
   const std::string message = refusal(torus, Constraints(torus.node_count()), ErrorCode::unusable_constraint);
-  for (const char* part : {"node 0", "(400 nodes)", "by a rule", "let only a region move"})
+  for (const char* part : {"node 0", "(400 nodes, closed)", "by a rule", "let only a region move"})
     EXPECT_TRUE(says(message, part)) << part;
   // Beside one that is held, too.
   const PolygonMesh both = beside(generate::plane(), torus);

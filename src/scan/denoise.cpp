@@ -101,6 +101,7 @@ void unfold(const ScanMesh& mesh, Places& places, ThreadTeam& team) {
 
 std::vector<const Places*> pointers(const std::vector<Places>& shapes) {
   std::vector<const Places*> result;
+  result.reserve(shapes.size());
   for (const Places& shape : shapes) result.push_back(&shape);
   return result;
 }

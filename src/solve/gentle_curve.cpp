@@ -84,6 +84,7 @@ class GentleCurve {
       }
       const double floor = turned > 0 ? least_share_of_mean_curvature * turned / length : 1;
       std::vector<double>& spacing = spacing_.emplace_back(count);
+      if (count == 0) continue;
       double nodes = 0;
       for (std::size_t k = 0; k < count; ++k) {
         spacing[k] = 1 / std::sqrt(floor + std::abs(run.stations[k].curvature));

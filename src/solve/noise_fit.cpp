@@ -16,6 +16,10 @@ namespace vspring {
 
 namespace {
 
+// Of the size of the shape, which is about 1: what is less is none, and more leaves nothing but the smoothest shape.
+constexpr double least_deviation = 1e-12;
+constexpr double most_deviation = 1e6;
+
 /// Has a shape without noise keep the normals that are given: a fit to it that smooths no more than an edge. Nodes keep
 /// their places where there is no equilibrium.
 void keep_normals(FitRun<FitSurface>& run, const Net& found, LoosePoints points, ProgressReporter& progress) {
@@ -61,9 +65,10 @@ void fit_without_noise(FitRun<FitSurface>& run, LoosePoints points, ProgressRepo
   const bool knows_outliers = std::count(known.begin(), known.end(), 0) > 0;
   if (run.options.outliers > 0 && !knows_outliers) suspect(net, run.options.outliers, known);
   progress.report("taking noise off", 0);
+  const double deviation = std::clamp(*run.options.noise * net.frame.scale(), least_deviation, most_deviation);
   net.positions = without_noise(
-      scan_mesh(net, run.subject.shape()), net.positions, known, *run.options.noise * net.frame.scale(),
-      [&] { return run.context.cancelled(); }, run.team);
+      scan_mesh(net, run.subject.shape()), net.positions, known, deviation, [&] { return run.context.cancelled(); },
+      run.team);
   const bool has_normals =
       std::any_of(net.given.begin(), net.given.end(), [](std::uint8_t given) { return given != 0; });
   if (has_normals && !run.context.cancelled()) {

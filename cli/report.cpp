@@ -91,8 +91,9 @@ nlohmann::ordered_json to_json(const FairReport& report) {
 }
 
 std::string summary(const FairReport& report, double diagonal, const FairOptions& options, const Terminal& terminal) {
-  std::string text = fmt::format("{} after {} iterations, {:.2f} s", outcome_line(report, options, terminal),
-                                 report.iterations, report.seconds);
+  std::string text = outcome_line(report, options, terminal);
+  if (report.iterations > 0) text += fmt::format(" after {} iterations", report.iterations);
+  text += fmt::format(", {:.2f} s", report.seconds);
   if (report.expected_error)
     text += *report.expected_error < 1
                 ? fmt::format(", expected error {:.1g} % of the size", 100 * *report.expected_error)

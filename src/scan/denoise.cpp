@@ -23,8 +23,8 @@ constexpr Band low_passes[] = {{1.6, 4},   {0.8, 4},   {0.4, 4},   {0.2, 4},   {
 // Whose normals noise is looked at along.
 constexpr std::size_t band_of_normals = 1;
 // Small features ask for few nodes around, much noise and smooth shapes for many; last the same everywhere.
-const std::vector<Choice> choices_of_bands = {{6, 0, 5}, {12, 0, 8}, {30, 0, 20}, {120, 0.2, 60}, {120, 1, 1e4}};
-const std::vector<Choice> last_choice = {{300, 0.3, 100}};
+constexpr Choice choices_of_bands[] = {{6, 0, 5}, {12, 0, 8}, {30, 0, 20}, {120, 0.2, 60}, {120, 1, 1e4}};
+constexpr Choice last_choice[] = {{300, 0.3, 100}};
 // Which of these get flat faces, and in how many turns.
 constexpr std::size_t sharpest = 0;
 constexpr std::size_t middle = 2;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 namespace vspring {
 
@@ -53,7 +54,7 @@ Risks risks_of(const ScanMesh& mesh, const std::vector<const Places*>& shapes, c
 }
 
 std::vector<Places> choose(const ScanMesh& mesh, const std::vector<const Places*>& shapes, Risks risks,
-                           const std::vector<Choice>& choices, double deviation, ThreadTeam& team) {
+                           std::span<const Choice> choices, double deviation, ThreadTeam& team) {
   const std::size_t width = risks.shapes;
   std::vector<double> next(risks.values.size());
   std::vector<Places> results;

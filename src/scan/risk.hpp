@@ -37,6 +37,6 @@ Risks risks_of(const ScanMesh& mesh, const std::vector<const Places*>& shapes, c
 /// For each choice the shapes' means at each node, weighted by exp(−weight · risk). Steps must rise. The same bits on
 /// any number of threads. Cost: linear, and that of the steps.
 std::vector<Places> choose(const ScanMesh& mesh, const std::vector<const Places*>& shapes, Risks risks,
-                           const std::vector<Choice>& choices, double deviation, ThreadTeam& team);
+                           std::span<const Choice> choices, double deviation, ThreadTeam& team);
 
 }  // namespace vspring

@@ -165,6 +165,8 @@ class Fitting {
     }
     const auto holds = [&](double distance) { return distance > holds_from_share * *options_.within; };
     report.active_points = static_cast<Index>(std::count_if(distances.begin(), distances.end(), holds));
+    // That was of the other shape.
+    report.fair.expected_error.reset();
     auto gathered = run_.gather();
     measure_moves(net_of(gathered), run_.subject.shape().positions(), run_.result.positions, report.fair);
   }

@@ -20,7 +20,9 @@ bool same(const Constraints& a, const Constraints& b) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   static const PolygonMesh shape = [] {
     MeshBuilder builder;
-    for (int k = 0; k < 9; ++k) builder.add_node({static_cast<double>(k % 3), static_cast<double>(k / 3), 0.1 * k});
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) builder.add_node({1.0 * column, 1.0 * row, 0.3 * row + 0.1 * column});
+    }
     for (const Index k : {0, 1, 3, 4}) builder.add_face({k, k + 1, k + 4, k + 3});
     return builder.take();
   }();

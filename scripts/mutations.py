@@ -68,6 +68,7 @@ MUTATIONS = {
         ("end-tangent", "the chord of an end", "links.front().start() ? Vector3(-first) : first", "first", "Vector3"),
     ],
     "src/spring/curve_force.hpp": [
+        ("curve-held-springs", "springs between held neighbours count", "(i < net.moving || j < net.computed)", "i < net.moving"),
         ("carrying", "frames without spin: the second reflection", "mirrored -= (2 * mirror.dot(mirrored) / length2) * mirror;", ""),
         ("curve-spring-difference", "Eq. 4 of curves: (b_i − Rᵀ b_j)/(1 + T_i·T_j)",
          "return (bend_i - carried(bend_j, d, tangent_j, tangent_i)) / denominator;",
@@ -205,7 +206,7 @@ MUTATIONS = {
         ("curve-share", "length of an end", "k == 0 ? stations_[k].place : distance(k - 1) / 2", "k == 0 ? 0 : distance(k - 1) / 2"),
     ],
     "src/fairness/measure_curve.cpp": [
-        ("curve-energy", "energy: ((t_j − t_i)/ℓ)²", "(curve_spring(net, i, j) / length).squaredNorm()", "curve_spring(net, i, j).squaredNorm()"),
+        ("curve-energy", "energy: ((t_j − t_i)/ℓ)²", "(spring / length).squaredNorm()", "spring.squaredNorm()"),
     ],
     "src/fairness/measure_curve_figures.cpp": [
         ("curve-variation-scale", "the same at every size", "length_ * length_ * length_ * rates", "length_ * length_ * rates"),

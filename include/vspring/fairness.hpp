@@ -25,7 +25,8 @@ struct Fairness {
 [[nodiscard]] Fairness measure(const PolygonMesh& mesh, const Constraints* constraints = nullptr);
 
 /// Measures a curve, with the tangents of the circles through successive nodes, or the given ones where a constraint
-/// fixes them. With constraints only what lies at moving nodes is measured. Cost: linear.
+/// fixes them. With constraints only what moving nodes have a part in is measured: at them and at held nodes beside
+/// them. Cost: linear.
 [[nodiscard]] Fairness measure(const PolygonCurve& curve, const Constraints* constraints = nullptr);
 
 }  // namespace vspring

@@ -48,15 +48,12 @@ Fairness measure(const PolygonCurve& whole_curve, const Constraints* constraints
   double squared_turns = 0;
   double greatest_turn = 0;
   double turns = 0;
-  for (std::size_t i = 0; i < net.moving; ++i) {
+  for_each_curve_spring(net, [&](const Vector3& spring, const Vector3& d) {
+    const double length = d.norm();
+    if (length > 0) energy += (spring / length).squaredNorm();
+  });
+  for (std::size_t i = 0; i < net.computed; ++i) {
     const auto links = net.rings.links(i);
-    for (const Link link : links) {
-      const std::size_t j = link.node();
-      if (j < net.moving && j < i) continue;
-      const Vector3 d = net.positions[j] - net.positions[i];
-      const double length = d.norm();
-      if (length > 0) energy += (curve_spring(net, i, j) / length).squaredNorm();
-    }
     if (links.size() < 2) continue;
     const Vector3 before = net.positions[i] - net.positions[links[0].node()];
     const Vector3 after = net.positions[links[1].node()] - net.positions[i];

@@ -56,6 +56,19 @@ inline Vector3 curve_spring(const Net& net, std::size_t i, std::size_t j) {
   return curve_spring(bend(net, i, d), bend(net, j, -d), d, net.tangents[i], net.tangents[j]);
 }
 
+/// use(spring, d) for every edge whose springs moving nodes have a part in, once: those of moving nodes, and those
+/// between held neighbours of moving nodes, whose curvature changes with these.
+template <typename Use>
+void for_each_curve_spring(const Net& net, const Use& use) {
+  for (std::size_t i = 0; i < net.computed; ++i) {
+    for (const Link link : net.rings.links(i)) {
+      const std::size_t j = link.node();
+      const bool comes_later = j > i && (i < net.moving || j < net.computed);
+      if (comes_later) use(curve_spring(net, i, j), Vector3(net.positions[j] - net.positions[i]));
+    }
+  }
+}
+
 /// 1/ℓ³: t_j − t_i is about −(ℓ³/12) times the derivative of the curvature towards j, so equal weights to equal
 /// derivatives need its inverse; with the paper's 1/ℓ the equilibrium depends on the spacing.
 struct InverseCubeWeight {

@@ -131,6 +131,23 @@ TEST(FairCurveWindings, LoopsBothWaysStay) {
   }
 }
 
+TEST(FairCurveWindings, HeldNeighboursAreNoHinge) {
+  // No Euler spiral has the lobe of this figure eight between two held nodes: one would end with a jump of curvature
+  // from the first of two held neighbours to the second, where nothing moves.
+  std::vector<Vector3> nodes;
+  for (int k = 0; k < 140; ++k) {
+    const double t = 2 * pi * k / 140 + pi / 2;
+    nodes.emplace_back(5 * std::cos(t), 5 * std::sin(t) * std::cos(t), 0);
+  }
+  Constraints constraints(140);
+  for (const Index i : {20, 50, 72, 137, 138}) constraints.fix_position(i, nodes[static_cast<std::size_t>(i)]);
+  const FairResult result = fair(PolygonCurve(nodes, true), constraints);
+  EXPECT_EQ(result.report.outcome, Outcome::worse_than_input);
+  EXPECT_LE(measure(PolygonCurve(result.positions, true)).vspring_energy,
+            measure(PolygonCurve(nodes, true)).vspring_energy);
+  EXPECT_LE(result.report.after.vspring_energy, result.report.before.vspring_energy);
+}
+
 TEST(FairCurveWindings, AHelixOfSmallPitchStaysOne) {
   // Of whole turns there is no fair curve nearby.
   const Helix helix(4.25, 0.1, 60);

@@ -204,5 +204,16 @@ TEST(CurveFigures, WithConstraintsOnlyTheMovingPart) {
   EXPECT_NEAR(*measure_curve(curve, &constraints).normal_error, 0, 1e-9);
 }
 
+TEST(CurveFigures, HeldNeighboursOfMovingNodesCount) {
+  // A kink at the first of two held neighbours, which turns as the moving node before it does.
+  const PolygonCurve curve({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 1, 0}, {4, 2, 0}, {5, 3, 0}});
+  Constraints constraints(6);
+  for (const Index i : {0, 2, 3, 4, 5}) constraints.fix_position(i, curve.position(i));
+  EXPECT_NEAR(measure(curve, &constraints).greatest_turn, 45, 1e-12);
+  constraints.free_position(4);
+  // The spring of the edge between both, from curvature at the first to none at the second.
+  EXPECT_NEAR(measure(curve, &constraints).vspring_energy, measure(curve).vspring_energy, 1e-12);
+}
+
 }  // namespace
 }  // namespace vspring::fairness_curve_test

@@ -44,7 +44,7 @@ void drag(const char* what, const PolygonMesh& mesh, Constraints constraints, In
     const double step = (k % 10 < 5 ? share : -share) * size;
     constraints.fix_position(node, constraints.position(node) + Vector3(0, 0, step));
     const FairReport report =
-        (pictures ? session.follow(constraints, picture_tolerance, context) : session.fair(constraints)).report;
+        (pictures ? session.update(constraints, picture_tolerance, context) : session.fair(constraints)).report;
     seconds[pictures].push_back(report.seconds);
     iterations[pictures] += report.iterations;
   }

@@ -45,8 +45,8 @@ void run(const std::string& path, const std::filesystem::path& out, std::ofstrea
         fmt::print("{} {} | {} | {} | {} | {:.3f} | {:.3g} → {:.3g} | {:.0f} → {:.0f} | {:.1f} → {:.1f} | {:.2f} % |\n",
                    row, report.moving_nodes, name(report.outcome), name(report.springs), report.iterations,
                    report.seconds, report.before.vspring_energy, report.after.vspring_energy,
-                   report.before.greatest_turn, report.after.greatest_turn, report.before.mean_turn,
-                   report.after.mean_turn, 100 * report.greatest_move / size);
+                   report.before.greatest_turn, report.after.greatest_turn, report.before.rms_turn,
+                   report.after.rms_turn, 100 * report.greatest_move / size);
         if (!out.empty()) {
           const std::string name = fmt::format("{}-{:.0f}-{}", stem, 100 * share, run + 1);
           (void)write_surface(out / (name + "-before.ply"), mesh);

@@ -9,12 +9,12 @@
 
 namespace vspring::cli {
 
-std::vector<Repeat> close_chains(PolygonCurve& curve) {
-  std::vector<Repeat> repeats;
+std::vector<DuplicateEnd> close_chains(PolygonCurve& curve) {
+  std::vector<DuplicateEnd> repeats;
   std::vector<PolygonCurve::Chain> chains = curve.chains();
   for (auto& chain : chains) {
     if (chain.closed || chain.nodes.size() < 2) continue;
-    const Repeat repeat{.node = chain.nodes.back(), .of = chain.nodes.front()};
+    const DuplicateEnd repeat{.node = chain.nodes.back(), .of = chain.nodes.front()};
     chain.closed = true;
     if (curve.position(repeat.node) != curve.position(repeat.of)) continue;
     chain.nodes.pop_back();
@@ -24,7 +24,7 @@ std::vector<Repeat> close_chains(PolygonCurve& curve) {
   return repeats;
 }
 
-void hold_repeated(Constraints& constraints, const std::vector<Repeat>& repeats) {
+void hold_repeated(Constraints& constraints, const std::vector<DuplicateEnd>& repeats) {
   for (const auto& [node, of] : repeats) {
     if (constraints.position_fixed(node)) {
       if (constraints.position_fixed(of) && constraints.position(of) != constraints.position(node))

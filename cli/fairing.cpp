@@ -57,8 +57,8 @@ void restrict_boundary(Constraints& constraints, const PolygonMesh& mesh, const 
 
 /// With the nodes that are one with some of the region, and those that belong to no face any more, which stay anyway.
 std::vector<Index> whole_region(const std::vector<Index>& region, const Welded& welded) {
-  const auto first = [&](std::size_t node) { return static_cast<std::size_t>(welded.stands_for[node]); };
-  std::vector<std::uint8_t> inside(welded.stands_for.size(), 0);
+  const auto first = [&](std::size_t node) { return static_cast<std::size_t>(welded.representative[node]); };
+  std::vector<std::uint8_t> inside(welded.representative.size(), 0);
   for (const Index node : region) inside[first(static_cast<std::size_t>(node))] = 1;
   std::vector<Index> whole;
   for (std::size_t node = 0; node < inside.size(); ++node) {

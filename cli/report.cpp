@@ -13,7 +13,7 @@ namespace {
 nlohmann::ordered_json to_json(const Fairness& fairness) {
   return {{"vspring_energy", fairness.vspring_energy},
           {"greatest_turn", fairness.greatest_turn},
-          {"rms_turn", fairness.mean_turn}};
+          {"rms_turn", fairness.rms_turn}};
 }
 
 /// The step of the plain iteration says nothing about the distance from the final place.
@@ -63,7 +63,7 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   json["fixed_normals"] = report.fixed_normals;
   json["fixed_tangents"] = report.fixed_tangents;
   json["greatest_move"] = report.greatest_move;
-  json["rms_move"] = report.mean_move;
+  json["rms_move"] = report.rms_move;
   json["seconds"] = report.seconds;
   json["peak_memory_bytes"] = peak_memory_bytes();
   json["threads"] = report.threads;
@@ -103,10 +103,10 @@ std::string summary(const FairReport& report, double diagonal, const FairOptions
   text +=
       fmt::format("{} of {} nodes moved, by up to {:.4g} ({:.2g} % of the size), root mean square {:.4g} ({:.2g} %)\n",
                   report.moving_nodes, report.nodes, report.greatest_move, report.greatest_move * share,
-                  report.mean_move, report.mean_move * share);
+                  report.rms_move, report.rms_move * share);
   text += fmt::format("V-Spring energy  {:.4g} → {:.4g}\n", report.before.vspring_energy, report.after.vspring_energy);
   text += fmt::format("greatest turn    {:.1f}° → {:.1f}°\n", report.before.greatest_turn, report.after.greatest_turn);
-  text += fmt::format("rms turn         {:.2f}° → {:.2f}°\n", report.before.mean_turn, report.after.mean_turn);
+  text += fmt::format("rms turn         {:.2f}° → {:.2f}°\n", report.before.rms_turn, report.after.rms_turn);
   return text;
 }
 

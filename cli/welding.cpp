@@ -121,14 +121,14 @@ std::vector<Vector3> Welding::positions(const std::vector<Vector3>& of_shape) co
 std::vector<double> Welding::weights() const {
   std::vector<double> weights;
   if (!welded_) return weights;
-  for (std::size_t node = 0; node < welded_->stands_for.size(); ++node)
-    weights.push_back(welded_->stands_for[node] == static_cast<Index>(node) ? 1 : 0);
+  for (std::size_t node = 0; node < welded_->representative.size(); ++node)
+    weights.push_back(welded_->representative[node] == static_cast<Index>(node) ? 1 : 0);
   return weights;
 }
 
 std::vector<double> Welding::greatest(std::vector<double> values) const {
   for (std::size_t node = 0; welded_ && node < values.size(); ++node) {
-    double& first = values[static_cast<std::size_t>(welded_->stands_for[node])];
+    double& first = values[static_cast<std::size_t>(welded_->representative[node])];
     first = std::max(first, values[node]);
   }
   return values;
@@ -143,7 +143,7 @@ void Welding::write_scalars(const std::string& path, const PolygonMesh& shape, s
   if (!welded_) return vspring::write_scalars(path, shape, scalars);
   for (NodeScalar& scalar : scalars) {
     std::vector<double> values;
-    for (const Index first : welded_->stands_for) values.push_back(scalar.values[static_cast<std::size_t>(first)]);
+    for (const Index first : welded_->representative) values.push_back(scalar.values[static_cast<std::size_t>(first)]);
     scalar.values = std::move(values);
   }
   PolygonMesh of_file = file_;
@@ -167,7 +167,7 @@ nlohmann::ordered_json Welding::figures() const {
 
 std::string Welding::lines() const {
   if (!welded_) return {};
-  const std::size_t nodes = welded_->stands_for.size();
+  const std::size_t nodes = welded_->representative.size();
   return fmt::format("welded           {} nodes of the file to {}, {}\n", nodes,
                      nodes - static_cast<std::size_t>(welded_->joined),
                      tolerance_ > 0 ? fmt::format("within {:.3g} units", welded_->tolerance) : "at the same place");

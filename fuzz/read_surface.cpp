@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "io/detect_format.hpp"
 #include "io/fresh_file.hpp"
-#include "io/sniff.hpp"
 #include "io/surface_source.hpp"
 #include "vspring/error.hpp"
 
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 2) return 0;
   const auto reader = readers[data[0] % readers.size()];
   const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-  static_cast<void>(format_of_content(bytes));
+  static_cast<void>(detect_format(bytes));
   SurfaceFile surface;
   try {
     surface = reader({"fuzz", bytes});

@@ -28,12 +28,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
             break;
           }
           case 1: {
-            const FairResult result = session.follow(held, 10 * tolerance, context);
+            const FairResult result = session.update(held, 10 * tolerance, context);
             check(shape, held, result.report, 10 * tolerance, result.positions);
             break;
           }
           default:
-            if (const auto places = session.foresee(held, 10 * tolerance)) check(shape, held, {}, tolerance, *places);
+            if (const auto places = session.predict(held, 10 * tolerance)) check(shape, held, {}, tolerance, *places);
         }
       });
     }

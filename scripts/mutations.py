@@ -83,7 +83,7 @@ MUTATIONS = {
         ("curve-shares", "each length as its opposite share", "along += links[k].start() ? -shares[k] * length : shares[k] * length;",
          "along += links[k].start() ? -length : length;"),
         ("curve-regularisation", "§4.4 along the tangent", "along = mean.dot(tangent);", "along = 0;"),
-        ("curve-homes", "regularisation to homes", "(net.homes[i] - net.positions[i]).dot(tangent)", "mean.dot(tangent)"),
+        ("curve-homes", "regularisation to homes", "(net.target_positions[i] - net.positions[i]).dot(tangent)", "mean.dot(tangent)"),
     ],
     "src/spring/curve_model.cpp": [
         ("tangent-of-given-normal", "§4.8: T across a given N", "tangent - tangent.dot(normal) * normal", "tangent", "Vector3"),

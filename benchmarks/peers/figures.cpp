@@ -54,7 +54,7 @@ void print_row(const Case& input, const char* program, const PolygonMesh& mesh) 
       input.sphere ? fmt::format("{:.1e}", support::distance_from_unit_sphere(mesh.positions())) : "";
   fmt::print("| {} | {} | {:.3g} | {:.3g} | {:.3g} | {:.3g} | {} | {:.1f} | {:.2f} | {:.1f} | {} |\n", input.name,
              program, figures.vspring_energy, figures.bending_energy, figures.mean_curvature_variation,
-             figures.curvature_variation, figures.mean_curvature_extrema, figures.greatest_turn, figures.mean_turn,
+             figures.curvature_variation, figures.mean_curvature_extrema, figures.greatest_turn, figures.rms_turn,
              100 * node_distance(input.start.positions(), mesh.positions()).greatest / support::diagonal(input.start),
              error);
 }

@@ -185,7 +185,7 @@ EMSCRIPTEN_BINDINGS(vspring_curve) {
       .function("noise", &Curve::noise)
       .function("resample", &Curve::resample)
       .function("fair", &Curve::fair)
-      .function("follow", &Curve::fair)
+      .function("update", &Curve::fair)
       .function("fit", &Curve::fit)
       .function("write", &Curve::write)
       .function("setPositions", &Curve::set_positions);

@@ -87,17 +87,17 @@ class Surface {
     return solve(progress, [&](Context& context) { return to_val(take(session_->fair(*constraints_, context))); });
   }
   /// From the last shape, where that leads somewhere, as near as a picture can tell.
-  val follow(const val& progress) {
+  val update(const val& progress) {
     return solve(progress, [&](Context& context) {
-      return outcome_of(take(session_->follow(*constraints_, picture_tolerance, context)));
+      return outcome_of(take(session_->update(*constraints_, picture_tolerance, context)));
     });
   }
 
   /// About where that would lead, in less time; null where there is no last shape to go from. Nothing else changes.
-  [[nodiscard]] val foresee() {
+  [[nodiscard]] val predict() {
     return forwarding_errors([&] {
       if (!session_) return val::null();
-      const auto positions = session_->foresee(*constraints_, picture_tolerance);
+      const auto positions = session_->predict(*constraints_, picture_tolerance);
       return positions ? positions_array(*positions) : val::null();
     });
   }
@@ -197,8 +197,8 @@ EMSCRIPTEN_BINDINGS(vspring_surface) {
       .function("setFairBoundary", &Surface::set_fair_boundary)
       .function("heldNormals", &Surface::held_normals)
       .function("fair", &Surface::fair)
-      .function("follow", &Surface::follow)
-      .function("foresee", &Surface::foresee)
+      .function("update", &Surface::update)
+      .function("predict", &Surface::predict)
       .function("fit", &Surface::fit)
       .function("region", &Surface::region)
       .function("noise", &Surface::noise)

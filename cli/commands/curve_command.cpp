@@ -41,7 +41,7 @@ int run_curve(CurveArguments arguments) {
   CurveFile file = read_curve(arguments.input, arguments.format, arguments.columns);
   std::vector<std::string> warnings = file.warnings;
   const std::string note = arguments.closed ? std::string() : note_of_repeats(file.curve);
-  const std::vector<Repeat> repeats = arguments.closed ? close_chains(file.curve) : std::vector<Repeat>{};
+  const std::vector<DuplicateEnd> repeats = arguments.closed ? close_chains(file.curve) : std::vector<DuplicateEnd>{};
   const PolygonCurve before = file.curve;
   settle_by_noise(arguments.pull, before, fairing.context());
   Constraints constraints = make_constraints(arguments, file.curve, {.groups = &file.groups});
@@ -69,7 +69,7 @@ int run_curve(CurveArguments arguments) {
                                           arguments.pull, fairing.context());
   FairResult& result = done.faired;
   if (file.source) {
-    for (const Repeat& repeat : repeats)
+    for (const DuplicateEnd& repeat : repeats)
       result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
   }
   const auto write = [&] {

@@ -41,7 +41,7 @@ std::string note_of_lost_features(const FairArguments& arguments, const PolygonM
     return {};
   Eigen::AlignedBox<double, 3> box;
   for (const Vector3& position : mesh.positions()) box.extend(position);
-  if (!(report.mean_move > far * box.diagonal().norm())) return {};
+  if (!(report.rms_move > far * box.diagonal().norm())) return {};
   return "note: only the boundary is held, so all that was between became fair; to take nothing but noise off, give "
          "--noise auto; to stay near, --within; to mend a part, --region\n";
 }

@@ -45,8 +45,8 @@ struct FitArguments : FairingArguments {
   bool closed = false;
 };
 
-std::vector<Repeat> close_fitted(SurfaceFile& /*file*/) { return {}; }
-std::vector<Repeat> close_fitted(CurveFile& file) { return close_chains(file.curve); }
+std::vector<DuplicateEnd> close_fitted(SurfaceFile& /*file*/) { return {}; }
+std::vector<DuplicateEnd> close_fitted(CurveFile& file) { return close_chains(file.curve); }
 std::string note_of_fitted(const SurfaceFile& /*file*/) { return {}; }
 std::string note_of_fitted(const CurveFile& file) { return note_of_repeats(file.curve); }
 
@@ -80,7 +80,7 @@ template <typename File>
 int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   using Shape = std::remove_cvref_t<decltype(shape_of(file))>;
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
-  const std::vector<Repeat> repeats = arguments.closed ? close_fitted(file) : std::vector<Repeat>{};
+  const std::vector<DuplicateEnd> repeats = arguments.closed ? close_fitted(file) : std::vector<DuplicateEnd>{};
   const std::string note = arguments.closed ? std::string() : note_of_fitted(file);
   const Welding welding(file, arguments);
   const Shape& shape = welding.shape(file);
@@ -99,7 +99,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   FitResult result = fit(shape, constraints, points, fit_options(arguments.pull, fairing_options), fairing.context());
   const FitAccount account(result.report, arguments.pull, arguments.points, points);
   const PolygonMesh cloud(std::move(points.positions), {0}, {});
-  for (const Repeat& repeat : repeats)
+  for (const DuplicateEnd& repeat : repeats)
     result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
   const auto write_shape = [&] {
     std::vector<std::string> warnings;

@@ -10,7 +10,7 @@ export interface CoreShape {
   setRules(json: string): void;
   holdPosition(node: number, x: number, y: number, z: number): void;
   fair(progress: ((fraction: number) => boolean) | null): Report;
-  follow(progress: ((fraction: number) => boolean) | null): Report;
+  update(progress: ((fraction: number) => boolean) | null): Report;
   fit(points: CorePoints, settings: object, progress: (fraction: number) => boolean): Report;
   region(nodes: Int32Array, positions: Float64Array): Region;
   noise(): number;
@@ -20,7 +20,7 @@ export interface CoreShape {
 }
 
 export interface CoreSurface extends CoreShape {
-  foresee(): Float64Array | null;
+  predict(): Float64Array | null;
   holdNormal(node: number, x: number, y: number, z: number): void;
   heldNormals(): HeldNormals;
   faceCount(): number;

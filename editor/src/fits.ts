@@ -40,10 +40,10 @@ export class Fits {
   }
 
   /** In a drag: a tolerance by the smoothing length that it came to, and without points where that is slow. */
-  follow(shape: CoreShape, progress: Progress): Report {
+  update(shape: CoreShape, progress: Progress): Report {
     const { now, found } = this;
     const settings = now && (now.kind === 'weight' ? { weight: now.value } : found !== null && { smoothingLength: found });
-    if (!now || !settings || !this.follows) return shape.follow(progress);
+    if (!now || !settings || !this.follows) return shape.update(progress);
     const report = this.drawn(shape, now.points, settings, progress);
     this.follows = report.seconds < quick;
     return report;

@@ -95,10 +95,10 @@ const handlers: Handlers = {
     hold(target, { rules, fairBoundary, fit });
     const normals = rules !== undefined ? heldDirections(target) : undefined;
     if (drag) holdAt(target, drag);
-    const foreseen = drag?.rough ? (target as CoreSurface).foresee() : null;
+    const foreseen = drag?.rough ? (target as CoreSurface).predict() : null;
     if (foreseen) return { positions: foreseen, report: rough };
     const before = target.positions();
-    const report = drag ? fits.follow(target, progress) : fits.fair(target, progress);
+    const report = drag ? fits.update(target, progress) : fits.fair(target, progress);
     // What was given up on the way may be crumpled.
     if (report.outcome === 'cancelled') target.setPositions(before);
     return { positions: target.positions(), report, normals };

@@ -139,7 +139,7 @@ struct FairReport {
   Index fixed_tangents = 0;
   /// How far moving nodes are from the input: largest, and root mean square; in units of the input.
   double greatest_move = 0;
-  double mean_move = 0;
+  double rms_move = 0;
   double seconds = 0;
   int threads = 1;
   Fairness before;

@@ -28,7 +28,7 @@ class FairingSession {
   /// other normals, the call starts from the last shape and costs a few iterations. If the constraints go on moving as
   /// they did, it starts from where that leads. A call that is cancelled leaves the session where it was.
   ///
-  /// Otherwise it does and costs what vspring::fair() does. So it does after a follow() that found no equilibrium or a
+  /// Otherwise it does and costs what vspring::fair() does. So it does after an update() that found no equilibrium or a
   /// shape worse than the input, with methods other than equilibrium, and with options.fair_boundary. Throws as
   /// vspring::fair() does.
   [[nodiscard]] FairResult fair(const Constraints& constraints, Context& context);
@@ -41,12 +41,12 @@ class FairingSession {
   /// is returned with Outcome::worse_than_input; fair() then looks for a better one. Cost: one or two iterations while
   /// the constraints move steadily, each linear in the moving nodes. Throws as fair() does, and Error(invalid_argument)
   /// for a tolerance out of range.
-  [[nodiscard]] FairResult follow(const Constraints& constraints, double tolerance, Context& context);
+  [[nodiscard]] FairResult update(const Constraints& constraints, double tolerance, Context& context);
 
-  /// Predicts the positions that follow() would return, one per node, for a first picture of a large shape. At the
+  /// Predicts the positions that update() would return, one per node, for a first picture of a large shape. At the
   /// beginning of a drag a node may be two tenths of its way beside its place. The session stays as it is. Empty where
-  /// follow() would not start from the last shape. Cost: at most about one iteration.
-  [[nodiscard]] std::optional<std::vector<Vector3>> foresee(const Constraints& constraints, double tolerance);
+  /// update() would not start from the last shape. Cost: at most about one iteration.
+  [[nodiscard]] std::optional<std::vector<Vector3>> predict(const Constraints& constraints, double tolerance);
 
  private:
   struct State;

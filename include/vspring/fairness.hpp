@@ -17,7 +17,7 @@ struct Fairness {
   /// degrees.
   double greatest_turn = 0;
   /// Root mean square of that angle over all edges between two faces, or over all inner nodes, degrees.
-  double mean_turn = 0;
+  double rms_turn = 0;
 };
 
 /// Measures a surface. Pseudo-normals are Max's around the link, or the given ones where a constraint fixes them. Faces

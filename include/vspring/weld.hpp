@@ -13,7 +13,7 @@ struct Welded {
   /// A corner that repeats the one before it is left out; a face with fewer than three corners left is empty.
   PolygonMesh mesh;
   /// For every node the one that represents it: the first of its group, or itself.
-  std::vector<Index> stands_for;
+  std::vector<Index> representative;
   Index joined = 0;              ///< nodes that another one represents
   double tolerance = 0;          ///< distance up to which nodes are joined; in units of the input
   std::vector<Index> collapsed;  ///< faces whose corners were at three places or more and are at fewer now; ascending

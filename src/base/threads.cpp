@@ -43,10 +43,10 @@ int Context::thread_count() const noexcept {
 
 /// The threads that help teams: started when one calls and none is idle, and asleep here between teams. They are never
 /// ended, and neither is this, so nothing has to be waited for at the end of the program.
-class Helpers {
+class WorkerPool {
  public:
-  static Helpers& of_program() {
-    static Helpers& helpers = *new Helpers;
+  static WorkerPool& of_program() {
+    static WorkerPool& helpers = *new WorkerPool;
     return helpers;
   }
 
@@ -92,12 +92,12 @@ class Helpers {
   std::atomic<std::size_t> calls_so_far_ = 0;
 };
 
-std::size_t ThreadTeam::calls_for_help() noexcept { return Helpers::of_program().calls_so_far(); }
+std::size_t ThreadTeam::calls_for_help() noexcept { return WorkerPool::of_program().calls_so_far(); }
 
 ThreadTeam::~ThreadTeam() {
   if (round_ == 0) return;
   ending_ = true;
-  const int unanswered = Helpers::of_program().withdraw(*this);
+  const int unanswered = WorkerPool::of_program().withdraw(*this);
   std::unique_lock lock(mutex_);
   helpers_ -= unanswered;
   finished_.wait(lock, [this] { return helpers_ == 0; });
@@ -118,7 +118,7 @@ void ThreadTeam::run(std::size_t count, const std::function<void(std::size_t)>& 
     missing = size_ - 1 - helpers_;
     helpers_ += missing;
   }
-  if (missing > 0) Helpers::of_program().call(*this, missing);
+  if (missing > 0) WorkerPool::of_program().call(*this, missing);
   take_tasks(task, count);
   {
     // Whoever has not come by now is not waited for: another program may have its core.

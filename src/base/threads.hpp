@@ -30,7 +30,7 @@ class ThreadTeam {
   void run(std::size_t count, const std::function<void(std::size_t)>& task);
 
  private:
-  friend class Helpers;
+  friend class WorkerPool;
 
   /// What another thread does here until there has been nothing to do for a while.
   void help();

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/dense_algebra.hpp"
-#include "constraints/immovable_held.hpp"
+#include "constraints/immovable_nodes_fixed.hpp"
 #include "shape/fan.hpp"
 #include "shape/frame.hpp"
 #include "shape/node_graph.hpp"
@@ -272,7 +272,7 @@ class Holding {
 
 std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints) {
   const auto check = [&](const Constraints& held) { return check_constraints(mesh, held, {}); };
-  return ImmovableHeld(mesh).run(
+  return ImmovableNodesFixed(mesh).run(
       constraints, check, [](std::vector<std::string> & warnings) -> auto& { return warnings; });
 }
 

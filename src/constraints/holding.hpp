@@ -12,7 +12,7 @@
 namespace vspring {
 
 /// Nodes that would have to move and cannot, as their faces form several fans or more than two meet at an edge: all of
-/// them, by number. See ImmovableHeld.
+/// them, by number. See ImmovableNodesFixed.
 class ImmovableNodes : public Error {
  public:
   ImmovableNodes(const std::string& message, std::vector<Index> nodes)

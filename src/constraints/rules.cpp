@@ -136,7 +136,7 @@ class RuleReader {
 
   /// The node that stands for this one.
   [[nodiscard]] Index first(Index node) const {
-    return input_.welded != nullptr ? input_.welded->stands_for[static_cast<std::size_t>(node)] : node;
+    return input_.welded != nullptr ? input_.welded->representative[static_cast<std::size_t>(node)] : node;
   }
 
   /// Refuses what another node that is one with this one was told otherwise.

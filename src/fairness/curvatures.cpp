@@ -119,9 +119,9 @@ void bend(const Jet& jet, double size, const Plane& plane, NodeCurvature& result
 }
 
 /// Looks at nodes one by one; one per task.
-class Looker {
+class NodeFitter {
  public:
-  Looker(const PolygonMesh& mesh, const Incidence& incidence, const std::vector<Vector3>& positions)
+  NodeFitter(const PolygonMesh& mesh, const Incidence& incidence, const std::vector<Vector3>& positions)
       : positions_(&positions), walker_(mesh, incidence), neighbourhood_(mesh, incidence) {}
 
   NodeCurvature at(Index node) {
@@ -166,7 +166,7 @@ std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Incidence& 
   std::vector<NodeCurvature> result(positions.size());
   parallel_ranges(team, result.size(), jets_per_task, [&](std::size_t begin, std::size_t end) {
     if (context.cancelled()) return;
-    Looker looker(mesh, incidence, positions);
+    NodeFitter looker(mesh, incidence, positions);
     for (std::size_t i = begin; i < end; ++i) {
       if (marked.empty() || marked[i] != 0) result[i] = looker.at(static_cast<Index>(i));
     }

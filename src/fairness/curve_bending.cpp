@@ -11,7 +11,7 @@ namespace vspring {
 namespace {
 
 /// The circle through three successive nodes.
-struct Station {
+struct ThreePointCircle {
   double place = 0;  ///< mean arc length of its nodes
   Vector3 tangent;
   Vector3 curvature;
@@ -50,8 +50,8 @@ class Run {
     double last_rate = 0;
     for (std::size_t k = 0; k < count; ++k) {
       if (k + 1 == count && !closed_) break;
-      const Station& a = stations_[k];
-      const Station& b = stations_[(k + 1) % count];
+      const ThreePointCircle& a = stations_[k];
+      const ThreePointCircle& b = stations_[(k + 1) % count];
       const double step = distance(k);
       if (!(step > 0)) continue;
       const Vector3 difference = b.curvature - transported(a.curvature, a.tangent, b.tangent);
@@ -67,7 +67,7 @@ class Run {
   }
 
  private:
-  [[nodiscard]] Station station(std::size_t k) const {
+  [[nodiscard]] ThreePointCircle station(std::size_t k) const {
     const std::size_t count = positions_.size();
     const std::size_t before = (k + count - 1) % count;
     const std::size_t after = (k + 1) % count;
@@ -75,7 +75,7 @@ class Run {
                                        Link{static_cast<std::uint32_t>(after) | Link::spoke_bit}};
     const double to_before = k > 0 ? places_[k - 1] - places_[k] : places_[count - 1] - places_[count];
     const double to_after = places_[k + 1] - places_[k];
-    Station station;
+    ThreePointCircle station;
     station.place = places_[k] + (to_before + to_after) / 3;
     station.tangent = CircleTangent()(positions_[k], links, positions_);
     station.curvature = circle_curvature(positions_[k], links, positions_, station.tangent);
@@ -102,7 +102,7 @@ class Run {
     curvature.reserve(stations_.size());
     Vector3 left = Vector3::Zero();  // the side that is positive
     for (std::size_t k = 0; k < stations_.size(); ++k) {
-      const Station& station = stations_[k];
+      const ThreePointCircle& station = stations_[k];
       if (k > 0) left = transported(left, stations_[k - 1].tangent, station.tangent);
       const double size = station.curvature.norm();
       const bool right = left.dot(station.curvature) < 0;
@@ -116,7 +116,7 @@ class Run {
   const std::vector<Vector3>& positions_;
   bool closed_;
   std::vector<double> places_;  // arc lengths of the nodes; of a closed run, that of its first node again at the end
-  std::vector<Station> stations_;
+  std::vector<ThreePointCircle> stations_;
 };
 
 }  // namespace

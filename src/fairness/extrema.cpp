@@ -9,9 +9,9 @@ namespace vspring {
 namespace {
 
 /// The nodes seen so far, in groups that hang together; each is known by its highest node.
-class Hills {
+class PersistenceMerge {
  public:
-  explicit Hills(std::size_t nodes) : parent_(nodes, -1) {}
+  explicit PersistenceMerge(std::size_t nodes) : parent_(nodes, -1) {}
 
   [[nodiscard]] bool seen(Index node) const { return parent_[at(node)] >= 0; }
   void raise(Index node) { parent_[at(node)] = node; }
@@ -43,7 +43,7 @@ Index count_maxima(const NodeGraph& graph, std::span<const double> values, std::
   }
   std::sort(order.begin(), order.end(), higher);
 
-  Hills hills(values.size());
+  PersistenceMerge hills(values.size());
   Index count = 0;
   const auto counts = [&](Index summit, double low) {
     return inside[static_cast<std::size_t>(summit)] != 0 && value(summit) - low > threshold;

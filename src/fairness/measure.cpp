@@ -151,7 +151,7 @@ Fairness FairnessMeter::measure(const std::vector<Vector3>& positions, const Con
   Turns turns;
   for (const Turns& part : parts) turns.add(part);
   fairness.greatest_turn = degrees_per_radian * turns.greatest;
-  fairness.mean_turn = turns.count > 0 ? degrees_per_radian * std::sqrt(turns.squares / turns.count) : 0;
+  fairness.rms_turn = turns.count > 0 ? degrees_per_radian * std::sqrt(turns.squares / turns.count) : 0;
   return fairness;
 }
 

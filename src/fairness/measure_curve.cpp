@@ -66,7 +66,7 @@ Fairness measure(const PolygonCurve& whole_curve, const Constraints* constraints
   Fairness fairness;
   fairness.vspring_energy = energy;
   fairness.greatest_turn = degrees_per_radian * greatest_turn;
-  fairness.mean_turn = turns > 0 ? degrees_per_radian * std::sqrt(squared_turns / turns) : 0;
+  fairness.rms_turn = turns > 0 ? degrees_per_radian * std::sqrt(squared_turns / turns) : 0;
   return fairness;
 }
 

@@ -156,11 +156,11 @@ void PointTies::gather_around(std::size_t node, std::vector<std::uint32_t>& arou
 }
 
 bool PointTies::renew(ThreadTeam& team, double margin) {
-  const bool changed = !net_->points.are_nodes && change_over(team, margin);
+  const bool changed = !net_->points.are_nodes && reassign(team, margin);
   return renew_factors() || changed;
 }
 
-bool PointTies::change_over(ThreadTeam& team, double margin) {
+bool PointTies::reassign(ThreadTeam& team, double margin) {
   constexpr std::size_t searches_per_task = 256;
   std::atomic<bool> changed = false;
   const TiedPoints& tied = net_->points;

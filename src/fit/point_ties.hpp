@@ -39,7 +39,7 @@ class PointTies {
   void find_same_nodes();
   void tie_to_nearest(ThreadTeam& team);
   /// True where any point has changed over.
-  bool change_over(ThreadTeam& team, double margin);
+  bool reassign(ThreadTeam& team, double margin);
   /// Neighbours share a face, as across an n-gon the nearest node may be many edges away; on curves an edge. Looked at
   /// from both ends, since rings of held nodes know less.
   void join_neighbours();

@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "io/column_names.hpp"
-#include "io/curve_sniff.hpp"
 #include "io/curve_source.hpp"
+#include "io/detect_curve_format.hpp"
 #include "io/format_choice.hpp"
 #include "io/fresh_curve.hpp"
 #include "io/moved_nodes.hpp"
@@ -63,7 +63,7 @@ std::optional<CurveFormat> curve_format(std::string_view extension) { return cur
 CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format, const ColumnChoice& columns) {
   InputFile file = read_input(path);
   const std::optional<CurveFormat> said = format ? format : curve_format(extension_of(path));
-  const CurveFormat taken = said ? *said : curve_format_of_content(file);
+  const CurveFormat taken = said ? *said : detect_curve_format(file);
   if (taken != CurveFormat::csv && taken != CurveFormat::xyz) refuse_choice(file, columns);
   switch (taken) {
     case CurveFormat::obj:

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "io/errno_error.hpp"
 #include "io/file_descriptor.hpp"
-#include "io/system_fault.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {

@@ -25,7 +25,7 @@ enum class NodeLayout {
 };
 
 /// Readings of the same words, of which the first one that fits is taken.
-class Readings {
+class OffInterpretations {
  public:
   /// read(progress) may throw, and counts what it could read.
   template <typename Read>
@@ -205,7 +205,7 @@ void OffBody::read(NodeLayout layout, std::int64_t& progress) {
     read_node_stream();
   const OffCursor behind_nodes = cursor_;
   const bool coloured_nodes = coloured_;
-  Readings readings;
+  OffInterpretations readings;
   for (const bool by_line : {true, false}) {
     cursor_ = behind_nodes;
     coloured_ = coloured_nodes;
@@ -244,7 +244,7 @@ SurfaceFile read_off(InputFile file) {
   if (cursor.skip_to_row_end()) layouts.push_back(NodeLayout::by_line);
   if (!header.edges) layouts.push_back(NodeLayout::in_stream_behind_edges);
   layouts.push_back(NodeLayout::in_stream);
-  Readings readings;
+  OffInterpretations readings;
   for (const NodeLayout layout : layouts) {
     OffBody body(header, cursor);
     if (readings.fits([&](std::int64_t& progress) { body.read(layout, progress); })) return body.take(std::move(file));

@@ -11,8 +11,8 @@
 #include <optional>
 #include <system_error>
 
+#include "io/errno_error.hpp"
 #include "io/file_descriptor.hpp"
-#include "io/system_fault.hpp"
 
 namespace vspring {
 namespace {

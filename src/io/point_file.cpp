@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "io/column_names.hpp"
-#include "io/curve_sniff.hpp"
 #include "io/curve_source.hpp"
+#include "io/detect_curve_format.hpp"
+#include "io/detect_format.hpp"
 #include "io/format_choice.hpp"
 #include "io/obj_statements.hpp"
 #include "io/point_source.hpp"
-#include "io/sniff.hpp"
 #include "io/surface_source.hpp"
 
 namespace vspring {
@@ -87,13 +87,13 @@ ScatteredPoints read_points(const std::string& path, const ColumnChoice& columns
   const std::string extension = extension_of(path);
   std::optional<CurveFormat> curve = curve_format(extension);
   if (!curve || *curve == CurveFormat::obj) {
-    std::optional<SurfaceFormat> surface = format_of_content(file.bytes);
+    std::optional<SurfaceFormat> surface = detect_format(file.bytes);
     if (!surface) surface = surface_format(extension);
     if (surface) {
       refuse_choice(file, columns);
       return read_surface_points(std::move(file), *surface);
     }
-    curve = curve_format_of_content(file);
+    curve = detect_curve_format(file);
   }
   if (*curve != CurveFormat::csv && *curve != CurveFormat::xyz) refuse_choice(file, columns);
   switch (*curve) {

@@ -4,11 +4,11 @@
 
 #include <array>
 
+#include "io/detect_format.hpp"
 #include "io/file_normals.hpp"
 #include "io/format_choice.hpp"
 #include "io/fresh_file.hpp"
 #include "io/moved_nodes.hpp"
-#include "io/sniff.hpp"
 #include "io/surface_source.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
@@ -48,7 +48,7 @@ std::optional<SurfaceFormat> surface_format(std::string_view extension) {
 SurfaceFile read_surface(const std::string& path, std::optional<SurfaceFormat> format) {
   InputFile file = read_input(path);
   const std::optional<SurfaceFormat> said = format ? format : surface_format(extension_of(path));
-  const std::optional<SurfaceFormat> shown = format_of_content(file.bytes);
+  const std::optional<SurfaceFormat> shown = detect_format(file.bytes);
   if (!said && !shown)
     file.refuse(
         "its content is not OBJ, OFF, PLY or STL; choose another file, or name the format if it is one of these");

@@ -15,9 +15,9 @@ constexpr std::size_t many_neighbours = 12;
 // Nodes of fewer neighbours are kept where no other will do: of a mesh of fours and eights the fours would be half.
 constexpr std::size_t few_neighbours = 6;
 
-class Chooser {
+class IndependentSet {
  public:
-  Chooser(const Triangulation& triangulation, std::span<const Vector3> places)
+  IndependentSet(const Triangulation& triangulation, std::span<const Vector3> places)
       : triangulation_(triangulation), places_(places), state_(triangulation.size(), State::free) {
     if (places.empty()) return;
     shortest_.assign(triangulation.size(), std::numeric_limits<double>::infinity());
@@ -130,12 +130,12 @@ class Chooser {
     }
     // Nodes kept already give the beat. Where two beats meet, two edges between kept nodes may be three.
     const auto kept = [&](std::size_t k) { return state_[node(k)] == State::kept; };
-    const auto stands_for = [&](std::size_t k, std::size_t other) { return kept(k) && near(node(k), node(other)); };
+    const auto is_near_kept = [&](std::size_t k, std::size_t other) { return kept(k) && near(node(k), node(other)); };
     std::size_t begin = 0;
     while (begin < size && !kept(begin)) ++begin;
     if (begin == size) begin = 0;
     for (std::size_t k = begin; k < begin + size; ++k) {
-      if (!stands_for(k + size - 1, k) && !stands_for(k + 1, k)) keep(node(k));
+      if (!is_near_kept(k + size - 1, k) && !is_near_kept(k + 1, k)) keep(node(k));
     }
   }
 
@@ -155,7 +155,7 @@ class Chooser {
 std::vector<std::uint8_t> choose_coarse_nodes(const Triangulation& triangulation,
                                               const std::vector<std::uint8_t>& constrained,
                                               std::span<const Vector3> places) {
-  Chooser chooser(triangulation, places);
+  IndependentSet chooser(triangulation, places);
   chooser.keep_fixed();
   chooser.keep_constrained(constrained);
   chooser.keep_loops();

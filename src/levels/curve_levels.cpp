@@ -39,15 +39,15 @@ std::vector<std::vector<double>> places_along(const CurveNet& curve, Distributio
   std::vector<std::vector<double>> along;
   ThreadTeam alone(1);
   const std::vector<Vector3> nodes_at =
-      distribution == Distribution::smooth ? smooth_places(curve.net, alone) : curve.net.positions;
-  for (const Strand& strand : curve.strands) {
-    const std::size_t count = strand.nodes.size();
-    const std::size_t edges = strand.closed ? count : count - 1;
+      distribution == Distribution::smooth ? rest_positions(curve.net, alone) : curve.net.positions;
+  for (const MovingRun& moving_run : curve.moving_runs) {
+    const std::size_t count = moving_run.nodes.size();
+    const std::size_t edges = moving_run.closed ? count : count - 1;
     std::vector<double> lengths(edges, 1);
     if (distribution != Distribution::even) {
       double mean = 0;
       for (std::size_t k = 0; k < edges; ++k) {
-        const Vector3 d = nodes_at[strand.nodes[(k + 1) % count]] - nodes_at[strand.nodes[k]];
+        const Vector3 d = nodes_at[moving_run.nodes[(k + 1) % count]] - nodes_at[moving_run.nodes[k]];
         lengths[k] = std::sqrt(d.dot(d) + curve.net.tiny);
         mean += lengths[k] / static_cast<double>(edges);
       }
@@ -63,27 +63,27 @@ std::vector<std::vector<double>> places_along(const CurveNet& curve, Distributio
 }
 
 /// Shares that make the lengths of edges go by the places along the strands.
-void set_shares(CurveLevel& level) {
+void set_laplacian_weights(CurveLevel& level) {
   Net& net = level.curve.net;
-  net.shares.assign(net.rings.link_count(), 0);
-  for (std::size_t s = 0; s < level.curve.strands.size(); ++s) {
-    const auto& nodes = level.curve.strands[s].nodes;
+  net.laplacian_weights.assign(net.rings.link_count(), 0);
+  for (std::size_t s = 0; s < level.curve.moving_runs.size(); ++s) {
+    const auto& nodes = level.curve.moving_runs[s].nodes;
     const auto& at = level.along[s];
     for (std::size_t k = 1; k < nodes.size() && k + 1 < at.size(); ++k) {
       if (nodes[k] >= net.moving) continue;
       const std::size_t first = net.rings.begin(nodes[k]);
-      net.shares[first] = (at[k + 1] - at[k]) / (at[k + 1] - at[k - 1]);
-      net.shares[first + 1] = 1 - net.shares[first];
+      net.laplacian_weights[first] = (at[k + 1] - at[k]) / (at[k + 1] - at[k - 1]);
+      net.laplacian_weights[first + 1] = 1 - net.laplacian_weights[first];
     }
   }
 }
 
 /// The places of a strand that the next coarser level keeps.
-std::vector<std::uint32_t> kept_places(const Strand& strand, const Net& net) {
-  const std::size_t count = strand.nodes.size();
-  const auto anchor = [&](std::size_t k) { return k == count || is_anchor(net, strand.nodes[k]); };
+std::vector<std::uint32_t> kept_places(const MovingRun& moving_run, const Net& net) {
+  const std::size_t count = moving_run.nodes.size();
+  const auto anchor = [&](std::size_t k) { return k == count || is_anchor(net, moving_run.nodes[k]); };
   std::vector<std::uint32_t> kept = {0};
-  const std::size_t end = strand.closed ? count : count - 1;
+  const std::size_t end = moving_run.closed ? count : count - 1;
   for (std::size_t from = 0; from < end;) {
     std::size_t to = from + 1;
     while (to < end && !anchor(to)) ++to;
@@ -104,7 +104,7 @@ CurveLevel coarser(const CurveLevel& fine, std::vector<std::vector<std::uint32_t
   // Local numbers keep their order, so moving nodes still come first, then held ones with rings.
   std::vector<std::uint32_t> number(from.positions.size(), left_out);
   for (std::size_t s = 0; s < kept.size(); ++s) {
-    for (const std::uint32_t k : kept[s]) number[fine.curve.strands[s].nodes[k]] = 0;
+    for (const std::uint32_t k : kept[s]) number[fine.curve.moving_runs[s].nodes[k]] = 0;
   }
   const std::vector<Vector3> positions = averaged(fine.curve);
   for (std::size_t i = 0; i < number.size(); ++i) {
@@ -121,19 +121,19 @@ CurveLevel coarser(const CurveLevel& fine, std::vector<std::vector<std::uint32_t
   net.frame = from.frame;
   net.tiny = from.tiny;
   for (std::size_t s = 0; s < kept.size(); ++s) {
-    const Strand& strand = fine.curve.strands[s];
-    Strand& coarse = level.curve.strands.emplace_back();
-    coarse.closed = strand.closed;
+    const MovingRun& moving_run = fine.curve.moving_runs[s];
+    MovingRun& coarse = level.curve.moving_runs.emplace_back();
+    coarse.closed = moving_run.closed;
     std::vector<double>& at = level.along.emplace_back();
     for (const std::uint32_t k : kept[s]) {
-      coarse.nodes.push_back(number[strand.nodes[k]]);
+      coarse.nodes.push_back(number[moving_run.nodes[k]]);
       at.push_back(fine.along[s][k]);
     }
-    if (strand.closed) at.push_back(fine.along[s].back());
+    if (moving_run.closed) at.push_back(fine.along[s].back());
   }
-  add_rings(net, level.curve.strands);
+  add_rings(net, level.curve.moving_runs);
   level.finer = std::move(kept);
-  set_shares(level);
+  set_laplacian_weights(level);
   return level;
 }
 
@@ -143,14 +143,14 @@ std::vector<CurveLevel> curve_levels(CurveNet curve, Distribution distribution) 
   std::vector<CurveLevel> levels(1);
   levels[0].along = places_along(curve, distribution);
   levels[0].curve = std::move(curve);
-  if (distribution != Distribution::even) set_shares(levels[0]);
+  if (distribution != Distribution::even) set_laplacian_weights(levels[0]);
   for (;;) {
     const CurveLevel& fine = levels.back();
     std::vector<std::vector<std::uint32_t>> kept;
     bool smaller = false;
-    for (const Strand& strand : fine.curve.strands) {
-      kept.push_back(kept_places(strand, fine.curve.net));
-      smaller = smaller || kept.back().size() < strand.nodes.size();
+    for (const MovingRun& moving_run : fine.curve.moving_runs) {
+      kept.push_back(kept_places(moving_run, fine.curve.net));
+      smaller = smaller || kept.back().size() < moving_run.nodes.size();
     }
     if (!smaller) break;
     levels.push_back(coarser(fine, std::move(kept)));
@@ -176,29 +176,29 @@ void untangle(CurveLevel& level) {
   }
 }
 
-void straighten(CurveLevel& level) {
+void start_from_chords(CurveLevel& level) {
   Net& net = level.curve.net;
-  for (std::size_t s = 0; s < level.curve.strands.size(); ++s) {
-    const Strand& strand = level.curve.strands[s];
+  for (std::size_t s = 0; s < level.curve.moving_runs.size(); ++s) {
+    const MovingRun& moving_run = level.curve.moving_runs[s];
     const auto& at = level.along[s];
-    const std::size_t count = strand.nodes.size();
+    const std::size_t count = moving_run.nodes.size();
     std::vector<std::size_t> anchors;
     for (std::size_t k = 0; k < count; ++k) {
-      if (is_anchor(net, strand.nodes[k])) anchors.push_back(k);
+      if (is_anchor(net, moving_run.nodes[k])) anchors.push_back(k);
     }
     if (anchors.size() < 2) continue;
-    const std::size_t pieces = strand.closed ? anchors.size() : anchors.size() - 1;
+    const std::size_t pieces = moving_run.closed ? anchors.size() : anchors.size() - 1;
     for (std::size_t piece = 0; piece < pieces; ++piece) {
       const std::size_t from = anchors[piece];
       const std::size_t to = anchors[(piece + 1) % anchors.size()];
       const double once_around = to > from ? 0 : at.back();
-      const Vector3 start = net.positions[strand.nodes[from]];
-      const Vector3 chord = net.positions[strand.nodes[to]] - start;
+      const Vector3 start = net.positions[moving_run.nodes[from]];
+      const Vector3 chord = net.positions[moving_run.nodes[to]] - start;
       if (!(chord.dot(chord) > net.tiny)) continue;
       const auto after = [&](std::size_t k) { return k + 1 == count ? 0 : k + 1; };
       for (std::size_t k = after(from); k != to; k = after(k)) {
         const double along = at[k] - at[from] + (k > from ? 0 : once_around);
-        net.positions[strand.nodes[k]] = start + along / (at[to] - at[from] + once_around) * chord;
+        net.positions[moving_run.nodes[k]] = start + along / (at[to] - at[from] + once_around) * chord;
       }
     }
   }
@@ -206,11 +206,11 @@ void straighten(CurveLevel& level) {
 
 void restrict_shape(const CurveLevel& fine, CurveLevel& coarse) {
   Net& to = coarse.curve.net;
-  for (std::size_t s = 0; s < coarse.curve.strands.size(); ++s) {
-    const auto& nodes = coarse.curve.strands[s].nodes;
+  for (std::size_t s = 0; s < coarse.curve.moving_runs.size(); ++s) {
+    const auto& nodes = coarse.curve.moving_runs[s].nodes;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (nodes[k] < to.moving)
-        to.positions[nodes[k]] = fine.curve.net.positions[fine.curve.strands[s].nodes[coarse.finer[s][k]]];
+        to.positions[nodes[k]] = fine.curve.net.positions[fine.curve.moving_runs[s].nodes[coarse.finer[s][k]]];
     }
   }
 }
@@ -218,9 +218,9 @@ void restrict_shape(const CurveLevel& fine, CurveLevel& coarse) {
 void prolong(const CurveLevel& coarse, CurveLevel& fine) {
   const Net& from = coarse.curve.net;
   Net& to = fine.curve.net;
-  for (std::size_t s = 0; s < coarse.curve.strands.size(); ++s) {
-    const auto& nodes = coarse.curve.strands[s].nodes;
-    const auto& fine_nodes = fine.curve.strands[s].nodes;
+  for (std::size_t s = 0; s < coarse.curve.moving_runs.size(); ++s) {
+    const auto& nodes = coarse.curve.moving_runs[s].nodes;
+    const auto& fine_nodes = fine.curve.moving_runs[s].nodes;
     const auto& places = coarse.finer[s];
     const auto& at = fine.along[s];
     for (std::size_t k = 0; k < nodes.size(); ++k) {

@@ -30,7 +30,7 @@ void untangle(CurveLevel& level);
 
 /// The start of last resort, which forgets the shape: nodes go on the straight lines between held nodes and nodes with
 /// a given direction. What has fewer than two of those stays.
-void straighten(CurveLevel& level);
+void start_from_chords(CurveLevel& level);
 
 /// Hands the shape of a level down to the next coarser one: its nodes stay where they are.
 void restrict_shape(const CurveLevel& fine, CurveLevel& coarse);

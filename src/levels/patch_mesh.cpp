@@ -36,9 +36,9 @@ void for_each_face(const Net& net, std::size_t i, std::vector<Index>& face, cons
 }
 
 /// Cuts polygons into triangles, ear by ear.
-class EarCutter {
+class EarClipper {
  public:
-  EarCutter(std::vector<std::uint32_t> edges, MeshBuilder& builder) : edges_(std::move(edges)), builder_(&builder) {}
+  EarClipper(std::vector<std::uint32_t> edges, MeshBuilder& builder) : edges_(std::move(edges)), builder_(&builder) {}
 
   /// Empties the face.
   void cut(std::vector<Index>& face) {
@@ -105,7 +105,7 @@ PolygonMesh triangulated_patch(const Net& net) {
   });
   MeshBuilder builder;
   for (const Vector3& position : net.positions) builder.add_node(position);
-  EarCutter cutter(std::move(faces_at), builder);
+  EarClipper cutter(std::move(faces_at), builder);
   for_each_own_face([&](std::vector<Index>& own) { cutter.cut(own); });
   return builder.take();
 }

@@ -76,11 +76,11 @@ std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distributi
   // Coarser levels do not keep a distribution: that of a coarse one may ask for faces that turn over.
   std::vector<Vector3> places;
   if (distribution == Distribution::smooth && !tells_spacing(net, team)) distribution = Distribution::even;
-  if (distribution != Distribution::even) places = smooth_places(net, team);
+  if (distribution != Distribution::even) places = rest_positions(net, team);
   if (distribution == Distribution::smooth) {
-    net.shares = shares_at(net, places, team);
+    net.laplacian_weights = laplacian_weights_at(net, places, team);
   } else {
-    distribute(net, model, distribution, team);
+    set_laplacian_weights(net, model, distribution, team);
   }
   std::vector<SurfaceLevel> levels(1);
   levels[0].net = std::move(net);
@@ -102,7 +102,7 @@ std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distributi
       std::vector<Vector3> kept_places(level.finer.size());
       for (std::size_t k = 0; k < kept_places.size(); ++k) kept_places[k] = places[level.finer[k]];
       places = std::move(kept_places);
-      level.net.shares = shares_at(level.net, places, team, true);
+      level.net.laplacian_weights = laplacian_weights_at(level.net, places, team, true);
       level.places = places;
     }
     levels.push_back(std::move(level));

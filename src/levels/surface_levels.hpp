@@ -18,7 +18,7 @@ struct SurfaceLevel {
   /// The nodes of the next finer level that this one lacks, in its numbers; empty on the finest. Groups as from
   /// coarsen().
   std::vector<Removals> removals;
-  /// Where its nodes lie by smooth_places() of the finest net; empty on that, and with Distribution::even.
+  /// Where its nodes lie by rest_positions() of the finest net; empty on that, and with Distribution::even.
   std::vector<Vector3> places;
 };
 
@@ -26,7 +26,7 @@ struct SurfaceLevel {
 /// about a quarter of the nodes, with constraints and boundary loops of their own; they follow from connectivity and
 /// constraints alone. There are as many as it takes to come down to some twenty moving nodes. With
 /// Distribution::keep the shares of the finest net are set from where the nodes are now, those of all others, and with
-/// Distribution::smooth all, from their smooth_places(). Cost: linear; the same result on any number of threads.
+/// Distribution::smooth all, from their rest_positions(). Cost: linear; the same result on any number of threads.
 std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distribution distribution, ThreadTeam& team);
 
 /// Hands the shape of a level down to the next coarser one: nodes stay where they are, with their normals. Cost: linear

@@ -34,7 +34,7 @@ void relax(Net& net, std::vector<Place>& places, ThreadTeam& team) {
   parallel_ranges(team, net.moving, light_nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto links = net.rings.links(i);
-      const auto shares = net.shares_of(i);
+      const auto shares = net.weights_of(i);
       const auto spokes =
           static_cast<double>(std::count_if(links.begin(), links.end(), [](Link link) { return link.spoke(); }));
       const double own = 1 / (spokes + 1);

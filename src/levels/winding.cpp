@@ -327,16 +327,16 @@ class Piece {
 template <typename Look>
 bool for_each_piece(const CurveLevel& level, const Look& look) {
   const Net& net = level.curve.net;
-  for (std::size_t s = 0; s < level.curve.strands.size(); ++s) {
-    const Strand& strand = level.curve.strands[s];
-    const std::size_t count = strand.nodes.size();
+  for (std::size_t s = 0; s < level.curve.moving_runs.size(); ++s) {
+    const MovingRun& moving_run = level.curve.moving_runs[s];
+    const std::size_t count = moving_run.nodes.size();
     std::size_t from = 0;
     const auto is_held = [&](std::size_t k) {
-      const std::size_t node = strand.nodes[k % count];
+      const std::size_t node = moving_run.nodes[k % count];
       return node >= net.moving && net.tangent_given(node);
     };
-    for (std::size_t to = 1; to < (strand.closed ? count + 1 : count); ++to) {
-      const std::size_t node = strand.nodes[to % count];
+    for (std::size_t to = 1; to < (moving_run.closed ? count + 1 : count); ++to) {
+      const std::size_t node = moving_run.nodes[to % count];
       if (node < net.moving && net.given[node] == 0) continue;
       if (is_held(from) && is_held(to) && to > from + 2 && !look(s, from, to)) return false;
       from = to;
@@ -349,7 +349,7 @@ bool for_each_piece(const CurveLevel& level, const Look& look) {
 Piece piece_of(const CurveLevel& level, std::span<const Vector3> positions, std::size_t s, std::size_t from,
                std::size_t to, std::size_t stride) {
   const Net& net = level.curve.net;
-  const auto& nodes = level.curve.strands[s].nodes;
+  const auto& nodes = level.curve.moving_runs[s].nodes;
   const std::size_t end = nodes[to % nodes.size()];
   std::vector<Vector3> places;
   std::vector<double> at;
@@ -366,7 +366,7 @@ std::size_t stride_for(std::size_t from, std::size_t to, std::size_t nodes) { re
 
 }  // namespace
 
-bool has_unwound(const CurveLevel& level, std::span<const Vector3> input) {
+bool lost_winding(const CurveLevel& level, std::span<const Vector3> input) {
   return !for_each_piece(level, [&](std::size_t s, std::size_t from, std::size_t to) {
     const std::size_t stride = stride_for(from, to, enough_to_count);
     const Piece before = piece_of(level, input, s, from, to, stride);
@@ -385,7 +385,7 @@ bool wind(CurveLevel& level) {
     Piece piece = piece_of(level, net.positions, s, from, to, 1);
     if (!turns || !piece.bend(*turns)) return false;
     winds = true;
-    const auto& nodes = level.curve.strands[s].nodes;
+    const auto& nodes = level.curve.moving_runs[s].nodes;
     for (std::size_t k = from + 1; k < to; ++k) positions[nodes[k]] = piece.places()[k - from];
     return true;
   });

@@ -11,7 +11,7 @@ namespace vspring {
 /// kink, the sum of its turns about their axes and its bending. input: the positions of the nodes. Pieces that turn by
 /// less than half a turn do not count, in space those of less than five eighths, nor those that turn by over 100° at a
 /// node. Cost: linear.
-bool has_unwound(const CurveLevel& level, std::span<const Vector3> input);
+bool lost_winding(const CurveLevel& level, std::span<const Vector3> input);
 
 /// A start that keeps the windings of a curve: such pieces become the curve whose turns, carried along without spin,
 /// are linear in its length, as those of a fair curve are, that ends as they do and comes nearest to them; in the

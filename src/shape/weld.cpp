@@ -14,10 +14,10 @@ namespace vspring {
 namespace {
 
 /// The corners of a face with the nodes that stand for them, without repeats of the corner before.
-std::vector<Index> welded_corners(std::span<const Index> face, const std::vector<Index>& stands_for) {
+std::vector<Index> welded_corners(std::span<const Index> face, const std::vector<Index>& representative) {
   std::vector<Index> corners;
   for (const Index node : face) {
-    const Index first = stands_for[static_cast<std::size_t>(node)];
+    const Index first = representative[static_cast<std::size_t>(node)];
     if (corners.empty() || corners.back() != first) corners.push_back(first);
   }
   while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
@@ -46,9 +46,9 @@ Welded weld(const PolygonMesh& mesh, double tolerance) {
                             near.chained.first, near.chained.second,
                             (mesh.position(near.chained.first) - mesh.position(near.chained.second)).stableNorm(),
                             result.tolerance));
-  result.stands_for = std::move(near.first);
+  result.representative = std::move(near.first);
   for (const Index node : used.nodes)
-    result.joined += result.stands_for[static_cast<std::size_t>(node)] != node ? 1 : 0;
+    result.joined += result.representative[static_cast<std::size_t>(node)] != node ? 1 : 0;
 
   std::vector<Index> face_begin = {0};
   std::vector<Index> corners;
@@ -56,11 +56,11 @@ Welded weld(const PolygonMesh& mesh, double tolerance) {
   corners.reserve(mesh.corners().size());
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);
-    const std::vector<Index> welded = welded_corners(face, result.stands_for);
+    const std::vector<Index> welded = welded_corners(face, result.representative);
     if (welded.size() >= 3) {
       corners.insert(corners.end(), welded.begin(), welded.end());
     } else if (face.size() < 3) {
-      for (const Index node : face) corners.push_back(result.stands_for[static_cast<std::size_t>(node)]);
+      for (const Index node : face) corners.push_back(result.representative[static_cast<std::size_t>(node)]);
     } else if (lies_at_three_places(mesh, face)) {
       result.collapsed.push_back(f);
     }
@@ -71,12 +71,12 @@ Welded weld(const PolygonMesh& mesh, double tolerance) {
 }
 
 std::vector<Vector3> Welded::positions(const std::vector<Vector3>& of_mesh) const {
-  if (of_mesh.size() != stands_for.size())
+  if (of_mesh.size() != representative.size())
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} positions given for {} nodes", of_mesh.size(), stands_for.size()));
+                fmt::format("{} positions given for {} nodes", of_mesh.size(), representative.size()));
   std::vector<Vector3> result = of_mesh;
   for (std::size_t i = 0; i < result.size(); ++i) {
-    const Index first = stands_for[i];
+    const Index first = representative[i];
     if (first == static_cast<Index>(i)) continue;
     const Vector3& place = of_mesh[static_cast<std::size_t>(first)];
     result[i] = place != mesh.position(first) ? place : mesh.position(static_cast<Index>(i));

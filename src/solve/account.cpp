@@ -40,7 +40,7 @@ void measure_moves(const Net& net, const std::vector<Vector3>& before, const std
     greatest = std::max(greatest, square);
   }
   report.greatest_move = std::sqrt(greatest) / net.frame.scale();
-  if (net.moving > 0) report.mean_move = std::sqrt(squares / static_cast<double>(net.moving)) / net.frame.scale();
+  if (net.moving > 0) report.rms_move = std::sqrt(squares / static_cast<double>(net.moving)) / net.frame.scale();
 }
 
 }  // namespace vspring

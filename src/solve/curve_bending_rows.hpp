@@ -23,8 +23,8 @@ struct CurveBendingRow {
 /// Calls row(CurveBendingRow) in the order of places: with h = ℓ₋ + ℓ₊, √(h/4) κ, κ = (2/h) (Δy₊/ℓ₊ − Δy₋/ℓ₋), at every
 /// node with two edges; one on each side of a node with a given direction; none at other ends. Cost: linear.
 template <typename Row>
-void for_each_bending_row(const Net& net, const Strand& strand, const Row& row) {
-  const auto& nodes = strand.nodes;
+void for_each_bending_row(const Net& net, const MovingRun& moving_run, const Row& row) {
+  const auto& nodes = moving_run.nodes;
   const std::size_t count = nodes.size();
   const auto edge = [&](std::size_t a, std::size_t b) {
     const Vector3 d = net.positions[nodes[b]] - net.positions[nodes[a]];
@@ -32,8 +32,8 @@ void for_each_bending_row(const Net& net, const Strand& strand, const Row& row) 
   };
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = nodes[k];
-    const bool has_before = k > 0 || strand.closed;
-    const bool has_after = k + 1 < count || strand.closed;
+    const bool has_before = k > 0 || moving_run.closed;
+    const bool has_after = k + 1 < count || moving_run.closed;
     const std::size_t before = (k + count - 1) % count;
     const std::size_t after = (k + 1) % count;
     const double length_before = has_before ? edge(before, k) : 0;

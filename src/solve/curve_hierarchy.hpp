@@ -28,9 +28,11 @@ class CurveHierarchy final : public Hierarchy {
   void prolong_from(std::size_t level) override { prolong(levels_[level], levels_[level + 1]); }
   // Levels are made with the start, averaged.
   void start() override { untangle(levels_.front()); }
-  void set_shares(std::vector<double> shares) override { levels_.back().curve.net.shares = std::move(shares); }
-  void forget_shape(std::size_t level) override { straighten(levels_[level]); }
-  bool has_unwound(std::span<const Vector3> input) override { return vspring::has_unwound(levels_.back(), input); }
+  void set_laplacian_weights(std::vector<double> shares) override {
+    levels_.back().curve.net.laplacian_weights = std::move(shares);
+  }
+  void start_from_membrane(std::size_t level) override { start_from_chords(levels_[level]); }
+  bool lost_winding(std::span<const Vector3> input) override { return vspring::lost_winding(levels_.back(), input); }
   bool wind() override { return vspring::wind(levels_.back()); }
   Preconditioner& preconditioner(std::size_t level) override { return preconditioner_.emplace(levels_[level].curve); }
 

@@ -15,8 +15,8 @@ constexpr double greatest_change_of_weights = 1.3;
 
 }  // namespace
 
-bool CurvePreconditioner::free(const Strand& strand) const {
-  return strand.closed && strand.nodes.front() < curve_->net.moving;
+bool CurvePreconditioner::free(const MovingRun& moving_run) const {
+  return moving_run.closed && moving_run.nodes.front() < curve_->net.moving;
 }
 
 bool CurvePreconditioner::refresh(const Model& model) {
@@ -30,7 +30,7 @@ bool CurvePreconditioner::refresh(const Model& model) {
   if (fits && !pulled_otherwise) return false;
   built_weight_ = weight_;
   runs_.clear();
-  for (const Strand& strand : curve_->strands) build_bending(strand);
+  for (const MovingRun& moving_run : curve_->moving_runs) build_bending(moving_run);
   build_spreading();
   return true;
 }
@@ -48,9 +48,9 @@ void CurvePreconditioner::weigh() {
   }
 }
 
-void CurvePreconditioner::build_bending(const Strand& strand) {
+void CurvePreconditioner::build_bending(const MovingRun& moving_run) {
   const Net& net = curve_->net;
-  const auto& nodes = strand.nodes;
+  const auto& nodes = moving_run.nodes;
   const std::size_t count = nodes.size();
   const auto moves = [&](std::size_t place) { return nodes[place] < net.moving; };
   std::size_t begin = net.moving;
@@ -61,15 +61,15 @@ void CurvePreconditioner::build_bending(const Strand& strand) {
     ++size;
   }
   if (size == 0) return;
-  BendingMatrix bending(size);
+  BandedQr bending(size);
 
   std::vector<double> pull(size, 0);
   if (!stiffness_.values().empty()) {
     for (std::size_t i = 0; i < size; ++i) pull[i] = weight_[begin + i] * stiffness_.values()[begin + i];
   }
   // Without rows across the seam next to nothing may hold a free strand: these are taken out again.
-  std::vector<BendingMatrix::Entry> crutches;
-  if (free(strand)) {
+  std::vector<BandedQr::Entry> crutches;
+  if (free(moving_run)) {
     for (const std::size_t column : {std::size_t{0}, size / 2})
       crutches.push_back({column, std::sqrt(weight_[begin + column])});
   }
@@ -80,10 +80,10 @@ void CurvePreconditioner::build_bending(const Strand& strand) {
       if (pull[pulled] > 0) bending.add_row(pulled, {std::sqrt(pull[pulled]), 0, 0});
     }
   };
-  std::vector<std::vector<BendingMatrix::Entry>> far;
+  std::vector<std::vector<BandedQr::Entry>> far;
   // Held nodes drop out, and moving ones follow each other.
-  for_each_bending_row(net, strand, [&](const CurveBendingRow& bent) {
-    std::vector<BendingMatrix::Entry> row;
+  for_each_bending_row(net, moving_run, [&](const CurveBendingRow& bent) {
+    std::vector<BandedQr::Entry> row;
     for (const auto& [place, entry] : bent.entries) {
       if (moves(place)) row.push_back({nodes[place] - begin, entry});
     }
@@ -92,14 +92,14 @@ void CurvePreconditioner::build_bending(const Strand& strand) {
       far.push_back(std::move(row));
       return;
     }
-    std::array<double, BendingMatrix::width> banded{};
+    std::array<double, BandedQr::width> banded{};
     for (std::size_t n = 0; n < row.size(); ++n) banded[n] = row[n].value;
     add_pulls(row.front().column);
     bending.add_row(row.front().column, banded);
   });
   add_pulls(size);
-  for (auto& row : far) bending.add_far_row(std::move(row));
-  for (const BendingMatrix::Entry& crutch : crutches) bending.add_far_row({crutch}, -1);
+  for (auto& row : far) bending.add_low_rank_row(std::move(row));
+  for (const BandedQr::Entry& crutch : crutches) bending.add_low_rank_row({crutch}, -1);
   runs_.push_back({begin, std::move(bending)});
 }
 
@@ -110,13 +110,13 @@ void CurvePreconditioner::build_spreading() {
   pivot_.assign(net.moving, 1);
   slides_.assign(net.moving, 1);
   // Homes draw each node by itself.
-  if (!net.homes.empty()) return;
-  for (const Strand& strand : curve_->strands) {
-    if (free(strand)) slides_[strand.nodes.front()] = 0;
+  if (!net.target_positions.empty()) return;
+  for (const MovingRun& moving_run : curve_->moving_runs) {
+    if (free(moving_run)) slides_[moving_run.nodes.front()] = 0;
   }
   for (std::size_t i = 0; i < net.moving; ++i) {
     const auto links = net.rings.links(i);
-    const auto shares = net.shares_of(i);
+    const auto shares = net.weights_of(i);
     for (std::size_t k = 0; k < links.size(); ++k) {
       const std::size_t j = links[k].node();
       if (slides_[i] == 0 || (j < net.moving && slides_[j] == 0)) continue;
@@ -132,10 +132,10 @@ void CurvePreconditioner::build_spreading() {
 void CurvePreconditioner::carry_frames() {
   const Net& net = curve_->net;
   axis_.assign(net.positions.size(), Vector3::Zero());
-  for (const Strand& strand : curve_->strands) {
+  for (const MovingRun& moving_run : curve_->moving_runs) {
     Vector3 axis = Vector3::Zero();
     std::size_t before = 0;
-    for (const std::uint32_t i : strand.nodes) {
+    for (const std::uint32_t i : moving_run.nodes) {
       const Vector3& tangent = net.tangents[i];
       if (tangent.isZero(0)) continue;
       if (!axis.isZero(0)) {
@@ -148,24 +148,24 @@ void CurvePreconditioner::carry_frames() {
       axis_[i] = axis;
       before = i;
     }
-    if (free(strand)) close_frames(strand);
+    if (free(moving_run)) close_frames(moving_run);
   }
 }
 
-void CurvePreconditioner::close_frames(const Strand& strand) {
+void CurvePreconditioner::close_frames(const MovingRun& moving_run) {
   const Net& net = curve_->net;
-  const std::size_t first = strand.nodes.front();
-  const std::size_t last = strand.nodes.back();
+  const std::size_t first = moving_run.nodes.front();
+  const std::size_t last = moving_run.nodes.back();
   const Vector3& tangent = net.tangents[first];
   const Vector3 d = net.positions[first] - net.positions[last];
   if (tangent.isZero(0) || net.tangents[last].isZero(0) || !(d.dot(d) > net.tiny)) return;
   const Vector3 around = carried(axis_[last], d, net.tangents[last], tangent);
   const double turn = std::atan2(axis_[first].cross(around).dot(tangent), axis_[first].dot(around));
-  const auto count = static_cast<double>(strand.nodes.size());
-  for (std::size_t k = 0; k < strand.nodes.size(); ++k) {
-    Vector3& axis = axis_[strand.nodes[k]];
+  const auto count = static_cast<double>(moving_run.nodes.size());
+  for (std::size_t k = 0; k < moving_run.nodes.size(); ++k) {
+    Vector3& axis = axis_[moving_run.nodes[k]];
     const double angle = -turn * static_cast<double>(k) / count;
-    axis = std::cos(angle) * axis + std::sin(angle) * net.tangents[strand.nodes[k]].cross(axis);
+    axis = std::cos(angle) * axis + std::sin(angle) * net.tangents[moving_run.nodes[k]].cross(axis);
   }
 }
 
@@ -188,8 +188,8 @@ void CurvePreconditioner::correct(const Model& model, double /*enough*/, std::ve
   for (std::size_t i = 0; i < net.moving; ++i) {
     Vector3 asked = forces_[i].regularisation - correction[i];
     const auto links = net.rings.links(i);
-    const auto shares = net.shares_of(i);
-    for (std::size_t k = 0; k < links.size() && net.homes.empty(); ++k) {
+    const auto shares = net.weights_of(i);
+    for (std::size_t k = 0; k < links.size() && net.target_positions.empty(); ++k) {
       const double share = shares.empty() ? 1 / static_cast<double>(links.size()) : shares[k];
       if (links[k].node() < net.moving) asked += share * correction[links[k].node()];
     }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/threads.hpp"
-#include "solve/bending_matrix.hpp"
+#include "solve/banded_qr.hpp"
 #include "solve/point_stiffness.hpp"
 #include "solve/preconditioner.hpp"
 #include "spring/curve_net.hpp"
@@ -29,16 +29,16 @@ class CurvePreconditioner final : public Preconditioner {
   /// The moving nodes of one strand: a run of local numbers.
   struct Run {
     std::size_t begin;
-    BendingMatrix bending;
+    BandedQr bending;
   };
   void weigh();
-  void build_bending(const Strand& strand);
+  void build_bending(const MovingRun& moving_run);
   /// A closed strand without a held node.
-  [[nodiscard]] bool free(const Strand& strand) const;
+  [[nodiscard]] bool free(const MovingRun& moving_run) const;
   void build_spreading();
   void carry_frames();
   /// Spreads over a free strand the turn by which its frames miss each other once around.
-  void close_frames(const Strand& strand);
+  void close_frames(const MovingRun& moving_run);
   const CurveNet* curve_;
   ThreadTeam alone_{1};
   PointStiffness stiffness_;

@@ -7,7 +7,7 @@
 
 #include "solve/account.hpp"
 #include "solve/anderson.hpp"
-#include "solve/best_shape.hpp"
+#include "solve/best_iterate.hpp"
 #include "solve/largest_turn.hpp"
 
 namespace vspring {
@@ -56,7 +56,7 @@ class Solver {
 
   EquilibriumResult run(const EquilibriumTask& task, Context& context) {
     EquilibriumResult result;
-    BestShape best(net_, 1);
+    BestIterate best(net_, 1);
     double before = 0;
     double rate_before = 0;
     double last_step = 0;
@@ -73,7 +73,7 @@ class Solver {
       if (far) ++changes_from_far;
       if (!far || changes_from_far > free_changes) ++changes;
       forget();
-      best = BestShape(net_, 1);
+      best = BestIterate(net_, 1);
       before = 0;
       rate_before = 0;
       last_step = 0;

@@ -15,7 +15,7 @@
 #include "solve/account.hpp"
 #include "solve/equilibrium.hpp"
 #include "solve/pseudo_transient.hpp"
-#include "solve/soundness.hpp"
+#include "solve/result_check.hpp"
 #include "solve/spring_energy.hpp"
 #include "solve/sweep_method.hpp"
 #include "spring/spacing.hpp"
@@ -90,7 +90,7 @@ class Run {
   }
 
   /// soundness: of the start, or null where that is not to be looked at.
-  void run(const Soundness* soundness) {
+  void run(const ResultCheck* check) {
     const std::size_t last = hierarchy_.count() - 1;
     Net& finest = hierarchy_.net(last);
     report_.outcome = context_.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
@@ -99,7 +99,7 @@ class Run {
     // Coarser levels do not keep a distribution, and where points are, a start is near.
     const bool try_first = points_ && options_.distribution == Distribution::keep;
     const Displacements displacements = greatest_displacements(finest);
-    if (try_first || may_be_there(displacements.all)) {
+    if (try_first || may_have_converged(displacements.all)) {
       const std::vector<Vector3> start = try_first ? finest.positions : std::vector<Vector3>();
       relax(last, try_first ? std::min(options_.max_iterations.value_or(near_limit), near_limit) : 1);
       if (try_first && unfinished()) {
@@ -108,9 +108,10 @@ class Run {
       }
     }
     if (report_.outcome == Outcome::iteration_limit) go_down();
-    if (!points_ && !options_.distribution && unfinished() && may_be_there(displacements.of_springs)) stay_with_input();
+    if (!points_ && !options_.distribution && unfinished() && may_have_converged(displacements.of_springs))
+      stay_with_input();
     if (!points_ && !options_.max_iterations && report_.outcome != Outcome::cancelled) try_winding();
-    if (soundness) stay_sound(*soundness);
+    if (check) stay_sound(*check);
     // Limits that nobody gave.
     if (!options_.max_iterations && report_.outcome == Outcome::iteration_limit) report_.outcome = Outcome::work_limit;
   }
@@ -121,9 +122,9 @@ class Run {
     const std::size_t last = hierarchy_.count() - 1;
     const Net& finest = hierarchy_.net(last);
     const bool may_follow_flow = !points_ && !options_.max_iterations && finest.tangents.empty() &&
-                                 !finest.spheres.on() && !leaves_a_family(finest);
+                                 !finest.spheres.on() && !is_underconstrained(finest);
     // Where noise has folded the finest level, its own start is no help.
-    const bool is_folded = !finest.shares.empty() && caught_in_a_fold(last);
+    const bool is_folded = !finest.laplacian_weights.empty() && has_crease(last);
     hierarchy_.start();
     std::vector<Eigen::Vector3f> own_start;
     const std::size_t first = hierarchy_.first_of_use();
@@ -132,11 +133,11 @@ class Run {
       relax(k, k == first ? std::min(limit, first_try) : limit);
       if (k == first && limit > first_try && unfinished()) {
         // Points know better, and may be all that holds it.
-        if (lost() && !points_) hierarchy_.forget_shape(k);
+        if (lost() && !points_) hierarchy_.start_from_membrane(k);
         tie_points(k);
         relax(k, limit);
       }
-      if (!own_start.empty() && ((unfinished() && lost()) || caught_in_a_fold(k))) try_own_start(k, own_start, limit);
+      if (!own_start.empty() && ((unfinished() && lost()) || has_crease(k))) try_own_start(k, own_start, limit);
       if (k == last) break;
       if (points_ && unfinished() && lost()) {
         // Points too far out for this level: finer ones do better from the start itself.
@@ -147,7 +148,7 @@ class Run {
       own_start = {};
       const Net& finer = hierarchy_.net(k + 1);
       if (finer.moving <= not_too_many)
-        own_start = rounded(finer, k + 1 == last && is_folded ? smooth_places(finer, team_) : finer.positions);
+        own_start = rounded(finer, k + 1 == last && is_folded ? rest_positions(finer, team_) : finer.positions);
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
     }
@@ -161,7 +162,7 @@ class Run {
     const Reached found = reached(last);
     net.positions = input_;
     update_directions(net, model_, team_);
-    hierarchy_.set_shares(model_.present_shares(net));
+    hierarchy_.set_laplacian_weights(model_.present_laplacian_weights(net));
     relax(last, 1);
     if (unfinished()) go_back(last, found);
   }
@@ -171,7 +172,7 @@ class Run {
   void try_winding() {
     const std::size_t last = hierarchy_.count() - 1;
     Net& net = hierarchy_.net(last);
-    if (!unfinished() && !hierarchy_.has_unwound(input_)) return;
+    if (!unfinished() && !hierarchy_.lost_winding(input_)) return;
     has_looked_for_winding_ = true;
     const Reached found = reached(last);
     net.positions = input_;
@@ -181,7 +182,7 @@ class Run {
         net.positions = wound;
         relax_along_flow(start == FlowStart::near ? newton_limit : default_limit, start);
         if (report_.outcome == Outcome::cancelled) break;
-        if (report_.outcome == Outcome::converged && !hierarchy_.has_unwound(input_)) return;
+        if (report_.outcome == Outcome::converged && !hierarchy_.lost_winding(input_)) return;
       }
     }
     const bool cancelled = report_.outcome == Outcome::cancelled;
@@ -190,10 +191,10 @@ class Run {
   }
 
   /// What is worse with the shape than with the start; empty where nothing is.
-  std::string fault(const Soundness& soundness) {
-    std::string fault = soundness.fault(hierarchy_.net(hierarchy_.count() - 1));
-    has_unwound_ = fault.empty() && !points_ && hierarchy_.has_unwound(input_);
-    if (has_unwound_)
+  std::string fault(const ResultCheck& check) {
+    std::string fault = check.fault(hierarchy_.net(hierarchy_.count() - 1));
+    lost_winding_ = fault.empty() && !points_ && hierarchy_.lost_winding(input_);
+    if (lost_winding_)
       fault = has_looked_for_winding_
                   ? "it winds otherwise than the input, as does every fair curve with these ends that was found"
                   : "it winds otherwise than the input";
@@ -202,30 +203,30 @@ class Run {
 
   /// Where the shape is worse than it came, looks for another: from the start without its noise, from the start itself,
   /// and with the spacing of the start. The best that is no worse stays, at worst the start.
-  void stay_sound(const Soundness& soundness) {
+  void stay_sound(const ResultCheck& check) {
     const std::size_t last = hierarchy_.count() - 1;
     Net& net = hierarchy_.net(last);
-    if (options_.as_found) return say_if_worse(soundness, net, report_);
-    const std::string fault = this->fault(soundness);
+    if (options_.as_found) return warn_if_worse(check, net, report_);
+    const std::string fault = this->fault(check);
     if (fault.empty()) return;
-    const bool is_unwound = has_unwound_;
+    const bool is_unwound = lost_winding_;
     const bool was_cancelled = report_.outcome == Outcome::cancelled;
     const Reached found = reached(last);
-    const bool is_nowhere = !soundness.misplaced(net).empty();
+    const bool is_nowhere = !check.misplaced(net).empty();
     // What is held stays where it is held.
     const auto start_smooth = [&] {
-      const std::vector<Vector3> places = smooth_places(net, team_);
+      const std::vector<Vector3> places = rest_positions(net, team_);
       std::copy_n(places.begin(), net.moving, net.positions.begin());
     };
     const std::function<void()> ways[] = {start_smooth, [] {},
                                           [&] {
                                             update_directions(net, model_, team_);
-                                            hierarchy_.set_shares(model_.present_shares(net));
+                                            hierarchy_.set_laplacian_weights(model_.present_laplacian_weights(net));
                                           }};
     std::optional<Reached> best;
     net.positions = input_;
     // Where constraints are at odds with the input, that with its constraints is no shape to fall back on.
-    const bool input_is_better = soundness.fault_of_places(net).empty() || is_nowhere;
+    const bool input_is_better = check.fault_of_places(net).empty() || is_nowhere;
     double least_energy = input_is_better ? energy_of(net).sum : std::numeric_limits<double>::infinity();
     for (const auto& way : ways) {
       if (was_cancelled || out_of_work(net)) break;
@@ -233,7 +234,7 @@ class Run {
       way();
       relax(last, options_.max_iterations.value_or(default_limit));
       if (report_.outcome == Outcome::cancelled) break;
-      if (!this->fault(soundness).empty()) continue;
+      if (!this->fault(check).empty()) continue;
       if (report_.outcome == Outcome::converged) return;
       // A curve that is far from an equilibrium has left the input for nothing.
       if (!net.tangents.empty() && lost()) continue;
@@ -244,7 +245,7 @@ class Run {
     }
     const bool cancelled = report_.outcome == Outcome::cancelled;
     const bool is_input_smoothed = !cancelled && !best && input_is_better && !net.tangents.empty() &&
-                                   smooth_a_little(start_smooth, soundness, least_energy);
+                                   smooth_a_little(start_smooth, check, least_energy);
     if (is_input_smoothed) best = Reached{net.positions, found.outcome, found.residual};
     go_back(last, best ? *best : input_is_better ? Reached{input_, found.outcome, found.residual} : found);
     report_.outcome = cancelled ? Outcome::cancelled : Outcome::worse_than_input;
@@ -259,7 +260,7 @@ class Run {
   }
 
   /// The input without its noise, where that is little, and the shape then is fairer than such an energy and no worse.
-  bool smooth_a_little(const std::function<void()>& start_smooth, const Soundness& soundness, double energy) {
+  bool smooth_a_little(const std::function<void()>& start_smooth, const ResultCheck& check, double energy) {
     Net& net = hierarchy_.net(hierarchy_.count() - 1);
     net.positions = input_;
     start_smooth();
@@ -267,7 +268,7 @@ class Run {
     for (std::size_t i = 0; i < net.moving; ++i)
       greatest = std::max(greatest, (net.positions[i] - input_[i]).squaredNorm());
     const double edge = mean_edge(net);
-    return greatest < edge * edge && fault(soundness).empty() && energy_of(net).sum < energy;
+    return greatest < edge * edge && fault(check).empty() && energy_of(net).sum < energy;
   }
 
   [[nodiscard]] bool out_of_work(const Net& net) const {
@@ -288,7 +289,7 @@ class Run {
       }
     };
     const std::function<void()> starts[] = {[] {}, [&] { sweep_from_start(10); },
-                                            [&] { hierarchy_.forget_shape(hierarchy_.count() - 1); },
+                                            [&] { hierarchy_.start_from_membrane(hierarchy_.count() - 1); },
                                             [&] { sweep_from_start(0); }, [&] { sweep_from_start(1000); }};
     const auto nodes = static_cast<double>(net.moving);
     const auto steps_left = [&] {
@@ -362,7 +363,7 @@ class Run {
   }
 
   /// Coarse levels may fold a shape where it has no need to.
-  bool caught_in_a_fold(std::size_t level) {
+  bool has_crease(std::size_t level) {
     Net& net = hierarchy_.net(level);
     return net.moving <= few && net.tangents.empty() && report_.outcome != Outcome::cancelled &&
            energy_of(net).least_cosine < sharpest_turn;
@@ -399,7 +400,7 @@ class Run {
 
   /// False where displacements are so large that corrections cannot be within the tolerance: as displacements of an
   /// equilibrium that is off by one correction they are at most a few times as large.
-  [[nodiscard]] bool may_be_there(double displacement) const {
+  [[nodiscard]] bool may_have_converged(double displacement) const {
     return displacement <= greatest_displacement_ratio * options_.tolerance * size_;
   }
 
@@ -472,12 +473,12 @@ class Run {
   Anderson<float>* memory_ = nullptr;
   bool take_last_ = false;
   bool has_looked_for_winding_ = false;
-  bool has_unwound_ = false;  ///< what fault() found last
+  bool lost_winding_ = false;  ///< what fault() found last
 };
 
 }  // namespace
 
-bool leaves_a_family(const Net& net) {
+bool is_underconstrained(const Net& net) {
   constexpr std::size_t fixes_a_sphere = 4;
   std::size_t known = net.positions.size() - net.moving;
   for (std::size_t i = 0; i < net.positions.size() && known < fixes_a_sphere; ++i) known += net.normal_given(i) ? 2 : 0;
@@ -485,9 +486,9 @@ bool leaves_a_family(const Net& net) {
 }
 
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
-                     Context& context, ProgressReporter& progress, FairReport& report, const Soundness* soundness,
+                     Context& context, ProgressReporter& progress, FairReport& report, const ResultCheck* check,
                      PointLevels* points) {
-  Run(hierarchy, model, options, team, context, progress, report, points).run(soundness);
+  Run(hierarchy, model, options, team, context, progress, report, points).run(check);
 }
 
 void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,

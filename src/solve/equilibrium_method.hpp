@@ -5,7 +5,7 @@
 #include "solve/anderson.hpp"
 #include "solve/hierarchy.hpp"
 #include "solve/point_levels.hpp"
-#include "solve/soundness.hpp"
+#include "solve/result_check.hpp"
 #include "spring/model.hpp"
 #include "vspring/fair.hpp"
 
@@ -13,13 +13,13 @@ namespace vspring {
 
 /// Whether so little holds it that spheres of many sizes are fair: an equilibrium is one of a family then, and nothing
 /// to be found by steps to a single one.
-bool leaves_a_family(const Net& net);
+bool is_underconstrained(const Net& net);
 
 /// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the shape is
 /// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. soundness:
 /// where given, of the start, the result is no worse or said to be. points: of the levels, if any.
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
-                     Context& context, ProgressReporter& progress, FairReport& report, const Soundness* soundness,
+                     Context& context, ProgressReporter& progress, FairReport& report, const ResultCheck* check,
                      PointLevels* points = nullptr);
 
 /// The same from a shape that is near to its equilibrium, without a look at coarser levels, with a preconditioner of

@@ -64,11 +64,11 @@ void account_for_moves(const PolygonMesh& mesh, const Constraints& constraints, 
   }
   report.moving_nodes = static_cast<Index>(moves.size());
   report.greatest_move = moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
-  report.mean_move = 0;
+  report.rms_move = 0;
   if (!(report.greatest_move > 0)) return;
   double squares = 0;
   for (const double move : moves) squares += move / report.greatest_move * (move / report.greatest_move);
-  report.mean_move = report.greatest_move * std::sqrt(squares / static_cast<double>(moves.size()));
+  report.rms_move = report.greatest_move * std::sqrt(squares / static_cast<double>(moves.size()));
 }
 
 /// Says of the surface what is to be said of its boundary.

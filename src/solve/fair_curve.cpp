@@ -10,7 +10,7 @@
 #include "solve/curve_hierarchy.hpp"
 #include "solve/equilibrium_method.hpp"
 #include "solve/multigrid_method.hpp"
-#include "solve/soundness.hpp"
+#include "solve/result_check.hpp"
 #include "solve/sweep_method.hpp"
 #include "vspring/fair.hpp"
 
@@ -35,20 +35,20 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
 
   const auto model = curve_model_for(gathered.net, options.curve, options.forces);
   const Distribution distribution = options.distribution.value_or(Distribution::even);
-  const Soundness soundness(gathered.net, *model, team);
+  const ResultCheck check(gathered.net, *model, team);
   if (report.method == Method::sweep) {
-    distribute(gathered.net, *model, distribution, team);
+    set_laplacian_weights(gathered.net, *model, distribution, team);
     run_sweeps(gathered.net, *model, options, team, context, progress, report);
   } else {
     CurveHierarchy hierarchy(curve_levels(std::move(gathered), distribution));
     if (report.method == Method::multigrid) {
       run_multigrid(hierarchy, *model, options, team, context, progress, report);
     } else {
-      run_equilibrium(hierarchy, *model, options, team, context, progress, report, &soundness);
+      run_equilibrium(hierarchy, *model, options, team, context, progress, report, &check);
     }
     gathered = std::move(hierarchy).take();
   }
-  if (report.method != Method::equilibrium) say_if_worse(soundness, gathered.net, report);
+  if (report.method != Method::equilibrium) warn_if_worse(check, gathered.net, report);
 
   result.positions = scatter_positions(gathered.net, curve.positions(), constraints, options.strength);
   measure_moves(gathered.net, curve.positions(), result.positions, report);

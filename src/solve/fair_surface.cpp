@@ -1,6 +1,6 @@
 #include <chrono>
 
-#include "constraints/immovable_held.hpp"
+#include "constraints/immovable_nodes_fixed.hpp"
 #include "solve/fair_boundary.hpp"
 #include "solve/surface_fairing.hpp"
 #include "vspring/fair.hpp"
@@ -14,7 +14,7 @@ FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const F
     return options.fair_boundary ? fair_boundary_first(mesh, held, options, context)
                                  : SurfaceFairing(mesh, options, context.thread_count()).fair_once(held, context);
   };
-  FairResult result = ImmovableHeld(mesh).run(
+  FairResult result = ImmovableNodesFixed(mesh).run(
       constraints, fair_held, [](FairResult & faired) -> auto& { return faired.report.warnings; });
   result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "constraints/immovable_held.hpp"
+#include "constraints/immovable_nodes_fixed.hpp"
 #include "solve/surface_fairing.hpp"
 
 namespace vspring {
@@ -30,7 +30,7 @@ struct FairingSession::State {
   PolygonMesh mesh;
   FairOptions options;
   SurfaceFairing fairing;
-  ImmovableHeld immovable;
+  ImmovableNodesFixed immovable;
 };
 
 FairingSession::FairingSession(PolygonMesh mesh, const FairOptions& options, int threads) {
@@ -51,7 +51,7 @@ FairResult FairingSession::fair(const Constraints& constraints, Context& context
   return vspring::fair(state_->mesh, constraints, state_->options, context);
 }
 
-FairResult FairingSession::follow(const Constraints& constraints, double tolerance, Context& context) {
+FairResult FairingSession::update(const Constraints& constraints, double tolerance, Context& context) {
   FairOptions options = state_->options;
   options.tolerance = tolerance;
   options.validate();
@@ -61,13 +61,13 @@ FairResult FairingSession::follow(const Constraints& constraints, double toleran
   return vspring::fair(state_->mesh, constraints, options, context);
 }
 
-std::optional<std::vector<Vector3>> FairingSession::foresee(const Constraints& constraints, double tolerance) {
+std::optional<std::vector<Vector3>> FairingSession::predict(const Constraints& constraints, double tolerance) {
   FairOptions options = state_->options;
   options.tolerance = tolerance;
   options.validate();
   if (options.fair_boundary) return std::nullopt;
   return state_->immovable.use(constraints,
-                               [&](const Constraints& held) { return state_->fairing.foresee(held, tolerance); });
+                               [&](const Constraints& held) { return state_->fairing.predict(held, tolerance); });
 }
 
 FairResult FairingSession::fair(const Constraints& constraints) {

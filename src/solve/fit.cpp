@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/stopwatch.hpp"
-#include "constraints/immovable_held.hpp"
+#include "constraints/immovable_nodes_fixed.hpp"
 #include "fit/point_factors.hpp"
 #include "fit/point_ties.hpp"
 #include "solve/fair_boundary.hpp"
@@ -25,7 +25,7 @@
 #include "solve/fit_to_tolerance.hpp"
 #include "solve/gentle_curve.hpp"
 #include "solve/noise_fit.hpp"
-#include "solve/soundness.hpp"
+#include "solve/result_check.hpp"
 #include "solve/sweep_method.hpp"
 #include "vspring/figures.hpp"
 
@@ -177,12 +177,12 @@ class Fitting {
         : gathered(fitting.run_.gather()), input(net_of(gathered)), model(model_of(gathered, fitting.options_.fair)) {
       auto& run = fitting.run_;
       for (const Vector3& point : run.points.positions) input.points.positions.push_back(input.frame.to_local(point));
-      soundness.emplace(input, *model, run.team);
+      check.emplace(input, *model, run.team);
       input.points = {};
       found = input;
       for (std::size_t i = 0; i < input.moving; ++i)
         found.positions[i] = input.frame.to_local(run.result.positions[static_cast<std::size_t>(input.node[i])]);
-      fault = soundness->fault(found);
+      fault = check->fault(found);
       if (fault.empty()) fault = run.subject.crossings(run.result.positions);
       if (fault.empty()) fault = fitting.balloon(input, found);
     }
@@ -190,7 +190,7 @@ class Fitting {
     decltype(std::declval<FitRun<Subject>&>().gather()) gathered;
     Net& input;
     std::unique_ptr<const Model> model;
-    std::optional<Soundness> soundness;
+    std::optional<ResultCheck> check;
     Net found;
     std::string fault;
   };
@@ -202,9 +202,8 @@ class Fitting {
     const InputAndFound shapes(*this);
     const std::string& fault = shapes.fault;
     if (fault.empty()) return;
-    const bool input_is_faulty = !shapes.soundness->fault_of_places(shapes.input).empty();
-    const bool as_found =
-        options_.fair.as_found || (input_is_faulty && shapes.soundness->misplaced(shapes.found).empty());
+    const bool input_is_faulty = !shapes.check->fault_of_places(shapes.input).empty();
+    const bool as_found = options_.fair.as_found || (input_is_faulty && shapes.check->misplaced(shapes.found).empty());
     if (!as_found) run_.finish(shapes.input);
     if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
     report.warnings.push_back(
@@ -236,7 +235,7 @@ class Fitting {
   void fit(ProgressReporter& progress, bool smooth) {
     run_.start_report(options_.fair.method.value_or(Method::equilibrium));
     FairReport& report = run_.result.report.fair;
-    LoosePoints points = run_.loose_points();
+    UntiedPoints points = run_.loose_points();
     const auto has_weight = [](double weight) { return weight > 0; };
     if (std::none_of(points.weights.begin(), points.weights.end(), has_weight)) {
       FairResult plain = vspring::fair(run_.subject.shape(), run_.subject.constraints(), options_.fair, run_.context);
@@ -304,10 +303,10 @@ class Fitting {
   }
 
   /// By equilibrium or multigrid. Returns whether nodes have homes.
-  bool run_on_levels(LoosePoints points, ProgressReporter& progress) {
+  bool run_on_levels(UntiedPoints points, ProgressReporter& progress) {
     auto gathered = run_.gather_start();
     const auto smoothing = smoothing_in(net_of(gathered));
-    PulledShape shape(std::move(gathered), options_.fair, std::move(points), smoothing, run_.team);
+    WarmStartedFit shape(std::move(gathered), options_.fair, std::move(points), smoothing, run_.team);
     FairReport& report = run_.result.report.fair;
     if (report.method == Method::multigrid)
       shape.cycle(run_.context, progress, report);
@@ -315,7 +314,7 @@ class Fitting {
       shape.find(run_.context, progress, report);
     if constexpr (std::is_same_v<Subject, FitCurve>) take_spline_if_lost(shape);
     run_.finish(shape.net());
-    return !shape.net().homes.empty();
+    return !shape.net().target_positions.empty();
   }
 
   /// Whether another shape may stand for one that was not found.
@@ -324,7 +323,7 @@ class Fitting {
   }
 
   /// Where a curve has no equilibrium with its points: a shape that is neither is knotted sooner than near to one.
-  void take_spline_if_lost(PulledShape<CurveNet>& shape) {
+  void take_spline_if_lost(WarmStartedFit<CurveNet>& shape) {
     FairReport& report = run_.result.report.fair;
     if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled || !may_replace()) return;
     if (report.expected_error && *report.expected_error < curve_is_lost_at) {
@@ -342,11 +341,11 @@ class Fitting {
         "smoothing length, or a tolerance");
   }
 
-  void sweep(LoosePoints points, FairOptions options, ProgressReporter& progress) {
+  void sweep(UntiedPoints points, FairOptions options, ProgressReporter& progress) {
     auto gathered = run_.gather_start();
     Net& net = net_of(gathered);
     const auto model = model_of(gathered, options);
-    distribute(net, *model, distribution_of(gathered, options), run_.team);
+    set_laplacian_weights(net, *model, distribution_of(gathered, options), run_.team);
     const auto smoothing = smoothing_in(net);
     PointTies ties = tie_points(net, *model, points, smoothing, run_.team);
     points = {};
@@ -392,7 +391,7 @@ FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const Sca
     check_points(points);
     return fit_boundary_first(mesh, held, points, options, context);
   };
-  return ImmovableHeld(mesh).run(
+  return ImmovableNodesFixed(mesh).run(
       constraints, fit_held, [](FitResult & fitted) -> auto& { return fitted.report.fair.warnings; });
 }
 

@@ -151,7 +151,7 @@ class DenseFit {
     const Distance moves = distance(best_->positions, made_.curve, measuring_);
     const double nodes_per_moving = static_cast<double>(fair.nodes) / std::max<Index>(fair.moving_nodes, 1);
     fair.greatest_move = moves.greatest;
-    fair.mean_move = moves.rms * std::sqrt(nodes_per_moving);
+    fair.rms_move = moves.rms * std::sqrt(nodes_per_moving);
     PolygonCurve after = made_.curve;
     after.set_positions(best_->positions);
     fair.before = measure(made_.curve, &made_.constraints);

@@ -13,8 +13,8 @@
 #include "solve/account.hpp"
 #include "solve/fit_start.hpp"
 #include "solve/fit_subject.hpp"
-#include "solve/pulled_shape.hpp"
 #include "solve/unfolding.hpp"
+#include "solve/warm_started_fit.hpp"
 #include "vspring/fit.hpp"
 
 namespace vspring {
@@ -63,12 +63,12 @@ class FitRun {
     else
       unfold(gathered, team);
     // Else the nodes slide along a shape that noise has crumpled until it comes apart.
-    net.homes.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
+    net.target_positions.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
     return gathered;
   }
 
   /// The points that count, and the nodes that are nearest to them at the start.
-  LoosePoints loose_points() {
+  UntiedPoints loose_points() {
     std::vector<double> weights = points.weights;
     weights.resize(points.positions.size(), 1);
     const double weight =

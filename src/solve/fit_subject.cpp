@@ -47,7 +47,7 @@ FitSurface::FitSurface(const PolygonMesh& mesh, const Constraints& constraints, 
       points_(points),
       measuring_(&measuring),
       team_(&team),
-      part_(moving_part(mesh, constraints)) {
+      part_(active_submesh(mesh, constraints)) {
   if (part_ && part_->mesh.face_count() == 0) part_.reset();
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/threads.hpp"
-#include "constraints/moving_part.hpp"
+#include "constraints/active_submesh.hpp"
 #include "fairness/measure.hpp"
 #include "solve/fit_start.hpp"
 #include "spring/curve_net.hpp"
@@ -46,7 +46,7 @@ class FitSurface {
   std::span<const Vector3> points_;
   const Context* measuring_;
   ThreadTeam* team_;
-  std::optional<MovingPart> part_;
+  std::optional<ActiveSubmesh> part_;
   // From the first figure on.
   std::optional<FairnessMeter> meter_;
   // From the faces of which no node moves, where only a part does.

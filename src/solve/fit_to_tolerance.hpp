@@ -27,7 +27,7 @@ class FitToTolerance {
       : run_(run), tolerance_(run.options.within ? *run.options.within : *run.options.rms) {}
 
   /// only_smooth: by some edges, instead of to the tolerance.
-  void fit(LoosePoints points, ProgressReporter& progress, bool only_smooth) {
+  void fit(UntiedPoints points, ProgressReporter& progress, bool only_smooth) {
     if (!only_smooth && plain_fairing_is_within()) return;
     FitReport& report = run_.result.report;
     Context& context = run_.context;
@@ -37,12 +37,13 @@ class FitToTolerance {
     const auto length = std::make_shared<double>(edge);
     FairOptions options = run_.options.fair;
     options.tolerance = std::min(options.tolerance, precision * tolerance_ * scale / diagonal(net_of(gathered)));
-    PulledShape shape(std::move(gathered), options, std::move(points), length, run_.team);
+    WarmStartedFit shape(std::move(gathered), options, std::move(points), length, run_.team);
     // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
     const auto nodes = static_cast<double>(shape.net().moving);
     const double most_work = std::max(least_most_work, most_work_a_node * nodes);
-    const auto& lengths =
-        shape.net().tangents.empty() && !shape.net().homes.empty() ? first_lengths_on_surfaces : first_lengths;
+    const auto& lengths = shape.net().tangents.empty() && !shape.net().target_positions.empty()
+                              ? first_lengths_on_surfaces
+                              : first_lengths;
     for (const double first : lengths) {
       *length = first * edge;
       shape.find(context, progress, report.fair);
@@ -64,9 +65,9 @@ class FitToTolerance {
     task.net = &shape.net();
     task.length = length;
     task.found = report.fair.outcome == Outcome::converged;
-    task.follow = [&](bool or_find) {
+    task.update = [&](bool or_find) {
       FairReport one;
-      shape.follow(context, progress, one, or_find);
+      shape.update(context, progress, one, or_find);
       report.fair.iterations += one.iterations;
       report.fair.work += one.work;
       report.fair.history.insert(report.fair.history.end(), one.history.begin(), one.history.end());

@@ -39,11 +39,11 @@ class Hierarchy {
   /// Hands the start down to all levels without its noise, and makes it fit to start from on the coarsest.
   virtual void start() = 0;
   /// Other shares (§4.4) for the shape itself.
-  virtual void set_shares(std::vector<double> shares) = 0;
+  virtual void set_laplacian_weights(std::vector<double> shares) = 0;
   /// The start of last resort on the level that is worked on first, which forgets the shape.
-  virtual void forget_shape(std::size_t level) = 0;
+  virtual void start_from_membrane(std::size_t level) = 0;
   /// Whether the shape itself winds less often than at `input`, the positions of its nodes.
-  virtual bool has_unwound(std::span<const Vector3> /*input*/) { return false; }
+  virtual bool lost_winding(std::span<const Vector3> /*input*/) { return false; }
   /// A start on the shape itself that keeps its windings. False where there is none.
   virtual bool wind() { return false; }
   /// For that level, made anew; used up before the next one is asked for.

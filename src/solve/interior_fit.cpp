@@ -92,7 +92,7 @@ class InteriorFit {
       const std::vector<Vector3> start = net_.positions;
       const std::vector<Bounded> before = points_;
       pull(barrier);
-      const bool found = task_.follow(false);
+      const bool found = task_.update(false);
       let_go();
       if (task_.ended()) break;
       measure();

@@ -13,7 +13,7 @@ namespace {
 
 using Entry = SparseRows::Entry;
 
-void multiply(std::span<const Entry> row, const WholeMatrix& matrix, SparseSum& image) {
+void multiply(std::span<const Entry> row, const AssembledMatrix& matrix, SparseSum& image) {
   image.clear();
   for (const Entry& outer : row) {
     matrix.for_row(outer.column, [&](std::size_t column, double value) {
@@ -60,7 +60,7 @@ class GalerkinRow {
     for (const FloatRows::Entry& entry : down_->row(i)) here_.add(entry.column, static_cast<double>(entry.value));
     if (const auto* factored = std::get_if<FactoredMatrix>(matrix_)) {
       multiply(here_.entries(), *factored, between_, there_);
-    } else if (const auto* whole = std::get_if<WholeMatrix>(matrix_)) {
+    } else if (const auto* whole = std::get_if<AssembledMatrix>(matrix_)) {
       multiply(here_.entries(), *whole, there_);
     } else {
       multiply(here_.entries(), std::get<GraphLaplacian>(*matrix_), there_);
@@ -93,7 +93,8 @@ double round_row(std::size_t i, std::span<const Entry> entries, FloatRows::Row& 
 
 }  // namespace
 
-WholeMatrix::WholeMatrix(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up, ThreadTeam& team)
+AssembledMatrix::AssembledMatrix(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up,
+                                 ThreadTeam& team)
     : diagonal_(down.rows()) {
   beside_ = FloatRows::build(team, down.rows(), up.columns(), [&] {
     return [&, galerkin_row = GalerkinRow(down, matrix, up)](std::size_t i, FloatRows::Row& row) mutable {
@@ -102,13 +103,13 @@ WholeMatrix::WholeMatrix(const FloatRows& down, const LevelMatrix& matrix, const
   });
 }
 
-WholeMatrix::WholeMatrix(const SparseRows& matrix, ThreadTeam& team) : diagonal_(matrix.rows()) {
+AssembledMatrix::AssembledMatrix(const SparseRows& matrix, ThreadTeam& team) : diagonal_(matrix.rows()) {
   beside_ = FloatRows::build(team, matrix.rows(), matrix.columns(), [&] {
     return [&](std::size_t i, FloatRows::Row& row) { diagonal_[i] = round_row(i, matrix.row(i), row); };
   });
 }
 
-FactoredMatrix::FactoredMatrix(const Net& net, LinkedRows rows, ThreadTeam& team)
+FactoredMatrix::FactoredMatrix(const Net& net, EdgeAlignedRows rows, ThreadTeam& team)
     : net_(&net), rows_(std::move(rows)), further_columns_(rows_.further.transposed()) {
   across_.assign(rows_.beside.size(), 0);
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {

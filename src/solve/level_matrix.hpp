@@ -10,19 +10,19 @@
 
 namespace vspring {
 
-class WholeMatrix;
+class AssembledMatrix;
 class FactoredMatrix;
 class GraphLaplacian;
-using LevelMatrix = std::variant<WholeMatrix, FactoredMatrix, GraphLaplacian>;
+using LevelMatrix = std::variant<AssembledMatrix, FactoredMatrix, GraphLaplacian>;
 
 /// Symmetric, in single precision but for the diagonal, which makes up for the rounding of the entries beside it: what
 /// the matrix makes of a constant stays exact.
-class WholeMatrix {
+class AssembledMatrix {
  public:
   /// upᵀ matrix up. Cost: linear; nothing between is kept.
-  WholeMatrix(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up, ThreadTeam& team);
+  AssembledMatrix(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up, ThreadTeam& team);
   /// From all entries, in double precision.
-  WholeMatrix(const SparseRows& matrix, ThreadTeam& team);
+  AssembledMatrix(const SparseRows& matrix, ThreadTeam& team);
 
   [[nodiscard]] std::size_t size() const noexcept { return diagonal_.size(); }
   [[nodiscard]] double diagonal(std::size_t i) const { return diagonal_[i]; }
@@ -40,7 +40,7 @@ class WholeMatrix {
 
 /// A matrix with a row and a column for every moving node of a net, whose entries beside the diagonal are between
 /// neighbours, and with further rows below.
-struct LinkedRows {
+struct EdgeAlignedRows {
   std::vector<float> diagonal;
   std::vector<float> beside;  ///< one for every link of a moving node; zero for those to held ones
   FloatRows further;
@@ -51,7 +51,7 @@ struct LinkedRows {
 class FactoredMatrix {
  public:
   /// From G. The net must outlive it. Cost: linear.
-  FactoredMatrix(const Net& net, LinkedRows rows, ThreadTeam& team);
+  FactoredMatrix(const Net& net, EdgeAlignedRows rows, ThreadTeam& team);
 
   [[nodiscard]] std::size_t size() const noexcept { return net_->moving; }
   /// Rows of G.
@@ -91,7 +91,7 @@ class FactoredMatrix {
   }
 
   const Net* net_;
-  LinkedRows rows_;
+  EdgeAlignedRows rows_;
   std::vector<float> across_;  // for every link the entry of the neighbour's row
   FloatRows further_columns_;
 };

@@ -67,7 +67,7 @@ Value row_times(const FloatRows& matrix, std::size_t i, const std::vector<Value>
 }
 
 template <typename Value>
-Value row_times(const WholeMatrix& matrix, std::size_t i, const std::vector<Value>& values) {
+Value row_times(const AssembledMatrix& matrix, std::size_t i, const std::vector<Value>& values) {
   Sum<Value> sum = wide<Value>(zero<Value>());
   matrix.for_row(i, [&](std::size_t column, double value) { sum += value * wide<Value>(values[column]); });
   return narrow<Value>(sum);
@@ -141,7 +141,7 @@ void multiply(ThreadTeam& team, const LevelMatrix& matrix, const std::vector<Val
       factored->for_column(i, [&](std::size_t j, float value) { sum += value * room[j]; });
       then(i, sum);
     });
-  } else if (const auto* whole = std::get_if<WholeMatrix>(&matrix)) {
+  } else if (const auto* whole = std::get_if<AssembledMatrix>(&matrix)) {
     for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(*whole, i, values)); });
   } else {
     const auto& graph = std::get<GraphLaplacian>(matrix);
@@ -162,7 +162,7 @@ void MultigridSolver::build(LevelMatrix finest) {
   levels_.clear();
   add_level(std::move(finest));
   for (const Interpolation& between : interpolations_.first(interpolations_.size() - 1))
-    add_level(WholeMatrix(between.down, levels_.back().matrix, between.up, *team_));
+    add_level(AssembledMatrix(between.down, levels_.back().matrix, between.up, *team_));
   const Interpolation& last = interpolations_.back();
   coarsest_.build(galerkin(last.down, levels_.back().matrix, last.up, *team_));
 }

@@ -22,16 +22,16 @@ constexpr double most_deviation = 1e6;
 
 /// Has a shape without noise keep the normals that are given: a fit to it that smooths no more than an edge. Nodes keep
 /// their places where there is no equilibrium.
-void keep_normals(FitRun<FitSurface>& run, const Net& found, LoosePoints points, ProgressReporter& progress) {
+void keep_normals(FitRun<FitSurface>& run, const Net& found, UntiedPoints points, ProgressReporter& progress) {
   FairReport& report = run.result.report.fair;
   const std::vector<Vector3> places =
       scatter_positions(found, run.subject.shape().positions(), run.subject.constraints(), 1);
   points.positions = places;
   points.by_edges = true;
   Net net = found;
-  net.homes.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
+  net.target_positions.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
   const auto length = std::make_shared<double>(mean_edge(net));
-  PulledShape shape(std::move(net), run.options.fair, std::move(points), length, run.team);
+  WarmStartedFit shape(std::move(net), run.options.fair, std::move(points), length, run.team);
   shape.find(run.context, progress, report);
   run.finish(report.outcome == Outcome::converged ? shape.net() : found);
 }
@@ -53,7 +53,7 @@ void suspect(const Net& net, double share, std::vector<std::uint8_t>& known) {
 
 }  // namespace
 
-void fit_without_noise(FitRun<FitSurface>& run, LoosePoints points, ProgressReporter& progress) {
+void fit_without_noise(FitRun<FitSurface>& run, UntiedPoints points, ProgressReporter& progress) {
   if (!points.are_nodes)
     throw Error(ErrorCode::invalid_argument,
                 "noise can be taken off a surface whose own nodes are the points and keep their places only");

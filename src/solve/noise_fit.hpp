@@ -1,12 +1,12 @@
 #pragma once
 
 #include "solve/fit_run.hpp"
-#include "solve/pulled_shape.hpp"
+#include "solve/warm_started_fit.hpp"
 
 namespace vspring {
 
 /// Takes FitOptions::noise off a surface whose own nodes are the points: without_noise(), and where normals are given,
 /// the equilibrium next to its result that has them. Throws Error(invalid_argument) for other points.
-void fit_without_noise(FitRun<FitSurface>& run, LoosePoints points, ProgressReporter& progress);
+void fit_without_noise(FitRun<FitSurface>& run, UntiedPoints points, ProgressReporter& progress);
 
 }  // namespace vspring

@@ -5,7 +5,7 @@
 
 namespace vspring {
 
-Net gather_part(const PolygonMesh& whole, const std::optional<MovingPart>& part, const Constraints& constraints,
+Net gather_part(const PolygonMesh& whole, const std::optional<ActiveSubmesh>& part, const Constraints& constraints,
                 bool for_spheres) {
   if (!part) return gather_net(whole, constraints, for_spheres);
   Net net = gather_net(part->mesh, part->constraints, for_spheres);
@@ -13,7 +13,7 @@ Net gather_part(const PolygonMesh& whole, const std::optional<MovingPart>& part,
   return net;
 }
 
-std::vector<std::string> check_part(const PolygonMesh& whole, const std::optional<MovingPart>& part,
+std::vector<std::string> check_part(const PolygonMesh& whole, const std::optional<ActiveSubmesh>& part,
                                     const Constraints& constraints, std::span<const std::uint8_t> pulled) {
   if (part) {
     std::vector<std::uint8_t> pulled_there;

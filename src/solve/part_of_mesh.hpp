@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "constraints/moving_part.hpp"
+#include "constraints/active_submesh.hpp"
 #include "spring/net.hpp"
 
 namespace vspring {
@@ -15,11 +15,11 @@ namespace vspring {
 // those of the whole mesh.
 
 /// As gather_net() of the whole, in what the part costs.
-Net gather_part(const PolygonMesh& whole, const std::optional<MovingPart>& part, const Constraints& constraints,
+Net gather_part(const PolygonMesh& whole, const std::optional<ActiveSubmesh>& part, const Constraints& constraints,
                 bool for_spheres = false);
 
 /// As check_constraints() of the whole; in what the part costs where nothing is to be said.
-std::vector<std::string> check_part(const PolygonMesh& whole, const std::optional<MovingPart>& part,
+std::vector<std::string> check_part(const PolygonMesh& whole, const std::optional<ActiveSubmesh>& part,
                                     const Constraints& constraints, std::span<const std::uint8_t> pulled = {});
 
 /// The members of the part, in its order.

@@ -26,20 +26,21 @@ struct Bending {
 Bending bending_of(const CurveNet& curve) {
   const Net& net = curve.net;
   Bending bending;
-  for (const Strand& strand : curve.strands) {
-    for_each_bending_row(net, strand, [&](const CurveBendingRow& row) {
+  for (const MovingRun& moving_run : curve.moving_runs) {
+    for_each_bending_row(net, moving_run, [&](const CurveBendingRow& row) {
       Vector3 target = Vector3::Zero();
       for (const auto& [place, entry] : row.entries) {
-        const std::size_t node = strand.nodes[place];
+        const std::size_t node = moving_run.nodes[place];
         if (node < net.moving)
           bending.entries.emplace_back(static_cast<int>(bending.targets.size()), static_cast<int>(node), entry);
         else
           target -= entry * net.positions[node];
       }
       if (row.given) {
-        const auto& [from, to] = std::pair(strand.nodes[row.entries[0].first], strand.nodes[row.entries[1].first]);
+        const auto& [from, to] =
+            std::pair(moving_run.nodes[row.entries[0].first], moving_run.nodes[row.entries[1].first]);
         Vector3 way = net.positions[to] - net.positions[from];
-        const std::size_t given = strand.nodes[*row.given];
+        const std::size_t given = moving_run.nodes[*row.given];
         if (net.tangent_given(given)) way = std::sqrt(way.dot(way) + net.tiny) * net.tangents[given];
         target += row.entries[1].second * way;
       }

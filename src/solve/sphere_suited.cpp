@@ -29,7 +29,7 @@ bool suits_sphere_springs(const Net& net) {
     if (i < net.moving && (links.empty() || links.front().start() || net.normal_given(i))) return false;
     if (net.normal_given(i) && moving_runs(net, links) > 1) return false;
   }
-  return !leaves_a_family(net);
+  return !is_underconstrained(net);
 }
 
 }  // namespace vspring

@@ -41,7 +41,7 @@ bool was_found(const FairReport& report) {
 constexpr double as_near_as_rounding = 1e-9;
 
 /// Whether nothing else need be tried: it was found, or as nearly as rounding lets it be.
-bool is_settled(const FairReport& report) {
+bool is_final(const FairReport& report) {
   return was_found(report) ||
          (report.outcome != Outcome::worse_than_input && report.expected_error.value_or(1) < as_near_as_rounding);
 }
@@ -113,7 +113,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
   if (tolerance) {
     result.report.moving_nodes = static_cast<Index>(net.moving);
     // Where a hurried run has led nowhere, the input with its constraints is a better picture.
-    const bool is_of_use = went_on || outcome == Outcome::converged || soundness_->fault_of_places(net).empty();
+    const bool is_of_use = went_on || outcome == Outcome::converged || check_->fault_of_places(net).empty();
     result.positions = scatter_positions(is_of_use ? net : gather_part(*whole_, part_, constraints),
                                          whole_->positions(), constraints, options_.strength);
   } else {
@@ -128,10 +128,10 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
   return result;
 }
 
-std::optional<std::vector<Vector3>> SurfaceFairing::foresee(const Constraints& constraints, double tolerance) {
+std::optional<std::vector<Vector3>> SurfaceFairing::predict(const Constraints& constraints, double tolerance) {
   if (!fits_last(constraints)) return std::nullopt;
   const Net& net = hierarchy_->net(hierarchy_->count() - 1);
-  const std::vector<Vector3> places = hierarchy_->foresee(constraints, *model_, tolerance * diagonal(net));
+  const std::vector<Vector3> places = hierarchy_->predict(constraints, *model_, tolerance * diagonal(net));
   if (!std::all_of(places.begin(), places.end(), [](const Vector3& place) { return place.allFinite(); }))
     return std::nullopt;
   return scatter_places(net, places, whole_->positions(), constraints, options_.strength);
@@ -148,7 +148,7 @@ bool SurfaceFairing::fits_last(const Constraints& constraints) const {
 
 Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report,
                         const FairOptions& options) {
-  part_ = moving_part(*whole_, constraints);
+  part_ = active_submesh(*whole_, constraints);
   meter_.reset();
   report.warnings = check_part(*whole_, part_, constraints);
   report.method = options.method.value_or(Method::equilibrium);
@@ -161,16 +161,16 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
     return {};
   }
   Net net = gather_part(*whole_, part_, constraints);
-  soundness_.emplace(net, *model_, team_);
+  check_.emplace(net, *model_, team_);
   if (report.method == Method::multigrid) {
     hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
     run_multigrid(*hierarchy_, *model_, options, team_, context, progress, report);
-    say_if_worse(*soundness_, hierarchy_->net(hierarchy_->count() - 1), report);
+    warn_if_worse(*check_, hierarchy_->net(hierarchy_->count() - 1), report);
     return {};
   }
-  distribute(net, *model_, options.distribution_taken(), team_);
+  set_laplacian_weights(net, *model_, options.distribution_taken(), team_);
   run_sweeps(net, *model_, options, team_, context, progress, report);
-  say_if_worse(*soundness_, net, report);
+  warn_if_worse(*check_, net, report);
   return net;
 }
 
@@ -184,7 +184,7 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, Context&
         "least bending is for sphere springs, which would not see what is held here: these are edge springs");
     return;
   }
-  if (is_settled(report) || options.max_iterations || options.as_found) return;
+  if (is_final(report) || options.max_iterations || options.as_found) return;
   FairReport by_curvature = at_first;
   find_equilibrium(FairBy::curvature, constraints, context, progress, by_curvature, options);
   by_curvature.iterations += report.iterations;
@@ -198,7 +198,7 @@ void SurfaceFairing::find_equilibrium(FairBy fair_by, const Constraints& constra
                                       ProgressReporter& progress, FairReport& report, const FairOptions& options) {
   const FairReport at_first = report;
   run_with(options.springs, fair_by, constraints, context, progress, report, options);
-  if (is_settled(report) || options.method || options.max_iterations || options.as_found) return;
+  if (is_final(report) || options.method || options.max_iterations || options.as_found) return;
   if (!options.distribution && try_evenly(fair_by, constraints, context, progress, at_first, report)) return;
   if (report.fair_by == FairBy::curvature) try_sweeps(constraints, context, progress, report);
 }
@@ -211,17 +211,16 @@ void SurfaceFairing::run_with(Springs springs, FairBy fair_by, const Constraints
   const bool by_bending = springs == Springs::sphere && fair_by == FairBy::bending;
   if (by_bending) use_least_bending(net);
   hierarchy_.reset();
-  soundness_.emplace(net, *model_, team_);
+  check_.emplace(net, *model_, team_);
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
   // Whoever gives a number of iterations, or asks for what is found, gets that; edge springs come second else, and
   // after least bending curvature does.
   const bool is_try = springs == Springs::sphere && !options.max_iterations && !options.as_found;
   FairReport one = report;
-  run_equilibrium(*hierarchy_, *model_, is_try ? for_a_try(options) : options, team_, context, progress, one,
-                  &*soundness_);
+  run_equilibrium(*hierarchy_, *model_, is_try ? for_a_try(options) : options, team_, context, progress, one, &*check_);
   one.springs = springs;
   one.fair_by = by_bending ? FairBy::bending : FairBy::curvature;
-  if (!is_try || by_bending || is_settled(one)) {
+  if (!is_try || by_bending || is_final(one)) {
     report = std::move(one);
     return;
   }
@@ -257,7 +256,7 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
   if (fair_by == FairBy::bending) return false;
   // Of other nodes than with sphere springs.
   Net net = gather_part(*whole_, part_, constraints);
-  soundness_.emplace(net, *model_, team_);
+  check_.emplace(net, *model_, team_);
   hierarchy_.reset();
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
   hierarchy_->net(hierarchy_->count() - 1).positions = nearest;
@@ -267,7 +266,7 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
 void SurfaceFairing::try_sweeps(const Constraints& constraints, Context& context, ProgressReporter& progress,
                                 FairReport& report) {
   Net net = gather_part(*whole_, part_, constraints);
-  distribute(net, *model_, options_.distribution_taken(), team_);
+  set_laplacian_weights(net, *model_, options_.distribution_taken(), team_);
   FairOptions options = options_;
   options.max_iterations = sweeps_of_last_resort(net.moving);
   FairReport of_sweeps;
@@ -276,7 +275,7 @@ void SurfaceFairing::try_sweeps(const Constraints& constraints, Context& context
   Net& nearest = hierarchy_->net(hierarchy_->count() - 1);
   update_directions(nearest, *model_, team_);
   update_directions(net, *model_, team_);
-  const bool better = soundness_->fault(net).empty() && spring_energy(net).sum < spring_energy(nearest).sum;
+  const bool better = check_->fault(net).empty() && spring_energy(net).sum < spring_energy(nearest).sum;
   if (better) nearest.positions = net.positions;
   if (report.outcome == Outcome::worse_than_input) {
     if (!better) return;
@@ -304,12 +303,12 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std
   report.threads = team_.size();
   FairOptions options = options_;
   options.tolerance = tolerance.value_or(options_.tolerance);
-  hierarchy_->follow(constraints, *model_, options.tolerance * diagonal(net));
+  hierarchy_->update(constraints, *model_, options.tolerance * diagonal(net));
   run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, options, team_, context, progress,
                             report, nullptr, &hierarchy_->memory(), tolerance.has_value());
   if (report.outcome == Outcome::cancelled) return true;
   if (report.outcome != Outcome::converged) return false;
-  const std::string fault = soundness_->fault_of_places(net);
+  const std::string fault = check_->fault_of_places(net);
   if (!fault.empty()) {
     // Who has dragged something too far sees it, and drags it back.
     if (!tolerance && !options_.as_found) return false;

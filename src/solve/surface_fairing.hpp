@@ -6,9 +6,9 @@
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
-#include "constraints/moving_part.hpp"
+#include "constraints/active_submesh.hpp"
 #include "fairness/measure.hpp"
-#include "solve/soundness.hpp"
+#include "solve/result_check.hpp"
 #include "solve/surface_hierarchy.hpp"
 #include "spring/model.hpp"
 #include "vspring/fair.hpp"
@@ -32,7 +32,7 @@ class SurfaceFairing {
 
   /// About where fair_again() would lead from the last shape, which stays as it is. None where there is none to go
   /// from.
-  std::optional<std::vector<Vector3>> foresee(const Constraints& constraints, double tolerance);
+  std::optional<std::vector<Vector3>> predict(const Constraints& constraints, double tolerance);
 
  private:
   /// Whether it can go on from the last shape.
@@ -67,12 +67,12 @@ class SurfaceFairing {
   }
 
   const PolygonMesh* whole_;
-  std::optional<MovingPart> part_;
+  std::optional<ActiveSubmesh> part_;
   FairOptions options_;
   ThreadTeam team_;
   std::unique_ptr<const Model> model_;
   Fairness before_;
-  std::optional<Soundness> soundness_;
+  std::optional<ResultCheck> check_;
   // Of what is worked on, from the first result on: while levels are made it would be in the way.
   std::optional<FairnessMeter> meter_;
   std::optional<SurfaceHierarchy> hierarchy_;

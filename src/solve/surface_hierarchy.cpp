@@ -42,7 +42,7 @@ void SurfaceHierarchy::limit(std::size_t levels) {
 
 Preconditioner& SurfaceHierarchy::preconditioner(std::size_t level) {
   make_systems(level);
-  return preconditioner_.emplace(system_levels_, *spreading_, *anchor_, *team_);
+  return preconditioner_.emplace(system_levels_, *spreading_, *rigid_modes_, *team_);
 }
 
 Preconditioner& SurfaceHierarchy::kept_preconditioner() {
@@ -62,8 +62,8 @@ void SurfaceHierarchy::make_systems(std::size_t level) {
     restrict_shape(levels_[k], coarse);
     system_levels_.interpolations.push_back(interpolation(levels_[k].net, coarse.net, coarse.finer, *team_));
   }
-  anchor_.emplace(levels_[level].net);
-  spreading_ = spreading_solver(system_levels_, *team_, !anchor_->needed());
+  rigid_modes_.emplace(levels_[level].net);
+  spreading_ = spreading_solver(system_levels_, *team_, !rigid_modes_->needed());
 }
 
 void SurfaceHierarchy::start() {
@@ -78,7 +78,7 @@ void SurfaceHierarchy::start() {
   }
 }
 
-void SurfaceHierarchy::forget_shape(std::size_t level) {
+void SurfaceHierarchy::start_from_membrane(std::size_t level) {
   Net& net = levels_[level].net;
   for (int pass = 0; pass < film_passes; ++pass) {
     for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = mean_of_neighbours(net, i);
@@ -113,24 +113,24 @@ std::vector<Vector3> SurfaceHierarchy::ways_with(const std::vector<Vector3>& hel
   const Net& net = levels_.back().net;
   std::vector<Vector3> rest = held_step;
   std::vector<Vector3> ways(net.moving, Vector3::Zero());
-  secants_.predict(rest, ways);
+  predictor_.predict(rest, ways);
   rest.resize(net.positions.size() - net.moving);
   if (greatest_length(rest) > negligible_move * tolerance) {
     (void)kept_preconditioner().refresh(model);
     std::vector<Vector3> correction;
-    preconditioner_->follow(rest, negligible_move * tolerance, correction);
+    preconditioner_->update(rest, negligible_move * tolerance, correction);
     for (std::size_t i = 0; i < net.moving; ++i) ways[i] += correction[i];
   }
   return ways;
 }
 
-std::vector<Vector3> SurfaceHierarchy::foresee(const Constraints& constraints, const Model& model, double tolerance) {
+std::vector<Vector3> SurfaceHierarchy::predict(const Constraints& constraints, const Model& model, double tolerance) {
   std::vector<Vector3> places = ways_with(step_of_held(constraints), model, tolerance);
   for (std::size_t i = 0; i < places.size(); ++i) places[i] += levels_.back().net.positions[i];
   return places;
 }
 
-void SurfaceHierarchy::follow(const Constraints& constraints, const Model& model, double tolerance) {
+void SurfaceHierarchy::update(const Constraints& constraints, const Model& model, double tolerance) {
   Net& net = levels_.back().net;
   began_ = net.positions;
   normals_began_ = net.normals;
@@ -152,7 +152,7 @@ void SurfaceHierarchy::arrived() {
   const Net& net = levels_.back().net;
   std::vector<Eigen::Vector3f> way(net.moving);
   for (std::size_t i = 0; i < net.moving; ++i) way[i] = (net.positions[i] - began_[i]).cast<float>();
-  secants_.remember(std::move(held_step_), std::move(way));
+  predictor_.remember(std::move(held_step_), std::move(way));
 }
 
 void SurfaceHierarchy::go_back() {
@@ -176,10 +176,10 @@ void SurfaceHierarchy::spread_along(std::size_t level) {
     });
     double least_edge = forces.front().mean_edge;
     for (const NodeForce& force : forces) least_edge = std::min(least_edge, force.mean_edge);
-    anchor_->hold(steps);
+    rigid_modes_->hold(steps);
     spreading_->solve(steps, {.enough = negligible_slide * least_edge, .share = slide_share});
     for (std::size_t i = 0; i < net.moving; ++i) steps[i] -= steps[i].dot(net.normals[i]) * net.normals[i];
-    anchor_->hold(steps);
+    rigid_modes_->hold(steps);
     bool worth_it = false;
     for (std::size_t i = 0; i < net.moving; ++i)
       worth_it = worth_it || steps[i].norm() > worth_sliding * forces[i].mean_edge;

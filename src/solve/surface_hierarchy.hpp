@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "levels/surface_levels.hpp"
-#include "solve/anchor.hpp"
 #include "solve/anderson.hpp"
 #include "solve/hierarchy.hpp"
 #include "solve/linear_solver.hpp"
-#include "solve/secants.hpp"
+#include "solve/multisecant_predictor.hpp"
 #include "solve/surface_preconditioner.hpp"
 #include "solve/surface_systems.hpp"
+#include "solve/tangential_rigid_modes.hpp"
 
 namespace vspring {
 
@@ -28,15 +28,15 @@ class SurfaceHierarchy final : public Hierarchy {
   void restrict_from(std::size_t level) override { restrict_shape(levels_[level], levels_[level - 1]); }
   /// Nodes go along the shape that was handed up to where the finer level wants them.
   void prolong_from(std::size_t level) override;
-  /// Noise is not a shape: coarser levels start from smooth_places(); with an even distribution, nodes take half of
+  /// Noise is not a shape: coarser levels start from rest_positions(); with an even distribution, nodes take half of
   /// their neighbours' mean place with them to each coarser level.
   void start() override;
-  void set_shares(std::vector<double> shares) override {
-    levels_.back().net.shares = std::move(shares);
+  void set_laplacian_weights(std::vector<double> shares) override {
+    levels_.back().net.laplacian_weights = std::move(shares);
     systems_of_.reset();
   }
   /// All nodes at the mean of their neighbours.
-  void forget_shape(std::size_t level) override;
+  void start_from_membrane(std::size_t level) override;
   Preconditioner& preconditioner(std::size_t level) override;
 
   /// The last one for the shape itself, or one made anew where there is none.
@@ -45,16 +45,16 @@ class SurfaceHierarchy final : public Hierarchy {
   /// Held nodes of the shape itself go to their new places, and have their new normals; its moving nodes follow as they
   /// did the last times, and with what those times do not make up for as they would if slopes were small. Coarser
   /// levels stay as they are. tolerance: of the shapes from which and to which it goes, in the net's coordinates.
-  void follow(const Constraints& constraints, const Model& model, double tolerance);
+  void update(const Constraints& constraints, const Model& model, double tolerance);
   /// Where the moving nodes would be then.
-  [[nodiscard]] std::vector<Vector3> foresee(const Constraints& constraints, const Model& model, double tolerance);
+  [[nodiscard]] std::vector<Vector3> predict(const Constraints& constraints, const Model& model, double tolerance);
 
-  /// From the shape that follow() began with it has come to an equilibrium.
+  /// From the shape that update() began with it has come to an equilibrium.
   void arrived();
-  /// Back to the shape that follow() began with, and to what held it.
+  /// Back to the shape that update() began with, and to what held it.
   void go_back();
 
-  /// Of the iteration on the shape itself, from one follow() to the next.
+  /// Of the iteration on the shape itself, from one update() to the next.
   Anderson<float>& memory() { return *memory_; }
 
   Net take() && { return std::move(levels_.back().net); }
@@ -73,11 +73,11 @@ class SurfaceHierarchy final : public Hierarchy {
   std::vector<SurfaceLevel> levels_;
   std::optional<std::size_t> systems_of_;  ///< the level that these are for
   SystemLevels system_levels_;
-  std::optional<Anchor> anchor_;
+  std::optional<TangentialRigidModes> rigid_modes_;
   std::unique_ptr<LinearSolver> spreading_;
   std::optional<SurfacePreconditioner> preconditioner_;
-  Secants secants_;
-  /// Of the last follow(); none where it tells nothing.
+  MultisecantPredictor predictor_;
+  /// Of the last update(); none where it tells nothing.
   std::vector<Vector3> held_step_;
   std::vector<Vector3> began_;          ///< where all nodes were before it
   std::vector<Vector3> normals_began_;  ///< and their normals

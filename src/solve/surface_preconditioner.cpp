@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "solve/bending_form.hpp"
+#include "solve/bending_operator.hpp"
 #include "spring/bending_factor.hpp"
 #include "spring/surface_force.hpp"
 
@@ -64,17 +64,17 @@ double sagitta(const Net& net, std::size_t i, const Vector3& step) {
 
 }  // namespace
 
-SurfacePreconditioner::SurfacePreconditioner(const SystemLevels& levels, LinearSolver& spreading, const Anchor& anchor,
-                                             ThreadTeam& team)
+SurfacePreconditioner::SurfacePreconditioner(const SystemLevels& levels, LinearSolver& spreading,
+                                             const TangentialRigidModes& rigid_modes, ThreadTeam& team)
     : net_(levels.net),
       team_(&team),
       factor_(bending_factor(*net_)),
       bending_(levels, team),
       spreading_(&spreading),
-      anchor_(&anchor) {}
+      rigid_modes_(&rigid_modes) {}
 
 bool SurfacePreconditioner::refresh(const Model& model) {
-  weigh_edges(*net_, *team_, weight_);
+  sum_edge_weights(*net_, *team_, weight_);
   std::atomic<bool> fits = !built_weight_.empty();
   if (fits) {
     parallel_ranges(*team_, net_->moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
@@ -111,13 +111,13 @@ void SurfacePreconditioner::correct(const Model& model, double enough, std::vect
   solve(enough, correction);
 }
 
-void SurfacePreconditioner::follow(std::span<const Vector3> moves, double enough, std::vector<Vector3>& correction) {
+void SurfacePreconditioner::update(std::span<const Vector3> moves, double enough, std::vector<Vector3>& correction) {
   const Net& net = *net_;
   // All go along first, as evenly as the regularisation asks: what is moved as a whole then goes as a whole.
   correction.assign(net.moving, Vector3::Zero());
   for (std::size_t i = 0; i < net.moving; ++i) {
     const auto links = net.rings.links(i);
-    const auto shares = net.shares_of(i);
+    const auto shares = net.weights_of(i);
     double spokes = 0;
     for (std::size_t k = 0; k < links.size(); ++k) {
       if (!links[k].spoke()) continue;
@@ -127,11 +127,11 @@ void SurfacePreconditioner::follow(std::span<const Vector3> moves, double enough
     }
     if (!shares.empty()) correction[i] *= spokes;
   }
-  anchor_->hold(correction);
+  rigid_modes_->hold(correction);
   spreading_->solve(correction, {.enough = enough, .share = following_share});
   std::vector<Vector3> ways = correction;
   ways.insert(ways.end(), moves.begin(), moves.end());
-  along_ = pull_of_ways(net, ways);
+  along_ = bending_residual(net, ways);
   bending_.solve(along_, {.enough = enough, .share = following_share});
   for (std::size_t i = 0; i < net.moving; ++i) correction[i] += along_[i] * net.normals[i];
 }
@@ -145,16 +145,16 @@ void SurfacePreconditioner::solve(double enough, std::vector<Vector3>& correctio
   };
   bending_.solve(along_, {.enough = enough, .share = bending_share});
   in_parallel([&](std::size_t i) { correction[i] = asked_across(i, correction[i]); });
-  anchor_->hold(correction);
+  rigid_modes_->hold(correction);
   spreading_->solve(correction, {.enough = enough, .share = spreading_share});
   in_parallel([&](std::size_t i) { correction[i] -= correction[i].dot(net.normals[i]) * net.normals[i]; });
-  anchor_->hold(correction);
+  rigid_modes_->hold(correction);
   in_parallel([&](std::size_t i) { correction[i] += (along_[i] - sagitta(net, i, correction[i])) * net.normals[i]; });
 }
 
 Vector3 SurfacePreconditioner::asked_across(std::size_t i, const Vector3& regularisation) const {
   const auto links = net_->rings.links(i);
-  const auto shares = net_->shares_of(i);
+  const auto shares = net_->weights_of(i);
   double spokes = 0;
   Vector3 mean = Vector3::Zero();
   for (std::size_t k = 0; k < links.size(); ++k) {

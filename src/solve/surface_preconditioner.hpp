@@ -5,22 +5,23 @@
 #include <vector>
 
 #include "base/threads.hpp"
-#include "solve/anchor.hpp"
 #include "solve/linear_solver.hpp"
 #include "solve/point_stiffness.hpp"
 #include "solve/preconditioner.hpp"
 #include "solve/surface_systems.hpp"
+#include "solve/tangential_rigid_modes.hpp"
 #include "spring/net.hpp"
 
 namespace vspring {
 
-/// For surfaces. Along the normals the inverse of the bending form (see bending_form()), taken as if the surface were
-/// flat, with what points add to its diagonal; across them that of the graph's Laplacian, which takes into account
+/// For surfaces. Along the normals the inverse of the bending form (see bending_operator()), taken as if the surface
+/// were flat, with what points add to its diagonal; across them that of the graph's Laplacian, which takes into account
 /// where the correction along the normals goes.
 class SurfacePreconditioner final : public Preconditioner {
  public:
   /// levels, spreading, anchor: of the net that is worked on; they must outlive it.
-  SurfacePreconditioner(const SystemLevels& levels, LinearSolver& spreading, const Anchor& anchor, ThreadTeam& team);
+  SurfacePreconditioner(const SystemLevels& levels, LinearSolver& spreading, const TangentialRigidModes& rigid_modes,
+                        ThreadTeam& team);
 
   bool refresh(const Model& model) override;
   [[nodiscard]] double work_of_building() const override { return bending_.work_of_building(); }
@@ -28,7 +29,7 @@ class SurfacePreconditioner final : public Preconditioner {
 
   /// The correction of every moving node that brings back equilibrium, if slopes are small, where held nodes move:
   /// moves has a vector for every node from net.moving on. Needs a form that was built.
-  void follow(std::span<const Vector3> moves, double enough, std::vector<Vector3>& correction);
+  void update(std::span<const Vector3> moves, double enough, std::vector<Vector3>& correction);
 
  private:
   /// Solves for the correction: from what is asked along the normals, in along_, and by the regularisation.
@@ -42,7 +43,7 @@ class SurfacePreconditioner final : public Preconditioner {
   double factor_;
   BendingSystem bending_;
   LinearSolver* spreading_;
-  const Anchor* anchor_;
+  const TangentialRigidModes* rigid_modes_;
   PointStiffness stiffness_;
   /// The sums of 1/ℓ of every moving node by the lengths that its edges have now: then what neighbours ask of each
   /// other cancels, and what is rough in the forces leaves no trace in long waves.

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "solve/bending_form.hpp"
+#include "solve/bending_operator.hpp"
 #include "solve/cholesky_solver.hpp"
 #include "solve/multigrid_solver.hpp"
 
@@ -26,10 +26,10 @@ BendingSystem::~BendingSystem() = default;
 
 void BendingSystem::build(std::span<const double> pull, bool pulled_otherwise) {
   if (factor_) {
-    factor_->build(bending_form(*levels_->net, *team_, pull));
+    factor_->build(bending_operator(*levels_->net, *team_, pull));
     return;
   }
-  FactoredMatrix matrix = factored_bending_form(*levels_->net, *team_, pull);
+  FactoredMatrix matrix = factored_bending_operator(*levels_->net, *team_, pull);
   if (multigrid_ && !pulled_otherwise) {
     multigrid_->replace_finest(std::move(matrix));
     return;
@@ -50,17 +50,19 @@ double BendingSystem::work_of_building() const { return factor_ ? factor_->work_
 
 std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held) {
   const Net& net = *levels.net;
-  const auto form = [&] { return held ? spreading_form(net, team) : spreading_form(net, team, shift_of_free); };
+  const auto form = [&] {
+    return held ? tangential_laplacian(net, team) : tangential_laplacian(net, team, shift_of_free);
+  };
   if (levels.interpolations.empty()) {
     auto solver = std::make_unique<CholeskySolver>(team);
     solver->build(form());
     return solver;
   }
   auto solver = std::make_unique<MultigridSolver>(levels.interpolations, team);
-  if (net.shares.empty() && held) {
+  if (net.laplacian_weights.empty() && held) {
     solver->build(GraphLaplacian(net));
   } else {
-    solver->build(WholeMatrix(form(), team));
+    solver->build(AssembledMatrix(form(), team));
   }
   return solver;
 }

@@ -18,7 +18,7 @@ struct SystemLevels {
   std::vector<Interpolation> interpolations = {};
 };
 
-/// Solves with the bending form of the net, see bending_form().
+/// Solves with the bending form of the net, see bending_operator().
 class BendingSystem {
  public:
   BendingSystem(const SystemLevels& levels, ThreadTeam& team);
@@ -41,8 +41,8 @@ class BendingSystem {
   std::unique_ptr<class MultigridSolver> multigrid_;
 };
 
-/// A solver with the Laplacian of the net's graph, see spreading_form(). held: whether all of it hangs together with
-/// held nodes; else constants are damped.
+/// A solver with the Laplacian of the net's graph, see tangential_laplacian(). held: whether all of it hangs together
+/// with held nodes; else constants are damped.
 std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held = true);
 
 }  // namespace vspring

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "solve/best_shape.hpp"
+#include "solve/best_iterate.hpp"
 #include "sweep/sweep.hpp"
 
 namespace vspring {
@@ -37,7 +37,7 @@ int sweeps_of_last_resort(std::size_t moving_nodes) {
 
 SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& task, ThreadTeam& team, Context& context) {
   Sweep sweep(net, model, team);
-  BestShape best(net, lost_factor, task.renew_ties ? small_step : 0);
+  BestIterate best(net, lost_factor, task.renew_ties ? small_step : 0);
   SweepResult result;
   bool still = false;
   while (result.outcome == Outcome::iteration_limit && result.iterations < task.max_iterations) {

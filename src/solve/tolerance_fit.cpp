@@ -101,7 +101,7 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
     }
     if (inside) net.positions = best;
     const std::vector<Vector3> start = net.positions;
-    const bool found = task.follow(true);
+    const bool found = task.update(true);
     if (!found && net.points.are_nodes) net.positions = start;
     if (task.ended()) break;
     lost = found ? 0 : lost + 1;
@@ -159,7 +159,7 @@ ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, T
       points.weights[k] =
           std::clamp(points.weights[k] * change, least_point_weight * weights[k], most_weight * weights[k]);
     }
-    (void)task.follow(false);
+    (void)task.update(false);
     if (task.ended()) break;
   }
   points.weights = weights;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "fit/point_clusters.hpp"
-#include "solve/pulled_shape.hpp"
+#include "solve/warm_started_fit.hpp"
 
 namespace vspring {
 
@@ -21,7 +21,7 @@ struct ToleranceFitTask {
   Net* net = nullptr;
   std::shared_ptr<double> length;  ///< the smoothing length that points pull by, in the coordinates of the net
   /// or_find: where nothing is found from there, it may be looked for anew. False where that leads nowhere.
-  std::function<bool(bool or_find)> follow;
+  std::function<bool(bool or_find)> update;
   std::function<bool()> ended;  ///< cancelled, or out of work: the best so far stays
   std::function<std::vector<double>()> measure;
   std::function<double()> energy;

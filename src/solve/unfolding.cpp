@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solve/soundness.hpp"
+#include "solve/result_check.hpp"
 
 namespace vspring {
 

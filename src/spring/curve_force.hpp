@@ -87,7 +87,7 @@ struct InverseWeight {
 template <typename Weight, typename Spring>
 NodeForce curve_force(const Net& net, std::size_t i, const Spring& spring) {
   const auto links = net.rings.links(i);
-  const auto shares = net.shares_of(i);
+  const auto shares = net.weights_of(i);
   const Vector3& tangent = net.tangents[i];
   NodeForce force;
   if (links.empty()) return force;
@@ -112,8 +112,8 @@ NodeForce curve_force(const Net& net, std::size_t i, const Spring& spring) {
     return force;
   }
   force.spring = springs / weights;
-  if (!net.homes.empty())
-    along = (net.homes[i] - net.positions[i]).dot(tangent);
+  if (!net.target_positions.empty())
+    along = (net.target_positions[i] - net.positions[i]).dot(tangent);
   else if (shares.empty())
     along = mean.dot(tangent);
   force.regularisation = along * tangent;

@@ -47,7 +47,7 @@ struct CurveRulesOf {
   }
 
   /// By the lengths of the edges, which noise does not turn round as it does the edges themselves.
-  void present_shares(const Net& net, std::size_t i, std::span<double> shares) const {
+  void present_laplacian_weights(const Net& net, std::size_t i, std::span<double> shares) const {
     share_by_length(net, i, net.positions, shares);
   }
 };

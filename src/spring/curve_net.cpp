@@ -41,7 +41,7 @@ class Gathering {
     for (const auto& chain : curve_.chains()) cut(chain);
     number_moving();
     number_held();
-    add_rings(result_.net, result_.strands);
+    add_rings(result_.net, result_.moving_runs);
     place_net(result_.net, curve_.positions(), constraints_);
     take_tangents();
     return std::move(result_);
@@ -80,12 +80,12 @@ class Gathering {
 
   void add_strand(const std::vector<Index>& nodes, bool closed) {
     nodes_.push_back(nodes);
-    result_.strands.push_back({.nodes = std::vector<std::uint32_t>(nodes.size(), 0), .closed = closed});
+    result_.moving_runs.push_back({.nodes = std::vector<std::uint32_t>(nodes.size(), 0), .closed = closed});
   }
 
-  void number(std::size_t strand, std::size_t place) {
-    result_.strands[strand].nodes[place] = static_cast<std::uint32_t>(result_.net.node.size());
-    result_.net.node.push_back(nodes_[strand][place]);
+  void number(std::size_t moving_run, std::size_t place) {
+    result_.moving_runs[moving_run].nodes[place] = static_cast<std::uint32_t>(result_.net.node.size());
+    result_.net.node.push_back(nodes_[moving_run][place]);
   }
 
   void for_each_place(const auto& use) {
@@ -105,7 +105,7 @@ class Gathering {
   void number_held() {
     const auto beside_moving = [&](std::size_t s, std::size_t k) {
       const auto& nodes = nodes_[s];
-      const bool closed = result_.strands[s].closed;
+      const bool closed = result_.moving_runs[s].closed;
       const bool before = (k > 0 || closed) && moves(nodes[(k + nodes.size() - 1) % nodes.size()]);
       const bool after = (k + 1 < nodes.size() || closed) && moves(nodes[(k + 1) % nodes.size()]);
       return before || after;
@@ -136,16 +136,17 @@ class Gathering {
 
 }  // namespace
 
-void add_rings(Net& net, const std::vector<Strand>& strands) {
+void add_rings(Net& net, const std::vector<MovingRun>& moving_runs) {
   std::vector<std::vector<Link>> links(net.computed);
-  for (const Strand& strand : strands) {
-    const auto& nodes = strand.nodes;
+  for (const MovingRun& moving_run : moving_runs) {
+    const auto& nodes = moving_run.nodes;
     const std::size_t count = nodes.size();
     for (std::size_t k = 0; k < count; ++k) {
       if (nodes[k] >= net.computed) continue;
       auto& ring = links[nodes[k]];
-      if (k > 0 || strand.closed) ring.push_back({nodes[(k + count - 1) % count] | Link::spoke_bit | Link::start_bit});
-      if (k + 1 < count || strand.closed) ring.push_back({nodes[(k + 1) % count] | Link::spoke_bit});
+      if (k > 0 || moving_run.closed)
+        ring.push_back({nodes[(k + count - 1) % count] | Link::spoke_bit | Link::start_bit});
+      if (k + 1 < count || moving_run.closed) ring.push_back({nodes[(k + 1) % count] | Link::spoke_bit});
     }
   }
   net.rings.reserve(net.computed, 2 * net.computed);

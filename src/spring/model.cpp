@@ -15,15 +15,16 @@ void update_directions(Net& net, const Model& model, ThreadTeam& team) {
   });
 }
 
-void distribute(Net& net, const Model& model, Distribution distribution, ThreadTeam& team) {
-  net.shares.clear();
+void set_laplacian_weights(Net& net, const Model& model, Distribution distribution, ThreadTeam& team) {
+  net.laplacian_weights.clear();
   if (distribution == Distribution::even) return;
   if (distribution == Distribution::smooth) {
-    if (!net.tangents.empty() || tells_spacing(net, team)) net.shares = shares_at(net, smooth_places(net, team), team);
+    if (!net.tangents.empty() || tells_spacing(net, team))
+      net.laplacian_weights = laplacian_weights_at(net, rest_positions(net, team), team);
     return;
   }
   update_directions(net, model, team);
-  net.shares = model.present_shares(net);
+  net.laplacian_weights = model.present_laplacian_weights(net);
 }
 
 }  // namespace vspring

@@ -35,7 +35,7 @@ class Model {
   /// What every link counts in the regularisation (§4.4) so that the present place of each node is where it is sent;
   /// aligned with the links of the net; but not of nodes that noise has put outside their neighbours, which are sent
   /// among these. Needs directions.
-  [[nodiscard]] virtual std::vector<double> present_shares(const Net& net) const = 0;
+  [[nodiscard]] virtual std::vector<double> present_laplacian_weights(const Net& net) const = 0;
 
   /// Steps 2 and 3 of Fig. 3: moves the nodes of a block one after the other, each from the newest positions. Returns
   /// the largest displacement relative to the mean length of the node's edges (§4.6), infinity where one is not finite.
@@ -56,6 +56,6 @@ class Model {
 void update_directions(Net& net, const Model& model, ThreadTeam& team);
 
 /// Sets what the regularisation aims at: the net's shares, from its present places.
-void distribute(Net& net, const Model& model, Distribution distribution, ThreadTeam& team);
+void set_laplacian_weights(Net& net, const Model& model, Distribution distribution, ThreadTeam& team);
 
 }  // namespace vspring

@@ -14,7 +14,7 @@ namespace vspring {
 ///   void update_direction(Net&, std::size_t node) const;
 ///   NodeForce force(const Net&, std::size_t node) const;
 ///   Vector3 sprung(const Net&, std::size_t node, const Vector3& d) const;  the part of d along which springs act
-///   void present_shares(const Net&, std::size_t node, std::span<double> shares) const;
+///   void present_laplacian_weights(const Net&, std::size_t node, std::span<double> shares) const;
 template <typename Rules>
 class ModelOf final : public Model {
  public:
@@ -26,10 +26,11 @@ class ModelOf final : public Model {
     for (std::size_t i = begin; i < end; ++i) rules_.update_direction(net, i);
   }
 
-  [[nodiscard]] std::vector<double> present_shares(const Net& net) const override {
+  [[nodiscard]] std::vector<double> present_laplacian_weights(const Net& net) const override {
     std::vector<double> shares(net.rings.link_count(), 0.0);
     for (std::size_t i = 0; i < net.moving; ++i)
-      rules_.present_shares(net, i, std::span(shares).subspan(net.rings.begin(i), net.rings.links(i).size()));
+      rules_.present_laplacian_weights(net, i,
+                                       std::span(shares).subspan(net.rings.begin(i), net.rings.links(i).size()));
     return shares;
   }
 

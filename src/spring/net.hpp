@@ -34,19 +34,20 @@ struct Net {
   Rings rings;
   /// Places of all nodes in the input, where constraints put some of them elsewhere; else empty.
   std::vector<Vector3> input;
-  std::vector<double> shares;  ///< what links count in the regularisation; empty: all the same
-  std::vector<Vector3> homes;  ///< to where the regularisation draws moving nodes, on surfaces too; empty: nowhere
-  SphereSprings spheres;       ///< of surfaces; empty where springs are those of Eq. 4
-  TiedPoints points;           ///< scattered points that pull at nodes; empty where there are none
-  std::vector<Index> node;     ///< number in the shape of every local node
+  std::vector<double> laplacian_weights;  ///< what links count in the regularisation; empty: all the same
+  std::vector<Vector3>
+      target_positions;     ///< to where the regularisation draws moving nodes, on surfaces too; empty: nowhere
+  SphereSprings spheres;    ///< of surfaces; empty where springs are those of Eq. 4
+  TiedPoints points;        ///< scattered points that pull at nodes; empty where there are none
+  std::vector<Index> node;  ///< number in the shape of every local node
   Frame frame;
   double tiny = 0;  ///< see node_force()
 
   [[nodiscard]] bool normal_given(std::size_t i) const { return (given[i] & given_normal) != 0; }
   [[nodiscard]] bool tangent_given(std::size_t i) const { return (given[i] & given_tangent) != 0; }
-  [[nodiscard]] std::span<const double> shares_of(std::size_t i) const {
-    if (shares.empty()) return {};
-    return std::span(shares).subspan(rings.begin(i), rings.links(i).size());
+  [[nodiscard]] std::span<const double> weights_of(std::size_t i) const {
+    if (laplacian_weights.empty()) return {};
+    return std::span(laplacian_weights).subspan(rings.begin(i), rings.links(i).size());
   }
 };
 

@@ -258,7 +258,7 @@ double share_turned_over(const Net& net, ThreadTeam& team) {
 
 }  // namespace
 
-std::vector<Vector3> smooth_places(const Net& net, ThreadTeam& team) {
+std::vector<Vector3> rest_positions(const Net& net, ThreadTeam& team) {
   const std::vector<double> weights = net.tangents.empty() ? sweep_weights(net, team) : even_weights(net);
   std::vector<Vector3> places = input_places(net);
   std::vector<Vector3> next = places;
@@ -348,7 +348,8 @@ void find_mean_value_shares(std::span<const Vector3> ways, const Vector3& normal
 
 }  // namespace
 
-std::vector<double> shares_at(const Net& net, std::span<const Vector3> places, ThreadTeam& team, bool coarse) {
+std::vector<double> laplacian_weights_at(const Net& net, std::span<const Vector3> places, ThreadTeam& team,
+                                         bool coarse) {
   const double least = coarse ? least_share_of_coarse : least_share;
   std::vector<double> result(net.rings.link_count(), 0);
   if (!net.tangents.empty()) {

@@ -14,7 +14,7 @@ namespace vspring {
 /// Rough spacing goes within some three edges; aspects and gradings of cells stay, so the shape of a lathe does not
 /// sink between wide cells. Where noise is so long that it has turned many faces over, there are more sweeps. Bricks
 /// become hexagons. Cost: linear; the same result on any number of threads.
-std::vector<Vector3> smooth_places(const Net& net, ThreadTeam& team);
+std::vector<Vector3> rest_positions(const Net& net, ThreadTeam& team);
 
 /// Whether the input of a surface's net tells how nodes are to be spaced: noise of several edges turns
 /// faces over as it likes, and leaves nothing of it. Cost: linear.
@@ -35,6 +35,7 @@ void share_by_length(const Net& net, std::size_t i, std::span<const Vector3> pla
 /// squares of distances would make it. Aligned with the links of the net, of sum 1 over the spokes. Nodes on a free
 /// boundary, which lie outside their neighbours, have the shares nearest to even ones. Cost: linear; the same result on
 /// any number of threads.
-std::vector<double> shares_at(const Net& net, std::span<const Vector3> places, ThreadTeam& team, bool coarse = false);
+std::vector<double> laplacian_weights_at(const Net& net, std::span<const Vector3> places, ThreadTeam& team,
+                                         bool coarse = false);
 
 }  // namespace vspring

@@ -9,13 +9,13 @@ namespace vspring {
 
 /// How many times what neighbours ask across the normal the regularisation is divided by: a home counts as much as all
 /// of them together.
-inline double regularisation_divisor(const Net& net) { return net.homes.empty() ? 1 : 2; }
+inline double regularisation_divisor(const Net& net) { return net.target_positions.empty() ? 1 : 2; }
 
 /// What its neighbours, and its home where nodes have one, ask of a node of a surface.
 inline NodeForce surface_force(const Net& net, std::size_t i, Forces forces = Forces::steady) {
   const auto links = net.rings.links(i);
   const auto from_neighbours = [&]<SpringKind kind>(std::integral_constant<SpringKind, kind>) {
-    return node_force<kind>(i, links, net.positions, net.normals, net.shares_of(i), net.tiny);
+    return node_force<kind>(i, links, net.positions, net.normals, net.weights_of(i), net.tiny);
   };
   const auto between_neighbours = [&]() -> NodeForce {
     if (net.spheres.on() && !links.empty() && !links.front().start()) {
@@ -27,8 +27,8 @@ inline NodeForce surface_force(const Net& net, std::size_t i, Forces forces = Fo
     return from_neighbours(std::integral_constant<SpringKind, SpringKind::steady>());
   };
   NodeForce force = between_neighbours();
-  if (net.homes.empty()) return force;
-  const Vector3 home = net.homes[i] - net.positions[i];
+  if (net.target_positions.empty()) return force;
+  const Vector3 home = net.target_positions[i] - net.positions[i];
   const Vector3 across = home - home.dot(net.normals[i]) * net.normals[i];
   force.regularisation = (force.regularisation + across) / regularisation_divisor(net);
   return force;

@@ -36,7 +36,7 @@ struct SurfaceRules {
   /// Those nearest to even ones. Negative ones of a node that noise has put outside its neighbours, so that faces lie
   /// upside down, would drive nodes apart: to unfold these all are raised to a tenth of an even one at least, and the
   /// node goes in among its neighbours.
-  void present_shares(const Net& net, std::size_t i, std::span<double> shares) const {
+  void present_laplacian_weights(const Net& net, std::size_t i, std::span<double> shares) const {
     const auto links = net.rings.links(i);
     const Vector3& normal = net.normals[i];
     even_shares(net, i, normal, net.positions, shares);

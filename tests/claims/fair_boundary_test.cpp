@@ -105,8 +105,8 @@ TEST(FairBoundary, OnPolygonsOfEveryKind) {
     options.step_tolerance = 1e-3;
     const FairResult result = fair(mesh, constraints, options);
     EXPECT_EQ(result.report.outcome, Outcome::converged);
-    EXPECT_LT(result.report.after.mean_turn, 0.8 * result.report.before.mean_turn);
-    EXPECT_LT(result.report.boundary->after.mean_turn, result.report.boundary->before.mean_turn);
+    EXPECT_LT(result.report.after.rms_turn, 0.8 * result.report.before.rms_turn);
+    EXPECT_LT(result.report.boundary->after.rms_turn, result.report.boundary->before.rms_turn);
   }
 }
 

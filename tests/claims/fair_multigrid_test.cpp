@@ -95,7 +95,7 @@ TEST(Multigrid, FiveIterationsOnTheWayDownTakeNoiseOut) {
   const FairResult clean = fair(annulus, constraints, multigrid(1e-7));
   const FairResult rough = fair(noisy, constraints, multigrid(1e-7));
   EXPECT_EQ(rough.report.outcome, Outcome::converged);
-  EXPECT_GT(rough.report.before.mean_turn, 5 * rough.report.after.mean_turn);
+  EXPECT_GT(rough.report.before.rms_turn, 5 * rough.report.after.rms_turn);
   EXPECT_LT(greatest_distance(clean.positions, rough.positions), 1e-3);
 }
 

@@ -99,7 +99,7 @@ TEST(FairingSession, PicturesOfADragStayWithinTheirTolerance) {
         if (constraints.position_fixed(i) && mesh.position(i).head<2>().norm() < 0.5)
           constraints.fix_position(i, mesh.position(i) + way_of(step));
       }
-      const FairResult seen = session.follow(constraints, tolerance, context);
+      const FairResult seen = session.update(constraints, tolerance, context);
       ASSERT_EQ(seen.report.outcome, Outcome::converged) << step;
       ASSERT_EQ(seen.report.levels.size(), 1U) << step;
       EXPECT_LT(*seen.report.expected_error, tolerance);
@@ -124,7 +124,7 @@ TEST(FairingSession, PicturesOfNormalsThatTurnStayWithinTheirTolerance) {
       if (one.constraints.normal_fixed(i) && one.mesh.position(i).head<2>().norm() > 0.9)
         one.constraints.fix_normal(i, Vector3(tilt * one.mesh.position(i).x(), tilt * one.mesh.position(i).y(), 1));
     }
-    const FairResult seen = session.follow(one.constraints, tolerance, context);
+    const FairResult seen = session.update(one.constraints, tolerance, context);
     ASSERT_EQ(seen.report.levels.size(), 1U);
     if (step % 5 != 0) continue;
     const FairResult anew = fair(one.mesh, one.constraints, to(1e-5));
@@ -139,7 +139,7 @@ TEST(FairingSession, ForeseesWhereADragLeadsAndStaysAsItIs) {
   fix_boundary_positions(constraints, mesh);
   FairingSession looks_ahead(mesh, to(1e-5));
   FairingSession does_not(mesh, to(1e-5));
-  EXPECT_FALSE(looks_ahead.foresee(constraints, tolerance)) << "from where?";
+  EXPECT_FALSE(looks_ahead.predict(constraints, tolerance)) << "from where?";
   Context context;
   std::vector<Vector3> before = looks_ahead.fair(constraints).positions;
   (void)does_not.fair(constraints);
@@ -149,10 +149,10 @@ TEST(FairingSession, ForeseesWhereADragLeadsAndStaysAsItIs) {
       if (constraints.position_fixed(i) && mesh.position(i).head<2>().norm() < 0.5)
         constraints.fix_position(i, mesh.position(i) + way_of(step));
     }
-    const auto foreseen = looks_ahead.foresee(constraints, tolerance);
+    const auto foreseen = looks_ahead.predict(constraints, tolerance);
     ASSERT_TRUE(foreseen);
-    const FairResult seen = looks_ahead.follow(constraints, tolerance, context);
-    EXPECT_EQ(seen.positions, does_not.follow(constraints, tolerance, context).positions);
+    const FairResult seen = looks_ahead.update(constraints, tolerance, context);
+    EXPECT_EQ(seen.positions, does_not.update(constraints, tolerance, context).positions);
     for (Index i = 0; i < mesh.node_count(); ++i) {
       if (constraints.position_fixed(i)) {
         EXPECT_EQ((*foreseen)[static_cast<std::size_t>(i)], constraints.position(i));
@@ -164,7 +164,7 @@ TEST(FairingSession, ForeseesWhereADragLeadsAndStaysAsItIs) {
   EXPECT_LT(shares.front(), 0.3);
   EXPECT_LT(shares.back(), 0.1);
   constraints.free_position(0);
-  EXPECT_FALSE(looks_ahead.foresee(constraints, tolerance)) << "what is held is not what was held";
+  EXPECT_FALSE(looks_ahead.predict(constraints, tolerance)) << "what is held is not what was held";
 }
 
 TEST(FairingSession, PausesOfADragDoNotMisleadIt) {
@@ -178,7 +178,7 @@ TEST(FairingSession, PausesOfADragDoNotMisleadIt) {
   for (int step = 0; step < 6; ++step) {
     const double height = step % 2 == 0 ? 0.01 * step + 1e-6 : 0.01 * (step + 1);
     one.constraints.fix_position(one.node, start + Vector3(0, 0, height));
-    const FairResult seen = session.follow(one.constraints, tolerance, context);
+    const FairResult seen = session.update(one.constraints, tolerance, context);
     EXPECT_EQ(seen.report.levels.size(), 1U);
     EXPECT_LT(seen.report.iterations, 5);
   }
@@ -313,7 +313,7 @@ TEST(FairingSession, SaysThatADragFoldsTheShapeAndComesBackFromIt) {
   Context context;
   const auto drag_to = [&](double way) {
     constraints.fix_position(node, mesh.position(node) + Vector3(way, 0, 0));
-    return session.follow(constraints, 1e-4, context);
+    return session.update(constraints, 1e-4, context);
   };
   EXPECT_EQ(drag_to(0).report.outcome, Outcome::converged);
   Outcome outcome = Outcome::converged;
@@ -336,7 +336,7 @@ TEST(FairingSession, ADragThatCameThroughFoldsEndsWhereTheMeshLeads) {
   Context context;
   const auto drag_to = [&](double way) {
     constraints.fix_position(node, mesh.position(node) + Vector3(way, 0, 0));
-    return session.follow(constraints, 1e-4, context).report.outcome;
+    return session.update(constraints, 1e-4, context).report.outcome;
   };
   Outcome outcome = Outcome::converged;
   for (double way = 0; way < 0.48 && outcome == Outcome::converged; way += 0.02) outcome = drag_to(way);
@@ -356,7 +356,7 @@ TEST(FairingSession, ThreadsGiveTheSameBits) {
     for (int step = 1; step < 4; ++step) {
       one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0, 0.001, 0.003));
       Context context;
-      const FairResult seen = session.follow(one.constraints, 2e-4, context);
+      const FairResult seen = session.update(one.constraints, 2e-4, context);
       shape.insert(shape.end(), seen.positions.begin(), seen.positions.end());
     }
     shapes.push_back(std::move(shape));

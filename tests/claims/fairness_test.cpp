@@ -41,11 +41,11 @@ PolygonMesh octahedron() {
 TEST(Fairness, TurnsOfTheRegularSolids) {
   const Fairness of_cube = measure(cube());
   EXPECT_NEAR(of_cube.greatest_turn, 90, 1e-12);
-  EXPECT_NEAR(of_cube.mean_turn, 90, 1e-12);
+  EXPECT_NEAR(of_cube.rms_turn, 90, 1e-12);
   const Fairness of_octahedron = measure(octahedron());
   const double turn = degrees * std::acos(1.0 / 3);
   EXPECT_NEAR(of_octahedron.greatest_turn, turn, 1e-12);
-  EXPECT_NEAR(of_octahedron.mean_turn, turn, 1e-12);
+  EXPECT_NEAR(of_octahedron.rms_turn, turn, 1e-12);
 }
 
 TEST(Fairness, TheSenseOfAFaceDoesNotMatter) {
@@ -54,7 +54,7 @@ TEST(Fairness, TheSenseOfAFaceDoesNotMatter) {
     std::reverse(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(mesh.face(0).size()));
     const Fairness turned = measure(PolygonMesh(mesh.positions(), mesh.face_begin(), corners));
     EXPECT_NEAR(turned.greatest_turn, measure(mesh).greatest_turn, 1e-10);
-    EXPECT_NEAR(turned.mean_turn, measure(mesh).mean_turn, 1e-10);
+    EXPECT_NEAR(turned.rms_turn, measure(mesh).rms_turn, 1e-10);
     EXPECT_NEAR(turned.vspring_energy, measure(mesh).vspring_energy, 1e-10);
   }
 }

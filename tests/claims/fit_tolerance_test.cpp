@@ -190,7 +190,7 @@ double best_of_weights(const std::function<FitResult(const FitOptions&)>& fit_wi
     options.weight = std::pow(10, -8 + 0.3 * k);
     options.fair.max_iterations = 60;
     const FitResult result = fit_with(options);
-    if (result.report.after.all.greatest <= distance) best = std::min(best, result.report.fair.after.mean_turn);
+    if (result.report.after.all.greatest <= distance) best = std::min(best, result.report.fair.after.rms_turn);
   }
   return best;
 }
@@ -205,14 +205,14 @@ TEST(FitWithin, EveryPointIsWithinAndNoUniformWeightBendsLess) {
     fitted.set_positions(result.positions);
     EXPECT_LE(distance(wave.nodes, fitted).greatest, tolerance);
     EXPECT_GT(distance(wave.nodes, fitted).greatest, 0.9 * tolerance);
-    EXPECT_LT(result.report.fair.after.mean_turn,
+    EXPECT_LT(result.report.fair.after.rms_turn,
               best_of_weights([&](const FitOptions& options) { return wave.fit(options); }, tolerance));
   }
   const NoisyPlane plane;
   const FitResult result = plane.fit(within(0.01));
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   EXPECT_LE(distance(plane.points.positions, with_positions(plane.plane, result.positions)).greatest, 0.01);
-  EXPECT_LT(result.report.fair.after.mean_turn,
+  EXPECT_LT(result.report.fair.after.rms_turn,
             best_of_weights([&](const FitOptions& options) { return plane.fit(options); }, 0.01));
 }
 

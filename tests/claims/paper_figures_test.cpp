@@ -38,7 +38,7 @@ TEST(PaperFigures, NineBFiveSweepsTakeLargeNoiseOut) {
     options.max_iterations = 5;
     const FairResult result = fair(shape.noisy, shape.held, options);
     EXPECT_EQ(result.report.iterations, 5);
-    EXPECT_LT(result.report.after.mean_turn, result.report.before.mean_turn / 5);
+    EXPECT_LT(result.report.after.rms_turn, result.report.before.rms_turn / 5);
     Eigen::AlignedBox<double, 3> box;
     for (const Vector3& position : shape.noisy.positions()) box.extend(position);
     for (const Vector3& position : result.positions) EXPECT_TRUE(box.contains(position));

@@ -65,7 +65,7 @@ int drag(char** arguments) {
   for (const auto& move : moves) {
     for (const Index node : nodes)
       constraints.fix_position(node, file.mesh.position(node) + Vector3(move[0], move[1], move[2]));
-    const FairResult step = take([&] { return session.follow(constraints, picture_tolerance, context); });
+    const FairResult step = take([&] { return session.update(constraints, picture_tolerance, context); });
     report["steps"].push_back(name(step.report.outcome));
   }
   const FairResult last = take([&] { return session.fair(constraints, context); });

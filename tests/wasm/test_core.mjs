@@ -95,7 +95,7 @@ test('follows a node that is dragged, and memory does not grow', () => {
   for (let step = 0; step < 60; ++step) {
     const height = start[2] + 0.002 * (step % 2);
     surface.holdPosition(node, start[0], start[1], height);
-    const report = surface.follow(null);
+    const report = surface.update(null);
     assert.equal(report.outcome, 'converged');
     assert.ok(report.iterations < 12, `${report.iterations} iterations`);
     assert.equal(surface.positions()[3 * node + 2], height);
@@ -107,14 +107,14 @@ test('follows a node that is dragged, and memory does not grow', () => {
 
 test('foresees about where a drag leads, and stays where it is', () => {
   const surface = opened(generated('ahead.obj', 'annulus', '--nodes', '2000'), 'ahead.obj');
-  assert.equal(surface.foresee(), null);
+  assert.equal(surface.predict(), null);
   surface.fair(null);
   const before = surface.positions();
   const rim = [...surface.boundary().keys()].filter((node) => surface.boundary()[node] && Math.hypot(before[3 * node], before[3 * node + 1]) < 0.5);
   for (const node of rim) surface.holdPosition(node, before[3 * node] + 0.01, before[3 * node + 1], before[3 * node + 2] + 0.02);
-  const foreseen = surface.foresee();
+  const foreseen = surface.predict();
   assert.deepEqual(surface.positions(), before);
-  surface.follow(null);
+  surface.update(null);
   const after = surface.positions();
   assert.ok(greatestDistance(foreseen, after) < 0.3 * greatestDistance(before, after), `${greatestDistance(foreseen, after)}`);
   surface.delete();
@@ -216,7 +216,7 @@ test('hundreds of shapes that are opened, faired, dragged and deleted leave no m
     surface.fair(() => false);
     const node = nodeOfBoundary(surface);
     surface.holdPosition(node, ...surface.positions().slice(3 * node, 3 * node + 3).map((part) => part + 0.001));
-    surface.follow(null);
+    surface.update(null);
     surface.write('many.ply');
     surface.delete();
   };
@@ -305,7 +305,7 @@ test('curves: fairs and writes as the native program does, in every format', () 
   curve.freeTangent(0);
   curve.holdTangent(40, 0, 1, 0);
   curve.holdPosition(20, 2, 2, 0);
-  curve.follow(null);
+  curve.update(null);
   assert.deepEqual(placesOf(curve)[20], [2, 2, 0]);
   const [before, last] = placesOf(curve).slice(-2);
   assert.ok(Math.abs(last[0] - before[0]) < 0.5 * (last[1] - before[1]), `it ends upwards: ${before} to ${last}`);

@@ -49,7 +49,7 @@ function session(core, bytes) {
   const place = surface.positions().slice(3 * node, 3 * node + 3);
   for (let step = 1; step <= 3; ++step) {
     surface.holdPosition(node, place[0], place[1], place[2] + 0.001 * step);
-    solved(surface.follow(null));
+    solved(surface.update(null));
   }
   for (let again = 0; again < 3; ++again) solved(surface.fair(null));
   const { k1, k2 } = surface.curvatures(surface.positions());

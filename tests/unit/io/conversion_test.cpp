@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/sniff.hpp"
+#include "io/detect_format.hpp"
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 
@@ -145,7 +145,7 @@ TEST_F(Conversion, TheContentTellsTheFormat) {
   for (const std::string name : names) {
     write_surface(path("in." + name), mesh);
     const SurfaceFormat format = surface_format(name).value();
-    EXPECT_EQ(format_of_content(get("in." + name)), format) << name;
+    EXPECT_EQ(detect_format(get("in." + name)), format) << name;
     for (const std::string other : {"dat", "stl", "obj", "off", "ply"}) {
       const SurfaceFile surface = read_surface(put("as." + other, get("in." + name)));
       EXPECT_EQ(surface.format, format);
@@ -155,11 +155,11 @@ TEST_F(Conversion, TheContentTellsTheFormat) {
     EXPECT_NE(read_surface(path("as.dat"), name == "off" ? SurfaceFormat::ply : SurfaceFormat::off).warnings.size(),
               0U);
   }
-  EXPECT_EQ(format_of_content("# a\n\n  mtllib x\n"), SurfaceFormat::obj);
-  EXPECT_EQ(format_of_content("solid\nendsolid\n"), SurfaceFormat::stl);
-  EXPECT_EQ(format_of_content("STCNOFF\n"), SurfaceFormat::off);
-  EXPECT_EQ(format_of_content("1 2 3\n"), std::nullopt);
-  EXPECT_EQ(format_of_content("offer of the day\n"), std::nullopt);
+  EXPECT_EQ(detect_format("# a\n\n  mtllib x\n"), SurfaceFormat::obj);
+  EXPECT_EQ(detect_format("solid\nendsolid\n"), SurfaceFormat::stl);
+  EXPECT_EQ(detect_format("STCNOFF\n"), SurfaceFormat::off);
+  EXPECT_EQ(detect_format("1 2 3\n"), std::nullopt);
+  EXPECT_EQ(detect_format("offer of the day\n"), std::nullopt);
   // Without its keyword OFF is told by its extension, or by who asks.
   EXPECT_EQ(read_surface(put("plain.off", "1 0 0\n1 2 3\n")).mesh.position(0), Vector3(1, 2, 3));
   EXPECT_EQ(read_surface(put("plain", "1 0 0\n1 2 3\n"), SurfaceFormat::off).mesh.position(0), Vector3(1, 2, 3));

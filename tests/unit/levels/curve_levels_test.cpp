@@ -29,7 +29,7 @@ std::vector<CurveLevel> levels_of(const std::vector<Vector3>& nodes, const Const
 /// The numbers in the curve of the nodes of a level's only strand.
 std::vector<Index> numbers(const CurveLevel& level) {
   std::vector<Index> all;
-  for (const std::uint32_t i : level.curve.strands[0].nodes) all.push_back(level.curve.net.node[i]);
+  for (const std::uint32_t i : level.curve.moving_runs[0].nodes) all.push_back(level.curve.net.node[i]);
   return all;
 }
 
@@ -39,7 +39,7 @@ TEST(CurveLevels, HalveSpansAsLongAsEnoughNodesAreLeft) {
   ASSERT_EQ(levels.size(), 6U);
   const std::vector<std::size_t> edges = {32, 63, 125, 250, 500, 1000};
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    EXPECT_EQ(levels[k].curve.strands[0].nodes.size(), edges[k] + 1);
+    EXPECT_EQ(levels[k].curve.moving_runs[0].nodes.size(), edges[k] + 1);
     EXPECT_EQ(levels[k].curve.net.moving, edges[k] - 1);
     EXPECT_EQ(numbers(levels[k]).front(), 0);
     EXPECT_EQ(numbers(levels[k]).back(), 1000);
@@ -78,19 +78,19 @@ TEST(CurveLevels, SharesMakeLengthsGoByThePlacesAlong) {
   const auto levels = levels_of(nodes, held_ends(nodes), false, Distribution::keep);
   ASSERT_GT(levels.size(), 3U);
   for (const CurveLevel& level : levels) {
-    const auto& strand = level.curve.strands[0].nodes;
+    const auto& moving_run = level.curve.moving_runs[0].nodes;
     const auto& at = level.along[0];
     const Net& net = level.curve.net;
-    for (std::size_t k = 1; k + 1 < strand.size(); ++k) {
-      const auto shares = net.shares_of(strand[k]);
+    for (std::size_t k = 1; k + 1 < moving_run.size(); ++k) {
+      const auto shares = net.weights_of(moving_run[k]);
       ASSERT_EQ(shares.size(), 2U);
       EXPECT_NEAR(shares[0] + shares[1], 1, 1e-15);
       EXPECT_NEAR(shares[0] * (at[k] - at[k - 1]), shares[1] * (at[k + 1] - at[k]), 1e-12);
-      const Index number = net.node[strand[k]];
+      const Index number = net.node[moving_run[k]];
       EXPECT_NEAR(at[k] / at.back(), nodes[static_cast<std::size_t>(number)].x(), 1e-12);
     }
   }
-  EXPECT_TRUE(levels_of(nodes, held_ends(nodes), false, Distribution::even).back().curve.net.shares.empty());
+  EXPECT_TRUE(levels_of(nodes, held_ends(nodes), false, Distribution::even).back().curve.net.laplacian_weights.empty());
 }
 
 TEST(CurveLevels, ProlongationOnACircleIsExactInTheMiddleAndOfSixthOrderElsewhere) {
@@ -170,7 +170,7 @@ TEST(Straighten, PutsNodesOnTheLinesBetweenHeldOnes) {
   Constraints constraints = held_ends(nodes);
   constraints.fix_position(15, {0.4, 0.5, 0.1});
   auto levels = levels_of(nodes, constraints, false, Distribution::even);
-  straighten(levels[0]);
+  start_from_chords(levels[0]);
   const auto result = scatter_positions(levels[0].curve.net, nodes, constraints, 1);
   const auto first = straight({0, 0, 0}, {0.4, 0.5, 0.1}, places(Spacing::even, 15));
   const auto second = straight({0.4, 0.5, 0.1}, {1, 0, 0}, places(Spacing::even, 25));
@@ -185,7 +185,7 @@ TEST(Straighten, LeavesALoopFromOneNodeToItself) {
   hold(constraints, nodes, 0);
   auto levels = levels_of(nodes, constraints, true, Distribution::even);
   const auto before = levels[0].curve.net.positions;
-  straighten(levels[0]);
+  start_from_chords(levels[0]);
   EXPECT_EQ(levels[0].curve.net.positions, before);
 }
 
@@ -195,7 +195,7 @@ TEST(Straighten, GoesRoundAClosedChainFromItsFirstHeldNode) {
   Constraints constraints(40);
   for (const Index node : {4, 14, 29}) hold(constraints, nodes, node);
   auto levels = levels_of(nodes, constraints, true, Distribution::even);
-  straighten(levels[0]);
+  start_from_chords(levels[0]);
   const auto result = scatter_positions(levels[0].curve.net, nodes, constraints, 1);
   for (std::size_t i = 29; i <= 44; ++i) {
     const double share = (static_cast<double>(i) - 29) / 15;

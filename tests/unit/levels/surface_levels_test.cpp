@@ -36,7 +36,7 @@ void expect_sound(const Net& net) {
   EXPECT_EQ(net.rings.size(), net.computed);
   EXPECT_LE(net.moving, net.computed);
   EXPECT_LE(net.computed, nodes);
-  EXPECT_TRUE(net.shares.empty() || net.shares.size() == net.rings.link_count());
+  EXPECT_TRUE(net.laplacian_weights.empty() || net.laplacian_weights.size() == net.rings.link_count());
   EXPECT_EQ(std::set<Index>(net.node.begin(), net.node.end()).size(), nodes);
   std::vector<std::uint8_t> beside_moving(nodes, 0);
   for (std::size_t i = 0; i < net.computed; ++i) {
@@ -165,7 +165,7 @@ TEST(SurfaceLevels, HaveSharesWhereTheDistributionIsKept) {
   const auto model = surface_model(PseudoNormals::link);
   Sweep sweep(levels.back().net, *model, team);
   EXPECT_LT(sweep.iterate(), 1e-10);
-  for (const SurfaceLevel& level : levels) EXPECT_EQ(level.net.shares.size(), level.net.rings.link_count());
+  for (const SurfaceLevel& level : levels) EXPECT_EQ(level.net.laplacian_weights.size(), level.net.rings.link_count());
 }
 
 /// How many times as long as the shortest edge at a node the longest is, at worst.

@@ -51,11 +51,11 @@ Wound helix(double turns, double pitch, int edges = 240) {
 /// From the given tangent at the start over all edges to that at the end, in the plane z = 0.
 std::vector<double> turns_of(const CurveLevel& level) {
   const Net& net = level.curve.net;
-  const auto& strand = level.curve.strands[0].nodes;
-  std::vector<Vector3> ways = {net.tangents[strand.front()]};
-  for (std::size_t k = 0; k + 1 < strand.size(); ++k)
-    ways.emplace_back(net.positions[strand[k + 1]] - net.positions[strand[k]]);
-  ways.push_back(net.tangents[strand.back()]);
+  const auto& moving_run = level.curve.moving_runs[0].nodes;
+  std::vector<Vector3> ways = {net.tangents[moving_run.front()]};
+  for (std::size_t k = 0; k + 1 < moving_run.size(); ++k)
+    ways.emplace_back(net.positions[moving_run[k + 1]] - net.positions[moving_run[k]]);
+  ways.push_back(net.tangents[moving_run.back()]);
   std::vector<double> turns;
   for (std::size_t k = 0; k + 1 < ways.size(); ++k)
     turns.push_back(std::atan2(ways[k].cross(ways[k + 1]).z(), ways[k].dot(ways[k + 1])));
@@ -71,11 +71,11 @@ double sum(const std::vector<double>& values) {
 /// The sum of all turns of the polygon, whichever way.
 double turned(const CurveLevel& level) {
   const Net& net = level.curve.net;
-  const auto& strand = level.curve.strands[0].nodes;
+  const auto& moving_run = level.curve.moving_runs[0].nodes;
   double sum = 0;
-  for (std::size_t k = 1; k + 1 < strand.size(); ++k) {
-    const Vector3 before = net.positions[strand[k]] - net.positions[strand[k - 1]];
-    const Vector3 after = net.positions[strand[k + 1]] - net.positions[strand[k]];
+  for (std::size_t k = 1; k + 1 < moving_run.size(); ++k) {
+    const Vector3 before = net.positions[moving_run[k]] - net.positions[moving_run[k - 1]];
+    const Vector3 after = net.positions[moving_run[k + 1]] - net.positions[moving_run[k]];
     sum += std::atan2(before.cross(after).norm(), before.dot(after));
   }
   return sum;
@@ -85,9 +85,9 @@ TEST(HasUnwound, TellsAStraightenedCurveFromTheCurve) {
   for (const Wound& wound : {spiral(3), spiral(1.5), helix(4, 0.2)}) {
     CurveLevel level = wound.level();
     const std::vector<Vector3> input = level.curve.net.positions;
-    EXPECT_FALSE(has_unwound(level, input));
-    straighten(level);
-    EXPECT_TRUE(has_unwound(level, input));
+    EXPECT_FALSE(lost_winding(level, input));
+    start_from_chords(level);
+    EXPECT_TRUE(lost_winding(level, input));
   }
 }
 
@@ -101,8 +101,8 @@ TEST(HasUnwound, CountsSingleWindings) {
   };
   const Wound three = wound(3);
   const std::vector<Vector3> input = three.level().curve.net.positions;
-  EXPECT_FALSE(has_unwound(three.level(), input));
-  for (const double turns : {2.0, 4.0}) EXPECT_TRUE(has_unwound(three.level(wound(turns).nodes), input)) << turns;
+  EXPECT_FALSE(lost_winding(three.level(), input));
+  for (const double turns : {2.0, 4.0}) EXPECT_TRUE(lost_winding(three.level(wound(turns).nodes), input)) << turns;
 }
 
 TEST(HasUnwound, SeesWindingsThatWentToTheEnds) {
@@ -126,7 +126,7 @@ TEST(HasUnwound, SeesWindingsThatWentToTheEnds) {
   }
   const CurveLevel level = three.level(knotted);
   ASSERT_NEAR(sum(turns_of(level)), all, 1e-6);
-  EXPECT_TRUE(has_unwound(level, input));
+  EXPECT_TRUE(lost_winding(level, input));
 }
 
 TEST(HasUnwound, NoiseDoesNotCount) {
@@ -142,9 +142,9 @@ TEST(HasUnwound, NoiseDoesNotCount) {
       std::vector<Vector3> input;
       for (const Vector3& position : rough.curve.net.positions)
         input.emplace_back(position / rough.curve.net.frame.scale() * clean.curve.net.frame.scale());
-      EXPECT_FALSE(has_unwound(clean, input));
+      EXPECT_FALSE(lost_winding(clean, input));
       const std::vector<Vector3> own = rough.curve.net.positions;
-      EXPECT_FALSE(has_unwound(rough, own));
+      EXPECT_FALSE(lost_winding(rough, own));
     }
   }
 }
@@ -154,8 +154,8 @@ TEST(HasUnwound, PiecesWithoutTangentsDoNotCount) {
   const CurveNet net = gather_net(PolygonCurve(wound.nodes), held_ends(wound.nodes));
   CurveLevel level = curve_levels(net, Distribution::even).back();
   const std::vector<Vector3> input = level.curve.net.positions;
-  straighten(level);
-  EXPECT_FALSE(has_unwound(level, input));
+  start_from_chords(level);
+  EXPECT_FALSE(lost_winding(level, input));
 }
 
 TEST(Wind, GivesASpiralOfLinearCurvatureWithAllTurnsInThePlane) {
@@ -178,7 +178,7 @@ TEST(Wind, GivesASpiralOfLinearCurvatureWithAllTurnsInThePlane) {
       // Between the ends, whose nodes have half the length.
       for (std::size_t k = 2; k + 2 < turns.size() - 1; ++k)
         EXPECT_NEAR(turns[k + 1] - turns[k], turns[k] - turns[k - 1], 1e-6) << k;
-      EXPECT_FALSE(has_unwound(level, before.positions));
+      EXPECT_FALSE(lost_winding(level, before.positions));
     }
   }
 }
@@ -192,7 +192,7 @@ TEST(Wind, KeepsTheTurnsOfAHelixOfSmallPitch) {
   ASSERT_TRUE(wind(level));
   EXPECT_NE(level.curve.net.positions, before.positions);
   EXPECT_NEAR(turned(level), all, 0.01 * all);
-  EXPECT_FALSE(has_unwound(level, before.positions));
+  EXPECT_FALSE(lost_winding(level, before.positions));
   EXPECT_LT(greatest_distance(level.curve.net.positions, before.positions), 0.1);
   for (std::size_t i = before.moving; i < before.positions.size(); ++i)
     EXPECT_EQ(level.curve.net.positions[i], before.positions[i]);
@@ -203,8 +203,8 @@ TEST(Wind, LeavesPiecesOfLessThanHalfATurnAlone) {
   const std::vector<Vector3> before = level.curve.net.positions;
   EXPECT_FALSE(wind(level));
   EXPECT_EQ(level.curve.net.positions, before);
-  straighten(level);
-  EXPECT_FALSE(has_unwound(level, before));
+  start_from_chords(level);
+  EXPECT_FALSE(lost_winding(level, before));
 }
 
 TEST(Wind, WindsOnlyThePiecesThatDo) {

@@ -38,10 +38,10 @@ Soup soup_of(const PolygonMesh& mesh, double off = 0, std::uint64_t seed = 1) {
 }
 
 /// Whether what stands for corners parts them as the nodes that they were do.
-void expect_same_groups(const std::vector<Index>& stands_for, const std::vector<Index>& node) {
+void expect_same_groups(const std::vector<Index>& representative, const std::vector<Index>& node) {
   std::map<Index, Index> first;
   for (std::size_t k = 0; k < node.size(); ++k)
-    ASSERT_EQ(stands_for[k], first.try_emplace(node[k], static_cast<Index>(k)).first->second) << k;
+    ASSERT_EQ(representative[k], first.try_emplace(node[k], static_cast<Index>(k)).first->second) << k;
 }
 
 std::string fault(const PolygonMesh& mesh, double tolerance) {
@@ -67,7 +67,7 @@ TEST(Weld, SoupsOfEverySizeBecomeTheirMesh) {
     for (const double off : {0.0, 1e-7}) {
       const Soup soup = soup_of(torus, off);
       const Welded welded = weld(scaled(soup.mesh, scale), off > 0 ? 1e-6 : 0);
-      expect_same_groups(welded.stands_for, soup.node);
+      expect_same_groups(welded.representative, soup.node);
       EXPECT_EQ(welded.joined, soup.mesh.node_count() - torus.node_count());
       EXPECT_EQ(welded.mesh.node_count(), soup.mesh.node_count());
       EXPECT_EQ(welded.mesh.face_begin(), torus.face_begin());
@@ -76,7 +76,7 @@ TEST(Weld, SoupsOfEverySizeBecomeTheirMesh) {
       EXPECT_EQ(welded.mesh.positions(), scaled(soup.mesh, scale).positions());
     }
   }
-  expect_same_groups(weld(scaled(soup_of(torus).mesh, 1, 1e6), 1e-7).stands_for, torus.corners());
+  expect_same_groups(weld(scaled(soup_of(torus).mesh, 1, 1e6), 1e-7).representative, torus.corners());
 }
 
 TEST(Weld, GroupsDoNotDependOnTheOrderOfNodes) {
@@ -85,7 +85,7 @@ TEST(Weld, GroupsDoNotDependOnTheOrderOfNodes) {
   const Soup soup = soup_of(plane, 0.01);
   const auto groups = [](const Welded& welded, const std::vector<Index>& number) {
     std::map<Index, std::set<Index>> members;
-    for (std::size_t k = 0; k < number.size(); ++k) members[welded.stands_for[k]].insert(number[k]);
+    for (std::size_t k = 0; k < number.size(); ++k) members[welded.representative[k]].insert(number[k]);
     std::set<std::set<Index>> all;
     for (const auto& [first, those] : members) all.insert(those);
     return all;
@@ -126,7 +126,7 @@ TEST(Weld, MovesWhatIsOneToOnePlaceAndKeepsTheBitsOfTheRest) {
   const Soup soup = soup_of(plane, 1e-8);
   const Welded welded = weld(soup.mesh, 1e-6);
   std::vector<Vector3> moved = soup.mesh.positions();
-  const auto first = static_cast<std::size_t>(welded.stands_for[20]);
+  const auto first = static_cast<std::size_t>(welded.representative[20]);
   moved[first] = {7, 8, 9};
   const std::vector<Vector3> positions = welded.positions(moved);
   for (std::size_t k = 0; k < positions.size(); ++k) {
@@ -150,7 +150,7 @@ TEST(Weld, FacesThatVanishAreNamedUnlessTheyWereNone) {
   EXPECT_EQ(welded.collapsed, std::vector<Index>{1});
   EXPECT_EQ(welded.mesh.face_begin(), (std::vector<Index>{0, 3, 3, 3, 6, 8}));
   EXPECT_EQ(welded.mesh.corners(), (std::vector<Index>{0, 1, 2, 1, 6, 2, 0, 2}));
-  EXPECT_EQ(welded.stands_for, (std::vector<Index>{0, 1, 2, 0, 2, 0, 6}));
+  EXPECT_EQ(welded.representative, (std::vector<Index>{0, 1, 2, 0, 2, 0, 6}));
 }
 
 TEST(Weld, ChainsThatLeadFarAreRefused) {

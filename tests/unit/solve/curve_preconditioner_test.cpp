@@ -45,7 +45,7 @@ double left_over(const Bent& curve, Distribution distribution) {
   CurveNet gathered = gather_net(PolygonCurve(curve.nodes), curve.constraints);
   Net& net = gathered.net;
   model->prepare(net);
-  distribute(net, *model, distribution, alone);
+  set_laplacian_weights(net, *model, distribution, alone);
   CurvePreconditioner preconditioner(gathered);
   update_directions(net, *model, alone);
   std::vector<NodeForce> forces(net.moving);

@@ -12,7 +12,7 @@
 #include "base/random.hpp"
 #include "levels/surface_levels.hpp"
 #include "levels/surface_slide.hpp"
-#include "solve/bending_form.hpp"
+#include "solve/bending_operator.hpp"
 #include "solve/cholesky_solver.hpp"
 #include "solve/interpolation.hpp"
 #include "solve/multigrid_solver.hpp"
@@ -82,8 +82,8 @@ Prepared prepared(Net net, std::size_t count, ThreadTeam& team) {
 TEST(SparseRows, ProductAndTransposeAreThoseOfDenseMatrices) {
   ThreadTeam team(2);
   const Net net = disc_net(300, true, team);
-  const SparseRows a = spreading_form(net, team);
-  const SparseRows b = bending_form(net, team);
+  const SparseRows a = tangential_laplacian(net, team);
+  const SparseRows b = bending_operator(net, team);
   const SparseRows both = product(a, b, team);
   EXPECT_LT((dense(both) - dense(a) * dense(b)).norm(), 1e-10 * dense(b).norm());
   EXPECT_EQ(dense(both.transposed()), dense(both).transpose());
@@ -95,7 +95,7 @@ TEST(BendingForm, IsSymmetricAndPositiveDefinite) {
     Net net = disc_net(200, normals, team);
     // A moving node with a normal, too.
     net.given[5] |= Net::given_normal;
-    for (const SparseRows& form : {bending_form(net, team), spreading_form(net, team)}) {
+    for (const SparseRows& form : {bending_operator(net, team), tangential_laplacian(net, team)}) {
       const Eigen::MatrixXd matrix = dense(form);
       EXPECT_LT((matrix - matrix.transpose()).norm(), 1e-12 * matrix.norm());
       EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix).eigenvalues().minCoeff(), 0);
@@ -113,20 +113,20 @@ TEST(BendingForm, PullsAtWhatIsBentAndNotAtWhatIsMovedAsAWhole) {
       heights[static_cast<Eigen::Index>(i)] = std::sin(0.7 * static_cast<double>(i));
       ways[i] = heights[static_cast<Eigen::Index>(i)] * net.normals[i];
     }
-    const Eigen::VectorXd expected = -dense(bending_form(net, team)) * heights;
-    EXPECT_LT((as_matrix(pull_of_ways(net, ways)) - expected).norm(), 1e-10 * expected.norm());
+    const Eigen::VectorXd expected = -dense(bending_operator(net, team)) * heights;
+    EXPECT_LT((as_matrix(bending_residual(net, ways)) - expected).norm(), 1e-10 * expected.norm());
     // A bowl, whose normals differ.
     for (Vector3& place : net.positions) place.z() = 0.4 * place.head<2>().squaredNorm();
     update_directions(net, *surface_model(PseudoNormals::link), team);
     ways.assign(ways.size(), Vector3(0.3, -0.2, 0.5));
-    EXPECT_LT(as_matrix(pull_of_ways(net, ways)).norm(), 1e-12 * expected.norm());
+    EXPECT_LT(as_matrix(bending_residual(net, ways)).norm(), 1e-12 * expected.norm());
   }
 }
 
 TEST(BendingForm, DoesNotResistTilts) {
   ThreadTeam team(1);
   const Net net = disc_net(400, true, team);
-  const SparseRows form = bending_form(net, team);
+  const SparseRows form = bending_operator(net, team);
   Eigen::VectorXd tilted(static_cast<Eigen::Index>(net.moving));
   for (std::size_t i = 0; i < net.moving; ++i)
     tilted[static_cast<Eigen::Index>(i)] = 0.3 * net.positions[i].x() - 0.2 * net.positions[i].y();
@@ -144,7 +144,7 @@ TEST(CholeskySolver, SolvesAndSolvesAnew) {
   CholeskySolver solver(team);
   for (const Index nodes : {50, 400}) {
     const Net net = disc_net(nodes, true, team);
-    for (const SparseRows& form : {bending_form(net, team), spreading_form(net, team)}) {
+    for (const SparseRows& form : {bending_operator(net, team), tangential_laplacian(net, team)}) {
       const std::vector<Vector3> right = right_sides(net.moving);
       const Eigen::MatrixXd expected = dense(form).ldlt().solve(as_matrix(right));
       std::vector<Vector3> solution = right;
@@ -229,7 +229,7 @@ TEST(SurfaceSystems, SolveAtEverySize) {
       const std::vector<Vector3> right = right_sides(net.moving);
       CholeskySolver exact(team);
 
-      const SparseRows bending = bending_form(net, team);
+      const SparseRows bending = bending_operator(net, team);
       std::vector<double> bent = first_column(right);
       std::vector<double> expected_bent = bent;
       exact.build(bending);
@@ -244,7 +244,7 @@ TEST(SurfaceSystems, SolveAtEverySize) {
         }
       }
 
-      const SparseRows spreading = spreading_form(net, team);
+      const SparseRows spreading = tangential_laplacian(net, team);
       const auto spreading_system = spreading_solver(surface.systems, team);
       std::vector<Vector3> expected_spread = right;
       exact.build(spreading);

@@ -33,11 +33,11 @@ TEST(Spacing, TheSharesAtPlacesHoldNodesThere) {
   for (const Faces faces : every_kind) {
     Net net = net_of(generate::plane({.columns = 20, .rows = 20, .faces = faces, .jitter = 0.2}));
     const std::vector<Vector3> places = net.positions;
-    net.shares = shares_at(net, places, team);
+    net.laplacian_weights = laplacian_weights_at(net, places, team);
     net.normals.assign(net.normals.size(), Vector3::UnitZ());
     for (std::size_t i = 0; i < net.moving; ++i) {
       double sum = 0;
-      for (const double share : net.shares_of(i)) {
+      for (const double share : net.weights_of(i)) {
         EXPECT_GE(share, 0);
         sum += share;
       }
@@ -59,7 +59,7 @@ TEST(Spacing, WideCellsDoNotSink) {
       const double height = 0.03;
       const PolygonMesh mesh = rings(faces, columns, 20, height);
       const Net net = net_of(mesh);
-      const std::vector<Vector3> places = smooth_places(net, team);
+      const std::vector<Vector3> places = rest_positions(net, team);
       for (std::size_t i = 0; i < net.moving; ++i)
         EXPECT_LT((places[i] - net.positions[i]).norm(), 0.3 * height * net.frame.scale());
     }
@@ -90,14 +90,14 @@ TEST(Spacing, NoiseGoesAndGradingStays) {
   const PolygonMesh exact = rings(Faces::quads, 48, 24, 0.1);
   const Net rough = net_of(generate::add_noise(exact, 0.04, 3));
   EXPECT_GT(roughness(rough, rough.positions), 0.3);
-  EXPECT_LT(roughness(rough, smooth_places(rough, team)), 0.06);
+  EXPECT_LT(roughness(rough, rest_positions(rough, team)), 0.06);
   // Rows that grow by a tenth from one to the next go on doing so.
   PolygonMesh graded = exact;
   std::vector<Vector3> positions = exact.positions();
   for (Vector3& p : positions) p.z() = std::expm1(std::log(1.1) * p.z() / 0.1);
   graded.set_positions(positions);
   const Net net = net_of(graded);
-  const std::vector<Vector3> places = smooth_places(net, team);
+  const std::vector<Vector3> places = rest_positions(net, team);
   EXPECT_NEAR(roughness(net, places), std::log(1.1), 0.02);
 }
 
@@ -133,7 +133,7 @@ TEST(Spacing, BricksBecomeHexagons) {
   for (const auto& [columns, rows] : {std::pair(16, 32), std::pair(48, 16)}) {
     const Net net = net_of(generate::plane({.columns = columns, .rows = rows, .faces = Faces::hexagons}));
     EXPECT_NEAR(angles(net, net.positions).greatest, 180, 1e-9);
-    const Extent after = angles(net, smooth_places(net, team));
+    const Extent after = angles(net, rest_positions(net, team));
     EXPECT_GT(after.least, 85);
     EXPECT_LT(after.greatest, 165);
   }
@@ -149,8 +149,8 @@ TEST(Spacing, IsThatOfTheInputWhereNodesArePulledOutOfIt) {
   const Net still = gather_net(mesh, constraints);
   constraints.fix_position(middle, mesh.position(middle) + Vector3(0, 0, 0.4));
   const Net pulled = gather_net(mesh, constraints);
-  const std::vector<double> before = shares_at(still, smooth_places(still, team), team);
-  const std::vector<double> after = shares_at(pulled, smooth_places(pulled, team), team);
+  const std::vector<double> before = laplacian_weights_at(still, rest_positions(still, team), team);
+  const std::vector<double> after = laplacian_weights_at(pulled, rest_positions(pulled, team), team);
   ASSERT_EQ(before.size(), after.size());
   for (std::size_t k = 0; k < before.size(); ++k) EXPECT_NEAR(before[k], after[k], 1e-12);
 }
@@ -159,9 +159,9 @@ TEST(Spacing, IsTheSameOnAnyNumberOfThreads) {
   const Net net = net_of(generate::add_noise(generate::annulus({.nodes = 5000}), 0.02, 3));
   ThreadTeam alone(1);
   ThreadTeam four(4);
-  const std::vector<Vector3> places = smooth_places(net, alone);
-  EXPECT_EQ(places, smooth_places(net, four));
-  EXPECT_EQ(shares_at(net, places, alone), shares_at(net, places, four));
+  const std::vector<Vector3> places = rest_positions(net, alone);
+  EXPECT_EQ(places, rest_positions(net, four));
+  EXPECT_EQ(laplacian_weights_at(net, places, alone), laplacian_weights_at(net, places, four));
 }
 
 TEST(Spacing, NoiseOfEdgesIsSweptOutAndOfSeveralEdgesLeavesNothingToKeep) {
@@ -176,7 +176,7 @@ TEST(Spacing, NoiseOfEdgesIsSweptOutAndOfSeveralEdgesLeavesNothingToKeep) {
     EXPECT_FALSE(tells_spacing(disturbed(6), team));
     const Net noisy = disturbed(1.4);
     ASSERT_TRUE(tells_spacing(noisy, team));
-    const std::vector<Vector3> places = smooth_places(noisy, team);
+    const std::vector<Vector3> places = rest_positions(noisy, team);
     double least = 1;
     for (std::size_t i = 0; i < noisy.moving; ++i) {
       for (const Link link : noisy.rings.links(i)) {

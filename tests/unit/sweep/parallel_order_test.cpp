@@ -75,17 +75,17 @@ TEST(Sweep, KeepingTheDistributionLeavesEveryNodeOfAPlaneInItsPlace) {
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
   Sweep sweep(net, *model, team);
-  distribute(net, *model, Distribution::keep, team);
+  set_laplacian_weights(net, *model, Distribution::keep, team);
   EXPECT_LT(sweep.iterate(), 1e-12);
-  distribute(net, *model, Distribution::even, team);
+  set_laplacian_weights(net, *model, Distribution::even, team);
   EXPECT_GT(sweep.iterate(), 1e-2);
 }
 
 TEST(Sweep, SharesAddUpToOneAndPointAtTheNode) {
   Net net = net_of(generate::Faces::triangles, 12);
   ThreadTeam team(1);
-  distribute(net, *surface_model(PseudoNormals::link), Distribution::keep, team);
-  const auto& shares = net.shares;
+  set_laplacian_weights(net, *surface_model(PseudoNormals::link), Distribution::keep, team);
+  const auto& shares = net.laplacian_weights;
   for (std::size_t i = 0; i < net.moving; ++i) {
     double sum = 0;
     Vector3 mean = Vector3::Zero();
@@ -105,9 +105,9 @@ TEST(Sweep, NoNeighbourDrivesANodeAwayThatNoiseHasPutOutsideThemAll) {
   const std::size_t node = 30;
   net.positions[node] = net.positions[net.rings.links(node).front().node()] * 2 - net.positions[node];
   ThreadTeam team(1);
-  distribute(net, *surface_model(PseudoNormals::link), Distribution::keep, team);
+  set_laplacian_weights(net, *surface_model(PseudoNormals::link), Distribution::keep, team);
   double sum = 0;
-  for (const double share : net.shares_of(node)) {
+  for (const double share : net.weights_of(node)) {
     EXPECT_GT(share, 0.01);
     sum += share;
   }

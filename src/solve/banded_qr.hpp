@@ -12,12 +12,12 @@ namespace vspring {
 /// as the triangle of its orthogonal factorisation. Forming Gᵀ G squares the condition of G, which is n² where rows are
 /// curvatures along n nodes; the triangle never does, so it still solves where Gᵀ G in double precision is no longer
 /// definite.
-class BendingMatrix {
+class BandedQr {
  public:
   static constexpr std::size_t width = 3;
 
   /// size: number of columns.
-  explicit BendingMatrix(std::size_t size) : rows_(size, std::array<double, width>{}) {}
+  explicit BandedQr(std::size_t size) : rows_(size, std::array<double, width>{}) {}
 
   [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
 
@@ -31,7 +31,7 @@ class BendingMatrix {
   };
   /// Adds a row that joins far columns, or takes it out again where sign is −1. After all others; the banded ones must
   /// have full rank. Cost: linear.
-  void add_far_row(std::vector<Entry> entries, double sign = 1);
+  void add_low_rank_row(std::vector<Entry> entries, double sign = 1);
 
   /// Solves in place, for two right-hand sides at once. Cost: linear.
   void solve(std::span<Eigen::Vector2d> right) const;

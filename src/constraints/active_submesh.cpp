@@ -1,4 +1,4 @@
-#include "constraints/moving_part.hpp"
+#include "constraints/active_submesh.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -28,7 +28,7 @@ std::pair<std::size_t, std::size_t> widen(const PolygonMesh& mesh, std::vector<s
 
 }  // namespace
 
-std::optional<MovingPart> moving_part(const PolygonMesh& mesh, const Constraints& constraints) {
+std::optional<ActiveSubmesh> active_submesh(const PolygonMesh& mesh, const Constraints& constraints) {
   if (constraints.node_count() != mesh.node_count()) return {};
   std::vector<std::uint8_t> marked(static_cast<std::size_t>(mesh.node_count()));
   Index moving = 0;
@@ -63,9 +63,9 @@ std::optional<MovingPart> moving_part(const PolygonMesh& mesh, const Constraints
     face_begin.push_back(static_cast<Index>(corners.size()));
   }
   Constraints held = constraints_of(constraints, node);
-  return MovingPart{.mesh = PolygonMesh(std::move(positions), std::move(face_begin), std::move(corners)),
-                    .constraints = std::move(held),
-                    .node = std::move(node)};
+  return ActiveSubmesh{.mesh = PolygonMesh(std::move(positions), std::move(face_begin), std::move(corners)),
+                       .constraints = std::move(held),
+                       .node = std::move(node)};
 }
 
 Constraints constraints_of(const Constraints& constraints, const std::vector<Index>& nodes) {

@@ -1,4 +1,4 @@
-#include "io/system_fault.hpp"
+#include "io/errno_error.hpp"
 
 #include <fmt/format.h>
 

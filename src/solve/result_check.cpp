@@ -1,4 +1,4 @@
-#include "solve/soundness.hpp"
+#include "solve/result_check.hpp"
 
 #include <fmt/format.h>
 
@@ -120,29 +120,29 @@ double bending_at(const Net& net, const std::vector<Vector3>& positions, std::si
 
 /// positions: of the nodes, those of the net or others. edge: the mean one. dragged: 1 for nodes that are held
 /// elsewhere than the input has them: what turns beside them is wanted; or empty. Without with_bending, bending is 0.
-Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team, bool with_bending,
-               std::span<const std::uint8_t> dragged = {}) {
+ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team,
+                        bool with_bending, std::span<const std::uint8_t> dragged = {}) {
   const double tiny = collapsed_size * edge;
   const auto is_dragged = [&](std::size_t node) { return !dragged.empty() && dragged[node] != 0; };
   if (!net.tangents.empty()) {
-    Flaws flaws;
+    ShapeDefects defects;
     for (std::size_t i = 0; i < net.computed; ++i) {
       const auto links = net.rings.links(i);
       if (links.size() < 2 || is_dragged(i) || is_dragged(links[0].node()) || is_dragged(links[1].node())) continue;
       const Vector3 before = positions[i] - positions[links[0].node()];
       const Vector3 after = positions[links[1].node()] - positions[i];
-      if (turns_back(before, after)) ++(i < net.moving ? flaws.turned : flaws.turned_at_held);
-      flaws.collapsed += after.squaredNorm() < tiny * tiny ? 1 : 0;
+      if (turns_back(before, after)) ++(i < net.moving ? defects.turned : defects.turned_at_held);
+      defects.collapsed += after.squaredNorm() < tiny * tiny ? 1 : 0;
       if (!with_bending) continue;
       const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
       const double length = (before.norm() + after.norm()) / 2;
-      if (length > 0) flaws.bending += turn * turn / length;
+      if (length > 0) defects.bending += turn * turn / length;
     }
-    return flaws;
+    return defects;
   }
-  std::vector<Flaws> parts((net.computed + nodes_per_task - 1) / nodes_per_task);
+  std::vector<ShapeDefects> parts((net.computed + nodes_per_task - 1) / nodes_per_task);
   parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    Flaws& part = parts[begin / nodes_per_task];
+    ShapeDefects& part = parts[begin / nodes_per_task];
     std::vector<std::size_t> spokes;
     std::vector<Vector3> faces;
     for (std::size_t i = begin; i < end; ++i) {
@@ -162,19 +162,19 @@ Flaws flaws_of(const Net& net, const std::vector<Vector3>& positions, double edg
         part.bending += bending_at(net, positions, i, spokes, faces);
     }
   });
-  Flaws flaws;
-  for (const Flaws& part : parts) {
-    flaws.turned += part.turned;
-    flaws.collapsed += part.collapsed;
-    flaws.bending += part.bending;
+  ShapeDefects defects;
+  for (const ShapeDefects& part : parts) {
+    defects.turned += part.turned;
+    defects.collapsed += part.collapsed;
+    defects.bending += part.bending;
   }
-  return flaws;
+  return defects;
 }
 
 }  // namespace
 
 std::size_t turned_edges(const Net& net, ThreadTeam& team) {
-  return flaws_of(net, net.positions, mean_edge(net), team, false).turned;
+  return defects_of(net, net.positions, mean_edge(net), team, false).turned;
 }
 
 std::vector<std::uint8_t> nodes_at_turned_edges(const Net& net, ThreadTeam& team) {
@@ -191,7 +191,7 @@ std::vector<std::uint8_t> nodes_at_turned_edges(const Net& net, ThreadTeam& team
   return result;
 }
 
-Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(&model), team_(&team) {
+ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team) : model_(&model), team_(&team) {
   for (const Vector3& position : start.positions) box_.extend(position);
   for (const Vector3& position : start.points.positions) box_.extend(position);
   has_directions_ = std::any_of(start.given.begin(), start.given.end(), [](std::uint8_t given) { return given != 0; });
@@ -199,11 +199,11 @@ Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(
   is_surface_ = start.tangents.empty();
   edge_ = mean_edge(start);
   const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
-  flaws_ = flaws_of(start, input, edge_, team, start.input.empty() && looks_at_bending());
+  flaws_ = defects_of(start, input, edge_, team, start.input.empty() && looks_at_bending());
   held_.assign(input.begin() + static_cast<std::ptrdiff_t>(start.moving), input.end());
   if (looks_at_crossings(start)) input_ = input;
   if (looks_at_bending()) {
-    bending_ = start.input.empty() ? flaws_.bending : flaws_of(start, start.positions, edge_, team, true).bending;
+    bending_ = start.input.empty() ? flaws_.bending : defects_of(start, start.positions, edge_, team, true).bending;
     if (start.input.empty() && start.tangents.empty()) smooth_bending_ = bending_without_noise(start);
   }
   const bool was_prepared = !start.curvatures.empty();
@@ -214,7 +214,7 @@ Soundness::Soundness(Net& start, const Model& model, ThreadTeam& team) : model_(
   if (!was_prepared) start.curvatures.clear();
 }
 
-std::vector<std::uint8_t> Soundness::dragged(const Net& now) const {
+std::vector<std::uint8_t> ResultCheck::dragged(const Net& now) const {
   std::vector<std::uint8_t> result(now.positions.size(), 0);
   bool some = false;
   for (std::size_t k = 0; k < held_.size(); ++k) {
@@ -226,18 +226,18 @@ std::vector<std::uint8_t> Soundness::dragged(const Net& now) const {
   return result;
 }
 
-bool Soundness::looks_at_bending() const {
+bool ResultCheck::looks_at_bending() const {
   // Of faces without area nobody knows how they are bent.
   return !has_directions_ && !has_points_ && (!is_surface_ || flaws_.collapsed == 0);
 }
 
-bool Soundness::looks_at_crossings(const Net& net) const { return !has_directions_ && !net.tangents.empty(); }
+bool ResultCheck::looks_at_crossings(const Net& net) const { return !has_directions_ && !net.tangents.empty(); }
 
-double Soundness::bending_without_noise(const Net& net) const {
-  return flaws_of(net, smooth_places(net, *team_), edge_, *team_, true).bending;
+double ResultCheck::bending_without_noise(const Net& net) const {
+  return defects_of(net, rest_positions(net, *team_), edge_, *team_, true).bending;
 }
 
-std::string Soundness::misplaced(const Net& now) const {
+std::string ResultCheck::misplaced(const Net& now) const {
   Eigen::AlignedBox3d box = box_;
   for (std::size_t i = now.moving; i < now.positions.size(); ++i) box.extend(now.positions[i]);
   const Vector3 half =
@@ -251,30 +251,30 @@ std::string Soundness::misplaced(const Net& now) const {
   return {};
 }
 
-std::string Soundness::more_of(const Flaws& flaws, bool of_surface) const {
-  if (flaws.turned > flaws_.turned)
-    return fmt::format("{} edges turn by more than 90°, {} did before", flaws.turned, flaws_.turned);
-  if (flaws.turned_at_held > flaws_.turned_at_held)
-    return fmt::format("edges turn by more than 90° at {} held nodes, {} did before", flaws.turned_at_held,
+std::string ResultCheck::more_of(const ShapeDefects& defects, bool of_surface) const {
+  if (defects.turned > flaws_.turned)
+    return fmt::format("{} edges turn by more than 90°, {} did before", defects.turned, flaws_.turned);
+  if (defects.turned_at_held > flaws_.turned_at_held)
+    return fmt::format("edges turn by more than 90° at {} held nodes, {} did before", defects.turned_at_held,
                        flaws_.turned_at_held);
-  if (flaws.collapsed > flaws_.collapsed)
-    return fmt::format("{} {}, {} had before", flaws.collapsed,
+  if (defects.collapsed > flaws_.collapsed)
+    return fmt::format("{} {}, {} had before", defects.collapsed,
                        of_surface ? "corners of faces have no area" : "edges have no length", flaws_.collapsed);
   return {};
 }
 
-std::string Soundness::fault_of_places(const Net& now) const {
+std::string ResultCheck::fault_of_places(const Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
-  return more_of(flaws_of(now, now.positions, edge_, *team_, false, dragged(now)), now.tangents.empty());
+  return more_of(defects_of(now, now.positions, edge_, *team_, false, dragged(now)), now.tangents.empty());
 }
 
-std::string Soundness::fault(Net& now) const {
+std::string ResultCheck::fault(Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
   const std::vector<std::uint8_t> dragged_nodes = dragged(now);
-  const Flaws flaws = flaws_of(now, now.positions, edge_, *team_, looks_at_bending(), dragged_nodes);
-  std::string more = more_of(flaws, now.tangents.empty());
+  const ShapeDefects defects = defects_of(now, now.positions, edge_, *team_, looks_at_bending(), dragged_nodes);
+  std::string more = more_of(defects, now.tangents.empty());
   if (!more.empty() || has_directions_) return more;
   if (looks_at_crossings(now) && dragged_nodes.empty()) {
     const std::size_t crossings = curve_crossings(now, now.positions, *team_);
@@ -283,9 +283,9 @@ std::string Soundness::fault(Net& now) const {
   }
   if (has_points_) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
-  const bool is_bent_more = flaws.bending > risen_bending * bending_ + unseen;
+  const bool is_bent_more = defects.bending > risen_bending * bending_ + unseen;
   if (now.tangents.empty()) {
-    if (is_bent_more) return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", flaws.bending, bending_);
+    if (is_bent_more) return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", defects.bending, bending_);
     const double smooth = smooth_bending_ ? bending_without_noise(now) : 0;
     if (smooth > risen_smooth_bending * smooth_bending_.value_or(0) + unseen)
       return fmt::format("it is bent more, by {:.3g} in place of {:.3g} without the noise of either", smooth,
@@ -302,8 +302,8 @@ std::string Soundness::fault(Net& now) const {
   return {};
 }
 
-void say_if_worse(const Soundness& soundness, Net& found, FairReport& report) {
-  const std::string fault = soundness.fault(found);
+void warn_if_worse(const ResultCheck& check, Net& found, FairReport& report) {
+  const std::string fault = check.fault(found);
   if (fault.empty()) return;
   report.warnings.push_back("what was found is worse than the input: " + fault);
   if (report.outcome == Outcome::converged) report.outcome = Outcome::worse_than_input;

@@ -9,11 +9,11 @@
 namespace vspring {
 
 /// Keeps the shape of the smallest residual, in case it gets worse.
-class BestShape {
+class BestIterate {
  public:
   /// lost_factor: a shape is lost while its residual is more than this much larger than the best, or than `small` where
   /// the best is below that.
-  BestShape(Net& net, double lost_factor, double small = 0) : net_(&net), lost_factor_(lost_factor), small_(small) {}
+  BestIterate(Net& net, double lost_factor, double small = 0) : net_(&net), lost_factor_(lost_factor), small_(small) {}
 
   void look(double residual) {
     lost_for_ = residual > lost_factor_ * std::max(residual_, small_) ? lost_for_ + 1 : 0;

@@ -13,10 +13,10 @@ namespace vspring {
 /// normals only, and the regularisation (§4.4) asks for an even distribution, not for a place. On a sphere, what shifts
 /// and turns of the whole are across the normals leaves a distribution even, nearly. Those fields are taken out of what
 /// the regularisation asks and out of steps, in each component of the surface that is not held.
-class Anchor {
+class TangentialRigidModes {
  public:
   /// Cost: linear.
-  explicit Anchor(const Net& net);
+  explicit TangentialRigidModes(const Net& net);
 
   /// Whether anything is not held.
   [[nodiscard]] bool needed() const noexcept { return count_ > 0; }

@@ -1,4 +1,4 @@
-#include "io/sniff.hpp"
+#include "io/detect_format.hpp"
 
 #include <algorithm>
 
@@ -57,7 +57,7 @@ bool is_text_stl(std::string_view bytes) {
 
 }  // namespace
 
-std::optional<SurfaceFormat> format_of_content(std::string_view bytes) {
+std::optional<SurfaceFormat> detect_format(std::string_view bytes) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return SurfaceFormat::ply;
   if (stl::promised_size(bytes) == bytes.size() || is_text_stl(bytes)) return SurfaceFormat::stl;
   return format_of_lines(bytes);

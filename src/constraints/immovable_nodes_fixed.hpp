@@ -11,10 +11,10 @@ namespace vspring {
 
 /// Constraints of a mesh with the nodes held that cannot move. Which these are is found where a run comes upon them,
 /// and costs nothing else.
-class ImmovableHeld {
+class ImmovableNodesFixed {
  public:
   /// The mesh must outlive it.
-  explicit ImmovableHeld(const PolygonMesh& mesh) : mesh_(&mesh) {}
+  explicit ImmovableNodesFixed(const PolygonMesh& mesh) : mesh_(&mesh) {}
 
   /// work(constraints), with those nodes held that have been found so far.
   template <typename Work>

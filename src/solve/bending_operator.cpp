@@ -1,4 +1,4 @@
-#include "solve/bending_form.hpp"
+#include "solve/bending_operator.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -99,7 +99,7 @@ bool on_boundary(std::span<const Link> links) { return !links.empty() && links.f
 
 }  // namespace
 
-void weigh_edges(const Net& net, ThreadTeam& team, std::vector<float>& sums) {
+void sum_edge_weights(const Net& net, ThreadTeam& team, std::vector<float>& sums) {
   sums.resize(net.moving);
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -228,7 +228,7 @@ void for_bending_row(const Net& net, std::size_t i, SparseRows::Row& room, const
 
 }  // namespace
 
-SparseRows bending_form(const Net& net, ThreadTeam& team, std::span<const double> pull) {
+SparseRows bending_operator(const Net& net, ThreadTeam& team, std::span<const double> pull) {
   const std::vector<BendingRow> extra = extra_rows(net, pull);
   const auto rows = SparseRows::build(team, net.moving + extra.size(), net.moving, [&] {
     return [&, room = SparseRows::Row()](std::size_t i, SparseRows::Row& row) mutable {
@@ -248,9 +248,9 @@ SparseRows bending_form(const Net& net, ThreadTeam& team, std::span<const double
   return product(rows.transposed(), rows, team);
 }
 
-FactoredMatrix factored_bending_form(const Net& net, ThreadTeam& team, std::span<const double> pull) {
+FactoredMatrix factored_bending_operator(const Net& net, ThreadTeam& team, std::span<const double> pull) {
   const std::vector<BendingRow> extra = extra_rows(net, pull);
-  LinkedRows rows;
+  EdgeAlignedRows rows;
   rows.diagonal.assign(net.moving, 0);
   rows.beside.assign(net.moving == 0 ? 0 : net.rings.begin(net.moving), 0);
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
@@ -274,7 +274,7 @@ FactoredMatrix factored_bending_form(const Net& net, ThreadTeam& team, std::span
   return {net, std::move(rows), team};
 }
 
-std::vector<double> pull_of_ways(const Net& net, std::span<const Vector3> ways) {
+std::vector<double> bending_residual(const Net& net, std::span<const Vector3> ways) {
   std::vector<double> pull(net.moving, 0);
   const auto add = [&](std::size_t centre, std::span<const SparseRows::Entry> row) {
     double bend = 0;
@@ -305,11 +305,11 @@ std::vector<double> pull_of_ways(const Net& net, std::span<const Vector3> ways) 
   return pull;
 }
 
-SparseRows spreading_form(const Net& net, ThreadTeam& team, double shift) {
+SparseRows tangential_laplacian(const Net& net, ThreadTeam& team, double shift) {
   // Symmetric: of two different shares of an edge, half each.
   const auto one_way = [&](std::size_t from, std::size_t to) {
     const auto links = net.rings.links(from);
-    const auto shares = net.shares_of(from);
+    const auto shares = net.weights_of(from);
     if (shares.empty()) return 1.0;
     double spokes = 0;
     double share = 0;
@@ -325,7 +325,7 @@ SparseRows spreading_form(const Net& net, ThreadTeam& team, double shift) {
       double sum = 0;
       for (const Link link : net.rings.links(i)) {
         if (!link.spoke()) continue;
-        if (!net.homes.empty()) sum += 1;
+        if (!net.target_positions.empty()) sum += 1;
         const std::size_t j = link.node();
         const double weight = j < net.moving ? 0.5 * (one_way(i, j) + one_way(j, i)) : one_way(i, j);
         sum += weight;

@@ -20,7 +20,7 @@ std::size_t turned_edges(const Net& net, ThreadTeam& team);
 std::vector<std::uint8_t> nodes_at_turned_edges(const Net& net, ThreadTeam& team);
 
 /// What a shape may have, and should have no more of, or not much.
-struct Flaws {
+struct ShapeDefects {
   std::size_t turned =
       0;  ///< edges that turn by over 90°, of a surface between its two faces, of a curve from edge to edge
   std::size_t turned_at_held = 0;  ///< the same at held nodes of a curve, of which turned has none
@@ -31,11 +31,11 @@ struct Flaws {
 };
 
 /// Tells a shape that came out worse than it went in.
-class Soundness {
+class ResultCheck {
  public:
   /// start: the shape as it went in, with its constraints applied; points that pull at it belong to its box, and which
   /// edges turn is a matter of the input before that. Updates directions. Cost: linear.
-  Soundness(Net& start, const Model& model, ThreadTeam& team);
+  ResultCheck(Net& start, const Model& model, ThreadTeam& team);
 
   /// What is worse about the shape now, in words for people; empty where nothing is: places that are no numbers or far
   /// outside the box; more flaws, but for those beside nodes that are held elsewhere than the input has them; edges
@@ -57,7 +57,7 @@ class Soundness {
   /// Tangents that are given may ask for a loop.
   [[nodiscard]] bool looks_at_crossings(const Net& net) const;
   [[nodiscard]] double bending_without_noise(const Net& net) const;
-  [[nodiscard]] std::string more_of(const Flaws& flaws, bool of_surface) const;
+  [[nodiscard]] std::string more_of(const ShapeDefects& defects, bool of_surface) const;
 
   const Model* model_;
   ThreadTeam* team_;
@@ -66,17 +66,17 @@ class Soundness {
   bool has_points_ = false;
   bool is_surface_ = false;
   double edge_ = 0;  ///< the mean one
-  Flaws flaws_;
+  ShapeDefects flaws_;
   std::vector<Vector3> input_;  ///< of a curve that is looked at for crossings: where the input has its nodes
   std::vector<Vector3> held_;   ///< where the input has the nodes that are held
   double energy_ = 0;
-  // Where nothing but positions holds it: with its constraints, and of a surface after smooth_places(); none where
+  // Where nothing but positions holds it: with its constraints, and of a surface after rest_positions(); none where
   // constraints put nodes elsewhere than the input has them.
   double bending_ = 0;
   std::optional<double> smooth_bending_;
 };
 
 /// Of a shape that is handed out as it was found: warns where it is worse, and does not call it converged.
-void say_if_worse(const Soundness& soundness, Net& found, FairReport& report);
+void warn_if_worse(const ResultCheck& check, Net& found, FairReport& report);
 
 }  // namespace vspring

@@ -1,4 +1,4 @@
-#include "solve/secants.hpp"
+#include "solve/multisecant_predictor.hpp"
 
 #include <utility>
 
@@ -21,12 +21,12 @@ double product(std::span<const Vector3> a, std::span<const Vector3> b) {
 
 }  // namespace
 
-void Secants::remember(std::vector<Vector3> held, std::vector<Eigen::Vector3f> moving) {
+void MultisecantPredictor::remember(std::vector<Vector3> held, std::vector<Eigen::Vector3f> moving) {
   if (steps_.size() == depth) steps_.erase(steps_.begin());
   steps_.push_back({std::move(held), std::move(moving)});
 }
 
-void Secants::predict(std::span<Vector3> held, std::span<Vector3> moving) const {
+void MultisecantPredictor::predict(std::span<Vector3> held, std::span<Vector3> moving) const {
   const auto count = static_cast<Eigen::Index>(steps_.size());
   if (count == 0) return;
   const auto step = [&](Eigen::Index k) -> const Step& { return steps_[static_cast<std::size_t>(k)]; };

@@ -1,4 +1,4 @@
-#include "solve/bending_matrix.hpp"
+#include "solve/banded_qr.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,22 +13,22 @@ namespace {
 
 struct Row {
   std::size_t first;
-  std::array<double, BendingMatrix::width> entries;
+  std::array<double, BandedQr::width> entries;
 };
 
 /// Solves for two random right-hand sides; returns the largest error of GᵀG x against them, relative to theirs.
 double residual(const std::vector<Row>& rows, std::size_t size, double closing_first = 0, double closing_last = 0) {
-  BendingMatrix matrix(size);
+  BandedQr matrix(size);
   const bool closing = closing_first != 0 || closing_last != 0;
   const auto n = static_cast<Eigen::Index>(size);
   Eigen::MatrixXd g = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(rows.size()) + 1, n);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     matrix.add_row(rows[r].first, rows[r].entries);
-    for (std::size_t k = 0; k < BendingMatrix::width && rows[r].first + k < size; ++k)
+    for (std::size_t k = 0; k < BandedQr::width && rows[r].first + k < size; ++k)
       g(static_cast<Eigen::Index>(r), static_cast<Eigen::Index>(rows[r].first + k)) = rows[r].entries[k];
   }
   if (closing) {
-    matrix.add_far_row({{0, closing_first}, {size - 1, closing_last}});
+    matrix.add_low_rank_row({{0, closing_first}, {size - 1, closing_last}});
     g(g.rows() - 1, 0) += closing_first;
     g(g.rows() - 1, n - 1) += closing_last;
   }
@@ -53,7 +53,7 @@ std::vector<Row> clamped(std::size_t size) {
   return rows;
 }
 
-TEST(BendingMatrix, SolvesAsTheDenseMatrixDoes) {
+TEST(BandedQr, SolvesAsTheDenseMatrixDoes) {
   for (const std::size_t size : {2U, 3U, 10U, 40U}) EXPECT_LT(residual(clamped(size), size), 1e-8) << size;
   Random random(3);
   for (const std::size_t size : {1U, 2U, 3U, 8U, 30U}) {
@@ -61,7 +61,7 @@ TEST(BendingMatrix, SolvesAsTheDenseMatrixDoes) {
     for (std::size_t i = 0; i < size; ++i) {
       for (int twice = 0; twice < 2; ++twice) {
         Row row = {i, {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)}};
-        for (std::size_t k = size - i; k < BendingMatrix::width; ++k) row.entries[k] = 0;
+        for (std::size_t k = size - i; k < BandedQr::width; ++k) row.entries[k] = 0;
         rows.push_back(row);
       }
     }
@@ -69,7 +69,7 @@ TEST(BendingMatrix, SolvesAsTheDenseMatrixDoes) {
   }
 }
 
-TEST(BendingMatrix, AClosingRowJoinsTheFirstColumnWithTheLast) {
+TEST(BandedQr, AClosingRowJoinsTheFirstColumnWithTheLast) {
   for (const std::size_t size : {1U, 2U, 3U, 10U, 40U}) {
     std::vector<Row> rows = size < 2 ? std::vector<Row>{{0, {1, 0, 0}}} : clamped(size);
     EXPECT_LT(residual(rows, size, 0.7, -1.3), 1e-8) << size;
@@ -77,8 +77,8 @@ TEST(BendingMatrix, AClosingRowJoinsTheFirstColumnWithTheLast) {
   }
 }
 
-TEST(BendingMatrix, AColumnThatNoRowTouchesIsLeftAlone) {
-  BendingMatrix matrix(3);
+TEST(BandedQr, AColumnThatNoRowTouchesIsLeftAlone) {
+  BandedQr matrix(3);
   matrix.add_row(0, {2, 0, 0});
   matrix.add_row(2, {4, 0, 0});
   std::vector<Eigen::Vector2d> x(3, Eigen::Vector2d(8, 16));
@@ -88,11 +88,11 @@ TEST(BendingMatrix, AColumnThatNoRowTouchesIsLeftAlone) {
   EXPECT_EQ(x[2], Eigen::Vector2d(0.5, 1));
 }
 
-TEST(BendingMatrix, SolvesWhereTheProductInDoublePrecisionIsNoLongerDefinite) {
+TEST(BandedQr, SolvesWhereTheProductInDoublePrecisionIsNoLongerDefinite) {
   // The deflection of a clamped beam of n + 1 edges under even load is x²(n + 1 − x)²/24; the condition of GᵀG is about
   // (n/π)⁴, so that from 30,000 nodes on its factorisation breaks down.
   for (const std::size_t size : {1000U, 30000U, 100000U}) {
-    BendingMatrix matrix(size);
+    BandedQr matrix(size);
     // Half a curvature at each clamped end.
     matrix.add_row(0, {std::sqrt(2.0), 0, 0});
     for (const Row& row : clamped(size)) {

@@ -6,6 +6,6 @@
 namespace vspring {
 
 /// The format that the content of a file shows. Throws Error(unusable_file) for a file of a surface. Cost: linear.
-CurveFormat curve_format_of_content(const InputFile& file);
+CurveFormat detect_curve_format(const InputFile& file);
 
 }  // namespace vspring

@@ -9,7 +9,7 @@
 namespace vspring {
 
 /// What fairing sees of a mesh of which only a region moves.
-struct MovingPart {
+struct ActiveSubmesh {
   PolygonMesh mesh;
   Constraints constraints;
   std::vector<Index> node;  ///< number in the whole mesh of every node, ascending
@@ -18,7 +18,7 @@ struct MovingPart {
 /// Cuts out the faces that touch a moving node or a neighbour of one by a face, so that these have all their faces.
 /// Nothing where more than half of the mesh moves, or constraints are not as many as nodes. Cost: linear, a few passes
 /// over flags.
-std::optional<MovingPart> moving_part(const PolygonMesh& mesh, const Constraints& constraints);
+std::optional<ActiveSubmesh> active_submesh(const PolygonMesh& mesh, const Constraints& constraints);
 
 /// What constraints say of some nodes, in that order.
 Constraints constraints_of(const Constraints& constraints, const std::vector<Index>& nodes);

@@ -11,7 +11,7 @@ namespace vspring {
 
 /// How moving nodes went with what holds them in the last steps of a drag, and so where they will go in the next: the
 /// multisecant prediction.
-class Secants {
+class MultisecantPredictor {
  public:
   /// A step that was made: of what holds, not all zero, as many vectors whenever it is called, and of the moving nodes.
   void remember(std::vector<Vector3> held, std::vector<Eigen::Vector3f> moving);

@@ -1,4 +1,4 @@
-#include "solve/soundness.hpp"
+#include "solve/result_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,55 +25,55 @@ Net square(bool with_normals) {
       mesh, with_normals ? held_boundary(mesh, [](const Vector3&) { return Vector3::UnitZ(); }) : held_boundary(mesh));
 }
 
-TEST(Soundness, FindsNothingWhereNothingIsWorse) {
+TEST(ResultCheck, FindsNothingWhereNothingIsWorse) {
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
   for (const bool with_normals : {false, true}) {
     Net start = square(with_normals);
-    const Soundness soundness(start, *model, team);
-    EXPECT_EQ(soundness.fault(start), "");
+    const ResultCheck check(start, *model, team);
+    EXPECT_EQ(check.fault(start), "");
     Net flat = start;
     for (Vector3& p : flat.positions) p.z() = 0;
-    EXPECT_EQ(soundness.fault(flat), "");
+    EXPECT_EQ(check.fault(flat), "");
   }
 }
 
-TEST(Soundness, NamesNodesThatAreNowhereOrFarOutside) {
+TEST(ResultCheck, NamesNodesThatAreNowhereOrFarOutside) {
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
   for (const bool with_normals : {false, true}) {
     Net start = square(with_normals);
-    const Soundness soundness(start, *model, team);
+    const ResultCheck check(start, *model, team);
     const std::string node = "node " + std::to_string(start.node[5]) + " ";
     Net nowhere = start;
     nowhere.positions[5].y() = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_TRUE(contains(soundness.fault(nowhere), node.c_str())) << soundness.fault(nowhere);
+    EXPECT_TRUE(contains(check.fault(nowhere), node.c_str())) << check.fault(nowhere);
     Net outside = start;
     outside.positions[5].z() += 50;
-    EXPECT_TRUE(contains(soundness.fault(outside), node.c_str())) << soundness.fault(outside);
+    EXPECT_TRUE(contains(check.fault(outside), node.c_str())) << check.fault(outside);
     // A normal may ask for a wide bulge.
     Net bulged = start;
     for (std::size_t i = 0; i < bulged.moving; ++i) bulged.positions[i].z() += 4;
-    EXPECT_EQ(contains(soundness.fault(bulged), "outside"), !with_normals) << soundness.fault(bulged);
+    EXPECT_EQ(contains(check.fault(bulged), "outside"), !with_normals) << check.fault(bulged);
   }
 }
 
-TEST(Soundness, CountsEdgesThatTurnBack) {
+TEST(ResultCheck, CountsEdgesThatTurnBack) {
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
   Net start = square(true);
-  const Soundness soundness(start, *model, team);
+  const ResultCheck check(start, *model, team);
   Net folded = start;
   // A node goes beyond its neighbours.
   folded.positions[0] += 2.5 * (folded.positions[folded.rings.links(0)[0].node()] - folded.positions[0]);
-  EXPECT_TRUE(contains(soundness.fault(folded), "90°")) << soundness.fault(folded);
+  EXPECT_TRUE(contains(check.fault(folded), "90°")) << check.fault(folded);
   // Where it was so before, it is no worse.
-  const Soundness of_folded(folded, *model, team);
+  const ResultCheck of_folded(folded, *model, team);
   EXPECT_EQ(of_folded.fault(folded), "");
   EXPECT_EQ(of_folded.fault(start), "");
 }
 
-TEST(Soundness, TellsWhatIsBentMoreFromNoise) {
+TEST(ResultCheck, TellsWhatIsBentMoreFromNoise) {
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
   const auto bowed = [](double height, double noise) {
@@ -89,16 +89,16 @@ TEST(Soundness, TellsWhatIsBentMoreFromNoise) {
   };
   for (const double noise : {0.0, 0.02}) {
     Net start = bowed(0.1, noise);
-    const Soundness soundness(start, *model, team);
-    EXPECT_EQ(soundness.fault(start), "");
+    const ResultCheck check(start, *model, team);
+    EXPECT_EQ(check.fault(start), "");
     Net same = bowed(0.1, 0);
-    EXPECT_EQ(soundness.fault(same), "") << "without the noise";
+    EXPECT_EQ(check.fault(same), "") << "without the noise";
     Net more = bowed(0.3, 0);
-    EXPECT_TRUE(contains(soundness.fault(more), "bent more")) << soundness.fault(more);
+    EXPECT_TRUE(contains(check.fault(more), "bent more")) << check.fault(more);
   }
 }
 
-TEST(Soundness, BendingHardlySeesHowLongCellsLie) {
+TEST(ResultCheck, BendingHardlySeesHowLongCellsLie) {
   // Bands of a sphere: rows of cells of 6 : 1 bent along their columns, as sliding leaves them.
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
@@ -117,36 +117,36 @@ TEST(Soundness, BendingHardlySeesHowLongCellsLie) {
     return gather_net(mesh, held_boundary(mesh));
   };
   Net even = band(0);
-  const Soundness soundness(even, *model, team);
+  const ResultCheck check(even, *model, team);
   Net slid = band(0.05);
-  EXPECT_EQ(soundness.fault(slid).find("bent more"), std::string::npos) << soundness.fault(slid);
+  EXPECT_EQ(check.fault(slid).find("bent more"), std::string::npos) << check.fault(slid);
 }
 
-TEST(Soundness, CountsWhatHasCollapsed) {
+TEST(ResultCheck, CountsWhatHasCollapsed) {
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
   Net start = square(true);
-  const Soundness soundness(start, *model, team);
+  const ResultCheck check(start, *model, team);
   Net collapsed = start;
   for (std::size_t i = 0; i < collapsed.moving; ++i) collapsed.positions[i] = start.positions[0];
-  EXPECT_TRUE(contains(soundness.fault(collapsed), "no area")) << soundness.fault(collapsed);
-  EXPECT_EQ(Soundness(collapsed, *model, team).fault(start), "");
+  EXPECT_TRUE(contains(check.fault(collapsed), "no area")) << check.fault(collapsed);
+  EXPECT_EQ(ResultCheck(collapsed, *model, team).fault(start), "");
 }
 
-TEST(Soundness, KnowsWhatWasHeldElsewhere) {
+TEST(ResultCheck, KnowsWhatWasHeldElsewhere) {
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
   Net start = square(false);
-  const Soundness soundness(start, *model, team);
+  const ResultCheck check(start, *model, team);
   // All goes with what is held: far from where it was, and as good.
   Net dragged = start;
   for (Vector3& p : dragged.positions) p.z() += 50;
-  EXPECT_EQ(soundness.fault_of_places(dragged), "");
+  EXPECT_EQ(check.fault_of_places(dragged), "");
   dragged.positions[0] += 2.5 * (dragged.positions[dragged.rings.links(0)[0].node()] - dragged.positions[0]);
-  EXPECT_TRUE(contains(soundness.fault_of_places(dragged), "90°")) << soundness.fault_of_places(dragged);
+  EXPECT_TRUE(contains(check.fault_of_places(dragged), "90°")) << check.fault_of_places(dragged);
 }
 
-TEST(Soundness, LooksAtTheInputAndNotAtWhatConstraintsMakeOfIt) {
+TEST(ResultCheck, LooksAtTheInputAndNotAtWhatConstraintsMakeOfIt) {
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
   const PolygonMesh mesh = generate::plane({.columns = 8, .rows = 8});
@@ -155,49 +155,49 @@ TEST(Soundness, LooksAtTheInputAndNotAtWhatConstraintsMakeOfIt) {
   const Index node = 4 * 9 + 4;
   constraints.fix_position(node, mesh.position(node) + Vector3(0.3, 0, 0));
   Net start = gather_net(mesh, constraints);
-  const Soundness soundness(start, *model, team);
-  EXPECT_EQ(soundness.fault_of_places(start), "");
+  const ResultCheck check(start, *model, team);
+  EXPECT_EQ(check.fault_of_places(start), "");
   for (std::size_t i = 0; i < start.moving; ++i) {
     if (start.node[i] == 1 * 9 + 1) start.positions[i] += Vector3(0.5, 0.5, 0);
   }
-  EXPECT_TRUE(contains(soundness.fault_of_places(start), "90°")) << soundness.fault_of_places(start);
+  EXPECT_TRUE(contains(check.fault_of_places(start), "90°")) << check.fault_of_places(start);
 }
 
-TEST(Soundness, OfCurvesToo) {
+TEST(ResultCheck, OfCurvesToo) {
   ThreadTeam team(1);
   const auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 20));
   Net start = gather_net(PolygonCurve(nodes), held_ends(nodes)).net;
   const auto model = curve_model_for(start, CurveRules());
-  const Soundness soundness(start, *model, team);
-  EXPECT_EQ(soundness.fault(start), "");
+  const ResultCheck check(start, *model, team);
+  EXPECT_EQ(check.fault(start), "");
   Net folded = start;
   folded.positions[4].x() += 0.2;
-  EXPECT_TRUE(contains(soundness.fault(folded), "90°")) << soundness.fault(folded);
+  EXPECT_TRUE(contains(check.fault(folded), "90°")) << check.fault(folded);
   Net collapsed = start;
   collapsed.positions[4] = collapsed.positions[5];
-  EXPECT_TRUE(contains(soundness.fault(collapsed), "no length")) << soundness.fault(collapsed);
+  EXPECT_TRUE(contains(check.fault(collapsed), "no length")) << check.fault(collapsed);
   Net wavy = start;
   for (std::size_t i = 0; i < wavy.moving; ++i) wavy.positions[i].y() += 0.01 * std::sin(static_cast<double>(9 * i));
-  EXPECT_TRUE(contains(soundness.fault(wavy), "energy")) << soundness.fault(wavy);
+  EXPECT_TRUE(contains(check.fault(wavy), "energy")) << check.fault(wavy);
 }
 
-TEST(Soundness, CountsTurnsOfACurveAtHeldNodesToo) {
+TEST(ResultCheck, CountsTurnsOfACurveAtHeldNodesToo) {
   ThreadTeam team(1);
   auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 20));
   Constraints constraints = held_ends(nodes);
   hold(constraints, nodes, 10);
   Net start = gather_net(PolygonCurve(nodes), constraints).net;
   const auto model = curve_model_for(start, CurveRules());
-  const Soundness soundness(start, *model, team);
+  const ResultCheck check(start, *model, team);
   Net sharp = start;
   for (std::size_t i = 0; i < sharp.moving; ++i) {
     if (sharp.node[i] == 9 || sharp.node[i] == 11)
       sharp.positions[i] += Vector3(sharp.node[i] == 9 ? 0.02 : -0.02, 0.1, 0);
   }
-  EXPECT_TRUE(contains(soundness.fault(sharp), "90°")) << soundness.fault(sharp);
+  EXPECT_TRUE(contains(check.fault(sharp), "90°")) << check.fault(sharp);
 }
 
-TEST(Soundness, SeesACurveThatCrossesItselfWhereNoTangentIsHeld) {
+TEST(ResultCheck, SeesACurveThatCrossesItselfWhereNoTangentIsHeld) {
   ThreadTeam team(1);
   const auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 40));
   for (const bool with_tangents : {false, true}) {
@@ -205,7 +205,7 @@ TEST(Soundness, SeesACurveThatCrossesItselfWhereNoTangentIsHeld) {
         with_tangents ? held_ends(nodes, Vector3::UnitX(), Vector3::UnitX()) : held_ends(nodes);
     Net start = gather_net(PolygonCurve(nodes), constraints).net;
     const auto model = curve_model_for(start, CurveRules());
-    const Soundness soundness(start, *model, team);
+    const ResultCheck check(start, *model, team);
     Net looped = start;
     const Vector3& from = start.positions[start.moving];
     const Vector3 along = start.positions[start.moving + 1] - from;
@@ -215,7 +215,7 @@ TEST(Soundness, SeesACurveThatCrossesItselfWhereNoTangentIsHeld) {
       const double u = 3 * static_cast<double>(start.node[i]) / 40 - 1.5;
       looped.positions[i] = from + (0.5 + (u * u * u - u) / 3.75) * along + 0.15 * (2.25 - u * u) * up;
     }
-    EXPECT_EQ(contains(soundness.fault(looped), "cross each other"), !with_tangents) << soundness.fault(looped);
+    EXPECT_EQ(contains(check.fault(looped), "cross each other"), !with_tangents) << check.fault(looped);
   }
 }
 

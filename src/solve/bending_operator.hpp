@@ -19,20 +19,20 @@ namespace vspring {
 /// B = Gᵀ G with G = [√D L; the roots of C's terms]: first a row for every moving node, which is empty where C has the
 /// rest, then those of C.
 /// Returns B, with `pull` added to its diagonal (empty: nothing). Cost: linear in the moving nodes.
-SparseRows bending_form(const Net& net, ThreadTeam& team, std::span<const double> pull = {});
+SparseRows bending_operator(const Net& net, ThreadTeam& team, std::span<const double> pull = {});
 
 /// B as the product that it is. The net must outlive it.
-FactoredMatrix factored_bending_form(const Net& net, ThreadTeam& team, std::span<const double> pull = {});
+FactoredMatrix factored_bending_operator(const Net& net, ThreadTeam& team, std::span<const double> pull = {});
 
 /// What the form asks of the moving nodes, along their normals, where all nodes have gone such ways, a vector each: to
 /// go on by h with B h = that undoes the bending. Cost: linear.
-std::vector<double> pull_of_ways(const Net& net, std::span<const Vector3> ways);
+std::vector<double> bending_residual(const Net& net, std::span<const Vector3> ways);
 
 /// D, the sum of 1/ℓ over the edges of every moving node, by the lengths that they have now.
-void weigh_edges(const Net& net, ThreadTeam& team, std::vector<float>& sums);
+void sum_edge_weights(const Net& net, ThreadTeam& team, std::vector<float>& sums);
 
 /// The Laplacian of the moving nodes' graph with weights of one: what the regularisation (§4.4) spreads nodes by.
 /// shift: what is added to the diagonal, as a share of it; keeps a net that nothing holds from having no factor.
-SparseRows spreading_form(const Net& net, ThreadTeam& team, double shift = 1e-13);
+SparseRows tangential_laplacian(const Net& net, ThreadTeam& team, double shift = 1e-13);
 
 }  // namespace vspring

@@ -1,4 +1,4 @@
-#include "solve/bending_matrix.hpp"
+#include "solve/banded_qr.hpp"
 
 #include <cmath>
 #include <utility>
@@ -7,7 +7,7 @@
 
 namespace vspring {
 
-void BendingMatrix::add_row(std::size_t first, std::array<double, width> entries) {
+void BandedQr::add_row(std::size_t first, std::array<double, width> entries) {
   for (std::size_t column = first; column < rows_.size(); ++column) {
     auto& row = rows_[column];
     if (entries[0] != 0) {
@@ -29,7 +29,7 @@ void BendingMatrix::add_row(std::size_t first, std::array<double, width> entries
   }
 }
 
-void BendingMatrix::add_far_row(std::vector<Entry> entries, double sign) {
+void BandedQr::add_low_rank_row(std::vector<Entry> entries, double sign) {
   std::vector<double> solution(rows_.size(), 0);
   for (const Entry& entry : entries) solution[entry.column] += entry.value;
   solve_banded<double>(solution);
@@ -48,7 +48,7 @@ void BendingMatrix::add_far_row(std::vector<Entry> entries, double sign) {
 }
 
 template <typename Value>
-void BendingMatrix::solve_banded(std::span<Value> right) const {
+void BandedQr::solve_banded(std::span<Value> right) const {
   const std::size_t size = rows_.size();
   for (std::size_t i = 0; i < size; ++i) {
     if (i > 0) right[i] -= rows_[i - 1][1] * right[i - 1];
@@ -63,7 +63,7 @@ void BendingMatrix::solve_banded(std::span<Value> right) const {
   }
 }
 
-void BendingMatrix::solve(std::span<Eigen::Vector2d> right) const {
+void BandedQr::solve(std::span<Eigen::Vector2d> right) const {
   solve_banded(right);
   if (far_.empty()) return;
   // Sherman, Morrison and Woodbury.

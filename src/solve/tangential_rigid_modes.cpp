@@ -1,4 +1,4 @@
-#include "solve/anchor.hpp"
+#include "solve/tangential_rigid_modes.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace vspring {
 
-Anchor::Anchor(const Net& net) : net_(&net) {
-  if (!net.homes.empty()) return;
+TangentialRigidModes::TangentialRigidModes(const Net& net) : net_(&net) {
+  if (!net.target_positions.empty()) return;
   constexpr auto unseen = static_cast<std::uint32_t>(-1);
   std::vector<std::uint32_t> component(net.moving, unseen);
   std::vector<std::uint8_t> held;
@@ -45,7 +45,7 @@ Anchor::Anchor(const Net& net) : net_(&net) {
   component_ = std::move(component);
 }
 
-void Anchor::hold(std::span<Vector3> vectors) const {
+void TangentialRigidModes::hold(std::span<Vector3> vectors) const {
   if (!needed()) return;
   using Fields = Eigen::Matrix<double, 3, 6>;
   std::vector<Vector3> centre(count_ + 1, Vector3::Zero());

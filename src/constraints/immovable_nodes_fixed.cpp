@@ -1,4 +1,4 @@
-#include "constraints/immovable_held.hpp"
+#include "constraints/immovable_nodes_fixed.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 namespace vspring {
 
-Constraints ImmovableHeld::held(const Constraints& constraints) const {
+Constraints ImmovableNodesFixed::held(const Constraints& constraints) const {
   Constraints held = constraints;
   for (const Index node : nodes_) {
     if (!held.position_fixed(node)) held.fix_position(node, mesh_->position(node));
@@ -14,12 +14,12 @@ Constraints ImmovableHeld::held(const Constraints& constraints) const {
   return held;
 }
 
-void ImmovableHeld::add(const ImmovableNodes& found) {
+void ImmovableNodesFixed::add(const ImmovableNodes& found) {
   nodes_.insert(nodes_.end(), found.nodes().begin(), found.nodes().end());
   message_ = found.what();
 }
 
-std::string ImmovableHeld::warning(const Constraints& constraints) const {
+std::string ImmovableNodesFixed::warning(const Constraints& constraints) const {
   const auto count =
       std::count_if(nodes_.begin(), nodes_.end(), [&](Index node) { return !constraints.position_fixed(node); });
   if (count == 0) return {};

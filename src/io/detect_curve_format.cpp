@@ -1,11 +1,11 @@
-#include "io/curve_sniff.hpp"
+#include "io/detect_curve_format.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "io/column_names.hpp"
-#include "io/sniff.hpp"
+#include "io/detect_format.hpp"
 #include "io/table_rows.hpp"
 
 namespace vspring {
@@ -21,8 +21,8 @@ bool names_x(const std::vector<std::string_view>& cells) {
 
 }  // namespace
 
-CurveFormat curve_format_of_content(const InputFile& file) {
-  if (const auto surface = format_of_content(file.bytes)) {
+CurveFormat detect_curve_format(const InputFile& file) {
+  if (const auto surface = detect_format(file.bytes)) {
     if (*surface == SurfaceFormat::obj) return CurveFormat::obj;
     file.refuse(fmt::format("its content is {}, which holds surfaces; use `vspring fair` for it", name_of(*surface)));
   }

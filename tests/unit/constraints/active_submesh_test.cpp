@@ -1,4 +1,4 @@
-#include "constraints/moving_part.hpp"
+#include "constraints/active_submesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,12 +29,12 @@ std::vector<int> faces_at_nodes(const PolygonMesh& mesh) {
   return faces;
 }
 
-TEST(MovingPart, NodesThatMoveAndTheirNeighboursHaveAllTheirFaces) {
+TEST(ActiveSubmesh, NodesThatMoveAndTheirNeighboursHaveAllTheirFaces) {
   for (const auto faces :
        {generate::Faces::triangles, generate::Faces::quads, generate::Faces::mixed, generate::Faces::hexagons}) {
     const PolygonMesh mesh = generate::saddle({.columns = 24, .rows = 24, .faces = faces});
     const Constraints constraints = held_around(mesh, 0.3);
-    const auto part = moving_part(mesh, constraints);
+    const auto part = active_submesh(mesh, constraints);
     ASSERT_TRUE(part);
     EXPECT_LT(part->mesh.node_count(), mesh.node_count() / 3);
     const std::vector<int> whole = faces_at_nodes(mesh);
@@ -56,20 +56,20 @@ TEST(MovingPart, NodesThatMoveAndTheirNeighboursHaveAllTheirFaces) {
   }
 }
 
-TEST(MovingPart, ThereIsNoneWhereMostOfTheMeshMoves) {
+TEST(ActiveSubmesh, ThereIsNoneWhereMostOfTheMeshMoves) {
   const PolygonMesh mesh = generate::saddle({.columns = 12, .rows = 12});
-  EXPECT_FALSE(moving_part(mesh, held_around(mesh, 0.95)));
-  EXPECT_TRUE(moving_part(mesh, held_around(mesh, 0.5)));
+  EXPECT_FALSE(active_submesh(mesh, held_around(mesh, 0.95)));
+  EXPECT_TRUE(active_submesh(mesh, held_around(mesh, 0.5)));
 }
 
-TEST(MovingPart, FairingItIsFairingTheWhole) {
+TEST(ActiveSubmesh, FairingItIsFairingTheWhole) {
   // The same cells amid many others, and with so few around that nothing is cut out.
   const PolygonMesh large = generate::saddle({.columns = 40, .rows = 40}, 2);
   const PolygonMesh small = generate::saddle({.columns = 14, .rows = 14}, 0.7);
   const Constraints in_large = held_around(large, 0.28);
   const Constraints in_small = held_around(small, 0.28);
-  ASSERT_TRUE(moving_part(large, in_large));
-  ASSERT_FALSE(moving_part(small, in_small));
+  ASSERT_TRUE(active_submesh(large, in_large));
+  ASSERT_FALSE(active_submesh(small, in_small));
   for (const auto method : {Method::equilibrium, Method::sweep}) {
     const FairOptions options{.method = method, .step_tolerance = 1e-6};
     const FairResult of_large = fair(large, in_large, options);
@@ -100,7 +100,7 @@ TEST(MovingPart, FairingItIsFairingTheWhole) {
   }
 }
 
-TEST(MovingPart, FaultsAreNamedByTheirPlaceInTheWhole) {
+TEST(ActiveSubmesh, FaultsAreNamedByTheirPlaceInTheWhole) {
   const PolygonMesh mesh = generate::saddle({.columns = 24, .rows = 24});
   Index middle = 0;
   while (mesh.position(middle).head<2>().norm() > 1e-9) ++middle;
@@ -116,7 +116,7 @@ TEST(MovingPart, FaultsAreNamedByTheirPlaceInTheWhole) {
   }
 }
 
-TEST(MovingPart, ASessionFollowsInIt) {
+TEST(ActiveSubmesh, ASessionFollowsInIt) {
   const PolygonMesh mesh = generate::saddle({.columns = 40, .rows = 40});
   Constraints constraints = held_around(mesh, 0.4);
   FairingSession session(mesh, {.tolerance = 1e-7});

@@ -49,7 +49,7 @@ inline CurveHierarchy hierarchy_of(CurveNet curve, const Model& /*model*/, Distr
 }
 
 /// Scattered points as they come, and the nodes of the shape that are nearest to them. Freed when they are tied.
-struct LoosePoints {
+struct UntiedPoints {
   std::span<const Vector3> positions;
   std::vector<double> weights;
   std::vector<Index> nearest;
@@ -60,7 +60,7 @@ struct LoosePoints {
 };
 
 /// smoothing: the smoothing length in the coordinates of the net, see pull_by_smoothing(); null for Eq. 9.
-inline PointTies tie_points(Net& net, const Model& model, const LoosePoints& points,
+inline PointTies tie_points(Net& net, const Model& model, const UntiedPoints& points,
                             std::shared_ptr<const double> smoothing, ThreadTeam& team) {
   if (!points.normals.empty()) update_directions(net, model, team);
   net.points.are_nodes = points.are_nodes;
@@ -77,11 +77,11 @@ inline PointTies tie_points(Net& net, const Model& model, const LoosePoints& poi
 /// A shape at the equilibrium with points that pull at it, which is found once from its start, and then again and again
 /// from the last one. Gathered: a Net or CurveNet.
 template <typename Gathered>
-class PulledShape {
+class WarmStartedFit {
  public:
   /// smoothing: as for tie_points().
-  PulledShape(Gathered gathered, const FairOptions& options, LoosePoints points,
-              std::shared_ptr<const double> smoothing, ThreadTeam& team)
+  WarmStartedFit(Gathered gathered, const FairOptions& options, UntiedPoints points,
+                 std::shared_ptr<const double> smoothing, ThreadTeam& team)
       : options_(options),
         team_(&team),
         model_(model_of(gathered, options)),
@@ -123,7 +123,7 @@ class PulledShape {
 
   /// From the last shape, where points or what they pull by have changed a little. Where the solver of the equilibrium
   /// finds nothing there, it goes on from the start if that may be far off (or_find), else by plain iterations.
-  void follow(Context& context, ProgressReporter& progress, FairReport& report, bool or_find) {
+  void update(Context& context, ProgressReporter& progress, FairReport& report, bool or_find) {
     const std::size_t last = hierarchy_.count() - 1;
     levels_.tie(last);
     const std::vector<Vector3> start = net().positions;
@@ -162,7 +162,7 @@ class PulledShape {
   /// nowhere. False where that does not apply.
   bool start_from_points() {
     if constexpr (!std::is_same_v<Gathered, CurveNet>) return false;
-    if (net().homes.empty() || net().points.empty()) return false;
+    if (net().target_positions.empty() || net().points.empty()) return false;
     smooth_to_points();
     levels_.tie(hierarchy_.count() - 1);
     return true;

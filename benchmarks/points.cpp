@@ -9,10 +9,10 @@
 #include <cstdlib>
 #include <vector>
 
-#include "fit/nearest_nodes.hpp"
-#include "fit/point_ties.hpp"
 #include "flat_cap.hpp"
 #include "memory.hpp"
+#include "points/nearest_nodes.hpp"
+#include "points/point_ties.hpp"
 #include "seconds.hpp"
 #include "support/fits.hpp"
 

@@ -130,18 +130,18 @@ MUTATIONS = {
     "src/sweep/blocks.cpp": [
         ("blocks-apart", "no two blocks of a group joined by an edge", "if (other < b) taken_by[group_of[other]] = b;", ""),
     ],
-    "src/solve/sweep_method.cpp": [
+    "src/equilibrium/sweep_method.cpp": [
         ("stop", "§4.6: below e", "result.residual < task.step_tolerance", "result.residual < 10 * task.step_tolerance"),
     ],
-    "src/solve/equilibrium.cpp": [
+    "src/equilibrium/equilibrium.cpp": [
         ("expected-error", "expected error from the last corrections", "std::max({step * (1 + left), least_share * slower, rounding})",
          "0.01 * std::max({step * (1 + left), least_share * expected, rounding})"),
     ],
-    "src/solve/force_derivative.cpp": [
+    "src/equilibrium/force_derivative.cpp": [
         ("central-difference", "derivative of the forces", "(ahead[k] - displacement(forces_[j][k])) / (2 * step)",
          "(ahead[k] - displacement(forces_[j][k])) / step", "Vector3"),
     ],
-    "src/solve/spring_energy.cpp": [
+    "src/checks/spring_energy.cpp": [
         ("flow-energy", "energy: ((t_j − t_i)/ℓ)²", "difference * difference / (d.squaredNorm() + net.tiny)", "difference * difference"),
     ],
     "src/levels/balance.hpp": [
@@ -161,12 +161,12 @@ MUTATIONS = {
         ("estimate-last-tangent", "the sense of a last tangent", "forward.empty() ? -one_sided(backward) : one_sided(forward)",
          "one_sided(forward.empty() ? backward : forward)", "Vector3"),
     ],
-    "src/fit/point_ties.cpp": [
+    "src/points/point_ties.cpp": [
         ("nearest-node", "§4.5: tied to the nearest node", "if (!(square < least) || !may_pull(k, j, margin)) continue;",
          "if (!(square > least) || !may_pull(k, j, margin)) continue;"),
         ("second-order", "§4.5: neighbours of second order", "around.insert(around.end(), next.begin(), next.end());", ""),
     ],
-    "src/fit/point_factors.cpp": [
+    "src/points/point_factors.cpp": [
         ("pull-by-edges", "weight of a length: λ⁴ against ρ⁴", "std::pow(mean_edge(net) / *length, 4) / 16", "std::pow(mean_edge(net) / *length, 2) / 16"),
         ("pull-by-smoothing", "weight of a length on surfaces", "scale * count * kappa * square * square", "scale * count * kappa * square"),
         ("pull-on-curves", "weight of a length on curves", "4 * mean_power(net, i, -3)", "8 * mean_power(net, i, -3)"),
@@ -220,7 +220,7 @@ MUTATIONS = {
     "src/shape/segment.hpp": [
         ("segment-ends", "distance from a segment", "std::clamp((point - a).dot(edge) / length2, 0.0, 1.0)", "(point - a).dot(edge) / length2"),
     ],
-    "src/solve/fit_resampled.cpp": [
+    "src/fit/fit_resampled.cpp": [
         ("raised-points", "the dense curve is as far from its points as chords are from the table's", "point += over_chord(", "point -= over_chord("),
     ],
 }

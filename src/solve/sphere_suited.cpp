@@ -1,6 +1,6 @@
 #include "solve/sphere_suited.hpp"
 
-#include "solve/equilibrium_method.hpp"
+#include "equilibrium/equilibrium_method.hpp"
 
 namespace vspring {
 

@@ -9,15 +9,15 @@
 #include <utility>
 
 #include "base/stopwatch.hpp"
-#include "solve/account.hpp"
-#include "solve/equilibrium_method.hpp"
+#include "checks/new_crossings.hpp"
+#include "checks/spring_energy.hpp"
+#include "equilibrium/account.hpp"
+#include "equilibrium/equilibrium_method.hpp"
+#include "equilibrium/multigrid_method.hpp"
+#include "equilibrium/sweep_method.hpp"
 #include "solve/fair_boundary.hpp"
-#include "solve/multigrid_method.hpp"
-#include "solve/new_crossings.hpp"
 #include "solve/part_of_mesh.hpp"
 #include "solve/sphere_suited.hpp"
-#include "solve/spring_energy.hpp"
-#include "solve/sweep_method.hpp"
 
 namespace vspring {
 

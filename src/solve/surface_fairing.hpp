@@ -6,10 +6,10 @@
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
+#include "checks/result_check.hpp"
 #include "constraints/active_submesh.hpp"
+#include "equilibrium/surface_hierarchy.hpp"
 #include "fairness/measure.hpp"
-#include "solve/result_check.hpp"
-#include "solve/surface_hierarchy.hpp"
 #include "spring/model.hpp"
 #include "vspring/fair.hpp"
 

@@ -1,0 +1,312 @@
+#include "checks/result_check.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "checks/curve_crossings.hpp"
+#include "checks/spring_energy.hpp"
+#include "spring/near_nodes.hpp"
+#include "spring/spacing.hpp"
+
+namespace vspring {
+
+namespace {
+
+// In the longest sides of the start, every way about its centre: between few held nodes a fair shape may be rounder
+// than a flat one that it came from, and a tangent or normal may well ask for a wide loop.
+constexpr double wide_box = 3;
+constexpr double box_of_directions = 10;
+// The energy of an exactly fair shape is rounding, a tolerance leaves some, and where nodes of a coarse shape slide it
+// may rise though curvature changes more gently: what rises by less than this factor, or to less than about this turn
+// (in radians) for an edge, tells nothing.
+constexpr double noticed_rise = 3;
+// Of a curve, that is bent more too.
+constexpr double noticed_rise_of_curves = 1.5;
+constexpr double unseen_turn = 1e-3;
+// Of the bending, of a surface or a curve, which hardly changes where nodes slide. Springs may ask for more of it than
+// a fair shape has where a rim is free to turn.
+constexpr double risen_bending = 1.3;
+// Of the same without noise, of which an input may have more than the bending that a shape should not have.
+constexpr double risen_smooth_bending = 2.5;
+// Of the product of two vectors, what tells of an angle beyond 90° in spite of rounding.
+constexpr double beyond_right = -1e-6;
+// Of mean edges: shorter ones, and faces of less than the square of that, are as good as nothing.
+constexpr double collapsed_size = 1e-4;
+// Of products of lengths in those of a link: what few nodes tell nothing of is nothing.
+constexpr double ridge_of_fits = 1e-9;
+
+bool turns_back(const Vector3& a, const Vector3& b) {
+  return a.dot(b) < beyond_right * std::sqrt(a.squaredNorm() * b.squaredNorm());
+}
+
+/// Vector areas, times two, of the faces that follow the spokes of a node; not a number where there is none.
+void find_faces(const Net& net, const std::vector<Vector3>& positions, std::size_t i, std::vector<std::size_t>& spokes,
+                std::vector<Vector3>& faces) {
+  const auto links = net.rings.links(i);
+  spokes.clear();
+  faces.clear();
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (!links[k].spoke()) continue;
+    spokes.push_back(k);
+    Vector3 area = Vector3::Zero();
+    for (std::size_t at = k;;) {
+      const std::size_t next = (at + 1) % links.size();
+      if (links[next].start() || links.size() < 2) {
+        area.setConstant(std::numeric_limits<double>::quiet_NaN());
+        break;
+      }
+      area += (positions[links[at].node()] - positions[i]).cross(positions[links[next].node()] - positions[i]);
+      at = next;
+      if (links[at].spoke()) break;
+    }
+    faces.push_back(area);
+  }
+}
+
+/// Some ∫ κ₁² + κ₂² over a node's share of the faces around it, from a quadratic through it, fitted to the heights of
+/// its link, of few nodes and those of their links. Angles between faces would also say how long cells lie: on one
+/// sphere 4.9 before these slid and 17.6 after, which were 6.8 both times by fits. spokes, faces: as find_faces() finds
+/// them.
+double bending_at(const Net& net, const std::vector<Vector3>& positions, std::size_t i,
+                  std::span<const std::size_t> spokes, std::span<const Vector3> faces) {
+  const auto links = net.rings.links(i);
+  Vector3 normal = Vector3::Zero();
+  double share = 0;
+  for (std::size_t s = 0; s < faces.size(); ++s) {
+    const std::size_t next = spokes[(s + 1) % spokes.size()];
+    const std::size_t corners = (next > spokes[s] ? next : next + links.size()) - spokes[s] + 2;
+    normal += faces[s];
+    share += 0.5 * faces[s].norm() / static_cast<double>(corners);
+  }
+  // Beside a rim there is no link all round.
+  if (!(normal.squaredNorm() > 0)) return 0;
+  normal.normalize();
+  const Vector3 aside = normal.unitOrthogonal();
+  const Vector3 ahead = normal.cross(aside);
+  using Unknowns = Eigen::Matrix<double, 5, 1>;
+  Eigen::Matrix<double, 5, 5> products = Eigen::Matrix<double, 5, 5>::Zero();
+  Unknowns right = Unknowns::Zero();
+  double squares = 0;
+  for (const Link link : links) squares += (positions[link.node()] - positions[i]).squaredNorm();
+  // Lengths in those of the link, so that all unknowns have one unit.
+  const double unit = std::sqrt(squares / static_cast<double>(links.size()));
+  for_near_nodes(net, i, [&](std::size_t j) {
+    const Vector3 e = (positions[j] - positions[i]) / unit;
+    const double square = e.squaredNorm();
+    if (!(square > 0)) return;
+    const double x = e.dot(aside);
+    const double y = e.dot(ahead);
+    const Unknowns row = (Unknowns() << x, y, x * x / 2, x * y, y * y / 2).finished() / square;
+    products += row * row.transpose();
+    right += e.dot(normal) / square * row;
+  });
+  products.diagonal().array() += ridge_of_fits;
+  const Unknowns fit = products.ldlt().solve(right) / unit;
+  const double p = fit[0] * unit;
+  const double q = fit[1] * unit;
+  // Of a graph; κ₁² + κ₂² = (κ₁ + κ₂)² − 2 κ₁ κ₂.
+  const double stretch = 1 + p * p + q * q;
+  const double sum = ((1 + q * q) * fit[2] - 2 * p * q * fit[3] + (1 + p * p) * fit[4]) / std::pow(stretch, 1.5);
+  const double product = (fit[2] * fit[4] - fit[3] * fit[3]) / (stretch * stretch);
+  return (sum * sum - 2 * product) * share;
+}
+
+/// positions: of the nodes, those of the net or others. edge: the mean one. dragged: 1 for nodes that are held
+/// elsewhere than the input has them: what turns beside them is wanted; or empty. Without with_bending, bending is 0.
+ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team,
+                        bool with_bending, std::span<const std::uint8_t> dragged = {}) {
+  const double tiny = collapsed_size * edge;
+  const auto is_dragged = [&](std::size_t node) { return !dragged.empty() && dragged[node] != 0; };
+  if (!net.tangents.empty()) {
+    ShapeDefects defects;
+    for (std::size_t i = 0; i < net.computed; ++i) {
+      const auto links = net.rings.links(i);
+      if (links.size() < 2 || is_dragged(i) || is_dragged(links[0].node()) || is_dragged(links[1].node())) continue;
+      const Vector3 before = positions[i] - positions[links[0].node()];
+      const Vector3 after = positions[links[1].node()] - positions[i];
+      if (turns_back(before, after)) ++(i < net.moving ? defects.turned : defects.turned_at_held);
+      defects.collapsed += after.squaredNorm() < tiny * tiny ? 1 : 0;
+      if (!with_bending) continue;
+      const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
+      const double length = (before.norm() + after.norm()) / 2;
+      if (length > 0) defects.bending += turn * turn / length;
+    }
+    return defects;
+  }
+  std::vector<ShapeDefects> parts((net.computed + nodes_per_task - 1) / nodes_per_task);
+  parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    ShapeDefects& part = parts[begin / nodes_per_task];
+    std::vector<std::size_t> spokes;
+    std::vector<Vector3> faces;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (is_dragged(i)) continue;
+      find_faces(net, positions, i, spokes, faces);
+      const auto neighbour = [&](std::size_t s) { return net.rings.links(i)[spokes[s % spokes.size()]].node(); };
+      for (std::size_t s = 0; s < spokes.size(); ++s) {
+        const std::size_t j = neighbour(s);
+        if (is_dragged(j) || is_dragged(neighbour(s + 1))) continue;
+        if (faces[s].norm() < 2 * tiny * tiny) ++part.collapsed;
+        if (j < i && j < net.computed) continue;
+        const Vector3& before = faces[(s + faces.size() - 1) % faces.size()];
+        if (turns_back(before, faces[s]) && !is_dragged(neighbour(s + spokes.size() - 1))) ++part.turned;
+      }
+      const auto links = net.rings.links(i);
+      if (with_bending && std::none_of(links.begin(), links.end(), [&](Link link) { return is_dragged(link.node()); }))
+        part.bending += bending_at(net, positions, i, spokes, faces);
+    }
+  });
+  ShapeDefects defects;
+  for (const ShapeDefects& part : parts) {
+    defects.turned += part.turned;
+    defects.collapsed += part.collapsed;
+    defects.bending += part.bending;
+  }
+  return defects;
+}
+
+}  // namespace
+
+std::size_t turned_edges(const Net& net, ThreadTeam& team) {
+  return defects_of(net, net.positions, mean_edge(net), team, false).turned;
+}
+
+std::vector<std::uint8_t> nodes_at_turned_edges(const Net& net, ThreadTeam& team) {
+  std::vector<std::uint8_t> result(net.computed, 0);
+  parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::size_t> spokes;
+    std::vector<Vector3> faces;
+    for (std::size_t i = begin; i < end; ++i) {
+      find_faces(net, net.positions, i, spokes, faces);
+      for (std::size_t s = 0; s < faces.size(); ++s)
+        if (turns_back(faces[(s + faces.size() - 1) % faces.size()], faces[s])) result[i] = 1;
+    }
+  });
+  return result;
+}
+
+ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team) : model_(&model), team_(&team) {
+  for (const Vector3& position : start.positions) box_.extend(position);
+  for (const Vector3& position : start.points.positions) box_.extend(position);
+  has_directions_ = std::any_of(start.given.begin(), start.given.end(), [](std::uint8_t given) { return given != 0; });
+  has_points_ = !start.points.positions.empty();
+  is_surface_ = start.tangents.empty();
+  edge_ = mean_edge(start);
+  const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
+  flaws_ = defects_of(start, input, edge_, team, start.input.empty() && looks_at_bending());
+  held_.assign(input.begin() + static_cast<std::ptrdiff_t>(start.moving), input.end());
+  if (looks_at_crossings(start)) input_ = input;
+  if (looks_at_bending()) {
+    bending_ = start.input.empty() ? flaws_.bending : defects_of(start, start.positions, edge_, team, true).bending;
+    if (start.input.empty() && start.tangents.empty()) smooth_bending_ = bending_without_noise(start);
+  }
+  const bool was_prepared = !start.curvatures.empty();
+  model.prepare(start);
+  update_directions(start, model, team);
+  energy_ = spring_energy(start).sum;
+  // Sweeps must do without: they move from the newest positions.
+  if (!was_prepared) start.curvatures.clear();
+}
+
+std::vector<std::uint8_t> ResultCheck::dragged(const Net& now) const {
+  std::vector<std::uint8_t> result(now.positions.size(), 0);
+  bool some = false;
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    if ((now.positions[now.moving + k] - held_[k]).norm() < collapsed_size * edge_) continue;
+    result[now.moving + k] = 1;
+    some = true;
+  }
+  if (!some) result.clear();
+  return result;
+}
+
+bool ResultCheck::looks_at_bending() const {
+  // Of faces without area nobody knows how they are bent.
+  return !has_directions_ && !has_points_ && (!is_surface_ || flaws_.collapsed == 0);
+}
+
+bool ResultCheck::looks_at_crossings(const Net& net) const { return !has_directions_ && !net.tangents.empty(); }
+
+double ResultCheck::bending_without_noise(const Net& net) const {
+  return defects_of(net, rest_positions(net, *team_), edge_, *team_, true).bending;
+}
+
+std::string ResultCheck::misplaced(const Net& now) const {
+  Eigen::AlignedBox3d box = box_;
+  for (std::size_t i = now.moving; i < now.positions.size(); ++i) box.extend(now.positions[i]);
+  const Vector3 half =
+      Vector3::Constant(0.5 * (has_directions_ ? box_of_directions : wide_box) * box.sizes().maxCoeff());
+  const Eigen::AlignedBox3d wide(box.center() - half, box.center() + half);
+  for (std::size_t i = 0; i < now.moving; ++i) {
+    if (!now.positions[i].allFinite()) return fmt::format("node {} has no place", now.node[i]);
+    if (!wide.contains(now.positions[i]))
+      return fmt::format("node {} is far outside the box of what was given", now.node[i]);
+  }
+  return {};
+}
+
+std::string ResultCheck::more_of(const ShapeDefects& defects, bool of_surface) const {
+  if (defects.turned > flaws_.turned)
+    return fmt::format("{} edges turn by more than 90°, {} did before", defects.turned, flaws_.turned);
+  if (defects.turned_at_held > flaws_.turned_at_held)
+    return fmt::format("edges turn by more than 90° at {} held nodes, {} did before", defects.turned_at_held,
+                       flaws_.turned_at_held);
+  if (defects.collapsed > flaws_.collapsed)
+    return fmt::format("{} {}, {} had before", defects.collapsed,
+                       of_surface ? "corners of faces have no area" : "edges have no length", flaws_.collapsed);
+  return {};
+}
+
+std::string ResultCheck::fault_of_places(const Net& now) const {
+  std::string misplaced_node = misplaced(now);
+  if (!misplaced_node.empty()) return misplaced_node;
+  return more_of(defects_of(now, now.positions, edge_, *team_, false, dragged(now)), now.tangents.empty());
+}
+
+std::string ResultCheck::fault(Net& now) const {
+  std::string misplaced_node = misplaced(now);
+  if (!misplaced_node.empty()) return misplaced_node;
+  const std::vector<std::uint8_t> dragged_nodes = dragged(now);
+  const ShapeDefects defects = defects_of(now, now.positions, edge_, *team_, looks_at_bending(), dragged_nodes);
+  std::string more = more_of(defects, now.tangents.empty());
+  if (!more.empty() || has_directions_) return more;
+  if (looks_at_crossings(now) && dragged_nodes.empty()) {
+    const std::size_t crossings = curve_crossings(now, now.positions, *team_);
+    const std::size_t before = crossings > 0 ? curve_crossings(now, input_, *team_) : 0;
+    if (crossings > before) return fmt::format("{} pairs of edges cross each other, {} did before", crossings, before);
+  }
+  if (has_points_) return {};
+  const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
+  const bool is_bent_more = defects.bending > risen_bending * bending_ + unseen;
+  if (now.tangents.empty()) {
+    if (is_bent_more) return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", defects.bending, bending_);
+    const double smooth = smooth_bending_ ? bending_without_noise(now) : 0;
+    if (smooth > risen_smooth_bending * smooth_bending_.value_or(0) + unseen)
+      return fmt::format("it is bent more, by {:.3g} in place of {:.3g} without the noise of either", smooth,
+                         *smooth_bending_);
+  }
+  // What bends less may have curvature that changes more.
+  if (!now.spheres.differences.empty()) return {};
+  model_->prepare(now);
+  update_directions(now, *model_, *team_);
+  const double energy = spring_energy(now).sum;
+  const double rise = !is_surface_ && is_bent_more ? noticed_rise_of_curves : noticed_rise;
+  if (!(energy <= rise * energy_ + unseen))
+    return fmt::format("the V-Spring energy rose from {:.3g} to {:.3g}", energy_, energy);
+  return {};
+}
+
+void warn_if_worse(const ResultCheck& check, Net& found, FairReport& report) {
+  const std::string fault = check.fault(found);
+  if (fault.empty()) return;
+  report.warnings.push_back("what was found is worse than the input: " + fault);
+  if (report.outcome == Outcome::converged) report.outcome = Outcome::worse_than_input;
+}
+
+}  // namespace vspring

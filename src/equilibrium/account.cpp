@@ -1,0 +1,46 @@
+#include "equilibrium/account.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace vspring {
+
+double diagonal(const Net& net) {
+  Eigen::AlignedBox<double, 3> box;
+  for (const Vector3& position : net.positions) box.extend(position);
+  return box.isEmpty() ? 1 : box.diagonal().norm();
+}
+
+std::string distance_from_equilibrium(const FairReport& report) {
+  if (!(report.expected_error.value_or(1) < 1)) return "far from one";
+  return fmt::format("expected to be {:.2g} % of the size away from one", 100 * *report.expected_error);
+}
+
+void count_nodes(const Net& net, const Constraints& constraints, FairReport& report) {
+  report.nodes = constraints.node_count();
+  report.moving_nodes = static_cast<Index>(net.moving);
+  for (Index i = 0; i < constraints.node_count(); ++i) {
+    report.fixed_positions += constraints.position_fixed(i) ? 1 : 0;
+    report.fixed_normals += constraints.normal_fixed(i) ? 1 : 0;
+    report.fixed_tangents += constraints.tangent_fixed(i) ? 1 : 0;
+  }
+}
+
+void measure_moves(const Net& net, const std::vector<Vector3>& before, const std::vector<Vector3>& after,
+                   FairReport& report) {
+  double squares = 0;
+  double greatest = 0;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const auto node = static_cast<std::size_t>(net.node[i]);
+    const double square = ((after[node] - before[node]) * net.frame.scale()).squaredNorm();
+    squares += square;
+    greatest = std::max(greatest, square);
+  }
+  report.greatest_move = std::sqrt(greatest) / net.frame.scale();
+  if (net.moving > 0) report.rms_move = std::sqrt(squares / static_cast<double>(net.moving)) / net.frame.scale();
+}
+
+}  // namespace vspring

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "base/progress.hpp"
+#include "base/threads.hpp"
+#include "precondition/anderson.hpp"
+#include "precondition/preconditioner.hpp"
+#include "spring/model.hpp"
+#include "vspring/fair.hpp"
+
+namespace vspring {
+
+/// How one level goes to its equilibrium.
+struct EquilibriumTask {
+  double tolerance = 1e-5;  ///< expected largest distance of a node from its final place, in the net's coordinates
+  int max_iterations = 200;
+  /// In iterations, as some of which building a preconditioner anew counts; Outcome::work_limit beyond.
+  double most_work = std::numeric_limits<double>::infinity();
+  /// From so many iterations on it goes on only where it has been nearer than that; else to max_iterations.
+  std::optional<int> most_while_far = std::nullopt;
+  double near = 0;
+  /// Called after every iteration with the expected distance.
+  std::function<void(double)> on_iteration = nullptr;
+  /// Ties scattered points to the nodes that are nearest by now, but for a margin, see PointTies::renew().
+  std::function<bool(double)> renew_ties = nullptr;
+  /// After how many changes of ties at the end it may end all the same.
+  int most_changes = 20;
+  /// Of an earlier run of much the same equations; kept. Else there is none.
+  Anderson<float>* memory = nullptr;
+  /// Where the shape is found to be near enough, it takes the last step, too, which leads nearer.
+  bool take_last = false;
+};
+
+struct EquilibriumResult {
+  Outcome outcome = Outcome::iteration_limit;
+  int iterations = 0;
+  double work = 0;            ///< as for most_work
+  double expected_error = 0;  ///< in the net's coordinates
+};
+
+/// Goes to where all displacements of the model vanish: corrections by the preconditioner, Anderson acceleration, steps
+/// so short that no edge turns much. Ends with the shape of the smallest expected error, with points where their ties
+/// do not change any more. See docs/solver.md.
+EquilibriumResult go_to_equilibrium(Net& net, const Model& model, Preconditioner& preconditioner,
+                                    const EquilibriumTask& task, ThreadTeam& team, Context& context);
+
+}  // namespace vspring

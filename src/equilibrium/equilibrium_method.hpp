@@ -1,0 +1,32 @@
+#pragma once
+
+#include "base/progress.hpp"
+#include "base/threads.hpp"
+#include "checks/result_check.hpp"
+#include "equilibrium/hierarchy.hpp"
+#include "equilibrium/point_levels.hpp"
+#include "precondition/anderson.hpp"
+#include "spring/model.hpp"
+#include "vspring/fair.hpp"
+
+namespace vspring {
+
+/// Whether so little holds it that spheres of many sizes are fair: an equilibrium is one of a family then, and nothing
+/// to be found by steps to a single one.
+bool is_underconstrained(const Net& net);
+
+/// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the shape is
+/// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. soundness:
+/// where given, of the start, the result is no worse or said to be. points: of the levels, if any.
+void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
+                     Context& context, ProgressReporter& progress, FairReport& report, const ResultCheck* check,
+                     PointLevels* points = nullptr);
+
+/// The same from a shape that is near to its equilibrium, without a look at coarser levels, with a preconditioner of
+/// the shape itself. Ends short of it where the shape is not near enough.
+void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,
+                               const FairOptions& options, ThreadTeam& team, Context& context,
+                               ProgressReporter& progress, FairReport& report, PointLevels* points = nullptr,
+                               Anderson<float>* memory = nullptr, bool take_last = false);
+
+}  // namespace vspring

@@ -1,0 +1,191 @@
+#include "equilibrium/surface_hierarchy.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "levels/surface_slide.hpp"
+#include "linear/interpolation.hpp"
+#include "precondition/surface_preconditioner.hpp"
+#include "spring/surface_force.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Passes of means over the few nodes of the coarsest level, until they lie as on a soap film.
+constexpr int film_passes = 500;
+// Of nodes along the surface that was handed up. A step of less than this many edges is left to the solver.
+constexpr int slide_passes = 6;
+constexpr double worth_sliding = 0.5;
+constexpr double negligible_slide = 0.05;
+constexpr double slide_share = 0.15;
+// Moves of what holds, as shares of the tolerance: those that nobody need follow, and those that say where nodes go.
+constexpr double negligible_move = 0.25;
+constexpr double telling_move = 2;
+// Moving nodes up to which Cholesky factors are faster than multigrid.
+constexpr std::size_t few_enough_to_factor = 3000;
+
+double greatest_length(std::span<const Vector3> vectors) {
+  double square = 0;
+  for (const Vector3& vector : vectors) square = std::max(square, vector.squaredNorm());
+  return std::sqrt(square);
+}
+
+}  // namespace
+
+void SurfaceHierarchy::limit(std::size_t levels) {
+  if (levels < levels_.size()) levels_.erase(levels_.begin(), levels_.end() - static_cast<std::ptrdiff_t>(levels));
+}
+
+Preconditioner& SurfaceHierarchy::preconditioner(std::size_t level) {
+  make_systems(level);
+  return preconditioner_.emplace(system_levels_, *spreading_, *rigid_modes_, *team_);
+}
+
+Preconditioner& SurfaceHierarchy::kept_preconditioner() {
+  const std::size_t last = levels_.size() - 1;
+  return preconditioner_ && systems_of_ == last ? *preconditioner_ : preconditioner(last);
+}
+
+void SurfaceHierarchy::make_systems(std::size_t level) {
+  // Nodes that slide take their neighbours with them: shares hold for as long as the level is worked on.
+  if (systems_of_ == level) return;
+  systems_of_ = level;
+  preconditioner_.reset();
+  spreading_.reset();
+  system_levels_ = {.net = &levels_[level].net};
+  for (std::size_t k = level; k > 0 && levels_[k].net.moving > few_enough_to_factor; --k) {
+    SurfaceLevel& coarse = levels_[k - 1];
+    restrict_shape(levels_[k], coarse);
+    system_levels_.interpolations.push_back(interpolation(levels_[k].net, coarse.net, coarse.finer, *team_));
+  }
+  rigid_modes_.emplace(levels_[level].net);
+  spreading_ = spreading_solver(system_levels_, *team_, !rigid_modes_->needed());
+}
+
+void SurfaceHierarchy::start() {
+  for (std::size_t k = levels_.size(); k-- > 1;) {
+    const Net& fine = levels_[k].net;
+    SurfaceLevel& coarse = levels_[k - 1];
+    for (std::size_t i = 0; i < coarse.net.moving; ++i) {
+      const std::size_t at = coarse.finer[i];
+      coarse.net.positions[i] =
+          coarse.places.empty() ? Vector3(0.5 * (fine.positions[at] + mean_of_neighbours(fine, at))) : coarse.places[i];
+    }
+  }
+}
+
+void SurfaceHierarchy::start_from_membrane(std::size_t level) {
+  Net& net = levels_[level].net;
+  for (int pass = 0; pass < film_passes; ++pass) {
+    for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] = mean_of_neighbours(net, i);
+  }
+}
+
+void SurfaceHierarchy::prolong_from(std::size_t level) {
+  prolong(levels_[level], levels_[level + 1], *team_);
+  systems_of_.reset();
+  spread_along(level + 1);
+}
+
+std::vector<Vector3> SurfaceHierarchy::step_of_held(const Constraints& constraints) const {
+  const Net& net = levels_.back().net;
+  std::vector<Vector3> step(net.positions.size() - net.moving, Vector3::Zero());
+  for (std::size_t k = 0; k < step.size(); ++k) {
+    const Index node = net.node[net.moving + k];
+    if (constraints.position_fixed(node))
+      step[k] = net.frame.to_local(constraints.position(node)) - net.positions[net.moving + k];
+  }
+  for (std::size_t i = 0; i < net.positions.size(); ++i) {
+    if (!net.normal_given(i)) continue;
+    const Vector3& normal = constraints.normal(net.node[i]);
+    const Vector3& before = net.normals[i];
+    step.emplace_back((normal.dot(before) < 0 ? Vector3(-normal) : normal) - before);
+  }
+  return step;
+}
+
+std::vector<Vector3> SurfaceHierarchy::ways_with(const std::vector<Vector3>& held_step, const Model& model,
+                                                 double tolerance) {
+  const Net& net = levels_.back().net;
+  std::vector<Vector3> rest = held_step;
+  std::vector<Vector3> ways(net.moving, Vector3::Zero());
+  predictor_.predict(rest, ways);
+  rest.resize(net.positions.size() - net.moving);
+  if (greatest_length(rest) > negligible_move * tolerance) {
+    (void)kept_preconditioner().refresh(model);
+    std::vector<Vector3> correction;
+    preconditioner_->update(rest, negligible_move * tolerance, correction);
+    for (std::size_t i = 0; i < net.moving; ++i) ways[i] += correction[i];
+  }
+  return ways;
+}
+
+std::vector<Vector3> SurfaceHierarchy::predict(const Constraints& constraints, const Model& model, double tolerance) {
+  std::vector<Vector3> places = ways_with(step_of_held(constraints), model, tolerance);
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] += levels_.back().net.positions[i];
+  return places;
+}
+
+void SurfaceHierarchy::update(const Constraints& constraints, const Model& model, double tolerance) {
+  Net& net = levels_.back().net;
+  began_ = net.positions;
+  normals_began_ = net.normals;
+  held_step_ = step_of_held(constraints);
+  const std::vector<Vector3> ways = ways_with(held_step_, model, tolerance);
+  for (std::size_t i = 0; i < net.moving; ++i) net.positions[i] += ways[i];
+  auto step = held_step_.begin();
+  for (std::size_t i = net.moving; i < net.positions.size(); ++i) net.positions[i] += *step++;
+  for (std::size_t i = 0; i < net.positions.size(); ++i) {
+    if (net.normal_given(i)) net.normals[i] += *step++;
+  }
+  if (greatest_length(held_step_) < telling_move * tolerance) held_step_.clear();
+  if (!memory_) memory_.emplace(acceleration_depth, net.moving, *team_);
+  memory_->begin_anew();
+}
+
+void SurfaceHierarchy::arrived() {
+  if (held_step_.empty()) return;
+  const Net& net = levels_.back().net;
+  std::vector<Eigen::Vector3f> way(net.moving);
+  for (std::size_t i = 0; i < net.moving; ++i) way[i] = (net.positions[i] - began_[i]).cast<float>();
+  predictor_.remember(std::move(held_step_), std::move(way));
+}
+
+void SurfaceHierarchy::go_back() {
+  levels_.back().net.positions = began_;
+  levels_.back().net.normals = normals_began_;
+}
+
+void SurfaceHierarchy::spread_along(std::size_t level) {
+  Net& net = levels_[level].net;
+  make_systems(level);
+  std::vector<NodeForce> forces(net.moving);
+  std::vector<Vector3> steps(net.moving);
+  for (int pass = 0; pass < slide_passes; ++pass) {
+    parallel_ranges(*team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        forces[i] = surface_force(net, i);
+        const auto links = net.rings.links(i);
+        const auto spokes = std::count_if(links.begin(), links.end(), [](Link link) { return link.spoke(); });
+        steps[i] = regularisation_divisor(net) * static_cast<double>(spokes) * forces[i].regularisation;
+      }
+    });
+    double least_edge = forces.front().mean_edge;
+    for (const NodeForce& force : forces) least_edge = std::min(least_edge, force.mean_edge);
+    rigid_modes_->hold(steps);
+    spreading_->solve(steps, {.enough = negligible_slide * least_edge, .share = slide_share});
+    for (std::size_t i = 0; i < net.moving; ++i) steps[i] -= steps[i].dot(net.normals[i]) * net.normals[i];
+    rigid_modes_->hold(steps);
+    bool worth_it = false;
+    for (std::size_t i = 0; i < net.moving; ++i)
+      worth_it = worth_it || steps[i].norm() > worth_sliding * forces[i].mean_edge;
+    if (!worth_it) break;
+    slide(net, steps, *team_);
+  }
+}
+
+}  // namespace vspring

@@ -1,0 +1,87 @@
+#include "equilibrium/sweep_method.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "equilibrium/best_iterate.hpp"
+#include "sweep/sweep.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Steps may well grow for a while, when a fold opens or a bulge turns over; beyond this they tell of a shape that falls
+// apart: under too few constraints nodes can go on drifting to one side of a closed surface until it collapses.
+constexpr double lost_factor = 10;
+constexpr int sweep_patience = 500;
+constexpr int sweeps_per_tie = 5;
+// Where a point changes over to another node, steps as small as this may jump, and nothing is lost.
+constexpr double small_step = 1e-3;
+
+/// Steps fall about geometrically, so the logarithm of the step tells how much of the way is done.
+double share_done(double first, double now, double last) {
+  if (now <= last) return 1;
+  return first > now ? std::log(first / now) / std::log(first / last) : 0;
+}
+
+// In sweeps of one node.
+constexpr double most_of_last_resort = 5e6;
+
+}  // namespace
+
+int sweeps_of_last_resort(std::size_t moving_nodes) {
+  const double most = most_of_last_resort / static_cast<double>(std::max<std::size_t>(moving_nodes, 1));
+  return static_cast<int>(std::clamp(most, 10.0, 1e4));
+}
+
+SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& task, ThreadTeam& team, Context& context) {
+  Sweep sweep(net, model, team);
+  BestIterate best(net, lost_factor, task.renew_ties ? small_step : 0);
+  SweepResult result;
+  bool still = false;
+  while (result.outcome == Outcome::iteration_limit && result.iterations < task.max_iterations) {
+    if (context.cancelled()) {
+      result.outcome = Outcome::cancelled;
+      break;
+    }
+    const bool fresh = !task.renew_ties || still || result.iterations % sweeps_per_tie == 0;
+    if (task.renew_ties && fresh) task.renew_ties();
+    result.residual = sweep.iterate();
+    ++result.iterations;
+    best.look(result.residual);
+    if (task.on_iteration) task.on_iteration(result.residual);
+    still = result.residual < task.step_tolerance;
+    if (still && fresh) {
+      result.outcome = Outcome::converged;
+    } else if (best.lost_for() >= sweep_patience || !std::isfinite(result.residual)) {
+      result.outcome = Outcome::stalled;
+    }
+  }
+  result.lost = best.lost_for() > 0 && (task.step_tolerance > 0 || result.outcome == Outcome::stalled);
+  if (result.lost) result.residual = best.restore();
+  return result;
+}
+
+void run_sweeps(Net& net, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
+                ProgressReporter& progress, FairReport& report, std::function<void()> renew_ties) {
+  SweepTask task{.step_tolerance = options.step_tolerance,
+                 .max_iterations = options.max_iterations.value_or(SweepTask().max_iterations),
+                 .renew_ties = std::move(renew_ties)};
+  task.on_iteration = [&](double residual) {
+    report.history.push_back(residual);
+    const auto iterations = static_cast<int>(report.history.size());
+    progress.report("fairing",
+                    std::max(share_done(report.history.front(), residual, task.step_tolerance),
+                             static_cast<double>(iterations) / task.max_iterations),
+                    iterations, residual);
+  };
+  const SweepResult result = sweep_until_still(net, model, task, team, context);
+  report.outcome = result.outcome;
+  report.iterations = result.iterations;
+  report.work += work_of_sweep * static_cast<double>(result.iterations) * static_cast<double>(net.moving);
+  report.residual = result.residual;
+  if (result.lost) report.warnings.emplace_back(lost_warning);
+}
+
+}  // namespace vspring

@@ -1,0 +1,419 @@
+// Scattered points (§4.5, indirect constraints).
+
+#include "vspring/fit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/stopwatch.hpp"
+#include "checks/result_check.hpp"
+#include "constraints/immovable_nodes_fixed.hpp"
+#include "curve_fit/gentle_curve.hpp"
+#include "equilibrium/sweep_method.hpp"
+#include "fit/fit_points.hpp"
+#include "fit/fit_run.hpp"
+#include "fit/fit_to_tolerance.hpp"
+#include "fit/noise_fit.hpp"
+#include "points/point_factors.hpp"
+#include "points/point_ties.hpp"
+#include "solve/fair_boundary.hpp"
+#include "vspring/figures.hpp"
+
+namespace vspring {
+
+namespace {
+
+// The last steps of a plain iteration are about k times their distance.
+constexpr double step_share = 0.1;
+// Of outliers and shape.
+constexpr int most_turns_of_outliers = 12;
+// Where nodes have homes, waves are short and decay soon.
+constexpr int most_sweeps_of_homes = 2000;
+// In standard deviations of the noise that is to be taken off.
+constexpr double far_off = 1.5;
+// Points without a tolerance that end so far from the shape, root mean square, as a share of their box, and so many
+// times as far as before, are hardly what was asked for: springs that they hardly pull at make a balloon of few nodes.
+constexpr double left_behind = 0.02;
+constexpr double left_times = 10;
+// Nodes that went so far, root mean square, as a share of the size, to a shape so many times as far from the points,
+// are such a balloon for certain.
+constexpr double balloon_move = 0.1;
+constexpr double balloon_times = 3;
+// Of a tolerance: a point that is further away holds the shape.
+constexpr double holds_from_share = 0.99;
+// An expected error, as a share of the size, from which a curve on its way to an equilibrium is no use.
+constexpr double curve_is_lost_at = 1e-2;
+
+template <typename Subject>
+class Fitting {
+ public:
+  Fitting(const typename Subject::Shape& shape, const Constraints& constraints, const ScatteredPoints& points,
+          const FitOptions& options, Context& context)
+      : run_(shape, constraints, points, options, context), options_(options) {}
+
+  FitResult fit() {
+    const Stopwatch stopwatch;
+    const auto& shape = run_.subject.shape();
+    const Constraints& constraints = run_.subject.constraints();
+    if (constraints.node_count() != shape.node_count()) (void)check_constraints(shape, constraints);
+    ProgressReporter progress(run_.context);
+    progress.report("preparing", 0);
+    FitResult& result = run_.result;
+    FitReport& report = result.report;
+    if (options_.outliers > 0) {
+      leave_outliers_out(progress);
+    } else {
+      fit(progress, false);
+    }
+    if constexpr (std::is_same_v<Subject, FitCurve>) go_gently();
+    stay_sound();
+
+    report.fair.before = run_.subject.fairness(shape.positions());
+    report.fair.after = run_.subject.fairness(result.positions);
+    const std::vector<std::uint8_t> every(run_.kept.size(), 1);
+    report.before = summary(run_.subject.distances_before(), every);
+    result.distances = run_.distances();
+    report.after = summary(result.distances, run_.kept);
+    report.outliers = report.points - report.after.all.count;
+    if (options_.noise) say_if_far_off();
+    say_if_left_behind();
+    report.outside_points = count_outside(result.distances);
+    report.fair.seconds = stopwatch.seconds();
+    return std::move(result);
+  }
+
+ private:
+  /// A shape that is further from its nodes than noise explains is not what was asked for.
+  void say_if_far_off() {
+    FairReport& report = run_.result.report.fair;
+    const double distance = run_.result.report.after.all.rms;
+    if (report.outcome != Outcome::converged || !(distance > far_off * *options_.noise)) return;
+    report.outcome = Outcome::stalled;
+    report.warnings.push_back(fmt::format(
+        "nodes were {:.2g} times the noise away from the shape in the root mean square: it could not follow "
+        "them everywhere; they may be too few for their features, or faces folded without noise",
+        distance / *options_.noise));
+  }
+
+  void say_if_left_behind() {
+    FairReport& report = run_.result.report.fair;
+    if (report.outcome != Outcome::converged || options_.within || options_.rms || options_.noise) return;
+    const double before = run_.result.report.before.all.rms;
+    const double after = run_.result.report.after.all.rms;
+    Eigen::AlignedBox3d box;
+    for (const Vector3& point : run_.points.positions) box.extend(point);
+    // The nodes themselves are no further away than smoothing takes them.
+    if (!(before > 0) || after < left_behind * box.diagonal().norm() || after < left_times * before) return;
+    report.warnings.push_back(
+        fmt::format("points are {:.2g} times as far from the shape as before, in the root mean square: give them "
+                    "a greater weight, a shorter smoothing length, or a tolerance to stay within",
+                    after / before));
+  }
+
+  /// In words, where nodes went far, and away from the points; empty where not.
+  std::string balloon(const Net& before, const Net& now) {
+    if (options_.within || options_.rms || options_.noise) return {};
+    double squares = 0;
+    for (std::size_t i = 0; i < now.moving; ++i) squares += (now.positions[i] - before.positions[i]).squaredNorm();
+    const double share = std::sqrt(squares / std::max<double>(1, static_cast<double>(now.moving))) / diagonal(before);
+    if (!(share > balloon_move)) return {};
+    const double at_first = summary(run_.subject.distances_before(), run_.kept).all.rms;
+    const double at_last = summary(run_.distances(), run_.kept).all.rms;
+    if (!(at_last > balloon_times * at_first)) return {};
+    return fmt::format(
+        "its nodes are {:.2g} % of the size away from where they were, and it is {:.2g} from the points in place of "
+        "{:.2g}, all in the root mean square",
+        100 * share, at_last, at_first);
+  }
+
+  /// The curve of least bending within a tolerance may swing beside a nose of few points and is straight at ends that
+  /// are free to turn: where the gentle one has fewer inflections and extremes of curvature, it is taken.
+  void go_gently() {
+    FitReport& report = run_.result.report;
+    const bool is_found = report.fair.outcome == Outcome::converged || report.fair.outcome == Outcome::work_limit;
+    const bool all_count = options_.outliers == 0 && run_.points.weights.empty();
+    if (!options_.within || !is_found || !report.smoothing_length || !all_count) return;
+    const Constraints& constraints = run_.subject.constraints();
+    PolygonCurve curve = run_.subject.shape();
+    curve.set_positions(run_.result.positions);
+    const CurveFigures before = measure_curve(curve, &constraints);
+    if (before.inflections + before.curvature_extrema == 0) return;
+    auto gentle = gentle_curve(curve, constraints, run_.points.positions, *options_.within,
+                               std::numeric_limits<std::size_t>::max(), run_.context);
+    if (!gentle) return;
+    curve.set_positions(*gentle);
+    const CurveFigures after = measure_curve(curve, &constraints);
+    const bool has_more = after.inflections > before.inflections || after.curvature_extrema > before.curvature_extrema;
+    const bool has_fewer = after.inflections < before.inflections || after.curvature_extrema < before.curvature_extrema;
+    if (has_more || !has_fewer) return;
+    const std::vector<Vector3> own = std::exchange(run_.result.positions, std::move(*gentle));
+    const std::vector<double> distances = run_.distances();
+    if (*std::max_element(distances.begin(), distances.end()) > *options_.within ||
+        !InputAndFound(*this).fault.empty()) {
+      run_.result.positions = own;
+      return;
+    }
+    const auto holds = [&](double distance) { return distance > holds_from_share * *options_.within; };
+    report.active_points = static_cast<Index>(std::count_if(distances.begin(), distances.end(), holds));
+    // That was of the other shape.
+    report.fair.expected_error.reset();
+    auto gathered = run_.gather();
+    measure_moves(net_of(gathered), run_.subject.shape().positions(), run_.result.positions, report.fair);
+  }
+
+  /// The input with its constraints, the shape that was found, and what is worse about it, in words.
+  struct InputAndFound {
+    explicit InputAndFound(Fitting& fitting)
+        : gathered(fitting.run_.gather()), input(net_of(gathered)), model(model_of(gathered, fitting.options_.fair)) {
+      auto& run = fitting.run_;
+      for (const Vector3& point : run.points.positions) input.points.positions.push_back(input.frame.to_local(point));
+      check.emplace(input, *model, run.team);
+      input.points = {};
+      found = input;
+      for (std::size_t i = 0; i < input.moving; ++i)
+        found.positions[i] = input.frame.to_local(run.result.positions[static_cast<std::size_t>(input.node[i])]);
+      fault = check->fault(found);
+      if (fault.empty()) fault = run.subject.crossings(run.result.positions);
+      if (fault.empty()) fault = fitting.balloon(input, found);
+    }
+
+    decltype(std::declval<FitRun<Subject>&>().gather()) gathered;
+    Net& input;
+    std::unique_ptr<const Model> model;
+    std::optional<ResultCheck> check;
+    Net found;
+    std::string fault;
+  };
+
+  /// Where the shape is worse than it came, it stays as it came, unless it is wanted as found.
+  void stay_sound() {
+    FairReport& report = run_.result.report.fair;
+    if (report.outcome == Outcome::worse_than_input) return;
+    const InputAndFound shapes(*this);
+    const std::string& fault = shapes.fault;
+    if (fault.empty()) return;
+    const bool input_is_faulty = !shapes.check->fault_of_places(shapes.input).empty();
+    const bool as_found = options_.fair.as_found || (input_is_faulty && shapes.check->misplaced(shapes.found).empty());
+    if (!as_found) run_.finish(shapes.input);
+    if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
+    report.warnings.push_back(
+        as_found ? "what was found is worse than the input: " + fault
+                 : fmt::format("what was found is worse than the input ({}): this is the input with its constraints; "
+                               "other weights or tolerances may do, or more that is held",
+                               fault));
+  }
+
+  /// Fits and leaves out the points that are furthest away, in turns, until they stay the same.
+  void leave_outliers_out(ProgressReporter& progress) {
+    const bool searches = options_.within || options_.rms;
+    // A tolerance means nothing as long as outliers count.
+    bool smooth_first = searches;
+    for (int turn = 0; turn < most_turns_of_outliers; ++turn) {
+      fit(progress, smooth_first);
+      if (run_.context.cancelled()) return;
+      const auto before = std::exchange(run_.kept, without_furthest(run_.distances(), options_.outliers));
+      if (before != run_.kept) continue;
+      if (!smooth_first) return;
+      smooth_first = false;
+    }
+    if (smooth_first) fit(progress, false);
+    run_.result.report.fair.warnings.emplace_back(
+        "the outliers went on changing with the shape: the last ones are left out");
+  }
+
+  /// smooth: by some edges, instead of to a tolerance.
+  void fit(ProgressReporter& progress, bool smooth) {
+    run_.start_report(options_.fair.method.value_or(Method::equilibrium));
+    FairReport& report = run_.result.report.fair;
+    UntiedPoints points = run_.loose_points();
+    const auto has_weight = [](double weight) { return weight > 0; };
+    if (std::none_of(points.weights.begin(), points.weights.end(), has_weight)) {
+      FairResult plain = vspring::fair(run_.subject.shape(), run_.subject.constraints(), options_.fair, run_.context);
+      report = std::move(plain.report);
+      run_.result.positions = std::move(plain.positions);
+      return;
+    }
+    std::vector<std::uint8_t> pulled(static_cast<std::size_t>(run_.subject.shape().node_count()), 0);
+    for (std::size_t j = 0; j < points.nearest.size(); ++j) {
+      if (points.nearest[j] >= 0 && has_weight(points.weights[j]))
+        pulled[static_cast<std::size_t>(points.nearest[j])] = 1;
+    }
+    const std::vector<std::string> warnings = run_.subject.check(pulled);
+    report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
+    if (report.method == Method::sweep) {
+      sweep(std::move(points), options_.fair, progress);
+      return;
+    }
+    if (report.method == Method::multigrid) {
+      (void)run_on_levels(std::move(points), progress);
+      return;
+    }
+    if constexpr (std::is_same_v<Subject, FitSurface>) {
+      if (options_.noise) {
+        fit_without_noise(run_, std::move(points), progress);
+        return;
+      }
+    }
+    if (options_.within || options_.rms) {
+      FitToTolerance<Subject>(run_).fit(std::move(points), progress, smooth);
+      return;
+    }
+    const bool has_homes = run_on_levels(std::move(points), progress);
+    const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
+    if (found || !may_replace() || std::is_same_v<Subject, FitCurve>) return;
+    // Nobody asked for this method: the paper's iteration ends where points crumple a shape, too.
+    std::optional<FitResult> nearest;
+    if (has_homes) nearest = run_.result;
+    std::vector<std::string> said = std::move(report.warnings);
+    said.emplace_back(
+        "no equilibrium was found: this is the plain iteration's shape; the points may be too noisy for their weight "
+        "and for edges as short as these, or too little may be held: hold more nodes, let a smaller region move, or "
+        "keep the distribution of the nodes");
+    const double work = report.work;
+    const double limit = report.most_work;
+    const Index nodes = report.moving_nodes;
+    run_.start_report(Method::sweep);
+    FairOptions options = options_.fair;
+    if (!options_.smoothing_length)
+      options.step_tolerance = std::min(options.step_tolerance, step_share * options_.weight);
+    options.max_iterations = sweeps_of_last_resort(static_cast<std::size_t>(nodes));
+    if (nearest) options.max_iterations = std::min(*options.max_iterations, most_sweeps_of_homes);
+    points = run_.loose_points();
+    report.warnings = std::move(said);
+    sweep(std::move(points), options, progress);
+    report.work += work;
+    report.most_work = limit;
+    if (report.outcome == Outcome::iteration_limit) report.outcome = Outcome::work_limit;
+    if (!nearest || report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
+    // Nodes that stay about where they are do not crumple the shape.
+    nearest->report.fair.warnings.push_back(
+        fmt::format("no equilibrium was found: this is the nearest shape, {}; noise may have folded faces",
+                    distance_from_equilibrium(nearest->report.fair)));
+    run_.result = std::move(*nearest);
+  }
+
+  /// By equilibrium or multigrid. Returns whether nodes have homes.
+  bool run_on_levels(UntiedPoints points, ProgressReporter& progress) {
+    auto gathered = run_.gather_start();
+    const auto smoothing = smoothing_in(net_of(gathered));
+    WarmStartedFit shape(std::move(gathered), options_.fair, std::move(points), smoothing, run_.team);
+    FairReport& report = run_.result.report.fair;
+    if (report.method == Method::multigrid)
+      shape.cycle(run_.context, progress, report);
+    else
+      shape.find(run_.context, progress, report);
+    if constexpr (std::is_same_v<Subject, FitCurve>) take_spline_if_lost(shape);
+    run_.finish(shape.net());
+    return !shape.net().target_positions.empty();
+  }
+
+  /// Whether another shape may stand for one that was not found.
+  [[nodiscard]] bool may_replace() const {
+    return !options_.fair.method && !options_.fair.max_iterations && !options_.fair.as_found;
+  }
+
+  /// Where a curve has no equilibrium with its points: a shape that is neither is knotted sooner than near to one.
+  void take_spline_if_lost(WarmStartedFit<CurveNet>& shape) {
+    FairReport& report = run_.result.report.fair;
+    if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled || !may_replace()) return;
+    if (report.expected_error && *report.expected_error < curve_is_lost_at) {
+      report.warnings.push_back(
+          fmt::format("no equilibrium was found: this is the nearest shape, {}; the points may be too noisy for their "
+                      "weight",
+                      distance_from_equilibrium(report)));
+      return;
+    }
+    shape.go_to_spline();
+    report.expected_error.reset();
+    report.warnings.emplace_back(
+        "no equilibrium was found: this is the smoothing spline of the points; they may be too noisy for their weight "
+        "and for edges as short as these, or smooth away more than the shape's sharpest bends: try another weight or "
+        "smoothing length, or a tolerance");
+  }
+
+  void sweep(UntiedPoints points, FairOptions options, ProgressReporter& progress) {
+    auto gathered = run_.gather_start();
+    Net& net = net_of(gathered);
+    const auto model = model_of(gathered, options);
+    set_laplacian_weights(net, *model, distribution_of(gathered, options), run_.team);
+    const auto smoothing = smoothing_in(net);
+    PointTies ties = tie_points(net, *model, points, smoothing, run_.team);
+    points = {};
+    std::function<void()> renew_ties;
+    if (!net.points.empty()) renew_ties = [&] { (void)ties.renew(run_.team); };
+    run_sweeps(net, *model, options, run_.team, run_.context, progress, run_.result.report.fair, renew_ties);
+    run_.finish(net);
+  }
+
+  std::shared_ptr<double> smoothing_in(const Net& net) {
+    if (!options_.smoothing_length) return nullptr;
+    run_.result.report.smoothing_length = options_.smoothing_length;
+    return std::make_shared<double>(*options_.smoothing_length * net.frame.scale());
+  }
+
+  [[nodiscard]] Index count_outside(const std::vector<double>& distances) const {
+    if (!options_.within && !options_.rms) return 0;
+    const double tolerance = options_.within ? *options_.within : *options_.rms;
+    Index count = 0;
+    for (std::size_t j = 0; j < distances.size(); ++j) count += run_.kept[j] != 0 && distances[j] > tolerance ? 1 : 0;
+    return count;
+  }
+
+  FitRun<Subject> run_;
+  const FitOptions& options_;
+};
+
+template <typename Subject>
+FitResult fit_shape(const typename Subject::Shape& shape, const Constraints& constraints, const ScatteredPoints& points,
+                    const FitOptions& options, Context& context) {
+  options.validate();
+  check_points(points);
+  return Fitting<Subject>(shape, constraints, points, options, context).fit();
+}
+
+}  // namespace
+
+FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+              const FitOptions& options, Context& context) {
+  const auto fit_held = [&](const Constraints& held) {
+    if (!options.fair.fair_boundary) return fit_shape<FitSurface>(mesh, held, points, options, context);
+    options.validate();
+    check_points(points);
+    return fit_boundary_first(mesh, held, points, options, context);
+  };
+  return ImmovableNodesFixed(mesh).run(
+      constraints, fit_held, [](FitResult & fitted) -> auto& { return fitted.report.fair.warnings; });
+}
+
+FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+              const FitOptions& options) {
+  Context context;
+  return fit(mesh, constraints, points, options, context);
+}
+
+FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+              const FitOptions& options, Context& context) {
+  if (options.noise)
+    throw Error(
+        ErrorCode::invalid_argument,
+        "noise can be taken off surfaces only: of a curve ask for the root mean square of its points' distances");
+  return fit_shape<FitCurve>(curve, constraints, points, options, context);
+}
+
+FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+              const FitOptions& options) {
+  Context context;
+  return fit(curve, constraints, points, options, context);
+}
+
+}  // namespace vspring

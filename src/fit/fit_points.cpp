@@ -1,0 +1,118 @@
+#include "fit/fit_points.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+#include "io/point_source.hpp"
+#include "vspring/error.hpp"
+
+namespace vspring {
+
+namespace {
+
+constexpr double largest_weight = 1e50;
+
+bool is_weight(double weight) { return weight >= 0 && weight <= largest_weight; }
+
+}  // namespace
+
+void check_points(const ScatteredPoints& points) {
+  const auto refuse = [](const std::string& message) { throw Error(ErrorCode::invalid_argument, message); };
+  const std::size_t count = points.positions.size();
+  if (count == 0) refuse("there are no points to fit to");
+  if (count > static_cast<std::size_t>(std::numeric_limits<Index>::max()))
+    refuse(fmt::format("{} points are more than there may be: {}", count, std::numeric_limits<Index>::max()));
+  if (!points.weights.empty() && points.weights.size() != count)
+    refuse(fmt::format("{} weights are given for {} points: one for each is needed, or none", points.weights.size(),
+                       count));
+  for (std::size_t j = 0; j < count; ++j) {
+    if (!points.positions[j].allFinite()) refuse(fmt::format("point {} is not finite; leave it out", j));
+  }
+  if (!points.normals.empty() && points.normals.size() != count)
+    refuse(fmt::format("{} normals are given for {} points: one for each is needed, or none", points.normals.size(),
+                       count));
+  for (std::size_t j = 0; j < points.normals.size(); ++j) {
+    if (!is_point_normal(points.normals[j]))
+      refuse(
+          fmt::format("the normal of point {} has the length {:.4g}; it must be 1, or 0 where it is not known; "
+                      "correct it, or leave normals out",
+                      j, points.normals[j].norm()));
+  }
+  for (std::size_t j = 0; j < points.weights.size(); ++j) {
+    if (!is_weight(points.weights[j]))
+      refuse(
+          fmt::format("the weight of point {} must be from 0 to {:g}, not {}", j, largest_weight, points.weights[j]));
+  }
+}
+
+std::vector<std::uint8_t> without_furthest(std::span<const double> distances, double share) {
+  std::vector<std::uint32_t> order(distances.size());
+  std::iota(order.begin(), order.end(), 0U);
+  const auto count = static_cast<std::ptrdiff_t>(std::floor(share * static_cast<double>(distances.size())));
+  std::nth_element(order.begin(), order.begin() + count, order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return distances[a] > distances[b] || (distances[a] == distances[b] && a < b);
+  });
+  std::vector<std::uint8_t> kept(distances.size(), 1);
+  for (std::ptrdiff_t k = 0; k < count; ++k) kept[order[static_cast<std::size_t>(k)]] = 0;
+  return kept;
+}
+
+PointDistances summary(std::span<const double> distances, std::span<const std::uint8_t> counted) {
+  PointDistances result;
+  Distance& all = result.all;
+  std::vector<double> those;
+  for (std::size_t j = 0; j < distances.size(); ++j) {
+    if (counted[j] == 0) continue;
+    if (those.empty() || distances[j] > all.greatest) {
+      all.greatest = distances[j];
+      all.node = static_cast<Index>(j);
+    }
+    those.push_back(distances[j]);
+  }
+  all.count = static_cast<Index>(those.size());
+  double squares = 0;
+  for (const double distance : those) {
+    const double share = all.greatest > 0 ? distance / all.greatest : 0;
+    squares += share * share;
+  }
+  all.rms = all.greatest * std::sqrt(squares / static_cast<double>(those.size()));
+  const auto percentile = [&](double share) {
+    const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(those.size())));
+    const auto place = those.begin() + rank - 1;
+    std::nth_element(those.begin(), place, those.end());
+    return *place;
+  };
+  result.median = percentile(0.5);
+  result.percentile90 = percentile(0.9);
+  result.percentile99 = percentile(0.99);
+  return result;
+}
+
+void FitOptions::validate() const {
+  fair.validate();
+  const auto refuse = [](const std::string& message) { throw Error(ErrorCode::invalid_argument, message); };
+  if (!is_weight(weight)) refuse(fmt::format("weight must be from 0 to {:g}, not {}", largest_weight, weight));
+  const auto check_length = [&](const char* option, const std::optional<double>& length) {
+    if (length && !(*length > 0 && std::isfinite(*length)))
+      refuse(fmt::format("{} must be more than 0, not {}", option, *length));
+  };
+  check_length("smoothing length", smoothing_length);
+  check_length("within", within);
+  check_length("rms", rms);
+  check_length("noise", noise);
+  if ((smoothing_length ? 1 : 0) + (within ? 1 : 0) + (rms ? 1 : 0) + (noise ? 1 : 0) > 1)
+    refuse("only one of smoothing length, within, rms and noise can be given");
+  if (!(outliers >= 0 && outliers < 1)) refuse(fmt::format("outliers must be from 0 to less than 1, not {}", outliers));
+  if ((within || rms || noise) && fair.method.value_or(Method::equilibrium) != Method::equilibrium)
+    refuse(fmt::format("points can be fitted to a tolerance by the method equilibrium only, not by {}",
+                       name(*fair.method)));
+  if ((within || rms || noise) && fair.strength < 1)
+    refuse("points can be fitted to a tolerance at full strength only");
+}
+
+}  // namespace vspring

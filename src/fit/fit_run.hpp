@@ -1,0 +1,141 @@
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "base/threads.hpp"
+#include "equilibrium/account.hpp"
+#include "fit/fit_start.hpp"
+#include "fit/fit_subject.hpp"
+#include "fit/unfolding.hpp"
+#include "fit/warm_started_fit.hpp"
+#include "levels/curve_noise.hpp"
+#include "vspring/fit.hpp"
+
+namespace vspring {
+
+/// What all parts of a fit share. Subject: FitSurface or FitCurve.
+template <typename Subject>
+class FitRun {
+ public:
+  using Shape = typename Subject::Shape;
+
+  FitRun(const Shape& shape, const Constraints& constraints, const ScatteredPoints& scattered,
+         const FitOptions& fit_options, Context& outer)
+      : points(scattered),
+        options(fit_options),
+        context(outer),
+        team(outer.thread_count()),
+        subject(shape, constraints, scattered.positions, measuring, team),
+        kept(scattered.positions.size(), 1) {
+    // Distances are measured even after somebody has cancelled.
+    measuring.threads = outer.threads;
+  }
+
+  /// The report of a fit that begins.
+  void start_report(Method method) {
+    result.report = {};
+    FairReport& fair = result.report.fair;
+    fair.method = method;
+    fair.threads = team.size();
+    fair.faces = subject.faces();
+    result.report.points = static_cast<Index>(points.positions.size());
+  }
+
+  auto gather() {
+    auto gathered = subject.gather();
+    count_nodes(net_of(gathered), subject.constraints(), result.report.fair);
+    return gathered;
+  }
+
+  /// With the places that nodes keep.
+  auto gather_start() {
+    auto gathered = gather();
+    Net& net = net_of(gathered);
+    if (options.fair.distribution != Distribution::keep) return gathered;
+    if constexpr (std::is_same_v<Subject, FitCurve>)
+      smooth_noise(gathered);
+    else
+      unfold(gathered, team);
+    // Else the nodes slide along a shape that noise has crumpled until it comes apart.
+    net.target_positions.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
+    return gathered;
+  }
+
+  /// The points that count, and the nodes that are nearest to them at the start.
+  UntiedPoints loose_points() {
+    std::vector<double> weights = points.weights;
+    weights.resize(points.positions.size(), 1);
+    const double weight =
+        options.smoothing_length || options.within || options.rms || options.noise ? 1 : options.weight;
+    for (std::size_t j = 0; j < weights.size(); ++j) weights[j] *= kept[j] * weight;
+    if (start_.nearest.empty()) find_start();
+    if (start_.turned)
+      result.report.fair.warnings.emplace_back(
+          "normals of points are against the sense of the faces: they are all taken the other way round");
+    const bool are_nodes = points_are_nodes();
+    if (are_nodes) std::iota(start_.nearest.begin(), start_.nearest.end(), 0);
+    return {points.positions, std::move(weights), start_.nearest, start_.normals, are_nodes};
+  }
+
+  /// Of the points from the result.
+  std::vector<double> distances() { return subject.distances(result.positions); }
+
+  void finish_positions(const Net& net) {
+    result.positions =
+        scatter_positions(net, subject.shape().positions(), subject.constraints(), options.fair.strength);
+  }
+
+  void finish(const Net& net) {
+    count_points(net);
+    finish_positions(net);
+    measure_moves(net, subject.shape().positions(), result.positions, result.report.fair);
+  }
+
+  const ScatteredPoints& points;
+  const FitOptions& options;
+  Context& context;
+  Context measuring;
+  ThreadTeam team;
+  Subject subject;
+  FitResult result;
+  std::vector<std::uint8_t> kept;  ///< of every point, 0 for those left out
+
+ private:
+  /// Whether they are those of a surface which keep their places.
+  [[nodiscard]] bool points_are_nodes() const {
+    return std::is_same_v<Subject, FitSurface> && options.fair.distribution == Distribution::keep &&
+           points.positions == subject.shape().positions();
+  }
+
+  void find_start() {
+    const Constraints& constraints = subject.constraints();
+    std::vector<Vector3> places = subject.shape().positions();
+    std::vector<std::uint8_t> usable = subject.usable();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto node = static_cast<Index>(i);
+      if (constraints.position_fixed(node)) places[i] = constraints.position(node);
+      if (!places[i].allFinite()) usable[i] = 0;
+    }
+    start_ = fit_start(points, places, usable, points.normals.empty() ? SurfaceSides() : subject.sides(), team);
+  }
+
+  void count_points(const Net& net) {
+    FitReport& report = result.report;
+    for (std::size_t i = 0; i < net.moving && !net.points.empty(); ++i) {
+      const auto count = static_cast<Index>(net.points.of(i).size());
+      report.pulling_points += count;
+      report.pulled_nodes += count > 0 ? 1 : 0;
+      report.most_points = std::max(report.most_points, count);
+    }
+  }
+
+  FitStart start_;
+};
+
+}  // namespace vspring

@@ -1,0 +1,156 @@
+#include "fit/fit_subject.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "checks/new_crossings.hpp"
+#include "constraints/holding.hpp"
+#include "fairness/measure.hpp"
+#include "solve/part_of_mesh.hpp"
+
+namespace vspring {
+
+namespace {
+
+/// Faces of which no node moves, where they are held.
+PolygonMesh rest_of(const PolygonMesh& mesh, const Constraints& constraints) {
+  std::vector<Vector3> positions = mesh.positions();
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (constraints.position_fixed(i)) positions[static_cast<std::size_t>(i)] = constraints.position(i);
+  }
+  std::vector<Index> face_begin = {0};
+  std::vector<Index> corners;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    if (!std::all_of(face.begin(), face.end(), [&](Index i) { return constraints.position_fixed(i); })) continue;
+    corners.insert(corners.end(), face.begin(), face.end());
+    face_begin.push_back(static_cast<Index>(corners.size()));
+  }
+  return {std::move(positions), std::move(face_begin), std::move(corners)};
+}
+
+bool held_in_place(const PolygonMesh& mesh, const Constraints& constraints) {
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (constraints.position_fixed(i) && constraints.position(i) != mesh.position(i)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+FitSurface::FitSurface(const PolygonMesh& mesh, const Constraints& constraints, std::span<const Vector3> points,
+                       const Context& measuring, ThreadTeam& team)
+    : whole_(&mesh),
+      constraints_(&constraints),
+      points_(points),
+      measuring_(&measuring),
+      team_(&team),
+      part_(active_submesh(mesh, constraints)) {
+  if (part_ && part_->mesh.face_count() == 0) part_.reset();
+}
+
+std::vector<std::string> FitSurface::check(std::span<const std::uint8_t> pulled) const {
+  return check_part(*whole_, part_, *constraints_, pulled);
+}
+
+Net FitSurface::gather() const { return gather_part(*whole_, part_, *constraints_); }
+
+Fairness FitSurface::fairness(const std::vector<Vector3>& positions) {
+  const Constraints* held = part_ ? &part_->constraints : constraints_;
+  if (!meter_) meter_.emplace(part_ ? part_->mesh : *whole_, held, *team_);
+  return part_ ? meter_->measure(values_of(positions, part_->node), held) : meter_->measure(positions, held);
+}
+
+std::vector<double> FitSurface::distances(const std::vector<Vector3>& positions) {
+  PolygonMesh mesh = part_ ? part_->mesh : *whole_;
+  mesh.set_positions(part_ ? values_of(positions, part_->node) : positions);
+  if (!part_) return point_distances(points_, mesh, *measuring_);
+  if (from_rest_.empty()) {
+    const PolygonMesh rest = rest_of(*whole_, *constraints_);
+    if (rest.face_count() == 0)
+      from_rest_.assign(points_.size(), std::numeric_limits<double>::infinity());
+    else
+      from_rest_ = point_distances(points_, rest, *measuring_);
+  }
+  std::vector<double> distances = point_distances(points_, mesh, *measuring_);
+  for (std::size_t j = 0; j < distances.size(); ++j) distances[j] = std::min(distances[j], from_rest_[j]);
+  return distances;
+}
+
+std::vector<double> FitSurface::distances_before() {
+  if (!part_ || !held_in_place(*whole_, *constraints_)) return point_distances(points_, *whole_, *measuring_);
+  return distances(whole_->positions());
+}
+
+std::vector<std::uint8_t> FitSurface::usable() const {
+  std::vector<std::uint8_t> usable(static_cast<std::size_t>(whole_->node_count()), 0);
+  for (Index f = 0; f < whole_->face_count(); ++f) {
+    const auto face = whole_->face(f);
+    if (face.size() < 3) continue;
+    for (const Index node : face) usable[static_cast<std::size_t>(node)] = 1;
+  }
+  return usable;
+}
+
+std::string FitSurface::crossings(const std::vector<Vector3>& positions) const {
+  return new_crossings(*whole_, positions, *measuring_, *team_);
+}
+
+SurfaceSides FitSurface::sides() const {
+  SurfaceSides sides{.normals = std::vector<Vector3>(static_cast<std::size_t>(whole_->node_count()), Vector3::Zero())};
+  double edges = 0;
+  for (Index f = 0; f < whole_->face_count(); ++f) {
+    const auto face = whole_->face(f);
+    Vector3 area = Vector3::Zero();
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      const Vector3 here = whole_->position(face[k]) - whole_->position(face[0]);
+      const Vector3 next = whole_->position(face[(k + 1) % face.size()]) - whole_->position(face[0]);
+      if (!here.allFinite() || !next.allFinite()) continue;
+      area += here.cross(next);
+      sides.mean_edge += (next - here).norm();
+      edges += 1;
+    }
+    for (const Index node : face) sides.normals[static_cast<std::size_t>(node)] += area;
+  }
+  for (Vector3& normal : sides.normals) normal.stableNormalize();
+  sides.mean_edge /= std::max(edges, 1.0);
+  return sides;
+}
+
+FitCurve::FitCurve(const PolygonCurve& curve, const Constraints& constraints, std::span<const Vector3> points,
+                   const Context& measuring, ThreadTeam& /*team*/)
+    : curve_(&curve), constraints_(&constraints), points_(points), measuring_(&measuring) {}
+
+std::vector<std::string> FitCurve::check(std::span<const std::uint8_t> pulled) const {
+  return check_constraints(*curve_, *constraints_, pulled);
+}
+
+CurveNet FitCurve::gather() const { return gather_net(*curve_, *constraints_); }
+
+PolygonCurve FitCurve::with(const std::vector<Vector3>& positions) const {
+  PolygonCurve curve = *curve_;
+  curve.set_positions(positions);
+  return curve;
+}
+
+Fairness FitCurve::fairness(const std::vector<Vector3>& positions) const {
+  return measure(with(positions), constraints_);
+}
+
+std::vector<double> FitCurve::distances(const std::vector<Vector3>& positions) const {
+  return point_distances(points_, with(positions), *measuring_);
+}
+
+std::vector<double> FitCurve::distances_before() const { return point_distances(points_, *curve_, *measuring_); }
+
+std::vector<std::uint8_t> FitCurve::usable() const {
+  std::vector<std::uint8_t> usable(static_cast<std::size_t>(curve_->node_count()), 0);
+  for (const auto& chain : curve_->chains()) {
+    for (const Index node : chain.nodes) usable[static_cast<std::size_t>(node)] = 1;
+  }
+  return usable;
+}
+
+}  // namespace vspring

@@ -1,0 +1,301 @@
+#include "fit/interior_fit.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "shape/planarity.hpp"
+
+namespace vspring {
+
+namespace {
+
+constexpr int most_barriers = 60;
+// In squared tolerances.
+constexpr double least_first_barrier = 0.02;
+// Of the barrier, after steps that are long enough.
+constexpr double fall = 0.3;
+constexpr double long_step = 0.5;
+// Before which it is not called so.
+constexpr int fewest_steps_down = 3;
+// Short steps in a row, after which the shape is taken for as fair as it will be.
+constexpr int patience_for_steps = 8;
+// Of the barrier, in squared tolerances: what is left then moves nothing.
+constexpr double lowest_barrier = 1e-5;
+// Of the energy, in a step.
+constexpr double still_falls = 0.99;
+// Where steps lead nowhere: the shape is about as fair as it will be.
+constexpr double low_barrier = 1e-2;
+// Of the way to the bound that a step may take a point.
+constexpr double greatest_approach = 0.9;
+// A point beyond counts as if it were this near to the bound, in tolerances.
+constexpr double nearest_to_bound = 1e-3;
+// Of the tolerance: what the points are held between, so that those that pull at nothing, and what a step goes too far
+// by, do not keep a fairer shape out.
+constexpr double aimed_share_of_bounds = 0.995;
+constexpr double holding = 0.99;
+constexpr double greatest_rise = 1.1;
+// Shorter steps lead nowhere.
+constexpr double least_step = 0.005;
+
+/// A point between its bounds.
+struct Bounded {
+  std::size_t slot;  ///< among the tied points
+  double height;     ///< of the shape over it, with its sign, in tolerances
+  double excess;     ///< of that over the node's along its normal, which is what the point pulls by
+  double upper;      ///< multipliers of both bounds
+  double lower;
+};
+
+class InteriorFit {
+ public:
+  InteriorFit(const ToleranceFitTask& task, const Sides& sides, double tolerance)
+      : task_(task),
+        net_(*task.net),
+        sides_(sides),
+        tolerance_(tolerance),
+        bound_(aimed_share_of_bounds * tolerance),
+        places_(net_.points.positions),
+        weights_(net_.points.weights) {}
+
+  ToleranceFitResult run(ToleranceFitResult result) {
+    best_ = net_.positions;
+    result.within = result.settled = false;
+    measure();
+    look(result);
+    double barrier = 0;
+    for (const Bounded& point : points_) {
+      const double height = std::abs(point.height);
+      barrier += height * std::max(1 - height, nearest_to_bound) / static_cast<double>(points_.size());
+    }
+    barrier = std::max(barrier, least_first_barrier);
+    set_multipliers(barrier);
+    double last = 1;
+    double energy_before = 0;
+    int short_steps = 0;
+    for (int step = 0; step < most_barriers && !points_.empty(); ++step) {
+      // Where points pulled hard at first it may be low while they still hold more than they need to.
+      if (barrier < lowest_barrier && !(energy_ > 0 && energy_ < still_falls * energy_before)) {
+        result.settled = true;
+        break;
+      }
+      energy_before = energy_;
+      if (last >= long_step) {
+        barrier *= fall;
+        short_steps = 0;
+      } else if (++short_steps == patience_for_steps) {
+        result.settled = barrier < low_barrier && step >= fewest_steps_down;
+        break;
+      }
+      const std::vector<Vector3> start = net_.positions;
+      const std::vector<Bounded> before = points_;
+      pull(barrier);
+      const bool found = task_.update(false);
+      let_go();
+      if (task_.ended()) break;
+      measure();
+      const double share = found ? step_within(before) : 0;
+      if (share < least_step) {
+        net_.positions = start;
+        result.settled = barrier < low_barrier && step >= fewest_steps_down;
+        break;
+      }
+      if (share < 1) {
+        for (std::size_t i = 0; i < net_.moving; ++i)
+          net_.positions[i] = start[i] + share * (net_.positions[i] - start[i]);
+        measure();
+      }
+      last = share;
+      renew_multipliers(before, barrier, share);
+      look(result);
+      // The first barriers may be too high for a start that leaves little room.
+      if (result.within && step >= fewest_steps_down && energy_ > greatest_rise * least_energy_) {
+        result.settled = true;
+        break;
+      }
+    }
+    let_go();
+    net_.positions = best_;
+    result.active = active_;
+    result.settled = result.settled && result.within;
+    return result;
+  }
+
+ private:
+  /// Heights of all points that pull, over the shape as it is.
+  void measure() {
+    distances_ = task_.measure();
+    greatest_ = *std::max_element(distances_.begin(), distances_.end()) / tolerance_;
+    std::vector<double> heights(places_.size(), std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> excesses(places_.size(), 0);
+    for (std::size_t i = 0; i < net_.moving; ++i) {
+      const Vector3 across = sides_.across(net_, i);
+      for (const std::uint32_t k : net_.points.of(i)) {
+        heights[k] = std::copysign(distances_[net_.points.numbers[k]] / bound_, sides_.side(net_, i, places_[k]));
+        excesses[k] = heights[k] - (net_.positions[i] - places_[k]).dot(across) / bound_;
+      }
+    }
+    std::vector<Bounded> now;
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < heights.size(); ++k) {
+      while (next < points_.size() && points_[next].slot < k) ++next;
+      if (std::isnan(heights[k]) || !(weights_[k] > 0)) continue;
+      const bool known = next < points_.size() && points_[next].slot == k;
+      now.push_back({k, heights[k], excesses[k], known ? points_[next].upper : -1, known ? points_[next].lower : -1});
+    }
+    points_ = std::move(now);
+  }
+
+  void set_multipliers(double barrier) {
+    for (Bounded& point : points_) {
+      if (point.upper >= 0) continue;
+      point.upper = barrier / room(1 - point.height);
+      point.lower = barrier / room(1 + point.height);
+    }
+  }
+
+  static double room(double left) { return std::max(left, nearest_to_bound); }
+
+  /// Stiffness and balance of a point's two bounds, linear in its height: it pulls by stiffness · (height − balance).
+  struct Pull {
+    double stiffness;
+    double balance;
+  };
+  static Pull pull_of(const Bounded& point, double barrier) {
+    const double above = room(1 - point.height);
+    const double below = room(1 + point.height);
+    const double stiffness = point.upper / above + point.lower / below;
+    const double height = std::clamp(point.height, nearest_to_bound - 1, 1 - nearest_to_bound);
+    return {stiffness, height - (barrier / above - barrier / below) / stiffness};
+  }
+
+  void pull(double barrier) {
+    const std::vector<std::uint32_t> node = nodes_of_points();
+    for (const Bounded& point : points_) {
+      const Pull pull = pull_of(point, barrier);
+      net_.points.weights[point.slot] = weights_[point.slot] * pull.stiffness;
+      net_.points.positions[point.slot] =
+          places_[point.slot] + (pull.balance - point.excess) * bound_ * sides_.across(net_, node[point.slot]);
+    }
+  }
+
+  void let_go() {
+    net_.points.positions = places_;
+    net_.points.weights = weights_;
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> nodes_of_points() const {
+    std::vector<std::uint32_t> node(places_.size(), 0);
+    for (std::size_t i = 0; i < net_.moving; ++i) {
+      for (const std::uint32_t k : net_.points.of(i)) node[k] = static_cast<std::uint32_t>(i);
+    }
+    return node;
+  }
+
+  /// The share of the step to the shape measured last that keeps all points within their bounds.
+  double step_within(const std::vector<Bounded>& before) const {
+    double share = 1;
+    std::size_t next = 0;
+    for (const Bounded& from : before) {
+      while (next < points_.size() && points_[next].slot < from.slot) ++next;
+      if (next == points_.size() || points_[next].slot != from.slot) continue;
+      const double to = points_[next].height;
+      const double bound = std::copysign(1.0, to);
+      const double left = bound * (bound - from.height);
+      const double way = bound * (to - from.height);
+      if (left <= nearest_to_bound) continue;
+      if (way > greatest_approach * left) share = std::min(share, greatest_approach * left / way);
+    }
+    return share;
+  }
+
+  /// Multipliers go with the heights, at most nine tenths of the way to zero.
+  void renew_multipliers(const std::vector<Bounded>& before, double barrier, double share) {
+    std::size_t next = 0;
+    for (const Bounded& from : before) {
+      while (next < points_.size() && points_[next].slot < from.slot) ++next;
+      if (next == points_.size() || points_[next].slot != from.slot) continue;
+      Bounded& now = points_[next];
+      const double rise = (now.height - from.height) / share;
+      const double upper = (barrier + from.upper * rise) / room(1 - from.height);
+      const double lower = (barrier - from.lower * rise) / room(1 + from.height);
+      now.upper = std::max(upper, (1 - greatest_approach) * from.upper);
+      now.lower = std::max(lower, (1 - greatest_approach) * from.lower);
+    }
+    set_multipliers(barrier);
+  }
+
+  void look(ToleranceFitResult& result) {
+    const bool within = greatest_ <= 1;
+    energy_ = within ? task_.energy() : 0;
+    if (within ? !(energy_ > greatest_rise * least_energy_) : !result.within && greatest_ < least_greatest_) {
+      best_ = net_.positions;
+      active_ = static_cast<Index>(
+          std::count_if(distances_.begin(), distances_.end(), [&](double d) { return d > holding * tolerance_; }));
+    }
+    if (within) least_energy_ = std::min(least_energy_, energy_);
+    least_greatest_ = std::min(least_greatest_, greatest_);
+    result.within = result.within || within;
+  }
+
+  const ToleranceFitTask& task_;
+  Net& net_;
+  const Sides& sides_;
+  double tolerance_;
+  double bound_;
+  const std::vector<Vector3> places_;
+  const std::vector<double> weights_;
+  std::vector<double> distances_;
+  std::vector<Bounded> points_;  ///< those that pull, by their slots
+  std::vector<Vector3> best_;
+  double greatest_ = 0;
+  double energy_ = 0;
+  double least_energy_ = std::numeric_limits<double>::infinity();
+  double least_greatest_ = std::numeric_limits<double>::infinity();
+  Index active_ = 0;
+};
+
+}  // namespace
+
+std::optional<Sides> Sides::of(const Net& net) {
+  Sides sides;
+  if (net.tangents.empty()) return sides;
+  std::vector<Vector3> all = net.positions;
+  all.insert(all.end(), net.points.positions.begin(), net.points.positions.end());
+  const auto plane = plane_normal(all);
+  if (!plane) return std::nullopt;
+  sides.plane_ = *plane;
+  return sides;
+}
+
+double Sides::side(const Net& net, std::size_t node, const Vector3& point) const {
+  const Vector3 d = net.positions[node] - point;
+  double side = d.dot(across(net, node));
+  if (net.tangents.empty()) return side;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Link link : net.rings.links(node)) {
+    const Vector3 edge = net.positions[link.node()] - net.positions[node];
+    const double length2 = edge.squaredNorm();
+    if (!(length2 > 0)) continue;
+    const double share = std::clamp(-d.dot(edge) / length2, 0.0, 1.0);
+    const double distance2 = (d + share * edge).squaredNorm();
+    if (distance2 >= least) continue;
+    least = distance2;
+    const Vector3 forward = link.start() ? Vector3(-edge) : edge;
+    side = d.dot(plane_.cross(forward));
+  }
+  return side;
+}
+
+Vector3 Sides::across(const Net& net, std::size_t node) const {
+  return net.tangents.empty() ? net.normals[node] : Vector3(plane_.cross(net.tangents[node]));
+}
+
+ToleranceFitResult hold_between(const ToleranceFitTask& task, const Sides& sides, double tolerance,
+                                ToleranceFitResult smooth) {
+  return InteriorFit(task, sides, tolerance).run(smooth);
+}
+
+}  // namespace vspring

@@ -1,0 +1,170 @@
+// Tolerances in place of weights.
+
+#include "fit/tolerance_fit.hpp"
+
+#include "equilibrium/account.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Smoothing lengths that are tried, in mean edges and in sizes of the shape.
+constexpr double shortest_length = 0.02;
+constexpr double longest_length = 10;
+constexpr double stride = 2;
+// Lengths in a row for which nothing was found: shorter ones lead nowhere either.
+constexpr int most_lost = 3;
+// Of the least figure: where shorter lengths, of less than an edge, bring it no lower, that in so many halvings, the
+// longest is taken that is about as near.
+constexpr double about_as_near = 1.05;
+constexpr double no_nearer = 0.99;
+constexpr int halvings_without_gain = 2;
+constexpr int most_trials = 60;
+// Aimed at less than the tolerance, so that what is left of a correction does not go beyond.
+constexpr double aimed_share = 0.995;
+constexpr double holding_share = 0.99;
+// Of the energy, in so many turns.
+constexpr double settled_share = 0.005;
+constexpr int turns_per_look = 15;
+constexpr int most_turns_of_points = 120;
+constexpr int hopeless_turns = 45;
+// Of the weight of a point, in a turn and over all.
+constexpr double greatest_step = 3;
+constexpr double pace = 0.7;
+constexpr double pace_of_all = 2;
+constexpr double least_point_weight = 1e-9;
+constexpr double most_weight = 1e9;
+
+}  // namespace
+
+ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
+                                 const std::function<double(const std::vector<double>&)>& tolerated) {
+  Net& net = *task.net;
+  const double longest = longest_length * diagonal(net);
+  ToleranceFitResult result;
+  std::vector<Vector3> best = net.positions;
+  double least = std::numeric_limits<double>::infinity();
+  double nearest = *task.length;
+  double nearest_figure = least;
+  int without_gain = 0;
+  const double edge = mean_edge(net);
+  const double shortest = shortest_length * edge;
+  // Lengths within and beyond the tolerance, and the figures there.
+  std::optional<std::pair<double, double>> inside;
+  std::optional<std::pair<double, double>> outside;
+  const auto look = [&](bool found) {
+    const double figure = found ? tolerated(task.measure()) : std::numeric_limits<double>::infinity();
+    const bool within = figure <= tolerance;
+    if (within && (!inside || *task.length > inside->first)) {
+      inside = {*task.length, figure};
+      best = net.positions;
+    } else if (!within) {
+      // Where shorter ones lead nowhere, nothing is known of those between.
+      if (!outside || (*task.length < outside->first && (found || inside))) outside = {*task.length, figure};
+      if (!inside && figure < least) {
+        if (!task.takes_nearest || !(figure > nearest_figure / about_as_near)) {
+          best = net.positions;
+          nearest = *task.length;
+          nearest_figure = figure;
+        }
+        without_gain = figure < no_nearer * least || *task.length > edge ? 0 : without_gain + 1;
+      } else if (!inside && found && *task.length < edge) {
+        ++without_gain;
+      }
+    }
+    least = std::min(least, figure);
+  };
+  look(task.found);
+  int lost = 0;
+  double step = stride;
+  for (int turn = 0; turn < most_trials; ++turn) {
+    if (!outside) {
+      if (*task.length >= longest) break;
+      *task.length *= stride;
+    } else if (!inside) {
+      if (*task.length <= shortest || lost == most_lost ||
+          (task.takes_nearest && without_gain == halvings_without_gain))
+        break;
+      // Nearer to the last one that was found.
+      if (lost > 0) *task.length *= step;
+      step = lost > 0 ? std::sqrt(step) : stride;
+      *task.length /= step;
+    } else {
+      const auto& [a, at_a] = *inside;
+      const auto& [b, at_b] = *outside;
+      if (at_a >= (1 - task.close_share) * tolerance || b < (1 + task.close_share) * a) break;
+      // Between both by the logarithms, a little to the side that is within; kept off the ends.
+      const double share = at_b > at_a && at_a > 0 && std::isfinite(at_b)
+                               ? std::log(tolerance / at_a) / std::log(at_b / at_a) - 0.02
+                               : 0.5;
+      *task.length = a * std::pow(b / a, std::clamp(share, 0.1, 0.9));
+    }
+    if (inside) net.positions = best;
+    const std::vector<Vector3> start = net.positions;
+    const bool found = task.update(true);
+    if (!found && net.points.are_nodes) net.positions = start;
+    if (task.ended()) break;
+    lost = found ? 0 : lost + 1;
+    look(found);
+  }
+  net.positions = best;
+  result.within = inside.has_value();
+  result.settled = result.within && !task.ended();
+  result.length = inside ? inside->first : nearest;
+  *task.length = result.length;
+  return result;
+}
+
+ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, ToleranceFitResult smooth) {
+  Net& net = *task.net;
+  TiedPoints& points = net.points;
+  const std::vector<double> weights = points.weights;
+  const double aim = aimed_share * tolerance;
+  ToleranceFitResult result = smooth;
+  result.settled = false;
+  std::vector<Vector3> best = net.positions;
+  double least_energy = std::numeric_limits<double>::infinity();
+  double least_greatest = std::numeric_limits<double>::infinity();
+  // The least energy some turns ago.
+  double before = least_energy;
+  result.within = false;
+  for (int turn = 0; turn < most_turns_of_points; ++turn) {
+    const std::vector<double> distances = task.measure();
+    const double greatest = *std::max_element(distances.begin(), distances.end());
+    const bool within = greatest <= tolerance;
+    const double energy = within ? task.energy() : 0;
+    if (within ? energy < least_energy : !result.within && greatest < least_greatest) {
+      best = net.positions;
+      if (within) least_energy = energy;
+      const auto holds = [&](double distance) { return distance > holding_share * tolerance; };
+      result.active = static_cast<Index>(std::count_if(distances.begin(), distances.end(), holds));
+    }
+    least_greatest = std::min(least_greatest, greatest);
+    result.within = result.within || within;
+    if (turn % turns_per_look == turns_per_look - 1) {
+      if (result.within && least_energy > (1 - settled_share) * before) {
+        result.settled = true;
+        break;
+      }
+      if (!result.within && turn + 1 >= hopeless_turns) break;
+      before = least_energy;
+    }
+    // All together by as much as the furthest asks: so shapes on the way stay about within, once one has been.
+    const double all =
+        result.within ? std::pow(std::clamp(greatest / aim, 1 / greatest_step, greatest_step), pace_of_all) : 1;
+    const double power = result.within ? pace : 1;
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+      const double share = std::clamp(distances[points.numbers[k]] / aim, 1 / greatest_step, greatest_step);
+      const double change = all * std::pow(share, power);
+      points.weights[k] =
+          std::clamp(points.weights[k] * change, least_point_weight * weights[k], most_weight * weights[k]);
+    }
+    (void)task.update(false);
+    if (task.ended()) break;
+  }
+  points.weights = weights;
+  net.positions = best;
+  return result;
+}
+
+}  // namespace vspring

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "fit/warm_started_fit.hpp"
+#include "points/point_clusters.hpp"
+
+namespace vspring {
+
+/// The fairest shape whose points all lie within a distance, or whose distances have a root mean square. `follow` goes
+/// to the equilibrium, from the shape before; `measure` gives the distances of all points, as they came, from the shape
+/// of the net as it is then, in the coordinates of the net; `energy` says how fair that shape is.
+struct ToleranceFitTask {
+  Net* net = nullptr;
+  std::shared_ptr<double> length;  ///< the smoothing length that points pull by, in the coordinates of the net
+  /// or_find: where nothing is found from there, it may be looked for anew. False where that leads nowhere.
+  std::function<bool(bool or_find)> update;
+  std::function<bool()> ended;  ///< cancelled, or out of work: the best so far stays
+  std::function<std::vector<double>()> measure;
+  std::function<double()> energy;
+  bool found = true;          ///< whether the net is at an equilibrium
+  double close_share = 0.01;  ///< of the tolerance: smooth_within() need not come nearer
+  /// It takes the longest length whose shape is about as near as any where shorter ones lead no nearer to the
+  /// tolerance.
+  bool takes_nearest = false;
+};
+
+struct ToleranceFitResult {
+  bool within = false;   ///< whether the shape that is left in the net is
+  bool settled = false;  ///< whether it is the fairest, as far as the search can tell
+  double length = 0;     ///< of the smoothing that was found
+  Index active = 0;      ///< points that hold the shape at the distance
+};
+
+/// By the largest smoothing length whose shape is within: tolerated(distances) is the figure that may be at most
+/// `tolerance`. Begins with the shape of the net and the length in the task. Leaves the shape in the net.
+ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
+                                 const std::function<double(const std::vector<double>&)>& tolerated);
+
+/// For curves in space, and where interior_fit.hpp finds nothing. From there, points inside the distance come to pull
+/// at less and less, others just enough: each counts by a power of its distance over the tolerance more than the turn
+/// before (C. L. Lawson's algorithm; J. R. Rice, K. H. Usow, "The Lawson algorithm and extensions", Math. Comp. 22,
+/// 1968). Of all shapes on the way that are within, the one of least energy is left in the net.
+ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, ToleranceFitResult smooth);
+
+}  // namespace vspring

@@ -1,0 +1,125 @@
+#pragma once
+
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+#include "base/threads.hpp"
+#include "linear/sparse_rows.hpp"
+#include "spring/net.hpp"
+
+namespace vspring {
+
+class AssembledMatrix;
+class FactoredMatrix;
+class GraphLaplacian;
+using LevelMatrix = std::variant<AssembledMatrix, FactoredMatrix, GraphLaplacian>;
+
+/// Symmetric, in single precision but for the diagonal, which makes up for the rounding of the entries beside it: what
+/// the matrix makes of a constant stays exact.
+class AssembledMatrix {
+ public:
+  /// upᵀ matrix up. Cost: linear; nothing between is kept.
+  AssembledMatrix(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up, ThreadTeam& team);
+  /// From all entries, in double precision.
+  AssembledMatrix(const SparseRows& matrix, ThreadTeam& team);
+
+  [[nodiscard]] std::size_t size() const noexcept { return diagonal_.size(); }
+  [[nodiscard]] double diagonal(std::size_t i) const { return diagonal_[i]; }
+  /// use(column, value) for the entries of row i.
+  template <typename Use>
+  void for_row(std::size_t i, const Use& use) const {
+    use(i, diagonal_[i]);
+    for (const FloatRows::Entry& entry : beside_.row(i)) use(entry.column, static_cast<double>(entry.value));
+  }
+
+ private:
+  FloatRows beside_;
+  std::vector<double> diagonal_;
+};
+
+/// A matrix with a row and a column for every moving node of a net, whose entries beside the diagonal are between
+/// neighbours, and with further rows below.
+struct EdgeAlignedRows {
+  std::vector<float> diagonal;
+  std::vector<float> beside;  ///< one for every link of a moving node; zero for those to held ones
+  FloatRows further;
+};
+
+/// Gᵀ G. A product that is not multiplied out stays positive and exact for what the rows of G take to zero, in single
+/// precision too; and where its entries are is known from the net.
+class FactoredMatrix {
+ public:
+  /// From G. The net must outlive it. Cost: linear.
+  FactoredMatrix(const Net& net, EdgeAlignedRows rows, ThreadTeam& team);
+
+  [[nodiscard]] std::size_t size() const noexcept { return net_->moving; }
+  /// Rows of G.
+  [[nodiscard]] std::size_t inner_size() const noexcept { return size() + rows_.further.rows(); }
+  [[nodiscard]] double diagonal(std::size_t i) const {
+    double sum = 0;
+    for_column(i, [&](std::size_t, float value) { sum += static_cast<double>(value * value); });
+    return sum;
+  }
+  /// use(column, value) for the entries of row i of G.
+  template <typename Use>
+  void for_row(std::size_t i, const Use& use) const {
+    if (i < size()) {
+      use(i, rows_.diagonal[i]);
+      for_links(i, rows_.beside, use);
+    } else {
+      for (const FloatRows::Entry& entry : rows_.further.row(i - size())) use(entry.column, entry.value);
+    }
+  }
+  /// use(row, value) for the entries of column i of G.
+  template <typename Use>
+  void for_column(std::size_t i, const Use& use) const {
+    use(i, rows_.diagonal[i]);
+    for_links(i, across_, use);
+    for (const FloatRows::Entry& entry : further_columns_.row(i)) use(size() + entry.column, entry.value);
+  }
+
+ private:
+  template <typename Use>
+  void for_links(std::size_t i, const std::vector<float>& values, const Use& use) const {
+    const auto links = net_->rings.links(i);
+    const float* value = values.data() + net_->rings.begin(i);
+    for (const Link link : links) {
+      const float one = *value++;
+      if (link.spoke() && link.node() < size()) use(link.node(), one);
+    }
+  }
+
+  const Net* net_;
+  EdgeAlignedRows rows_;
+  std::vector<float> across_;  // for every link the entry of the neighbour's row
+  FloatRows further_columns_;
+};
+
+/// The Laplacian of the moving nodes' graph with weights of one, which takes no memory of its own. The net must outlive
+/// it.
+class GraphLaplacian {
+ public:
+  explicit GraphLaplacian(const Net& net) : net_(&net) {}
+
+  [[nodiscard]] std::size_t size() const noexcept { return net_->moving; }
+  [[nodiscard]] double diagonal(std::size_t i) const {
+    double spokes = 0;
+    for (const Link link : net_->rings.links(i)) spokes += link.spoke() ? 1 : 0;
+    return spokes > 0 ? spokes : 1;
+  }
+  template <typename Use>
+  void for_neighbours(std::size_t i, const Use& use) const {
+    for (const Link link : net_->rings.links(i)) {
+      if (link.spoke()) use(link.node());
+    }
+  }
+
+ private:
+  const Net* net_;
+};
+
+/// upᵀ matrix up in double precision. Cost: linear; nothing between is kept.
+SparseRows galerkin(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up, ThreadTeam& team);
+
+}  // namespace vspring

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "base/threads.hpp"
+#include "linear/cholesky_solver.hpp"
+#include "linear/interpolation.hpp"
+#include "linear/level_matrix.hpp"
+#include "linear/linear_solver.hpp"
+
+namespace vspring {
+
+/// By conjugate gradients, preconditioned by a multigrid cycle: every level has a matrix of its own, Chebyshev
+/// polynomials of it scaled by its diagonal smooth, a sparse factor solves on the coarsest. Cost for n nodes: linear
+/// once, and linear for every column where the number of iterations does not grow.
+class MultigridSolver final : public LinearSolver {
+ public:
+  /// interpolations: the finest first; they must outlive the solver.
+  MultigridSolver(std::span<const Interpolation> interpolations, ThreadTeam& team);
+
+  /// From the matrix of the finest level; coarser ones get Galerkin's. On nets as irregular as coarse ones are, forms
+  /// of their own would differ too much from that of the finest.
+  void build(LevelMatrix finest);
+  /// Keeps those of the coarser levels.
+  void replace_finest(LevelMatrix matrix);
+
+  void solve(std::span<double> values, const Accuracy& accuracy) override;
+  void solve(std::span<Vector3> values, const Accuracy& accuracy) override;
+
+ private:
+  struct Level {
+    LevelMatrix matrix;
+    std::vector<float> inverse_diagonal = {};
+    double greatest = 0;            ///< eigenvalue of the matrix scaled by its diagonal
+    std::vector<float> rough = {};  ///< nearly the vector that belongs to it
+  };
+  /// What a solve works with, for as long as it lasts: two solvers never work at the same time.
+  template <typename Value>
+  class Cycle;
+  void add_level(LevelMatrix matrix);
+  void scale(Level& level) const;
+  template <typename Value, typename Values>
+  void solve_any(Cycle<Value>& cycle, Values values, const Accuracy& accuracy);
+
+  std::span<const Interpolation> interpolations_;
+  ThreadTeam* team_;
+  std::vector<Level> levels_;
+  CholeskySolver coarsest_;
+};
+
+}  // namespace vspring

@@ -1,0 +1,339 @@
+#include "precondition/bending_operator.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "base/definite3.hpp"
+#include "linear/sparse_sum.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Shares of nodes that lie unevenly may be negative; the matrix is to stay definite.
+constexpr double least_weight = 0.1;
+// Of the sum of a node's weights, what has to be left of it where they are made to take linear functions to zero.
+constexpr double least_left = 0.3;
+
+// Of a node's share of area, in its row of curvature.
+constexpr double least_mass = 0.2;
+constexpr double greatest_mass = 8;
+
+double edge_weight(const Net& net, std::size_t i, std::size_t j) {
+  const Vector3 d = net.positions[j] - net.positions[i];
+  return 1 / std::sqrt(d.dot(d) + net.tiny);
+}
+
+/// The row of curvature of a node with a normal, over the links that are wanted: what (node, share) are, times the sum
+/// of the weights. Returns that sum.
+template <typename Wanted>
+double curvature_row(const Net& net, std::size_t i, const Wanted& wanted, SparseRows::Row& row) {
+  const auto links = net.rings.links(i);
+  const Vector3& normal = net.normals[i];
+  row.clear();
+  double sum = 0;
+  Vector3 mean = Vector3::Zero();
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  const auto across = [&](std::size_t j) -> Vector3 {
+    const Vector3 d = net.positions[j] - net.positions[i];
+    return d - d.dot(normal) * normal;
+  };
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (!links[k].spoke() || !wanted(k)) continue;
+    const std::size_t j = links[k].node();
+    const double w = edge_weight(net, i, j);
+    const Vector3 u = across(j);
+    sum += w;
+    mean += w * u;
+    spread += w * u * u.transpose();
+    row.push_back({static_cast<std::uint32_t>(j), w});
+  }
+  const double size = spread.trace();
+  if (!(size > 0) || row.size() < 3) return sum;
+  spread += size * normal * normal.transpose() + 1e-9 * size * Eigen::Matrix3d::Identity();
+  Vector3 slope = solve_definite(spread, mean);
+  // Neighbours all to one side leave next to nothing.
+  const double left = 1 - mean.dot(slope) / sum;
+  if (left < least_left) slope *= (1 - least_left) / (1 - left);
+  double total = 0;
+  for (auto& [j, value] : row) {
+    value *= 1 - slope.dot(across(j));
+    total += value;
+  }
+  for (auto& [j, value] : row) value *= sum / total;
+  return sum;
+}
+
+/// The row of a node with sphere springs, over all of its link: its curvature times 2 √(Σ K |e|²).
+void sphere_row(const Net& net, std::size_t i, SparseRows::Row& row) {
+  const auto links = net.rings.links(i);
+  const SphereSprings& spheres = net.spheres;
+  row.clear();
+  if (!(spheres.spreads[i] > 0)) return;
+  const double* stiffness = spheres.stiffness.data() + net.rings.begin(i);
+  double plain = 0;
+  double raised = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    plain += stiffness[k];
+    raised += stiffness[k] + spheres.raised[i];
+  }
+  // Forces have the plain entries, curvatures the raised ones: the symmetric form between has their geometric mean.
+  const double area = std::clamp(raised > 0 ? spheres.spreads[i] / 4 * plain / raised : 0,
+                                 least_mass * spheres.areas[i], greatest_mass * spheres.areas[i]);
+  const double scale = 4 * std::sqrt(area) / spheres.spreads[i];
+  double sum = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    const double value = scale * (stiffness[k] + spheres.raised[i]);
+    row.push_back({static_cast<std::uint32_t>(links[k].node()), value});
+    sum += value;
+  }
+  row.push_back({static_cast<std::uint32_t>(i), -sum});
+}
+
+bool has_spokes_only(std::span<const Link> links) {
+  return std::all_of(links.begin(), links.end(), [](Link link) { return link.spoke(); });
+}
+
+bool on_boundary(std::span<const Link> links) { return !links.empty() && links.front().start(); }
+
+}  // namespace
+
+void sum_edge_weights(const Net& net, ThreadTeam& team, std::vector<float>& sums) {
+  sums.resize(net.moving);
+  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      double sum = 0;
+      if (net.spheres.on() && !on_boundary(net.rings.links(i))) {
+        sum = net.spheres.weights[i];
+      } else {
+        for (const Link link : net.rings.links(i)) {
+          if (link.spoke()) sum += edge_weight(net, i, link.node());
+        }
+      }
+      sums[i] = static_cast<float>(sum);
+    }
+  });
+}
+
+namespace {
+
+/// A row of G, over held nodes too.
+struct BendingRow {
+  std::size_t centre;  ///< what lies along its normal bends it
+  SparseRows::Row entries;
+};
+
+/// The rows of C.
+class Extra {
+ public:
+  explicit Extra(const Net& net) : net_(&net) {}
+
+  /// (Σ w_j (h_j − h_i)) / √(Σ w_j) over the edges to some neighbours.
+  template <typename Wanted>
+  void add_bend(std::size_t i, const Wanted& wanted) {
+    SparseRows::Row row;
+    const double sum = curvature_row(*net_, i, wanted, row);
+    if (sum == 0) return;
+    row.push_back({static_cast<std::uint32_t>(i), -sum});
+    for (auto& entry : row) entry.value /= std::sqrt(sum);
+    rows_.push_back({i, std::move(row)});
+  }
+
+  void add_sphere(std::size_t i) {
+    SparseRows::Row row;
+    sphere_row(*net_, i, row);
+    rows_.push_back({i, std::move(row)});
+  }
+
+  /// √w (h_j − h_i).
+  void add_edge(std::size_t centre, std::size_t i, std::size_t j) {
+    const double root = std::sqrt(edge_weight(*net_, i, j));
+    rows_.push_back({centre, {{static_cast<std::uint32_t>(i), -root}, {static_cast<std::uint32_t>(j), root}}});
+  }
+
+  /// √pull h_i.
+  void add_pull(std::size_t i, double pull) {
+    rows_.push_back({i, {{static_cast<std::uint32_t>(i), std::sqrt(pull)}}});
+  }
+
+  [[nodiscard]] std::vector<BendingRow> take() && { return std::move(rows_); }
+
+ private:
+  const Net* net_;
+  std::vector<BendingRow> rows_;
+};
+
+std::vector<BendingRow> extra_rows(const Net& net, std::span<const double> pull) {
+  Extra extra(net);
+  for (std::size_t i = 0; i < net.computed; ++i) {
+    const auto links = net.rings.links(i);
+    const bool moves = i < net.moving;
+    const bool open = on_boundary(links);
+    if (net.spheres.on() && !(moves && open)) {
+      if ((moves || !open || net.normal_given(i)) && !(moves && has_spokes_only(links))) extra.add_sphere(i);
+      continue;
+    }
+    if (moves && net.normal_given(i)) {
+      for (const Link link : links) {
+        if (link.spoke()) extra.add_edge(i, i, link.node());
+      }
+    } else if (moves && open) {
+      extra.add_bend(i, [&](std::size_t k) { return k == 0 || k + 1 == links.size(); });
+    } else if (!moves && !open && !net.normal_given(i)) {
+      extra.add_bend(i, [](std::size_t) { return true; });
+    }
+    if (!moves || net.normal_given(i)) continue;
+    for (const Link link : links) {
+      const std::size_t j = link.node();
+      if (link.spoke() && j >= net.moving && net.normal_given(j)) extra.add_edge(j, i, j);
+    }
+  }
+  for (std::size_t i = 0; i < pull.size(); ++i) {
+    if (pull[i] > 0) extra.add_pull(i, pull[i]);
+  }
+  return std::move(extra).take();
+}
+
+bool bends_evenly(const Net& net, std::size_t i) {
+  const auto links = net.rings.links(i);
+  if (net.spheres.on()) return !on_boundary(links) && has_spokes_only(links);
+  return !net.normal_given(i) && !on_boundary(links);
+}
+
+/// The row of G of a moving node: with_node(its own entry), and with_spoke(k, entry) for its links to neighbours. room:
+/// for the row.
+template <typename WithNode, typename WithSpoke>
+void for_bending_row(const Net& net, std::size_t i, SparseRows::Row& room, const WithNode& with_node,
+                     const WithSpoke& with_spoke) {
+  if (!bends_evenly(net, i)) return;
+  if (net.spheres.on()) {
+    sphere_row(net, i, room);
+    if (room.empty()) return;
+    with_node(room.back().value);
+    for (std::size_t k = 0; k + 1 < room.size(); ++k) with_spoke(k, room[k].value);
+    return;
+  }
+  const double sum = curvature_row(
+      net, i, [](std::size_t) { return true; }, room);
+  if (!(sum > 0)) return;
+  const double scale = 1 / std::sqrt(sum);
+  with_node(-sum * scale);
+  const auto links = net.rings.links(i);
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (links[k].spoke()) with_spoke(k, room[next++].value * scale);
+  }
+}
+
+}  // namespace
+
+SparseRows bending_operator(const Net& net, ThreadTeam& team, std::span<const double> pull) {
+  const std::vector<BendingRow> extra = extra_rows(net, pull);
+  const auto rows = SparseRows::build(team, net.moving + extra.size(), net.moving, [&] {
+    return [&, room = SparseRows::Row()](std::size_t i, SparseRows::Row& row) mutable {
+      const auto add = [&](std::size_t column, double value) {
+        if (column < net.moving) row.push_back({static_cast<std::uint32_t>(column), value});
+      };
+      if (i >= net.moving) {
+        for (const SparseRows::Entry& entry : extra[i - net.moving].entries) add(entry.column, entry.value);
+        return;
+      }
+      const auto links = net.rings.links(i);
+      for_bending_row(
+          net, i, room, [&](double value) { add(i, value); },
+          [&](std::size_t k, double value) { add(links[k].node(), value); });
+    };
+  });
+  return product(rows.transposed(), rows, team);
+}
+
+FactoredMatrix factored_bending_operator(const Net& net, ThreadTeam& team, std::span<const double> pull) {
+  const std::vector<BendingRow> extra = extra_rows(net, pull);
+  EdgeAlignedRows rows;
+  rows.diagonal.assign(net.moving, 0);
+  rows.beside.assign(net.moving == 0 ? 0 : net.rings.begin(net.moving), 0);
+  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    SparseRows::Row room;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto links = net.rings.links(i);
+      for_bending_row(
+          net, i, room, [&](double value) { rows.diagonal[i] = static_cast<float>(value); },
+          [&](std::size_t k, double value) {
+            if (links[k].node() < net.moving) rows.beside[net.rings.begin(i) + k] = static_cast<float>(value);
+          });
+    }
+  });
+  rows.further = FloatRows::build(team, extra.size(), net.moving, [&] {
+    return [&](std::size_t k, FloatRows::Row& row) {
+      for (const SparseRows::Entry& entry : extra[k].entries) {
+        if (entry.column < net.moving) row.push_back({entry.column, static_cast<float>(entry.value)});
+      }
+    };
+  });
+  return {net, std::move(rows), team};
+}
+
+std::vector<double> bending_residual(const Net& net, std::span<const Vector3> ways) {
+  std::vector<double> pull(net.moving, 0);
+  const auto add = [&](std::size_t centre, std::span<const SparseRows::Entry> row) {
+    double bend = 0;
+    for (const SparseRows::Entry& entry : row) bend += entry.value * ways[entry.column].dot(net.normals[centre]);
+    for (const SparseRows::Entry& entry : row) {
+      if (entry.column >= net.moving) continue;
+      // Held nodes may have a normal of the other sense.
+      const double sense = net.normals[entry.column].dot(net.normals[centre]) < 0 ? -1 : 1;
+      pull[entry.column] -= sense * entry.value * bend;
+    }
+  };
+  SparseRows::Row room;
+  SparseRows::Row row;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const auto links = net.rings.links(i);
+    row.clear();
+    for_bending_row(
+        net, i, room,
+        [&](double value) {
+          row.push_back({static_cast<std::uint32_t>(i), value});
+        },
+        [&](std::size_t k, double value) {
+          row.push_back({static_cast<std::uint32_t>(links[k].node()), value});
+        });
+    add(i, row);
+  }
+  for (const BendingRow& extra : extra_rows(net, {})) add(extra.centre, extra.entries);
+  return pull;
+}
+
+SparseRows tangential_laplacian(const Net& net, ThreadTeam& team, double shift) {
+  // Symmetric: of two different shares of an edge, half each.
+  const auto one_way = [&](std::size_t from, std::size_t to) {
+    const auto links = net.rings.links(from);
+    const auto shares = net.weights_of(from);
+    if (shares.empty()) return 1.0;
+    double spokes = 0;
+    double share = 0;
+    for (std::size_t k = 0; k < links.size(); ++k) {
+      if (!links[k].spoke()) continue;
+      spokes += 1;
+      if (links[k].node() == to) share = shares[k];
+    }
+    return std::max(spokes * share, least_weight);
+  };
+  return SparseRows::build(team, net.moving, net.moving, [&] {
+    return [&](std::size_t i, SparseRows::Row& row) {
+      double sum = 0;
+      for (const Link link : net.rings.links(i)) {
+        if (!link.spoke()) continue;
+        if (!net.target_positions.empty()) sum += 1;
+        const std::size_t j = link.node();
+        const double weight = j < net.moving ? 0.5 * (one_way(i, j) + one_way(j, i)) : one_way(i, j);
+        sum += weight;
+        if (j < net.moving) row.push_back({static_cast<std::uint32_t>(j), -weight});
+      }
+      row.push_back({static_cast<std::uint32_t>(i), sum * (1 + shift)});
+    };
+  });
+}
+
+}  // namespace vspring

@@ -1,0 +1,223 @@
+#include "checks/result_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "spring/curve_net.hpp"
+#include "support/curves.hpp"
+#include "support/surfaces.hpp"
+
+namespace vspring::soundness_test {
+namespace {
+
+using namespace support;
+
+bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+/// A bumpy square whose boundary is held, with its normals or without.
+Net square(bool with_normals) {
+  const PolygonMesh mesh = generate::add_noise(generate::plane({.columns = 8, .rows = 8}), 0.02, 3);
+  return gather_net(
+      mesh, with_normals ? held_boundary(mesh, [](const Vector3&) { return Vector3::UnitZ(); }) : held_boundary(mesh));
+}
+
+TEST(ResultCheck, FindsNothingWhereNothingIsWorse) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  for (const bool with_normals : {false, true}) {
+    Net start = square(with_normals);
+    const ResultCheck check(start, *model, team);
+    EXPECT_EQ(check.fault(start), "");
+    Net flat = start;
+    for (Vector3& p : flat.positions) p.z() = 0;
+    EXPECT_EQ(check.fault(flat), "");
+  }
+}
+
+TEST(ResultCheck, NamesNodesThatAreNowhereOrFarOutside) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  for (const bool with_normals : {false, true}) {
+    Net start = square(with_normals);
+    const ResultCheck check(start, *model, team);
+    const std::string node = "node " + std::to_string(start.node[5]) + " ";
+    Net nowhere = start;
+    nowhere.positions[5].y() = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_TRUE(contains(check.fault(nowhere), node.c_str())) << check.fault(nowhere);
+    Net outside = start;
+    outside.positions[5].z() += 50;
+    EXPECT_TRUE(contains(check.fault(outside), node.c_str())) << check.fault(outside);
+    // A normal may ask for a wide bulge.
+    Net bulged = start;
+    for (std::size_t i = 0; i < bulged.moving; ++i) bulged.positions[i].z() += 4;
+    EXPECT_EQ(contains(check.fault(bulged), "outside"), !with_normals) << check.fault(bulged);
+  }
+}
+
+TEST(ResultCheck, CountsEdgesThatTurnBack) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  Net start = square(true);
+  const ResultCheck check(start, *model, team);
+  Net folded = start;
+  // A node goes beyond its neighbours.
+  folded.positions[0] += 2.5 * (folded.positions[folded.rings.links(0)[0].node()] - folded.positions[0]);
+  EXPECT_TRUE(contains(check.fault(folded), "90°")) << check.fault(folded);
+  // Where it was so before, it is no worse.
+  const ResultCheck of_folded(folded, *model, team);
+  EXPECT_EQ(of_folded.fault(folded), "");
+  EXPECT_EQ(of_folded.fault(start), "");
+}
+
+TEST(ResultCheck, TellsWhatIsBentMoreFromNoise) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  const auto bowed = [](double height, double noise) {
+    const PolygonMesh plane = generate::plane({.columns = 12, .rows = 12});
+    const PolygonMesh mesh = noise > 0 ? generate::add_noise(plane, noise, 3) : plane;
+    Net net = gather_net(mesh, held_boundary(mesh));
+    for (std::size_t i = 0; i < net.moving; ++i) {
+      Vector3& p = net.positions[i];
+      const Vector3& there = plane.position(net.node[i]);
+      p.z() += height * std::sin(3.14159 * there.x()) * std::sin(3.14159 * there.y());
+    }
+    return net;
+  };
+  for (const double noise : {0.0, 0.02}) {
+    Net start = bowed(0.1, noise);
+    const ResultCheck check(start, *model, team);
+    EXPECT_EQ(check.fault(start), "");
+    Net same = bowed(0.1, 0);
+    EXPECT_EQ(check.fault(same), "") << "without the noise";
+    Net more = bowed(0.3, 0);
+    EXPECT_TRUE(contains(check.fault(more), "bent more")) << check.fault(more);
+  }
+}
+
+TEST(ResultCheck, BendingHardlySeesHowLongCellsLie) {
+  // Bands of a sphere: rows of cells of 6 : 1 bent along their columns, as sliding leaves them.
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  const auto band = [](double bent) {
+    const PolygonMesh tube = generate::tube({.columns = 32, .rows = 32, .faces = generate::Faces::mixed}, 1, 1);
+    std::vector<Vector3> places;
+    for (const Vector3& p : tube.positions()) {
+      const double height = p.z() * (1 - p.z());
+      const double turn = bent * height * std::sin(40 * p.z());
+      const double latitude = 0.5 * (p.z() - 0.5) + bent * height * std::sin(9 * std::atan2(p.y(), p.x()));
+      const double along = std::atan2(p.y(), p.x()) + turn;
+      places.emplace_back(std::cos(latitude) * std::cos(along), std::cos(latitude) * std::sin(along),
+                          std::sin(latitude));
+    }
+    const PolygonMesh mesh = with_positions(tube, places);
+    return gather_net(mesh, held_boundary(mesh));
+  };
+  Net even = band(0);
+  const ResultCheck check(even, *model, team);
+  Net slid = band(0.05);
+  EXPECT_EQ(check.fault(slid).find("bent more"), std::string::npos) << check.fault(slid);
+}
+
+TEST(ResultCheck, CountsWhatHasCollapsed) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  Net start = square(true);
+  const ResultCheck check(start, *model, team);
+  Net collapsed = start;
+  for (std::size_t i = 0; i < collapsed.moving; ++i) collapsed.positions[i] = start.positions[0];
+  EXPECT_TRUE(contains(check.fault(collapsed), "no area")) << check.fault(collapsed);
+  EXPECT_EQ(ResultCheck(collapsed, *model, team).fault(start), "");
+}
+
+TEST(ResultCheck, KnowsWhatWasHeldElsewhere) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  Net start = square(false);
+  const ResultCheck check(start, *model, team);
+  // All goes with what is held: far from where it was, and as good.
+  Net dragged = start;
+  for (Vector3& p : dragged.positions) p.z() += 50;
+  EXPECT_EQ(check.fault_of_places(dragged), "");
+  dragged.positions[0] += 2.5 * (dragged.positions[dragged.rings.links(0)[0].node()] - dragged.positions[0]);
+  EXPECT_TRUE(contains(check.fault_of_places(dragged), "90°")) << check.fault_of_places(dragged);
+}
+
+TEST(ResultCheck, LooksAtTheInputAndNotAtWhatConstraintsMakeOfIt) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  const PolygonMesh mesh = generate::plane({.columns = 8, .rows = 8});
+  Constraints constraints = held_boundary(mesh);
+  // Beyond its neighbours: that is what is wanted, but nothing else is to fold.
+  const Index node = 4 * 9 + 4;
+  constraints.fix_position(node, mesh.position(node) + Vector3(0.3, 0, 0));
+  Net start = gather_net(mesh, constraints);
+  const ResultCheck check(start, *model, team);
+  EXPECT_EQ(check.fault_of_places(start), "");
+  for (std::size_t i = 0; i < start.moving; ++i) {
+    if (start.node[i] == 1 * 9 + 1) start.positions[i] += Vector3(0.5, 0.5, 0);
+  }
+  EXPECT_TRUE(contains(check.fault_of_places(start), "90°")) << check.fault_of_places(start);
+}
+
+TEST(ResultCheck, OfCurvesToo) {
+  ThreadTeam team(1);
+  const auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 20));
+  Net start = gather_net(PolygonCurve(nodes), held_ends(nodes)).net;
+  const auto model = curve_model_for(start, CurveRules());
+  const ResultCheck check(start, *model, team);
+  EXPECT_EQ(check.fault(start), "");
+  Net folded = start;
+  folded.positions[4].x() += 0.2;
+  EXPECT_TRUE(contains(check.fault(folded), "90°")) << check.fault(folded);
+  Net collapsed = start;
+  collapsed.positions[4] = collapsed.positions[5];
+  EXPECT_TRUE(contains(check.fault(collapsed), "no length")) << check.fault(collapsed);
+  Net wavy = start;
+  for (std::size_t i = 0; i < wavy.moving; ++i) wavy.positions[i].y() += 0.01 * std::sin(static_cast<double>(9 * i));
+  EXPECT_TRUE(contains(check.fault(wavy), "energy")) << check.fault(wavy);
+}
+
+TEST(ResultCheck, CountsTurnsOfACurveAtHeldNodesToo) {
+  ThreadTeam team(1);
+  auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 20));
+  Constraints constraints = held_ends(nodes);
+  hold(constraints, nodes, 10);
+  Net start = gather_net(PolygonCurve(nodes), constraints).net;
+  const auto model = curve_model_for(start, CurveRules());
+  const ResultCheck check(start, *model, team);
+  Net sharp = start;
+  for (std::size_t i = 0; i < sharp.moving; ++i) {
+    if (sharp.node[i] == 9 || sharp.node[i] == 11)
+      sharp.positions[i] += Vector3(sharp.node[i] == 9 ? 0.02 : -0.02, 0.1, 0);
+  }
+  EXPECT_TRUE(contains(check.fault(sharp), "90°")) << check.fault(sharp);
+}
+
+TEST(ResultCheck, SeesACurveThatCrossesItselfWhereNoTangentIsHeld) {
+  ThreadTeam team(1);
+  const auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 40));
+  for (const bool with_tangents : {false, true}) {
+    const Constraints constraints =
+        with_tangents ? held_ends(nodes, Vector3::UnitX(), Vector3::UnitX()) : held_ends(nodes);
+    Net start = gather_net(PolygonCurve(nodes), constraints).net;
+    const auto model = curve_model_for(start, CurveRules());
+    const ResultCheck check(start, *model, team);
+    Net looped = start;
+    const Vector3& from = start.positions[start.moving];
+    const Vector3 along = start.positions[start.moving + 1] - from;
+    const Vector3 up = Vector3::UnitZ().cross(along);
+    for (std::size_t i = 0; i < looped.moving; ++i) {
+      // Back and forth and back, over a hill.
+      const double u = 3 * static_cast<double>(start.node[i]) / 40 - 1.5;
+      looped.positions[i] = from + (0.5 + (u * u * u - u) / 3.75) * along + 0.15 * (2.25 - u * u) * up;
+    }
+    EXPECT_EQ(contains(check.fault(looped), "cross each other"), !with_tangents) << check.fault(looped);
+  }
+}
+
+}  // namespace
+}  // namespace vspring::soundness_test

@@ -1,0 +1,57 @@
+#include "equilibrium/force_derivative.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "base/random.hpp"
+#include "support/surfaces.hpp"
+
+namespace vspring::force_derivative_test {
+namespace {
+
+using namespace support;
+
+Eigen::VectorXd displacements(Net& net, const Model& model, ThreadTeam& team) {
+  update_directions(net, model, team);
+  std::vector<NodeForce> forces(net.moving);
+  model.find_forces(net, {0, net.moving}, forces);
+  Eigen::VectorXd all(3 * static_cast<Eigen::Index>(net.moving));
+  for (std::size_t i = 0; i < net.moving; ++i)
+    all.segment<3>(3 * static_cast<Eigen::Index>(i)) = forces[i].spring + forces[i].regularisation;
+  return all;
+}
+
+TEST(ForceDerivative, TellsHowAllDisplacementsChange) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  for (const generate::Faces faces : every_kind) {
+    const PolygonMesh patch = generate::sphere_patch({.columns = 8, .rows = 8, .faces = faces, .jitter = 0.3}, 1, 60);
+    // Held nodes with normals that are computed too.
+    Constraints constraints(patch.node_count());
+    fix_boundary_positions(constraints, patch);
+    Net net = gather_net(generate::add_noise(patch, 0.02, 3), constraints);
+    update_directions(net, *model, team);
+    const std::vector<Vector3> positions = net.positions;
+    const std::vector<Vector3> normals = net.normals;
+    const Eigen::SparseMatrix<double> derivative = ForceDerivative(net, *model).find();
+    EXPECT_EQ(net.positions, positions);
+    EXPECT_EQ(net.normals, normals);
+
+    Random random(1);
+    Eigen::VectorXd way(derivative.cols());
+    for (double& one : way) one = random.uniform(-1, 1);
+    constexpr double step = 1e-6;
+    const auto there = [&](double length) {
+      for (std::size_t i = 0; i < net.moving; ++i)
+        net.positions[i] = positions[i] + length * way.segment<3>(3 * static_cast<Eigen::Index>(i));
+      return displacements(net, *model, team);
+    };
+    const Eigen::VectorXd change = (there(step) - there(-step)) / (2 * step);
+    EXPECT_LT((derivative * way - change).norm(), 1e-6 * change.norm());
+  }
+}
+
+}  // namespace
+}  // namespace vspring::force_derivative_test

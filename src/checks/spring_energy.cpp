@@ -16,14 +16,14 @@ SpringEnergy spring_energy(const Net& net) {
     });
     return energy;
   }
-  for (std::size_t i = 0; i < net.moving; ++i) {
+  for (std::size_t i = 0; i < net.computed; ++i) {
     for (const Link link : net.rings.links(i)) {
       const std::size_t j = link.node();
-      if (!link.spoke() || (j < net.moving && j < i)) continue;
+      if (!link.spoke() || j < i || (i >= net.moving && j >= net.computed)) continue;
       const Vector3 d = net.positions[j] - net.positions[i];
       const double difference = steady_difference(d, net.normals[i], net.normals[j]);
       energy.sum += difference * difference / (d.squaredNorm() + net.tiny);
-      if (net.normals[i].isZero(0) || net.normals[j].isZero(0)) continue;
+      if (i >= net.moving || net.normals[i].isZero(0) || net.normals[j].isZero(0)) continue;
       const double cosine = net.normals[i].dot(net.normals[j]);
       // The sense of a given normal means nothing.
       const bool given = net.normal_given(i) || net.normal_given(j);

@@ -114,8 +114,10 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
     result.report.moving_nodes = static_cast<Index>(net.moving);
     // Where a hurried run has led nowhere, the input with its constraints is a better picture.
     const bool is_of_use = went_on || outcome == Outcome::converged || check_->fault_of_places(net).empty();
-    result.positions = scatter_positions(is_of_use ? net : gather_part(*whole_, part_, constraints),
-                                         whole_->positions(), constraints, options_.strength);
+    const auto scatter = [&](const Net& one) {
+      return scatter_positions(one, whole_->positions(), constraints, options_.strength);
+    };
+    result.positions = is_of_use ? scatter(net) : scatter(gather_part(*whole_, part_, constraints));
   } else {
     (void)crosses_itself(net, constraints, context, result.report);
     finish(net, constraints, result);

@@ -8,13 +8,15 @@
 
 namespace vspring {
 
+/// As many as a quadratic with a tangent plane has unknowns.
+constexpr std::size_t enough_near_nodes = 5;
+
 /// Calls use(node) for the nodes that a quadratic around a node is fitted to: those of its link, and where these are
 /// fewer than its unknowns those of their links too.
 template <typename Use>
 void for_near_nodes(const Net& net, std::size_t i, const Use& use) {
-  constexpr std::size_t enough = 5;
   const auto links = net.rings.links(i);
-  if (links.size() >= enough) {
+  if (links.size() >= enough_near_nodes) {
     for (const Link link : links) use(link.node());
     return;
   }

@@ -1,12 +1,14 @@
 #include "spring/sphere_springs.hpp"
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "shape/direction.hpp"
 #include "spring/bending_factor.hpp"
@@ -50,6 +52,9 @@ struct HalfCotangents {
   }
 };
 
+/// A place in a walk around a node, once around at most: a division, as for a remainder, takes as long as a face.
+std::size_t wrapped(std::size_t k, std::size_t count) { return k < count ? k : k - count; }
+
 /// Calls use(first, last) for every face around a node: the places in the walk of its nodes beside the centre, first to
 /// last, from spoke to spoke.
 template <typename Use>
@@ -61,31 +66,67 @@ void for_faces(std::span<const Link> links, const Use& use) {
     bool is_face = false;
     do {
       ++last;
-      if (links[last % count].start()) break;
-      is_face = links[last % count].spoke();
+      const Link link = links[wrapped(last, count)];
+      if (link.start()) break;
+      is_face = link.spoke();
     } while (!is_face && last < k + count);
     if (is_face) use(k, last);
   }
 }
 
+/// The edges from a node to all of its link, gathered once.
+class LinkEdges {
+ public:
+  LinkEdges(const Net& net, std::size_t i)
+      : links_(net.rings.links(i)), edges_(few_.data()), squares_(squares_of_few_.data()) {
+    if (links_.size() > few) {
+      many_.resize(links_.size());
+      squares_of_many_.resize(links_.size());
+      edges_ = many_.data();
+      squares_ = squares_of_many_.data();
+    }
+    for (std::size_t k = 0; k < links_.size(); ++k) {
+      edges_[k] = net.positions[links_[k].node()] - net.positions[i];
+      squares_[k] = edges_[k].squaredNorm();
+    }
+  }
+  LinkEdges(const LinkEdges&) = delete;
+  LinkEdges& operator=(const LinkEdges&) = delete;
+
+  [[nodiscard]] std::span<const Link> links() const { return links_; }
+  [[nodiscard]] std::size_t size() const { return links_.size(); }
+  [[nodiscard]] const Vector3& operator[](std::size_t k) const { return edges_[k]; }
+  [[nodiscard]] double square(std::size_t k) const { return squares_[k]; }
+
+ private:
+  // Hardly any node has more; room on the stack costs nothing.
+  static constexpr std::size_t few = 24;
+
+  std::span<const Link> links_;
+  std::array<Vector3, few> few_;
+  std::array<double, few> squares_of_few_;
+  std::vector<Vector3> many_;
+  std::vector<double> squares_of_many_;
+  Vector3* edges_;
+  double* squares_;
+};
+
 /// The row of the Laplacian, and the node's share of area.
-void find_row(Net& net, std::size_t i) {
+void find_row(Net& net, std::size_t i, const LinkEdges& edges) {
   SphereSprings& spheres = net.spheres;
-  const auto links = net.rings.links(i);
-  const std::size_t count = links.size();
+  const std::size_t count = edges.size();
   double* row = spheres.stiffness.data() + net.rings.begin(i);
   std::fill_n(row, count, 0.0);
   spheres.areas[i] = 0;
-  const Vector3& centre = net.positions[i];
-  const auto edge = [&](std::size_t k) -> Vector3 { return net.positions[links[k % count].node()] - centre; };
-  for_faces(links, [&](std::size_t first, std::size_t last) {
+  const auto edge = [&](std::size_t k) -> const Vector3& { return edges[wrapped(k, count)]; };
+  for_faces(edges.links(), [&](std::size_t first, std::size_t last) {
     const std::size_t nodes = last - first + 2;
-    const Vector3 a = edge(first);
-    const Vector3 b = edge(last);
+    const Vector3& a = edge(first);
+    const Vector3& b = edge(last);
     if (nodes == 3) {
       const HalfCotangents half(a, b);
       row[first] += half.at_b;
-      row[last % count] += half.at_a;
+      row[wrapped(last, count)] += half.at_a;
       spheres.areas[i] += half.area / 6;
       return;
     }
@@ -113,7 +154,7 @@ void find_row(Net& net, std::size_t i) {
       if (k == 0 || k == nodes)
         own += weight;
       else
-        row[(first + k - 1) % count] += share * weight;
+        row[wrapped(first + k - 1, count)] += share * weight;
     };
     before.setZero();
     for (std::size_t k = 0; k < nodes; ++k) {
@@ -122,61 +163,97 @@ void find_row(Net& net, std::size_t i) {
       add(k, half.at_b);
       add(k + 1, half.at_a);
       if (k == 0) row[first] += half.at_origin;
-      if (k + 1 == nodes) row[last % count] += half.at_origin;
+      if (k + 1 == nodes) row[wrapped(last, count)] += half.at_origin;
       before = after;
     }
-    for (std::size_t k = first; k <= last; ++k) row[k % count] += share * (own - share * sum);
+    for (std::size_t k = first; k <= last; ++k) row[wrapped(k, count)] += share * (own - share * sum);
   });
 }
 
+/// Calls use(0) … use(n − 1) with numbers that are constants there: what is indexed by them alone stays in registers.
+template <std::size_t n, typename Use>
+void unrolled(const Use& use) {
+  [&]<std::size_t... k>(std::index_sequence<k...>) { (use(std::integral_constant<std::size_t, k>()), ...); }
+  (std::make_index_sequence<n>());
+}
+
+template <std::size_t n>
+using Unknowns = std::array<double, n>;
+
+/// The lower triangle of a symmetric matrix, row by row.
+template <std::size_t n>
+struct Triangle {
+  std::array<double, n*(n + 1) / 2> values = {};
+
+  double& operator()(std::size_t row, std::size_t column) { return values[row * (row + 1) / 2 + column]; }
+};
+
 /// x of a x = b for a symmetric positive definite a, which is replaced by its Cholesky factor.
-template <int n>
-Eigen::Matrix<double, n, 1> solve_in_place(Eigen::Matrix<double, n, n>& a, Eigen::Matrix<double, n, 1> b) {
-  for (int j = 0; j < n; ++j) {
-    for (int k = 0; k < j; ++k) {
+template <std::size_t n>
+Unknowns<n> solve_in_place(Triangle<n>& a, Unknowns<n> b) {
+  unrolled<n>([&](auto j) {
+    unrolled<j>([&](auto k) {
       double sum = a(j, k);
-      for (int m = 0; m < k; ++m) sum -= a(j, m) * a(k, m);
+      unrolled<k>([&](auto m) { sum -= a(j, m) * a(k, m); });
       a(j, k) = sum / a(k, k);
-    }
+    });
     double pivot = a(j, j);
-    for (int m = 0; m < j; ++m) pivot -= a(j, m) * a(j, m);
+    unrolled<j>([&](auto m) { pivot -= a(j, m) * a(j, m); });
     // What nothing tells of gets nothing.
     a(j, j) = pivot > 0 ? std::sqrt(pivot) : std::numeric_limits<double>::infinity();
     double value = b[j];
-    for (int m = 0; m < j; ++m) value -= a(j, m) * b[m];
+    unrolled<j>([&](auto m) { value -= a(j, m) * b[m]; });
     b[j] = value / a(j, j);
-  }
-  for (int j = n; j-- > 0;) {
-    for (int m = j + 1; m < n; ++m) b[j] -= a(m, j) * b[m];
+  });
+  unrolled<n>([&](auto back) {
+    constexpr std::size_t j = n - 1 - back;
+    unrolled<back>([&](auto k) {
+      constexpr std::size_t m = j + 1 + k;
+      b[j] -= a(m, j) * b[m];
+    });
     b[j] /= a(j, j);
-  }
+  });
   return b;
+}
+
+/// Calls use(node, e, |e|²) for the nodes that heights are fitted to, see for_near_nodes().
+template <typename Use>
+void for_near_edges(const Net& net, std::size_t i, const LinkEdges& edges, const Use& use) {
+  if (edges.size() >= enough_near_nodes) {
+    for (std::size_t k = 0; k < edges.size(); ++k) use(edges.links()[k].node(), edges[k], edges.square(k));
+    return;
+  }
+  for_near_nodes(net, i, [&](std::size_t j) {
+    const Vector3 e = net.positions[j] - net.positions[i];
+    use(j, e, e.squaredNorm());
+  });
 }
 
 /// Least squares of heights over a node's link, by x and y in its tangent plane: height(j, e) for node j against the n
 /// unknowns of row(x, y, |e|²), both weighed by |e|⁻². forms_ridge and slopes_ridge: what is added to the diagonal for
 /// each unknown, times the number of nodes and times Σ |e|⁻², as their units ask.
-template <int n, typename Height, typename Row>
-Eigen::Matrix<double, n, 1> fit_heights(const Net& net, std::size_t i, const Vector3& t1, const Vector3& t2,
-                                        const Eigen::Matrix<double, n, 1>& forms_ridge,
-                                        const Eigen::Matrix<double, n, 1>& slopes_ridge, const Height& height,
-                                        const Row& row_of) {
-  Eigen::Matrix<double, n, n> a = Eigen::Matrix<double, n, n>::Zero();
-  Eigen::Matrix<double, n, 1> b = Eigen::Matrix<double, n, 1>::Zero();
+template <std::size_t n, typename Height, typename Row>
+Unknowns<n> fit_heights(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& t1, const Vector3& t2,
+                        const Unknowns<n>& forms_ridge, const Unknowns<n>& slopes_ridge, const Height& height,
+                        const Row& row_of) {
+  Triangle<n> a;
+  Unknowns<n> b = {};
   double inverses = 0;
   double count = 0;
-  for_near_nodes(net, i, [&](std::size_t j) {
-    const Vector3 e = net.positions[j] - net.positions[i];
-    const double length2 = e.dot(e);
+  for_near_edges(net, i, edges, [&](std::size_t j, const Vector3& e, double length2) {
     if (!(length2 > 0)) return;
     const double inverse = 1 / length2;
     inverses += inverse;
     count += 1;
-    const Eigen::Matrix<double, n, 1> row = inverse * row_of(e.dot(t1), e.dot(t2), length2);
-    a += row * row.transpose();
-    b += height(j, e) * inverse * row;
+    Unknowns<n> row = row_of(e.dot(t1), e.dot(t2), length2);
+    const double right = height(j, e) * inverse;
+    unrolled<n>([&](auto r) {
+      row[r] *= inverse;
+      unrolled<r + 1>([&](auto c) { a(r, c) += row[r] * row[c]; });
+      b[r] += right * row[r];
+    });
   });
-  a.diagonal() += count * forms_ridge + inverses * slopes_ridge;
+  unrolled<n>([&](auto r) { a(r, r) += count * forms_ridge[r] + inverses * slopes_ridge[r]; });
   return solve_in_place<n>(a, b);
 }
 
@@ -188,33 +265,36 @@ struct HeightFit {
   double slope2 = 0;
 };
 
-HeightFit fit_inside(const Net& net, std::size_t i, const Vector3& normal, const Vector3& t1, const Vector3& t2) {
-  using Unknowns = Eigen::Matrix<double, 5, 1>;
-  const Unknowns x = fit_heights<5>(
-      net, i, t1, t2, (Unknowns() << ridge_of_forms, ridge_of_forms, 0, 0, 0).finished(),
-      (Unknowns() << 0, 0, ridge_of_slopes, ridge_of_slopes, 0).finished(),
+HeightFit fit_inside(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& normal, const Vector3& t1,
+                     const Vector3& t2) {
+  const Unknowns<5> x = fit_heights<5>(
+      net, i, edges, t1, t2, {ridge_of_forms, ridge_of_forms, 0, 0, 0}, {0, 0, ridge_of_slopes, ridge_of_slopes, 0},
       [&](std::size_t, const Vector3& e) { return e.dot(normal); },
       [](double u, double v, double square) {
-        return (Unknowns() << u * u - v * v, 2 * u * v, -u, -v, square).finished();
+        return Unknowns<5>{u * u - v * v, 2 * u * v, -u, -v, square};
       });
   return {x[0], x[1], x[2], x[3]};
 }
 
 template <typename Height>
-HeightFit fit_given(const Net& net, std::size_t i, const Vector3& t1, const Vector3& t2, const Height& height) {
-  const Vector3 x =
-      fit_heights<3>(net, i, t1, t2, Vector3(ridge_of_forms, ridge_of_forms, 0), Vector3::Zero(), height,
-                     [](double u, double v, double square) { return Vector3(u * u - v * v, 2 * u * v, square); });
+HeightFit fit_given(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& t1, const Vector3& t2,
+                    const Height& height) {
+  const Unknowns<3> x = fit_heights<3>(net, i, edges, t1, t2, {ridge_of_forms, ridge_of_forms, 0}, {0, 0, 0}, height,
+                                       [](double u, double v, double square) {
+                                         return Unknowns<3>{u * u - v * v, 2 * u * v, square};
+                                       });
   return {x[0], x[1], 0, 0};
 }
 
 /// At a rim, along which t1 goes: not curved across it.
-HeightFit fit_rim(const Net& net, std::size_t i, const Vector3& normal, const Vector3& t1, const Vector3& t2) {
-  using Unknowns = Eigen::Matrix<double, 4, 1>;
-  const Unknowns x = fit_heights<4>(
-      net, i, t1, t2, Unknowns(0, ridge_of_forms, 0, 0), Unknowns(0, 0, ridge_of_slopes, ridge_of_slopes),
+HeightFit fit_rim(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& normal, const Vector3& t1,
+                  const Vector3& t2) {
+  const Unknowns<4> x = fit_heights<4>(
+      net, i, edges, t1, t2, {0, ridge_of_forms, 0, 0}, {0, 0, ridge_of_slopes, ridge_of_slopes},
       [&](std::size_t, const Vector3& e) { return e.dot(normal); },
-      [](double u, double v, double) { return Unknowns(2 * u * u, 2 * u * v, -u, -v); });
+      [](double u, double v, double) {
+        return Unknowns<4>{2 * u * u, 2 * u * v, -u, -v};
+      });
   return {x[0], x[1], x[2], x[3]};
 }
 
@@ -225,16 +305,16 @@ std::pair<Vector3, Vector3> tangents_of(const Vector3& normal) {
 }
 
 /// The sum of the Laplacian's entries, raised where that is too little, times squared edges; and the node's weight.
-void find_spread(Net& net, std::size_t i) {
+void find_spread(Net& net, std::size_t i, const LinkEdges& edges) {
   SphereSprings& spheres = net.spheres;
-  const auto links = net.rings.links(i);
+  const auto links = edges.links();
   const double* row = spheres.stiffness.data() + net.rings.begin(i);
   double spread = 0;
   double squares = 0;
   double spokes_squares = 0;
   double spokes = 0;
   for (std::size_t k = 0; k < links.size(); ++k) {
-    const double square = (net.positions[links[k].node()] - net.positions[i]).squaredNorm();
+    const double square = edges.square(k);
     spread += row[k] * square;
     squares += square;
     if (!links[k].spoke()) continue;
@@ -250,14 +330,14 @@ void find_spread(Net& net, std::size_t i) {
 
 /// The curvature from the row: Σ K (height − q) / Σ K |e|².
 template <typename Height>
-double curvature_by_row(const Net& net, std::size_t i, const Vector3& t1, const Vector3& t2, const HeightFit& fit,
-                        const Height& height) {
+double curvature_by_row(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& t1, const Vector3& t2,
+                        const HeightFit& fit, const Height& height) {
   const SphereSprings& spheres = net.spheres;
-  const auto links = net.rings.links(i);
+  const auto links = edges.links();
   const double* row = spheres.stiffness.data() + net.rings.begin(i);
   double sum = 0;
   for (std::size_t k = 0; k < links.size(); ++k) {
-    const Vector3 e = net.positions[links[k].node()] - net.positions[i];
+    const Vector3& e = edges[k];
     const double x = e.dot(t1);
     const double y = e.dot(t2);
     sum += (row[k] + spheres.raised[i]) * (height(links[k].node(), e) - fit.q1 * (x * x - y * y) - 2 * fit.q2 * x * y);
@@ -287,10 +367,11 @@ void use_sphere_springs(Net& net) {
 void use_least_bending(Net& net) { net.spheres.differences.assign(net.moving, 0); }
 
 void update_sphere(Net& net, std::size_t i, const Vector3& first) {
-  find_row(net, i);
-  find_spread(net, i);
+  const LinkEdges edges(net, i);
+  find_row(net, i, edges);
+  find_spread(net, i, edges);
   if (net.normal_given(i)) return;
-  const auto links = net.rings.links(i);
+  const auto links = edges.links();
   net.spheres.curvatures[i] = unknown;
   net.normals[i] = first;
   if (first.isZero(0)) return;
@@ -304,25 +385,24 @@ void update_sphere(Net& net, std::size_t i, const Vector3& first) {
   if (has_rim(links)) {
     // Several runs have no line through the node in common that would be the rim.
     if (!has_one_run(links)) return;
-    const auto along = [&](std::size_t k) -> Vector3 { return net.positions[links[k].node()] - net.positions[i]; };
-    const Vector3 before = along(0);
-    const Vector3 after = along(links.size() - 1);
+    const Vector3& before = edges[0];
+    const Vector3& after = edges[links.size() - 1];
     const Vector3 chord = after - before;
     const Vector3 t1 = direction(chord - chord.dot(first) * first, chord.norm());
     if (t1.isZero(0)) return;
     const Vector3 t2 = first.cross(t1);
-    (void)tilt(fit_rim(net, i, first, t1, t2), t1, t2);
+    (void)tilt(fit_rim(net, i, edges, first, t1, t2), t1, t2);
     net.spheres.curvatures[i] = 0.25 * (before.dot(normal) / std::max(before.squaredNorm(), net.tiny) +
                                         after.dot(normal) / std::max(after.squaredNorm(), net.tiny));
     return;
   }
   const auto [t1, t2] = tangents_of(first);
-  HeightFit fit = fit_inside(net, i, first, t1, t2);
+  HeightFit fit = fit_inside(net, i, edges, first, t1, t2);
   const double length = tilt(fit, t1, t2);
   fit.q1 /= length;
   fit.q2 /= length;
   net.spheres.curvatures[i] =
-      curvature_by_row(net, i, t1, t2, fit, [&](std::size_t, const Vector3& e) { return e.dot(normal); });
+      curvature_by_row(net, i, edges, t1, t2, fit, [&](std::size_t, const Vector3& e) { return e.dot(normal); });
   if (i < net.spheres.differences.size()) net.spheres.differences[i] = 4 * (fit.q1 * fit.q1 + fit.q2 * fit.q2);
 }
 
@@ -337,8 +417,9 @@ void find_given_curvature(Net& net, std::size_t i) {
     const double theirs = other.dot(normal) < 0 ? -e.dot(other) : e.dot(other);
     return (1 + of_neighbours) * own + of_neighbours * theirs;
   };
-  const HeightFit fit = fit_given(net, i, t1, t2, height);
-  net.spheres.curvatures[i] = curvature_by_row(net, i, t1, t2, fit, height);
+  const LinkEdges edges(net, i);
+  const HeightFit fit = fit_given(net, i, edges, t1, t2, height);
+  net.spheres.curvatures[i] = curvature_by_row(net, i, edges, t1, t2, fit, height);
 }
 
 double sphere_force(const Net& net, std::size_t i) {

@@ -47,6 +47,28 @@ TEST(SphereSprings, AreExactOnSpheresOfEveryKindOfFace) {
   }
 }
 
+TEST(SphereSprings, AreExactOnASphereWhereANodeHasManyNeighbours) {
+  constexpr int around = 40;
+  MeshBuilder builder;
+  const auto add = [&](double polar, double turn) {
+    builder.add_node(2 * Vector3(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)));
+  };
+  add(0, 0);
+  for (const double polar : {0.3, 0.4}) {
+    for (int k = 0; k < around; ++k) add(polar * (1 + 0.1 * (k % 3)), 2 * std::numbers::pi * k / around);
+  }
+  for (int k = 1; k <= around; ++k) {
+    const int next = k % around + 1;
+    builder.add_face({0, k, next});
+    builder.add_face({k, k + around, next + around, next});
+  }
+  const PolygonMesh mesh = builder.take();
+  const Sprung at = sprung(mesh, held_boundary(mesh, radial));
+  for (std::size_t i = 0; i < at.net.computed; ++i)
+    EXPECT_NEAR(std::abs(at.net.spheres.curvatures[i] * at.net.frame.scale()), 0.25, 1e-10) << i;
+  EXPECT_LT(at.greatest_force, 1e-12);
+}
+
 TEST(SphereSprings, GiveEveryNodeItsShareOfItsFaces) {
   for (const generate::Faces faces : every_kind) {
     SCOPED_TRACE(name_of(faces));

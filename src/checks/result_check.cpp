@@ -30,6 +30,9 @@ constexpr double noticed_rise = 3;
 // Of a curve, that is bent more too.
 constexpr double noticed_rise_of_curves = 1.5;
 constexpr double unseen_turn = 1e-3;
+// Where normals or tangents are held, which may ask for a shape that is bent more: of the energy, in which they count,
+// of what is bent more too.
+constexpr double risen_energy_if_bent = 1.3;
 // Of the bending, of a surface or a curve, which hardly changes where nodes slide. Springs may ask for more of it than
 // a fair shape has where a rim is free to turn.
 constexpr double risen_bending = 1.3;
@@ -210,6 +213,7 @@ ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team) : mod
   model.prepare(start);
   update_directions(start, model, team);
   energy_ = spring_energy(start).sum;
+  if (has_directions_ && !has_points_ && flaws_.collapsed == 0) start_ = start.positions;
   // Sweeps must do without: they move from the newest positions.
   if (!was_prepared) start.curvatures.clear();
 }
@@ -269,13 +273,32 @@ std::string ResultCheck::fault_of_places(const Net& now) const {
   return more_of(defects_of(now, now.positions, edge_, *team_, false, dragged(now)), now.tangents.empty());
 }
 
+std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const {
+  if (start_.empty() || !now.spheres.differences.empty()) return {};
+  const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
+  model_->prepare(now);
+  update_directions(now, *model_, *team_);
+  const double energy = spring_energy(now).sum;
+  if (energy <= risen_energy_if_bent * energy_ + unseen) return {};
+  const auto bending = [&](const std::vector<Vector3>& positions) {
+    return defects_of(now, positions, edge_, *team_, true, dragged_nodes).bending;
+  };
+  const double before = bending(start_);
+  const double after = bending(now.positions);
+  if (after <= risen_bending * before + unseen) return {};
+  return fmt::format(
+      "it is bent more, by {:.3g} in place of {:.3g}, and the V-Spring energy rose from {:.3g} to {:.3g}", after,
+      before, energy_, energy);
+}
+
 std::string ResultCheck::fault(Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
   const std::vector<std::uint8_t> dragged_nodes = dragged(now);
   const ShapeDefects defects = defects_of(now, now.positions, edge_, *team_, looks_at_bending(), dragged_nodes);
   std::string more = more_of(defects, now.tangents.empty());
-  if (!more.empty() || has_directions_) return more;
+  if (!more.empty()) return more;
+  if (has_directions_) return has_points_ ? std::string() : disagreement_with_directions(now, dragged_nodes);
   if (looks_at_crossings(now) && dragged_nodes.empty()) {
     const std::size_t crossings = curve_crossings(now, now.positions, *team_);
     const std::size_t before = crossings > 0 ? curve_crossings(now, input_, *team_) : 0;

@@ -41,7 +41,8 @@ class ResultCheck {
   /// outside the box; more flaws, but for those beside nodes that are held elsewhere than the input has them; edges
   /// of a curve in a plane that cross each other, where no tangent is held; where nothing but positions holds it, over
   /// three times the V-Spring energy (but where bending is to be least), 1.5 times that of a curve that is bent more,
-  /// or of a surface over 1.3 times the bending, or 2.5 times that without noise. Updates directions. Cost: linear.
+  /// or of a surface over 1.3 times the bending, or 2.5 times that without noise; where directions hold it, over 1.3
+  /// times of both. Updates directions. Cost: linear.
   [[nodiscard]] std::string fault(Net& now) const;
 
   /// The same where what is held has been moved since, which the energy depends on: without a look at that. Updates
@@ -57,6 +58,8 @@ class ResultCheck {
   /// Tangents that are given may ask for a loop.
   [[nodiscard]] bool looks_at_crossings(const Net& net) const;
   [[nodiscard]] double bending_without_noise(const Net& net) const;
+  /// Both that it is bent more and that its springs, by the given directions, are further from their rest.
+  [[nodiscard]] std::string disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const;
   [[nodiscard]] std::string more_of(const ShapeDefects& defects, bool of_surface) const;
 
   const Model* model_;
@@ -68,6 +71,7 @@ class ResultCheck {
   double edge_ = 0;  ///< the mean one
   ShapeDefects flaws_;
   std::vector<Vector3> input_;  ///< of a curve that is looked at for crossings: where the input has its nodes
+  std::vector<Vector3> start_;  ///< where directions hold it: as it went in, with its constraints applied
   std::vector<Vector3> held_;   ///< where the input has the nodes that are held
   double energy_ = 0;
   // Where nothing but positions holds it: with its constraints, and of a surface after rest_positions(); none where

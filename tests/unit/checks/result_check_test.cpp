@@ -11,7 +11,7 @@
 #include "support/curves.hpp"
 #include "support/surfaces.hpp"
 
-namespace vspring::soundness_test {
+namespace vspring::result_check_test {
 namespace {
 
 using namespace support;
@@ -96,6 +96,33 @@ TEST(ResultCheck, TellsWhatIsBentMoreFromNoise) {
     Net more = bowed(0.3, 0);
     EXPECT_TRUE(contains(check.fault(more), "bent more")) << check.fault(more);
   }
+}
+
+TEST(ResultCheck, GivenNormalsMayAskForBendingButNotForWorseSpringsToo) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  // A dome between rims held with its own normals, flat or bowed by so much.
+  const PolygonMesh plane = generate::plane({.columns = 12, .rows = 12});
+  const auto bowed = [&](double height) {
+    const auto turn = [&](double x) { return height * std::numbers::pi * std::cos(std::numbers::pi * x); };
+    Net net = gather_net(plane, held_boundary(plane, [&](const Vector3& p) {
+                           const double x = std::sin(std::numbers::pi * p.x());
+                           const double y = std::sin(std::numbers::pi * p.y());
+                           return Vector3(-0.2 * turn(p.x()) / height * y, -0.2 * turn(p.y()) / height * x, 1);
+                         }));
+    for (std::size_t i = 0; i < net.moving; ++i) {
+      Vector3& p = net.positions[i];
+      p.z() += height * std::sin(std::numbers::pi * p.x()) * std::sin(std::numbers::pi * p.y());
+    }
+    return net;
+  };
+  Net flat = bowed(1e-9);
+  Net dome = bowed(0.2);
+  Net peak = bowed(0.6);
+  EXPECT_EQ(ResultCheck(flat, *model, team).fault(dome), "") << "that the normals ask for";
+  const std::string fault = ResultCheck(dome, *model, team).fault(peak);
+  EXPECT_TRUE(contains(fault, "bent more")) << fault;
+  EXPECT_TRUE(contains(fault, "energy rose")) << fault;
 }
 
 TEST(ResultCheck, BendingHardlySeesHowLongCellsLie) {
@@ -220,4 +247,4 @@ TEST(ResultCheck, SeesACurveThatCrossesItselfWhereNoTangentIsHeld) {
 }
 
 }  // namespace
-}  // namespace vspring::soundness_test
+}  // namespace vspring::result_check_test

@@ -29,12 +29,10 @@ Json optional(const std::optional<double>& value) { return value ? Json(*value) 
 bool asks_to_fit(const PullArguments& arguments) {
   const int given = (arguments.weight ? 1 : 0) + (arguments.smoothing_length ? 1 : 0) + (arguments.within ? 1 : 0) +
                     (arguments.rms ? 1 : 0) + (arguments.noise ? 1 : 0);
-  if (given > 1)
-    throw Error(ErrorCode::invalid_argument,
-                "only one of --weight, --smoothing-length, --within, --rms and --noise can be given");
-  if (given == 0 && arguments.outliers > 0)
-    throw Error(ErrorCode::invalid_argument,
-                "--outliers needs one of --weight, --smoothing-length, --within, --rms and --noise");
+  const std::string all = arguments.takes_noise ? "--weight, --smoothing-length, --within, --rms and --noise"
+                                                : "--weight, --smoothing-length, --within and --rms";
+  if (given > 1) throw Error(ErrorCode::invalid_argument, "only one of " + all + " can be given");
+  if (given == 0 && arguments.outliers > 0) throw Error(ErrorCode::invalid_argument, "--outliers needs one of " + all);
   return given == 1;
 }
 
@@ -70,10 +68,10 @@ void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, s
   const bool is_larger = (arguments.within && noise.deviation > *arguments.within / 2) ||
                          (arguments.rms && noise.deviation > *arguments.rms);
   if (!is_larger) return;
-  warnings.push_back(fmt::format(
-      "the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
-      "{:.3g} in each coordinate; --noise auto takes that off, --within auto allows for three times as much",
-      noise.deviation));
+  warnings.push_back(
+      fmt::format("the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
+                  "{:.3g} in each coordinate; {} auto takes that off, --within auto allows for three times as much",
+                  noise.deviation, arguments.takes_noise ? "--noise" : "--rms"));
 }
 
 FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing) {

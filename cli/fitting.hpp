@@ -20,6 +20,7 @@ struct PullArguments {
   std::optional<double> rms;
   std::optional<double> noise;
   double outliers = 0;
+  bool takes_noise = true;                               ///< whether the command has --noise
   std::string automatic = {};                            ///< the option whose value is "auto"; empty: none
   std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that it was set by
 };

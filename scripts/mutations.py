@@ -173,9 +173,38 @@ MUTATIONS = {
         ("area-per-point", "a node's share of n-gons", "area += face.norm() / nodes;", "area += face.norm();"),
     ],
     "src/fairness/noise.cpp": [
-        ("noise-freedom", "noise: squares over degrees of freedom", "squares / freedom / expected_square(freedom)", "squares / expected_square(freedom)"),
+        ("noise-freedom", "noise: squares over degrees of freedom", "std::sqrt(squares / freedom), freedom, size * extent", "std::sqrt(squares), freedom, size * extent"),
         ("noise-expected", "noise: chi-square at a share", "1 - spread + quantile * std::sqrt(spread)", "1 - spread"),
         ("noise-quadratic", "noise over a quadratic", "matrix.row(k) << 1, u, v, u * u, u * v, v * v;", "matrix.row(k) << 1, u, v, u * u, 0, v * v;"),
+        ("noise-slopes", "noise across the surface", "std::sqrt(squares / static_cast<double>(nodes.size()))", "1.0"),
+        ("noise-extent", "noise is seen along a direction that places have", "place.extent >= widest * result.deviation", "true"),
+    ],
+    "src/scan/low_pass.cpp": [
+        ("low-pass-response", "low pass: 1/(1 + (e/half)^order)", "(1 - std::cos(angle)) / band.half", "(1 + std::cos(angle)) / band.half"),
+        ("low-pass-coefficients", "Chebyshev's expansion: half of the first", "(n == 0 ? 1 : 2) * sum", "2 * sum"),
+        ("low-pass-constant", "low pass: 1 at the eigenvalue 0", "one /= constant", "one /= 1"),
+    ],
+    "src/scan/low_pass.hpp": [
+        ("chebyshev", "Chebyshev's recurrence: 2 x T_n − T_{n−1}", "Value(sum - before[i])", "sum", "Value"),
+    ],
+    "src/scan/risk.cpp": [
+        ("risk-noise", "Stein: twice the noise that is followed", "2 * deviation * deviation * followed[place]", "deviation * deviation * followed[place]"),
+        ("choice-weight", "shapes count by exp(−weight · risk)", "std::exp(scale * (least - risk[k]))", "std::exp(scale * (risk[k] - least))"),
+        ("choice-unit", "risks in squares of the noise", "choice.weight / (deviation * deviation)", "choice.weight / deviation"),
+        ("choice-window", "half-way to the neighbours' mean", "0.5 * own[k] + share * result[k]", "own[k]"),
+    ],
+    "src/scan/flat_faces.cpp": [
+        ("normals-alike", "normals count by their likeness", "std::exp((normals[f] - other).squaredNorm() / (-2 * alike * alike))", "1.0"),
+        ("nodes-to-normals", "nodes move along normals of faces", "normals[f].dot(centres[f] - places[i]) * normals[f]", "centres[f] - places[i]", "Vector3"),
+    ],
+    "src/scan/scan_mesh.cpp": [
+        ("area-of-face", "half the cross products", "(places[face[k - 1]] - first).cross(places[face[k]] - first) / 2",
+         "(places[face[k - 1]] - first).cross(places[face[k]] - first)", "Vector3"),
+    ],
+    "src/scan/denoise.cpp": [
+        ("followed-by-bands", "the noise that low passes follow", "(signs[i] * filtered[band][i]).mean() / fields_of_bands", "0.0"),
+        ("followed-by-choices", "the noise that choices follow",
+         "signs[i] * (others[k][i] - shapes[k][i]).dot(normals_[i]) / (length * fields_of_choices)", "0.0"),
     ],
     "src/fairness/measure.cpp": [
         ("energy-by-length", "energy: ((t_j − t_i)/ℓ)²", "d / length", "d", "Vector3"),

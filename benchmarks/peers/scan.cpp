@@ -1,5 +1,6 @@
 // Scans smoothed: made shapes, and every mesh of the folder that is named, get Gaussian noise of three levels, and it
-// is taken off by fair with FitOptions::noise as estimated, by VTK's windowed sinc, by Taubin's filter and by
+// is taken off by fair with FitOptions::noise as estimated, or told the noise with rms of it or within three times as
+// much, by VTK's windowed sinc, by Taubin's filter and by
 // OpenMesh's smoother, which are told nothing and of whose settings the best counts. Boundaries and non-manifold spots
 // stay. Prints the table of docs/fit.md: root mean square distances between result and true shape, of the nodes of
 // either from the other, the greater of both, in per cent of the median edge; the greatest turn; how far the noisy
@@ -64,7 +65,10 @@ std::string cell(const Result& result) {
   return std::isfinite(result.off) ? fmt::format("{:.1f}, {:.0f}°", result.off, result.turn) : "none";
 }
 
-void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drivers, unsigned seed) {
+/// What our own fit is told of the noise.
+enum class Told { nothing, rms, within };
+
+void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drivers, unsigned seed, Told told) {
   if (mesh.face_count() == 0) return;  // a curve
   const double edge = median_edge(mesh);
   for (const double level : levels) {
@@ -84,11 +88,15 @@ void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drive
     context.threads = 1;
     FitOptions options;
     options.fair.distribution = Distribution::keep;
-    options.noise = estimate_noise(noisy, context).deviation;
+    if (told == Told::nothing) options.noise = estimate_noise(noisy, context).deviation;
+    if (told == Told::rms) options.rms = level * edge;
+    if (told == Told::within) options.within = 3 * level * edge;
     const FitResult fitted = fit(noisy, held, {noisy.positions()}, options, context);
     const Result ours = look(fitted.positions);
     FitOptions plain = options;
     plain.noise.reset();
+    plain.rms.reset();
+    plain.within.reset();
     plain.weight = 0.1;
     plain.fair.method = Method::sweep;
     plain.fair.step_tolerance = 1e-12;
@@ -130,16 +138,17 @@ void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drive
 
 int main(int argc, char** argv) {
   fmt::print(
-      "| mesh | nodes | noise | noisy | `--noise auto` | deviation | seconds | iterations' worth | sinc, same "
+      "| mesh | nodes | noise | noisy | ours | deviation | seconds | iterations' worth | sinc, same "
       "deviation | sinc "
       "at its best | Taubin at its best | OpenMesh at its best |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   const fs::path drivers = fs::path(argv[0]).parent_path();
   const unsigned seed = argc > 2 ? static_cast<unsigned>(std::stoul(argv[2])) : 1;
-  run("torus", generate::torus({.columns = 64, .rows = 48, .jitter = 0.2}, 1, 0.5), drivers, seed);
-  run("block", generate::genus({.holes = 1, .cells = 8}), drivers, seed);
-  run("blend of pipes", generate::pipe_blend(), drivers, seed);
-  if (argc > 1)
-    for_each_surface(argv[1],
-                     [&](const std::string& name, const PolygonMesh& mesh) { run(name, mesh, drivers, seed); });
+  const std::string way = argc > 3 ? argv[3] : "";
+  const Told told = way == "rms" ? Told::rms : way == "within" ? Told::within : Told::nothing;
+  const auto run_one = [&](const std::string& name, const PolygonMesh& mesh) { run(name, mesh, drivers, seed, told); };
+  run_one("torus", generate::torus({.columns = 64, .rows = 48, .jitter = 0.2}, 1, 0.5));
+  run_one("block", generate::genus({.holes = 1, .cells = 8}));
+  run_one("blend of pipes", generate::pipe_blend());
+  if (argc > 1) for_each_surface(argv[1], run_one);
   return 0;
 }

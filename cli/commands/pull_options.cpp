@@ -32,7 +32,7 @@ CLI::Option* add_amount(CLI::App& command, const std::string& name, std::optiona
 
 }  // namespace
 
-void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading) {
+void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading, bool for_surfaces) {
   command
       .add_option("--weight", arguments.weight,
                   "The paper's k: how much a point counts against the springs of its node; 0.01 takes away waves of "
@@ -52,10 +52,12 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
   add_amount(command, "--rms", arguments.rms, arguments,
              "The fairest shape from which points are this far away, root mean square (units of the input)")
       ->group(heading);
-  add_amount(command, "--noise", arguments.noise, arguments,
-             "Surfaces whose own nodes are the points: take noise of this standard deviation off, smooth where nothing "
-             "else is there, and keep what more than noise says (in each coordinate, units of the input)")
-      ->group(heading);
+  arguments.takes_noise = for_surfaces;
+  if (for_surfaces)
+    add_amount(command, "--noise", arguments.noise, arguments,
+               "Surfaces whose own nodes are the points: take noise of this standard deviation off, smooth where "
+               "nothing else is there, and keep what more than noise says (in each coordinate, units of the input)")
+        ->group(heading);
   command
       .add_option("--outliers", arguments.outliers,
                   "Leave this share of the points out, those furthest away: 0 to less than 1 (default: 0)")

@@ -33,7 +33,9 @@ struct FitOptions {
   /// (docs/curves.md). Method::equilibrium only.
   std::optional<double> within = std::nullopt;
   /// The largest smoothing length for which the root mean square of the distances is not above this, in units of the
-  /// input, more than 0. Method::equilibrium only.
+  /// input, more than 0. Method::equilibrium only. Of surfaces whose own nodes are the points, with Distribution::keep
+  /// and no normals given: what `noise` gives for that deviation, moved back to the nodes where it is further away;
+  /// unless that is nearer than 0.7 of it.
   std::optional<double> rms = std::nullopt;
   /// Surfaces whose own nodes are the points, with Distribution::keep: takes noise of this standard deviation in each
   /// coordinate off, in the units of the input, more than 0. No equilibrium, but filters, each where it is expected to
@@ -66,8 +68,8 @@ struct FitReport {
   Index pulled_nodes = 0;
   Index most_points = 0;
   Index outliers = 0;  ///< points left out; `after` does not count them
-  /// The one given or, for a tolerance, found. Empty for the paper's k, and where plain fairing is within the
-  /// tolerance.
+  /// The one given or, for a tolerance, found. Empty for the paper's k, and where plain fairing or what
+  /// filters of noise give is within the tolerance.
   std::optional<double> smoothing_length = std::nullopt;
   Index active_points = 0;   ///< with `within`: those at that distance, to 1 %
   Index outside_points = 0;  ///< with `within` or `rms`: those further away than that, of the points that count

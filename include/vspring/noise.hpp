@@ -14,10 +14,11 @@ struct NoiseEstimate {
   Index nodes = 0;   ///< from how many nodes it was estimated
 };
 
-/// Estimates the noise of a surface. Over each node, its neighbours and theirs, the best quadratic leaves a residual;
-/// the value that 30 of 100 nodes stay below is compared with what pure noise would give (docs/fit.md). What the shape
-/// itself bends within that distance counts as noise, so of coarse shapes and sharp edges some of it does. Nodes with
-/// too few around are left out. The same bits for every number of threads. Cost: linear, some 5 µs a node.
+/// Estimates the noise of a surface. Over each node, its neighbours and theirs, the best quadratic leaves heights,
+/// which are taken across the surface; the values that 10, 20 and 30 of 100 nodes stay below are compared with what
+/// pure noise would give, and the least counts (docs/fit.md). What the shape itself bends within that distance counts
+/// as noise, so of coarse shapes and sharp edges some of it does. Nodes with too few around are left out, and those
+/// amid edges shorter than the noise. The same bits for every number of threads. Cost: linear, some 6 µs a node.
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context = {});
 
 /// The same of a curve, across it, from seven nodes in a row.

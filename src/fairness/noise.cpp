@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,10 +19,22 @@ namespace vspring {
 
 namespace {
 
-// Of the places; features are in the others.
-constexpr double share = 0.3;
-// Of the normal distribution at that share.
-constexpr double quantile = -0.5244;
+/// A share of the places, and the normal distribution's quantile there.
+struct Share {
+  double of_places;
+  double quantile;
+};
+// What a shape bends only adds to heights, so each of these bounds the noise from above, and the least counts. Below
+// the first may be what somebody has smoothed or filled in.
+constexpr Share shares[] = {{0.1, -1.2816}, {0.2, -0.8416}, {0.3, -0.5244}};
+// In standard deviations of the noise: places that are narrower across have no direction that noise is seen along. At
+// least this share of all is looked at, and in so many turns.
+constexpr double least_extent = 2;
+constexpr double least_share_wide = 0.2;
+constexpr int most_turns = 5;
+// Of the way to the neighbours' mean, before slopes are looked at; and the least cosine of them.
+constexpr int steps_of_slopes = 5;
+constexpr double least_cosine = 0.3;
 constexpr std::size_t nodes_in_a_row = 7;
 // Least degrees of freedom that tell anything.
 constexpr std::size_t least_freedom = 3;
@@ -30,18 +44,24 @@ constexpr std::size_t most_neighbours = 2 * most_faces;
 constexpr double least_pivot = 1e-5;
 constexpr std::size_t places_per_task = 256;
 
-/// The mean square, over its degrees of freedom, that 30 of 100 samples of unit noise are below (E. B. Wilson, M. M.
+/// What nodes around a place say of noise.
+struct Place {
+  double deviation = std::nan("");  ///< root mean square height over the best quadratic, over its degrees of freedom
+  double freedom = 0;
+  double extent = 0;  ///< root mean square, in the direction across in which it is less
+};
+
+/// The mean square, over its degrees of freedom, that a share of samples of unit noise is below (E. B. Wilson, M. M.
 /// Hilferty, "The distribution of chi-square", 1931).
-double expected_square(double freedom) {
+double expected_square(double freedom, double quantile) {
   const double spread = 2 / (9 * freedom);
   const double root = 1 - spread + quantile * std::sqrt(spread);
   return root * root * root;
 }
 
-/// The root mean square height of points over their best quadratic, as a multiple of what noise of deviation 1 has;
-/// none where they are too few, or one is no place. first_axes: in how many directions that is a quadratic, 1 or 2;
-/// heights: in how many it is one.
-std::optional<double> deviation_of(std::span<const Vector3> points, int first_axes, int heights) {
+/// Heights of points over their best quadratic; none where they are too few, or one is no place. first_axes: in how
+/// many directions that is a quadratic, 1 or 2; heights: in how many it is one.
+std::optional<Place> place_of(std::span<const Vector3> points, int first_axes, int heights) {
   const auto count = static_cast<Eigen::Index>(points.size());
   const Eigen::Index unknowns = first_axes == 2 ? 6 : 3;
   if (count < unknowns + static_cast<Eigen::Index>(least_freedom)) return std::nullopt;
@@ -75,7 +95,8 @@ std::optional<double> deviation_of(std::span<const Vector3> points, int first_ax
     squares += (matrix * *solution - right).squaredNorm();
   }
   const double freedom = static_cast<double>((count - unknowns) * heights);
-  return size * std::sqrt(squares / freedom / expected_square(freedom));
+  const double extent = std::sqrt(std::max(0.0, axes.col(1).dot(spread * axes.col(1))) / static_cast<double>(count));
+  return Place{size * std::sqrt(squares / freedom), freedom, size * extent};
 }
 
 double at_share(std::vector<double>& values, double part) {
@@ -84,17 +105,81 @@ double at_share(std::vector<double>& values, double part) {
   return *place;
 }
 
-NoiseEstimate summary(std::vector<double> deviations, std::vector<double> edges) {
-  const auto unusable = [](double value) { return !std::isfinite(value); };
-  deviations.erase(std::remove_if(deviations.begin(), deviations.end(), unusable), deviations.end());
-  edges.erase(std::remove_if(edges.begin(), edges.end(), unusable), edges.end());
+/// What explains the heights at the shares.
+double deviation_of(const std::vector<Place>& places) {
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> deviations(places.size());
+  for (const Share& one : shares) {
+    for (std::size_t k = 0; k < places.size(); ++k)
+      deviations[k] = places[k].deviation / std::sqrt(expected_square(places[k].freedom, one.quantile));
+    least = std::min(least, at_share(deviations, one.of_places));
+  }
+  return least;
+}
+
+NoiseEstimate summary(std::vector<Place> places, std::vector<double> edges, double widest) {
+  std::erase_if(places, [](const Place& place) { return !std::isfinite(place.deviation); });
+  std::erase_if(edges, [](double edge) { return !std::isfinite(edge); });
   NoiseEstimate result;
-  if (deviations.empty() || edges.empty()) return result;
-  result.nodes = static_cast<Index>(deviations.size());
-  result.deviation = at_share(deviations, share);
+  if (places.empty() || edges.empty()) return result;
+  result.nodes = static_cast<Index>(places.size());
+  result.deviation = deviation_of(places);
+  for (int turn = 0; turn < most_turns && widest > 0; ++turn) {
+    std::vector<Place> wide;
+    std::ranges::copy_if(places, std::back_inserter(wide),
+                         [&](const Place& place) { return place.extent >= widest * result.deviation; });
+    if (static_cast<double>(wide.size()) < least_share_wide * static_cast<double>(places.size())) break;
+    result.deviation = deviation_of(wide);
+  }
   const double edge = at_share(edges, 0.5);
   result.edges = edge > 0 ? result.deviation / edge : 0;
   return result;
+}
+
+/// Unit normals of nodes, once steps to the mean of their neighbours have taken noise off.
+std::vector<Vector3> smooth_normals(const PolygonMesh& mesh, const NodeGraph& graph, ThreadTeam& team) {
+  const auto nodes = static_cast<std::size_t>(mesh.node_count());
+  std::vector<Vector3> now = mesh.positions();
+  std::vector<Vector3> next = now;
+  for (int step = 0; step < steps_of_slopes; ++step) {
+    parallel_ranges(team, nodes, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        Vector3 sum = now[i];
+        double count = 1;
+        graph.for_each_neighbour(static_cast<Index>(i), [&](Index j) {
+          sum += now[static_cast<std::size_t>(j)];
+          ++count;
+        });
+        next[i] = sum / count;
+      }
+    });
+    now.swap(next);
+  }
+  std::vector<Vector3> normals(nodes, Vector3::Zero());
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    const auto edge_to = [&](std::size_t k) {
+      return Vector3(now[static_cast<std::size_t>(face[k])] - now[static_cast<std::size_t>(face[0])]);
+    };
+    Vector3 area = Vector3::Zero();
+    for (std::size_t k = 2; k < face.size(); ++k) area += edge_to(k - 1).cross(edge_to(k));
+    for (const Index node : face) normals[static_cast<std::size_t>(node)] += area;
+  }
+  for (Vector3& normal : normals) normal.stableNormalize();
+  return normals;
+}
+
+/// Heights above a slope have the noise along it too: how many times as much as across the surface.
+double greater_by_slopes(std::span<const Index> nodes, const std::vector<Vector3>& normals) {
+  Vector3 axis = Vector3::Zero();
+  for (const Index j : nodes) axis += normals[static_cast<std::size_t>(j)];
+  axis.stableNormalize();
+  double squares = 0;
+  for (const Index j : nodes) {
+    const double cosine = std::max(least_cosine, std::abs(axis.dot(normals[static_cast<std::size_t>(j)])));
+    squares += 1 / (cosine * cosine);
+  }
+  return std::sqrt(squares / static_cast<double>(nodes.size()));
 }
 
 }  // namespace
@@ -103,8 +188,9 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
   const Incidence incidence(mesh);
   const NodeGraph graph(mesh, incidence);
   const auto nodes = static_cast<std::size_t>(mesh.node_count());
-  std::vector<double> deviations(nodes, std::nan(""));
+  std::vector<Place> found(nodes);
   ThreadTeam team(context.thread_count());
+  const std::vector<Vector3> normals = smooth_normals(mesh, graph, team);
   parallel_ranges(team, nodes, places_per_task, [&](std::size_t begin, std::size_t end) {
     std::vector<Index> around;
     std::vector<Vector3> places;
@@ -121,7 +207,10 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
       around.erase(std::unique(around.begin(), around.end()), around.end());
       places.clear();
       for (const Index j : around) places.push_back(mesh.position(j));
-      if (const auto deviation = deviation_of(places, 2, 1)) deviations[i] = *deviation;
+      const auto place = place_of(places, 2, 1);
+      if (!place) continue;
+      found[i] = *place;
+      found[i].deviation /= greater_by_slopes(around, normals);
     }
   });
   std::vector<double> edges;
@@ -130,12 +219,12 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
       if (j > i) edges.push_back((mesh.position(j) - mesh.position(i)).norm());
     });
   }
-  return summary(std::move(deviations), std::move(edges));
+  return summary(std::move(found), std::move(edges), least_extent);
 }
 
 NoiseEstimate estimate_noise(const PolygonCurve& curve) {
   const int heights = plane_normal(curve.positions()) ? 1 : 2;
-  std::vector<double> deviations;
+  std::vector<Place> found;
   std::vector<double> edges;
   std::vector<Vector3> places;
   for (const auto& chain : curve.chains()) {
@@ -146,10 +235,10 @@ NoiseEstimate estimate_noise(const PolygonCurve& curve) {
     for (std::size_t k = 0; k < (chain.closed ? count : count - nodes_in_a_row + 1); ++k) {
       places.clear();
       for (std::size_t n = 0; n < nodes_in_a_row; ++n) places.push_back(at(k + n));
-      if (const auto deviation = deviation_of(places, 1, heights)) deviations.push_back(*deviation);
+      if (const auto place = place_of(places, 1, heights)) found.push_back(*place);
     }
   }
-  return summary(std::move(deviations), std::move(edges));
+  return summary(std::move(found), std::move(edges), 0);
 }
 
 }  // namespace vspring

@@ -263,6 +263,7 @@ class Fitting {
         fit_without_noise(run_, std::move(points), progress);
         return;
       }
+      if (options_.rms && fit_to_rms_by_filters(run_, points, progress)) return;
     }
     if (options_.within || options_.rms) {
       FitToTolerance<Subject>(run_).fit(std::move(points), progress, smooth);

@@ -48,6 +48,8 @@ constexpr int steps_of_unknown = 20;
 constexpr double folded = -0.42;
 constexpr int most_rounds = 20;
 constexpr int steps_of_round = 3;
+// In standard deviations of the noise, which is what noise folds nodes by.
+constexpr double most_unfolding = 1;
 
 /// 1 for each moving node of two faces that are folded onto each other.
 std::vector<std::uint8_t> nodes_at_folds(const ScanMesh& mesh, const Places& places, ThreadTeam& team) {
@@ -75,9 +77,10 @@ std::vector<std::uint8_t> nodes_at_folds(const ScanMesh& mesh, const Places& pla
   return found;
 }
 
-/// Steps towards the neighbours' mean where faces are folded. Where half of these nodes stay folded, that is what the
-/// shape is like, and it is left alone.
-void unfold(const ScanMesh& mesh, Places& places, ThreadTeam& team) {
+/// Steps towards the neighbours' mean where faces are folded, no further than noise explains: tips and blades would
+/// shrink. Where half of these nodes stay folded, that is what the shape is like, and it is left alone.
+void unfold(const ScanMesh& mesh, Places& places, double deviation, ThreadTeam& team) {
+  const double furthest = most_unfolding * deviation;
   const Places start = places;
   std::vector<std::uint8_t> found = nodes_at_folds(mesh, places, team);
   const auto at_first = std::count(found.begin(), found.end(), 1);
@@ -91,6 +94,8 @@ void unfold(const ScanMesh& mesh, Places& places, ThreadTeam& team) {
         Vector3 mean = Vector3::Zero();
         for (const std::uint32_t j : neighbours) mean += before[j] / static_cast<double>(neighbours.size());
         places[i] = (before[i] + mean) / 2;
+        const Vector3 move = places[i] - start[i];
+        if (move.norm() > furthest) places[i] = start[i] + furthest / move.norm() * move;
       }
     }
     found = nodes_at_folds(mesh, places, team);
@@ -138,7 +143,7 @@ class Denoiser {
     }
     const Risks risks = risks_of(mesh_, pointers(shapes), noisy_, normals_, followed, deviation_, team_);
     Places result = choose(mesh_, pointers(shapes), risks, last_choice, deviation_, team_).front();
-    unfold(mesh_, result, team_);
+    unfold(mesh_, result, deviation_, team_);
     return result;
   }
 

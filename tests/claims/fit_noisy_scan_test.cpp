@@ -147,13 +147,33 @@ TEST(FitNoisyScan, WhatIsMoreThanNoiseStays) {
   const FitResult kept = fit(noisy, held, points, without_noise(deviation_in_ball(radius)));
   ASSERT_EQ(kept.report.fair.outcome, Outcome::converged);
   FitOptions alike;
-  alike.fair.distribution = Distribution::keep;
+  // With other distributions that is an equilibrium.
+  alike.fair.distribution = Distribution::smooth;
   alike.rms = kept.report.after.all.rms;
   const FitResult smoothed = fit(noisy, held, points, alike);
   const auto off = [&](const std::vector<Vector3>& places) { return distance(places, exact_bump); };
   EXPECT_LT(off(kept.positions).greatest, 0.7 * off(smoothed.positions).greatest);
   EXPECT_LT(off(kept.positions).rms, 0.8 * off(smoothed.positions).rms);
   EXPECT_LT(off(kept.positions).rms, 0.5 * off(noisy.positions()).rms);
+}
+
+TEST(FitNoisyScan, ARootMeanSquareIsKeptAndTakesTheNoiseOff) {
+  const PolygonMesh torus = generate::torus({.columns = 48, .rows = 24}, 1, minor_radius);
+  constexpr double radius = 0.05;
+  const PolygonMesh noisy = generate::add_noise(torus, radius, 1);
+  const double before = distance(noisy.positions(), torus).rms;
+  // Less than the noise leaves some of it.
+  for (const double share : {0.9, 0.98, 1.1}) {
+    SCOPED_TRACE(share);
+    FitOptions options;
+    options.fair.distribution = Distribution::keep;
+    options.rms = share * before;
+    const FitResult result = fit_to_itself(noisy, options);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    EXPECT_LE(result.report.after.all.rms, *options.rms);
+    EXPECT_GT(result.report.after.all.rms, 0.7 * *options.rms);
+    EXPECT_LT(distance(result.positions, torus).rms, 0.35 * before);
+  }
 }
 
 TEST(FitNoisyScan, TheSameBitsOnAnyNumberOfThreads) {

@@ -39,6 +39,23 @@ TEST(Noise, OfSurfacesIsEstimated) {
   }
 }
 
+TEST(Noise, IsSeenAcrossTheSurfaceWhereThatIsBent) {
+  // Two edges turn by 40° around the pipe: heights over a plane have part of the noise along the surface.
+  PolygonMesh mesh = generate::torus({.columns = 60, .rows = 18}, 1, 0.3);
+  mesh.set_positions(disturbed(mesh.positions(), 0.02, 5));
+  EXPECT_NEAR(estimate_noise(mesh).deviation, 0.02, 0.001);
+}
+
+TEST(Noise, IsNotSeenWhereItIsAsWideAsThePlacesThatItIsLookedForIn) {
+  // In a quarter of it edges are a fortieth as long as in another, and the noise is longer than they are.
+  PolygonMesh mesh = generate::plane({.columns = 50, .rows = 50});
+  std::vector<Vector3> positions = mesh.positions();
+  const auto graded = [](double x) { return x < 0.5 ? 0.05 * x : 1.95 * x - 0.95; };
+  for (Vector3& p : positions) p = Vector3(graded(p.x()), graded(p.y()), 0);
+  mesh.set_positions(disturbed(positions, 0.015, 5));
+  EXPECT_NEAR(estimate_noise(mesh).deviation, 0.015, 0.001);
+}
+
 TEST(Noise, GoesWithTheSizeOfTheShape) {
   PolygonMesh mesh = generate::add_noise(generate::torus({.columns = 40, .rows = 16}), 0.03, 1);
   const NoiseEstimate small = estimate_noise(mesh);

@@ -30,6 +30,12 @@ class Curve(Case):
         self.assertEqual(result.returncode, status, result.stderr.decode())
         return result
 
+    def test_only_surfaces_have_their_noise_taken_off_by_filters(self):
+        self.assertNotIn(b"--noise", run("curve", "--help").stdout)
+        text = csv(arc(20, noise=0.02))
+        self.curve(text, "--noise", "auto", status=1)
+        self.assertNotIn(b"--noise", self.curve(text, "--rms", "1", "--within", "1", status=1).stderr)
+
     def end_tangents(self, count, angle):
         rules = {"rules": [{"nodes": [0, count - 1], "tangent": [[0, 1], [-math.sin(angle), math.cos(angle)]]}]}
         return self.write("held.json", json.dumps(rules))

@@ -39,20 +39,20 @@ SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& tas
   Sweep sweep(net, model, team);
   BestIterate best(net, lost_factor, task.renew_ties ? small_step : 0);
   SweepResult result;
-  bool still = false;
+  bool at_rest = false;
   while (result.outcome == Outcome::iteration_limit && result.iterations < task.max_iterations) {
     if (context.cancelled()) {
       result.outcome = Outcome::cancelled;
       break;
     }
-    const bool fresh = !task.renew_ties || still || result.iterations % sweeps_per_tie == 0;
+    const bool fresh = !task.renew_ties || at_rest || result.iterations % sweeps_per_tie == 0;
     if (task.renew_ties && fresh) task.renew_ties();
     result.residual = sweep.iterate();
     ++result.iterations;
     best.look(result.residual);
     if (task.on_iteration) task.on_iteration(result.residual);
-    still = result.residual < task.step_tolerance;
-    if (still && fresh) {
+    at_rest = result.residual < task.step_tolerance;
+    if (at_rest && fresh) {
       result.outcome = Outcome::converged;
     } else if (best.lost_for() >= sweep_patience || !std::isfinite(result.residual)) {
       result.outcome = Outcome::stalled;

@@ -126,8 +126,8 @@ NoiseEstimate summary(std::vector<Place> places, std::vector<double> edges, doub
   result.deviation = deviation_of(places);
   for (int turn = 0; turn < most_turns && widest > 0; ++turn) {
     std::vector<Place> wide;
-    std::ranges::copy_if(places, std::back_inserter(wide),
-                         [&](const Place& place) { return place.extent >= widest * result.deviation; });
+    std::copy_if(places.begin(), places.end(), std::back_inserter(wide),
+                 [&](const Place& place) { return place.extent >= widest * result.deviation; });
     if (static_cast<double>(wide.size()) < least_share_wide * static_cast<double>(places.size())) break;
     result.deviation = deviation_of(wide);
   }

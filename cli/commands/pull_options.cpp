@@ -53,11 +53,11 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
              "The fairest shape from which points are this far away, root mean square (units of the input)")
       ->group(heading);
   arguments.takes_noise = for_surfaces;
-  if (for_surfaces)
-    add_amount(command, "--noise", arguments.noise, arguments,
-               "Surfaces whose own nodes are the points: take noise of this standard deviation off, smooth where "
-               "nothing else is there, and keep what more than noise says (in each coordinate, units of the input)")
-        ->group(heading);
+  // Of curves it is not listed, and says what does that for them.
+  add_amount(command, "--noise", arguments.noise, arguments,
+             "Surfaces whose own nodes are the points: take noise of this standard deviation off, smooth where nothing "
+             "else is there, and keep what more than noise says (in each coordinate, units of the input)")
+      ->group(for_surfaces ? heading : std::string());
   command
       .add_option("--outliers", arguments.outliers,
                   "Leave this share of the points out, those furthest away: 0 to less than 1 (default: 0)")

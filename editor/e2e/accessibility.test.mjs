@@ -67,7 +67,8 @@ for (const colorScheme of ['light', 'dark']) {
     assert.deepEqual(await violations(), []);
     await page.getByRole('button', { name: 'Smooth it' }).click();
     await page.locator('#start-says', { hasText: 'Moves' }).waitFor();
-    await settled(page);
+    // However it ended.
+    await page.locator('#status:not([data-outcome="solving"])').waitFor();
     await page.locator('#legend').waitFor();
     assert.deepEqual(await violations(), []);
     await page.getByLabel('Example').selectOption({ label: 'Noisy wave' });

@@ -30,9 +30,10 @@ TEST(LowPass, EigenvectorsOfTheMeanOverNeighboursKeepTheirResponse) {
     const double a = 2 * std::numbers::pi * across / columns;
     const double b = 2 * std::numbers::pi * along / rows;
     std::vector<double> wave(mesh.nodes);
-    for (std::size_t i = 0; i < wave.size(); ++i)
-      wave[i] =
-          std::cos(a * static_cast<double>(net.node[i] % columns) + b * static_cast<double>(net.node[i] / columns));
+    for (std::size_t i = 0; i < wave.size(); ++i) {
+      const Index row = net.node[i] / columns;
+      wave[i] = std::cos(a * static_cast<double>(net.node[i] - row * columns) + b * static_cast<double>(row));
+    }
     const auto filtered = low_pass.filter(mesh, wave, team);
     const double eigenvalue = 1 - (std::cos(a) + std::cos(b)) / 2;
     for (std::size_t k = 0; k < std::size(bands); ++k) {

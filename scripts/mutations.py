@@ -38,8 +38,8 @@ MUTATIONS = {
         ("face-closing", "the last face of a closed link", "if (!links.front().start()) step(closing_edge, true);", ""),
     ],
     "src/spring/surface_force.hpp": [
-        ("homes", "homes count as much as all neighbours", "home - home.dot(net.normals[i]) * net.normals[i]", "home", "Vector3"),
-        ("homes-forgotten", "regularisation to homes", "(force.regularisation + across) / regularisation_divisor(net)",
+        ("targets", "places of their own count as much as all neighbours", "target - target.dot(net.normals[i]) * net.normals[i]", "target", "Vector3"),
+        ("targets-forgotten", "regularisation to places of their own", "(force.regularisation + across) / regularisation_divisor(net)",
          "force.regularisation", "Vector3"),
     ],
     "src/spring/sphere_springs.cpp": [
@@ -83,7 +83,7 @@ MUTATIONS = {
         ("curve-shares", "each length as its opposite share", "along += links[k].start() ? -shares[k] * length : shares[k] * length;",
          "along += links[k].start() ? -length : length;"),
         ("curve-regularisation", "§4.4 along the tangent", "along = mean.dot(tangent);", "along = 0;"),
-        ("curve-homes", "regularisation to homes", "(net.target_positions[i] - net.positions[i]).dot(tangent)", "mean.dot(tangent)"),
+        ("curve-targets", "regularisation to places of their own", "(net.target_positions[i] - net.positions[i]).dot(tangent)", "mean.dot(tangent)"),
     ],
     "src/spring/curve_model.cpp": [
         ("tangent-of-given-normal", "§4.8: T across a given N", "tangent - tangent.dot(normal) * normal", "tangent", "Vector3"),

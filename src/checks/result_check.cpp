@@ -202,18 +202,18 @@ ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team) : mod
   is_surface_ = start.tangents.empty();
   edge_ = mean_edge(start);
   const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
-  flaws_ = defects_of(start, input, edge_, team, start.input.empty() && looks_at_bending());
+  defects_ = defects_of(start, input, edge_, team, start.input.empty() && looks_at_bending());
   held_.assign(input.begin() + static_cast<std::ptrdiff_t>(start.moving), input.end());
   if (looks_at_crossings(start)) input_ = input;
   if (looks_at_bending()) {
-    bending_ = start.input.empty() ? flaws_.bending : defects_of(start, start.positions, edge_, team, true).bending;
+    bending_ = start.input.empty() ? defects_.bending : defects_of(start, start.positions, edge_, team, true).bending;
     if (start.input.empty() && start.tangents.empty()) smooth_bending_ = bending_without_noise(start);
   }
   const bool was_prepared = !start.curvatures.empty();
   model.prepare(start);
   update_directions(start, model, team);
   energy_ = spring_energy(start).sum;
-  if (has_directions_ && !has_points_ && flaws_.collapsed == 0) start_ = start.positions;
+  if (has_directions_ && !has_points_ && defects_.collapsed == 0) start_ = start.positions;
   // Sweeps must do without: they move from the newest positions.
   if (!was_prepared) start.curvatures.clear();
 }
@@ -232,7 +232,7 @@ std::vector<std::uint8_t> ResultCheck::dragged(const Net& now) const {
 
 bool ResultCheck::looks_at_bending() const {
   // Of faces without area nobody knows how they are bent.
-  return !has_directions_ && !has_points_ && (!is_surface_ || flaws_.collapsed == 0);
+  return !has_directions_ && !has_points_ && (!is_surface_ || defects_.collapsed == 0);
 }
 
 bool ResultCheck::looks_at_crossings(const Net& net) const { return !has_directions_ && !net.tangents.empty(); }
@@ -256,14 +256,14 @@ std::string ResultCheck::misplaced(const Net& now) const {
 }
 
 std::string ResultCheck::more_of(const ShapeDefects& defects, bool of_surface) const {
-  if (defects.turned > flaws_.turned)
-    return fmt::format("{} edges turn by more than 90°, {} did before", defects.turned, flaws_.turned);
-  if (defects.turned_at_held > flaws_.turned_at_held)
+  if (defects.turned > defects_.turned)
+    return fmt::format("{} edges turn by more than 90°, {} did before", defects.turned, defects_.turned);
+  if (defects.turned_at_held > defects_.turned_at_held)
     return fmt::format("edges turn by more than 90° at {} held nodes, {} did before", defects.turned_at_held,
-                       flaws_.turned_at_held);
-  if (defects.collapsed > flaws_.collapsed)
+                       defects_.turned_at_held);
+  if (defects.collapsed > defects_.collapsed)
     return fmt::format("{} {}, {} had before", defects.collapsed,
-                       of_surface ? "corners of faces have no area" : "edges have no length", flaws_.collapsed);
+                       of_surface ? "corners of faces have no area" : "edges have no length", defects_.collapsed);
   return {};
 }
 

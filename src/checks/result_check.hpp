@@ -38,7 +38,7 @@ class ResultCheck {
   ResultCheck(Net& start, const Model& model, ThreadTeam& team);
 
   /// What is worse about the shape now, in words for people; empty where nothing is: places that are no numbers or far
-  /// outside the box; more flaws, but for those beside nodes that are held elsewhere than the input has them; edges
+  /// outside the box; more defects, but for those beside nodes that are held elsewhere than the input has them; edges
   /// of a curve in a plane that cross each other, where no tangent is held; where nothing but positions holds it, over
   /// three times the V-Spring energy (but where bending is to be least), 1.5 times that of a curve that is bent more,
   /// or of a surface over 1.3 times the bending, or 2.5 times that without noise; where directions hold it, over 1.3
@@ -69,7 +69,7 @@ class ResultCheck {
   bool has_points_ = false;
   bool is_surface_ = false;
   double edge_ = 0;  ///< the mean one
-  ShapeDefects flaws_;
+  ShapeDefects defects_;
   std::vector<Vector3> input_;  ///< of a curve that is looked at for crossings: where the input has its nodes
   std::vector<Vector3> start_;  ///< where directions hold it: as it went in, with its constraints applied
   std::vector<Vector3> held_;   ///< where the input has the nodes that are held

@@ -89,7 +89,7 @@ class Run {
     relax(hierarchy_.count() - 1, std::min(options_.max_iterations.value_or(near_limit), near_limit), preconditioner);
   }
 
-  /// soundness: of the start, or null where that is not to be looked at.
+  /// check: of the start, or null where that is not to be looked at.
   void run(const ResultCheck* check) {
     const std::size_t last = hierarchy_.count() - 1;
     Net& finest = hierarchy_.net(last);

@@ -16,7 +16,7 @@ namespace vspring {
 bool is_underconstrained(const Net& net);
 
 /// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the shape is
-/// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. soundness:
+/// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. check:
 /// where given, of the start, the result is no worse or said to be. points: of the levels, if any.
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
                      Context& context, ProgressReporter& progress, FairReport& report, const ResultCheck* check,

@@ -166,9 +166,9 @@ std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Incidence& 
   std::vector<NodeCurvature> result(positions.size());
   parallel_ranges(team, result.size(), jets_per_task, [&](std::size_t begin, std::size_t end) {
     if (context.cancelled()) return;
-    NodeFitter looker(mesh, incidence, positions);
+    NodeFitter fitter(mesh, incidence, positions);
     for (std::size_t i = begin; i < end; ++i) {
-      if (marked.empty() || marked[i] != 0) result[i] = looker.at(static_cast<Index>(i));
+      if (marked.empty() || marked[i] != 0) result[i] = fitter.at(static_cast<Index>(i));
     }
   });
   return result;

@@ -37,8 +37,8 @@ namespace {
 constexpr double step_share = 0.1;
 // Of outliers and shape.
 constexpr int most_turns_of_outliers = 12;
-// Where nodes have homes, waves are short and decay soon.
-constexpr int most_sweeps_of_homes = 2000;
+// Where nodes are drawn to places of their own, waves are short and decay soon.
+constexpr int most_sweeps_with_targets = 2000;
 // In standard deviations of the noise that is to be taken off.
 constexpr double far_off = 1.5;
 // Points without a tolerance that end so far from the shape, root mean square, as a share of their box, and so many
@@ -235,7 +235,7 @@ class Fitting {
   void fit(ProgressReporter& progress, bool smooth) {
     run_.start_report(options_.fair.method.value_or(Method::equilibrium));
     FairReport& report = run_.result.report.fair;
-    UntiedPoints points = run_.loose_points();
+    UntiedPoints points = run_.untied_points();
     const auto has_weight = [](double weight) { return weight > 0; };
     if (std::none_of(points.weights.begin(), points.weights.end(), has_weight)) {
       FairResult plain = vspring::fair(run_.subject.shape(), run_.subject.constraints(), options_.fair, run_.context);
@@ -269,12 +269,12 @@ class Fitting {
       FitToTolerance<Subject>(run_).fit(std::move(points), progress, smooth);
       return;
     }
-    const bool has_homes = run_on_levels(std::move(points), progress);
+    const bool has_targets = run_on_levels(std::move(points), progress);
     const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
     if (found || !may_replace() || std::is_same_v<Subject, FitCurve>) return;
     // Nobody asked for this method: the paper's iteration ends where points crumple a shape, too.
     std::optional<FitResult> nearest;
-    if (has_homes) nearest = run_.result;
+    if (has_targets) nearest = run_.result;
     std::vector<std::string> said = std::move(report.warnings);
     said.emplace_back(
         "no equilibrium was found: this is the plain iteration's shape; the points may be too noisy for their weight "
@@ -288,8 +288,8 @@ class Fitting {
     if (!options_.smoothing_length)
       options.step_tolerance = std::min(options.step_tolerance, step_share * options_.weight);
     options.max_iterations = sweeps_of_last_resort(static_cast<std::size_t>(nodes));
-    if (nearest) options.max_iterations = std::min(*options.max_iterations, most_sweeps_of_homes);
-    points = run_.loose_points();
+    if (nearest) options.max_iterations = std::min(*options.max_iterations, most_sweeps_with_targets);
+    points = run_.untied_points();
     report.warnings = std::move(said);
     sweep(std::move(points), options, progress);
     report.work += work;
@@ -303,7 +303,7 @@ class Fitting {
     run_.result = std::move(*nearest);
   }
 
-  /// By equilibrium or multigrid. Returns whether nodes have homes.
+  /// By equilibrium or multigrid. Returns whether nodes are drawn to places of their own.
   bool run_on_levels(UntiedPoints points, ProgressReporter& progress) {
     auto gathered = run_.gather_start();
     const auto smoothing = smoothing_in(net_of(gathered));

@@ -68,7 +68,7 @@ class FitRun {
   }
 
   /// The points that count, and the nodes that are nearest to them at the start.
-  UntiedPoints loose_points() {
+  UntiedPoints untied_points() {
     std::vector<double> weights = points.weights;
     weights.resize(points.positions.size(), 1);
     const double weight =

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "fit/fit_points.hpp"
 #include "scan/denoise.hpp"
 #include "scan/scan_mesh.hpp"
 #include "spring/net.hpp"
@@ -98,19 +99,6 @@ class NoisyNodes {
   std::vector<std::uint8_t> known_;
 };
 
-/// Of the points that count from the result, in the units of the input.
-double rms_distance(FitRun<FitSurface>& run) {
-  const std::vector<double> all = run.distances();
-  double squares = 0;
-  double count = 0;
-  for (std::size_t j = 0; j < all.size(); ++j) {
-    if (run.kept[j] == 0) continue;
-    squares += all[j] * all[j];
-    ++count;
-  }
-  return std::sqrt(squares / std::max(1.0, count));
-}
-
 }  // namespace
 
 void fit_without_noise(FitRun<FitSurface>& run, UntiedPoints points, ProgressReporter& progress) {
@@ -135,7 +123,7 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   Net found = noisy.without(tolerance);
   const auto distance = [&] {
     run.finish_positions(found);
-    return rms_distance(run);
+    return summary(run.distances(), run.kept).all.rms;
   };
   double now = run.context.cancelled() ? tolerance : distance();
   if (now < least_rms_taken * tolerance) return false;

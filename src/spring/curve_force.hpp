@@ -82,7 +82,7 @@ struct InverseWeight {
 
 /// The average of the displacements spring(j) by the neighbours j of node i, and the regularisation along the tangent:
 /// to the mean of the neighbours (§4.4), or, with shares, to where the lengths of the edges before and after are as
-/// their opposite shares, or, with homes, to the home. A node without a tangent (zero) goes to the mean of its
+/// their opposite shares, or, with targets, to the target. A node without a tangent (zero) goes to the mean of its
 /// neighbours.
 template <typename Weight, typename Spring>
 NodeForce curve_force(const Net& net, std::size_t i, const Spring& spring) {

@@ -7,11 +7,11 @@
 
 namespace vspring {
 
-/// How many times what neighbours ask across the normal the regularisation is divided by: a home counts as much as all
-/// of them together.
+/// How many times what neighbours ask across the normal the regularisation is divided by: a target counts as much as
+/// all of them together.
 inline double regularisation_divisor(const Net& net) { return net.target_positions.empty() ? 1 : 2; }
 
-/// What its neighbours, and its home where nodes have one, ask of a node of a surface.
+/// What its neighbours, and its target where nodes have one, ask of a node of a surface.
 inline NodeForce surface_force(const Net& net, std::size_t i, Forces forces = Forces::steady) {
   const auto links = net.rings.links(i);
   const auto from_neighbours = [&]<SpringKind kind>(std::integral_constant<SpringKind, kind>) {
@@ -28,8 +28,8 @@ inline NodeForce surface_force(const Net& net, std::size_t i, Forces forces = Fo
   };
   NodeForce force = between_neighbours();
   if (net.target_positions.empty()) return force;
-  const Vector3 home = net.target_positions[i] - net.positions[i];
-  const Vector3 across = home - home.dot(net.normals[i]) * net.normals[i];
+  const Vector3 target = net.target_positions[i] - net.positions[i];
+  const Vector3 across = target - target.dot(net.normals[i]) * net.normals[i];
   force.regularisation = (force.regularisation + across) / regularisation_divisor(net);
   return force;
 }

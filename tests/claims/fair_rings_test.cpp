@@ -208,6 +208,20 @@ TEST(FairRings, AFairShapeWhoseNodesFindNoSpacingStays) {
   EXPECT_NE(fair(lifted.start, lifted.constraints).positions, lifted.start.positions());
 }
 
+TEST(FairRings, SpringsAlongRimsThatAreFreeToTurnCount) {
+  // Edge springs find a thinner tube whose own springs agree, but those along the rims by much less than they did.
+  const PolygonMesh straight = generate::tube({.columns = 16, .rows = 28, .faces = Faces::quads}, 0.35, 1);
+  std::vector<Vector3> places;
+  for (const Vector3& p : straight.positions()) {
+    const double turn = p.z() * 210 / 180 * std::numbers::pi;
+    places.emplace_back((1 + p.x()) * std::cos(turn), (1 + p.x()) * std::sin(turn), p.y());
+  }
+  const PolygonMesh bent = with_positions(straight, std::move(places));
+  const FairResult result = fair(bent, held_boundary(bent));
+  EXPECT_NE(result.report.outcome, Outcome::converged);
+  EXPECT_LE(measure(with_positions(bent, result.positions)).vspring_energy, measure(bent).vspring_energy);
+}
+
 TEST(FairRings, AnEvenDistributionWouldFoldThem) {
   // That is what it is for.
   const Lathe one = lathe(flat(0.5), {.columns = 32, .rows = 16});

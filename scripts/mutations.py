@@ -67,6 +67,13 @@ MUTATIONS = {
         ("principal-normal", "§4.8: N ∝ B × T", "edges.before.cross(edges.after).cross(tangent)", "edges.before.cross(edges.after)", "Vector3"),
         ("end-tangent", "the chord of an end", "links.front().start() ? Vector3(-first) : first", "first", "Vector3"),
     ],
+    "src/checks/spring_energy.cpp": [
+        ("rim-springs", "springs between held neighbours of moving nodes count", "i < net.computed; ++i", "i < net.moving; ++i"),
+    ],
+    "src/checks/result_check.cpp": [
+        ("bent-as-normals-ask", "worse are both springs and bending", "if (energy <= risen_energy_if_bent * energy_ + unseen) return {};", ""),
+        ("bent-less-beside-normals", "worse are both springs and bending", "if (after <= risen_bending * before + unseen) return {};", ""),
+    ],
     "src/spring/curve_force.hpp": [
         ("curve-held-springs", "springs between held neighbours count", "(i < net.moving || j < net.computed)", "i < net.moving"),
         ("carrying", "frames without spin: the second reflection", "mirrored -= (2 * mirror.dot(mirrored) / length2) * mirror;", ""),
@@ -198,8 +205,8 @@ MUTATIONS = {
         ("nodes-to-normals", "nodes move along normals of faces", "normals[f].dot(centres[f] - places[i]) * normals[f]", "centres[f] - places[i]", "Vector3"),
     ],
     "src/scan/scan_mesh.cpp": [
-        ("area-of-face", "half the cross products", "(places[face[k - 1]] - first).cross(places[face[k]] - first) / 2",
-         "(places[face[k - 1]] - first).cross(places[face[k]] - first)", "Vector3"),
+        ("area-of-face", "half the cross products", "twice_vector_area(mesh.faces.of(f), places) / 2",
+         "twice_vector_area(mesh.faces.of(f), places)", "Vector3"),
     ],
     "src/scan/denoise.cpp": [
         ("followed-by-bands", "the noise that low passes follow", "(signs[i] * filtered[band][i]).mean() / fields_of_bands", "0.0"),

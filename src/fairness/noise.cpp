@@ -11,6 +11,7 @@
 
 #include "base/dense_algebra.hpp"
 #include "base/threads.hpp"
+#include "shape/face_geometry.hpp"
 #include "shape/incidence.hpp"
 #include "shape/node_graph.hpp"
 #include "shape/planarity.hpp"
@@ -158,11 +159,7 @@ std::vector<Vector3> smooth_normals(const PolygonMesh& mesh, const NodeGraph& gr
   std::vector<Vector3> normals(nodes, Vector3::Zero());
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);
-    const auto edge_to = [&](std::size_t k) {
-      return Vector3(now[static_cast<std::size_t>(face[k])] - now[static_cast<std::size_t>(face[0])]);
-    };
-    Vector3 area = Vector3::Zero();
-    for (std::size_t k = 2; k < face.size(); ++k) area += edge_to(k - 1).cross(edge_to(k));
+    const Vector3 area = twice_vector_area(face, now);
     for (const Index node : face) normals[static_cast<std::size_t>(node)] += area;
   }
   for (Vector3& normal : normals) normal.stableNormalize();

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "shape/face_geometry.hpp"
+
 namespace vspring {
 
 namespace {
@@ -72,12 +74,7 @@ ScanMesh scan_mesh(const Net& net, const PolygonMesh& mesh) {
 std::vector<Vector3> face_areas(const ScanMesh& mesh, const std::vector<Vector3>& places, ThreadTeam& team) {
   std::vector<Vector3> areas(mesh.faces.size(), Vector3::Zero());
   parallel_ranges(team, areas.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
-      const auto face = mesh.faces.of(f);
-      const Vector3& first = places[face[0]];
-      for (std::size_t k = 2; k < face.size(); ++k)
-        areas[f] += (places[face[k - 1]] - first).cross(places[face[k]] - first) / 2;
-    }
+    for (std::size_t f = begin; f < end; ++f) areas[f] = twice_vector_area(mesh.faces.of(f), places) / 2;
   });
   return areas;
 }

@@ -101,7 +101,7 @@ TEST(ResultCheck, TellsWhatIsBentMoreFromNoise) {
 TEST(ResultCheck, TellsWhatIsBentMoreThanGivenNormalsAskFor) {
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
-  // A dome between rims held with its normals, and higher.
+  // A dome between rims that are held with the normals of one of height 0.1.
   const PolygonMesh plane = generate::plane({.columns = 12, .rows = 12});
   const auto wave = [](double x) { return std::sin(std::numbers::pi * x); };
   const auto slope = [](double x) { return std::numbers::pi * std::cos(std::numbers::pi * x); };
@@ -110,18 +110,19 @@ TEST(ResultCheck, TellsWhatIsBentMoreThanGivenNormalsAskFor) {
                            return Vector3(-0.1 * slope(p.x()) * wave(p.y()), -0.1 * wave(p.x()) * slope(p.y()), 1);
                          }));
     for (std::size_t i = 0; i < net.moving; ++i) {
-      Vector3& p = net.positions[i];
-      p.z() += height * wave(p.x()) * wave(p.y());
+      const Vector3& there = plane.position(net.node[i]);
+      net.positions[i].z() += height * wave(there.x()) * wave(there.y());
     }
     return net;
   };
-  Net start = dome(0.1);
-  Net higher = dome(0.15);
-  const ResultCheck check(start, *model, team);
-  const std::string fault = check.fault(higher);
+  Net flat = dome(0);
+  Net right = dome(0.1);
+  Net high = dome(0.3);
+  const std::string fault = ResultCheck(right, *model, team).fault(high);
   EXPECT_TRUE(contains(fault, "bent more")) << fault;
   EXPECT_TRUE(contains(fault, "energy rose")) << fault;
-  EXPECT_EQ(ResultCheck(higher, *model, team).fault(start), "");
+  EXPECT_EQ(ResultCheck(flat, *model, team).fault(right), "") << "it is bent more, but as the normals ask";
+  EXPECT_EQ(ResultCheck(right, *model, team).fault(flat), "") << "the energy rises, but it is bent less";
 }
 
 TEST(ResultCheck, BendingHardlySeesHowLongCellsLie) {

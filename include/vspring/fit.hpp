@@ -33,9 +33,10 @@ struct FitOptions {
   /// (docs/curves.md). Method::equilibrium only.
   std::optional<double> within = std::nullopt;
   /// The largest smoothing length for which the root mean square of the distances is not above this, in units of the
-  /// input, more than 0. Method::equilibrium only. Of surfaces whose own nodes are the points, with Distribution::keep
-  /// and no normals given: what `noise` gives for that deviation, moved back to the nodes where it is further away;
-  /// unless that is nearer than 0.7 of it.
+  /// input, more than 0. Method::equilibrium only. Surfaces whose own nodes are the points, with Distribution::keep and
+  /// no normals given, take the filters of `noise` instead, with this as its deviation; nodes that end further away, in
+  /// the root mean square, go back towards where they came from. Where filters leave less than 0.7 of it, they are not
+  /// used.
   std::optional<double> rms = std::nullopt;
   /// Surfaces whose own nodes are the points, with Distribution::keep: takes noise of this standard deviation in each
   /// coordinate off, in the units of the input, more than 0. No equilibrium, but filters, each where it is expected to

@@ -80,8 +80,7 @@ class Fitting {
 
     report.fair.before = run_.subject.fairness(shape.positions());
     report.fair.after = run_.subject.fairness(result.positions);
-    const std::vector<std::uint8_t> every(run_.kept.size(), 1);
-    report.before = summary(run_.subject.distances_before(), every);
+    report.before = summary(run_.subject.distances_before(), run_.counted);
     result.distances = run_.distances();
     report.after = summary(result.distances, run_.kept);
     report.outliers = report.points - report.after.all.count;
@@ -221,7 +220,11 @@ class Fitting {
     for (int turn = 0; turn < most_turns_of_outliers; ++turn) {
       fit(progress, smooth_first);
       if (run_.context.cancelled()) return;
-      const auto before = std::exchange(run_.kept, without_furthest(run_.distances(), options_.outliers));
+      std::vector<double> distances = run_.distances();
+      for (std::size_t j = 0; j < distances.size(); ++j) distances[j] *= run_.counted[j];
+      std::vector<std::uint8_t> kept = without_furthest(distances, options_.outliers);
+      for (std::size_t j = 0; j < kept.size(); ++j) kept[j] *= run_.counted[j];
+      const auto before = std::exchange(run_.kept, std::move(kept));
       if (before != run_.kept) continue;
       if (!smooth_first) return;
       smooth_first = false;
@@ -264,6 +267,7 @@ class Fitting {
         return;
       }
       if (options_.rms && fit_to_rms_by_filters(run_, points, progress)) return;
+      if (options_.within && fit_within_by_filters(run_, points, smooth, progress)) return;
     }
     if (options_.within || options_.rms) {
       FitToTolerance<Subject>(run_).fit(std::move(points), progress, smooth);

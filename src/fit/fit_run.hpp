@@ -32,9 +32,11 @@ class FitRun {
         context(outer),
         team(outer.thread_count()),
         subject(shape, constraints, scattered.positions, measuring, team),
-        kept(scattered.positions.size(), 1) {
+        counted(scattered.positions.size(), 1) {
     // Distances are measured even after somebody has cancelled.
     measuring.threads = outer.threads;
+    if (points_are_nodes()) counted = subject.usable();
+    kept = counted;
   }
 
   /// The report of a fit that begins.
@@ -44,7 +46,7 @@ class FitRun {
     fair.method = method;
     fair.threads = team.size();
     fair.faces = subject.faces();
-    result.report.points = static_cast<Index>(points.positions.size());
+    result.report.points = static_cast<Index>(std::count(counted.begin(), counted.end(), 1));
   }
 
   auto gather() {
@@ -104,7 +106,9 @@ class FitRun {
   ThreadTeam team;
   Subject subject;
   FitResult result;
-  std::vector<std::uint8_t> kept;  ///< of every point, 0 for those left out
+  /// Of every point, 0 for nodes of a surface without a face.
+  std::vector<std::uint8_t> counted;
+  std::vector<std::uint8_t> kept;  ///< of every point, 0 for those left out too
 
  private:
   /// Whether they are those of a surface which keep their places.

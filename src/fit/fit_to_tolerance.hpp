@@ -26,9 +26,26 @@ class FitToTolerance {
   explicit FitToTolerance(FitRun<Subject>& run)
       : run_(run), tolerance_(run.options.within ? *run.options.within : *run.options.rms) {}
 
+  /// Then that is the fairest, and the result.
+  bool plain_fairing_is_within(const FairOptions& options) {
+    FitResult& result = run_.result;
+    try {
+      (void)run_.subject.check({});
+    } catch (const Error&) {
+      // Only points hold it.
+      return false;
+    }
+    FairResult plain = vspring::fair(run_.subject.shape(), run_.subject.constraints(), options, run_.context);
+    if (plain.report.outcome != Outcome::converged && !run_.context.cancelled()) return false;
+    result.positions = std::move(plain.positions);
+    if (!run_.context.cancelled() && !is_within()) return false;
+    result.report.fair = std::move(plain.report);
+    return true;
+  }
+
   /// only_smooth: by some edges, instead of to the tolerance.
   void fit(UntiedPoints points, ProgressReporter& progress, bool only_smooth) {
-    if (!only_smooth && plain_fairing_is_within()) return;
+    if (!only_smooth && plain_fairing_is_within(run_.options.fair)) return;
     FitReport& report = run_.result.report;
     Context& context = run_.context;
     auto gathered = run_.gather_start();
@@ -153,23 +170,6 @@ class FitToTolerance {
       count += run_.kept[j];
     }
     return run_.options.within ? greatest : std::sqrt(squares / count);
-  }
-
-  /// Then that is the fairest.
-  bool plain_fairing_is_within() {
-    FitResult& result = run_.result;
-    try {
-      (void)run_.subject.check({});
-    } catch (const Error&) {
-      // Only points hold it.
-      return false;
-    }
-    FairResult plain = vspring::fair(run_.subject.shape(), run_.subject.constraints(), run_.options.fair, run_.context);
-    if (plain.report.outcome != Outcome::converged && !run_.context.cancelled()) return false;
-    result.positions = std::move(plain.positions);
-    if (!run_.context.cancelled() && !is_within()) return false;
-    result.report.fair = std::move(plain.report);
-    return true;
   }
 
   /// Whether the shape is that is handed out, by the points that count.

@@ -1,17 +1,22 @@
 #include "fit/noise_fit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "fit/fit_points.hpp"
+#include "fit/fit_to_tolerance.hpp"
 #include "scan/denoise.hpp"
 #include "scan/scan_mesh.hpp"
 #include "spring/net.hpp"
 #include "vspring/error.hpp"
+#include "vspring/noise.hpp"
 
 namespace vspring {
 
@@ -26,6 +31,23 @@ constexpr double least_rms_taken = 0.7;
 // What is aimed at on the way back to the nodes.
 constexpr double aimed_rms = 0.999;
 constexpr int most_turns_back = 5;
+// Where filters leave nodes nearer, more noise is taken for granted; by so much in a turn.
+constexpr int most_turns_on = 3;
+constexpr double greatest_raise = 2;
+
+// Noise that a tolerance allows for, as a share of it; and from which share on it is more than the tolerance bears, to
+// which share on it is what the tolerance is about.
+constexpr double allowed_noise = 1.0 / 3;
+constexpr double too_much_noise = 1.0 / 2;
+constexpr double least_noise = 1.0 / 6;
+// Rings of neighbours that go along with a node that is taken back, one turn after the other. With none it is at its
+// bound after one turn.
+constexpr int rings_taken_back[] = {3, 3, 3, 3, 3, 3, 1, 1, 1, 0};
+// Of the tolerance.
+constexpr double taken_back_to = 0.999;
+constexpr double held_from = 0.99;
+// On each level: plain fairing of what is within a tolerance takes no more, and whole scans have no equilibrium.
+constexpr int iterations_of_plain_fairing = 10;
 
 /// Has a shape without noise keep the normals that are given: a fit to it that smooths no more than an edge. Nodes keep
 /// their places where there is no equilibrium.
@@ -83,6 +105,33 @@ class NoisyNodes {
     return result;
   }
 
+  /// Takes nodes that are further than the tolerance from where they were back to within it, and what is near along.
+  /// off: distances of all nodes of the input from the shape, as it is then. Returns the greatest distance left.
+  /// Cost of a turn: linear.
+  double take_back(Net& found, double tolerance, const std::function<std::vector<double>()>& off) const {
+    std::vector<double> now = off();
+    const auto greatest = [&] { return now.empty() ? 0 : *std::max_element(now.begin(), now.end()); };
+    for (const int rings : rings_taken_back) {
+      if (greatest() <= tolerance || run_.context.cancelled()) break;
+      std::vector<Vector3> moves(net_.moving, Vector3::Zero());
+      std::vector<double> weights(net_.moving, 0);
+      for (std::size_t i = 0; i < net_.moving; ++i) {
+        const double distance = now[static_cast<std::size_t>(net_.node[i])];
+        if (distance <= tolerance) continue;
+        const double share =
+            taken_back_to * tolerance / (rings > 0 ? distance : (found.positions[i] - net_.positions[i]).norm());
+        const Vector3 move = (1 - share) * (net_.positions[i] - found.positions[i]);
+        for_each_around(i, rings, [&](std::size_t j, double weight) {
+          moves[j] += weight * move;
+          weights[j] += weight;
+        });
+      }
+      for (std::size_t i = 0; i < net_.moving; ++i) found.positions[i] += moves[i] / std::max(1.0, weights[i]);
+      now = off();
+    }
+    return greatest();
+  }
+
   /// Makes a shape the result.
   void finish(const Net& found) {
     run_.finish(found);
@@ -93,6 +142,25 @@ class NoisyNodes {
   }
 
  private:
+  /// visit(node, weight): a node, and the moving ones of so many rings around it. The weight falls from 1 to near 0.
+  template <typename Visit>
+  void for_each_around(std::size_t node, int rings, const Visit& visit) const {
+    std::vector<std::uint32_t> seen = {static_cast<std::uint32_t>(node)};
+    std::size_t ring_begin = 0;
+    for (int ring = 0;; ++ring) {
+      const double share = static_cast<double>(ring) / (rings + 1);
+      const std::size_t ring_end = seen.size();
+      for (std::size_t k = ring_begin; k < ring_end; ++k) visit(seen[k], std::pow(1 - share * share, 2));
+      if (ring == rings) return;
+      for (std::size_t k = ring_begin; k < ring_end; ++k) {
+        for (const std::uint32_t j : mesh_.moving_neighbours.of(seen[k])) {
+          if (std::find(seen.begin(), seen.end(), j) == seen.end()) seen.push_back(j);
+        }
+      }
+      ring_begin = ring_end;
+    }
+  }
+
   FitRun<FitSurface>& run_;
   Net net_;
   ScanMesh mesh_;
@@ -120,12 +188,18 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   NoisyNodes noisy(run, points);
   if (noisy.has_normals()) return false;
   const double tolerance = *run.options.rms;
-  Net found = noisy.without(tolerance);
+  double deviation = tolerance;
+  Net found = noisy.without(deviation);
   const auto distance = [&] {
     run.finish_positions(found);
     return summary(run.distances(), run.kept).all.rms;
   };
   double now = run.context.cancelled() ? tolerance : distance();
+  for (int turn = 0; turn < most_turns_on && now < least_rms_taken * tolerance; ++turn) {
+    deviation *= std::min(tolerance / now, greatest_raise);
+    found = noisy.without(deviation);
+    now = run.context.cancelled() ? tolerance : distance();
+  }
   if (now < least_rms_taken * tolerance) return false;
   const std::vector<Vector3>& nodes = noisy.net().positions;
   for (int turn = 0; turn < most_turns_back && now > tolerance; ++turn) {
@@ -135,6 +209,42 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   }
   if (now > tolerance) return false;
   noisy.finish(found);
+  return true;
+}
+
+bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, bool only_smooth,
+                           ProgressReporter& progress) {
+  if (!points.are_nodes || run.options.fair.method) return false;
+  const double tolerance = *run.options.within;
+  const double noise = estimate_noise(run.subject.shape(), run.measuring).deviation;
+  if (noise < least_noise * tolerance) return false;
+  FairOptions plain = run.options.fair;
+  plain.method = Method::equilibrium;
+  plain.max_iterations =
+      std::min(plain.max_iterations.value_or(iterations_of_plain_fairing), iterations_of_plain_fairing);
+  if (!only_smooth && FitToTolerance<FitSurface>(run).plain_fairing_is_within(plain)) return true;
+  progress.report("taking noise off", 0);
+  NoisyNodes noisy(run, points);
+  if (noisy.has_normals()) return false;
+  const bool is_too_noisy = noise > too_much_noise * tolerance;
+  Net found = noisy.without(is_too_noisy ? noise : allowed_noise * tolerance);
+  const auto distances = [&] {
+    run.finish_positions(found);
+    std::vector<double> all = run.distances();
+    for (std::size_t j = 0; j < all.size(); ++j) all[j] *= run.kept[j];
+    return all;
+  };
+  const double left = only_smooth ? 0 : noisy.take_back(found, tolerance, distances);
+  noisy.finish(found);
+  if (only_smooth || run.context.cancelled()) return true;
+  FitReport& report = run.result.report;
+  const std::vector<double> off = distances();
+  const auto holds = [&](double distance) { return distance > held_from * tolerance; };
+  report.active_points = static_cast<Index>(std::count_if(off.begin(), off.end(), holds));
+  if (left > tolerance)
+    report.fair.warnings.push_back(fmt::format(
+        "nodes that are held keep the shape {:g} away from where they were, and {:g} was asked for", left, tolerance));
+  if (is_too_noisy || left > tolerance) report.fair.outcome = Outcome::stalled;
   return true;
 }
 

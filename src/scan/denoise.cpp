@@ -46,35 +46,62 @@ constexpr int steps_of_unknown = 20;
 
 // Edges that turn by more than 115° are folds: those of blocks turn by about 90°.
 constexpr double folded = -0.42;
+// Those of which more make a result worse than its input turn by more than 90°.
+constexpr double turned_back = 0;
 constexpr int most_rounds = 20;
 constexpr int steps_of_round = 3;
 // In standard deviations of the noise, which is what noise folds nodes by.
 constexpr double most_unfolding = 1;
 
-/// 1 for each moving node of two faces that are folded onto each other.
-std::vector<std::uint8_t> nodes_at_folds(const ScanMesh& mesh, const Places& places, ThreadTeam& team) {
+/// Pairs of faces at an edge between which normals have less than this cosine.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> turned_pairs(const ScanMesh& mesh, const Places& places,
+                                                                  double cosine, ThreadTeam& team) {
   std::vector<Vector3> normals = face_areas(mesh, places, team);
   for (Vector3& normal : normals) normal.stableNormalize();
-  std::vector<std::uint8_t> found(mesh.moving, 0);
-  const auto mark = [&](std::uint32_t face) {
-    for (const std::uint32_t i : mesh.faces.of(face)) {
-      if (i < mesh.moving) found[i] = 1;
-    }
-  };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
     for (const std::uint32_t g : mesh.around.of(f)) {
-      if (g <= f || normals[f].dot(normals[g]) > folded) continue;
+      if (g <= f || normals[f].dot(normals[g]) > cosine) continue;
       const auto corners = mesh.faces.of(g);
       const auto shares = [&](std::uint32_t i) {
         return std::find(corners.begin(), corners.end(), i) != corners.end();
       };
       const auto own = mesh.faces.of(f);
-      if (std::count_if(own.begin(), own.end(), shares) < 2) continue;
-      mark(f);
-      mark(g);
+      if (std::count_if(own.begin(), own.end(), shares) >= 2) pairs.emplace_back(f, g);
+    }
+  }
+  return pairs;
+}
+
+/// 1 for each moving node of two faces that are folded onto each other.
+std::vector<std::uint8_t> nodes_at_folds(const ScanMesh& mesh, const Places& places, ThreadTeam& team) {
+  std::vector<std::uint8_t> found(mesh.moving, 0);
+  for (const auto& [f, g] : turned_pairs(mesh, places, folded, team)) {
+    for (const std::uint32_t face : {f, g}) {
+      for (const std::uint32_t i : mesh.faces.of(face)) {
+        if (i < mesh.moving) found[i] = 1;
+      }
     }
   }
   return found;
+}
+
+/// Where more edges turn back than did in the noisy nodes, as inside lips and ears that lie close, nodes at those that
+/// did not go back to where they were.
+void take_back_new_folds(const ScanMesh& mesh, Places& places, const Places& noisy, ThreadTeam& team) {
+  const auto before = turned_pairs(mesh, noisy, turned_back, team);
+  for (int round = 0; round < most_rounds; ++round) {
+    const auto now = turned_pairs(mesh, places, turned_back, team);
+    if (now.size() <= before.size()) return;
+    for (const auto& pair : now) {
+      if (std::binary_search(before.begin(), before.end(), pair)) continue;
+      for (const std::uint32_t face : {pair.first, pair.second}) {
+        for (const std::uint32_t i : mesh.faces.of(face)) {
+          if (i < mesh.moving) places[i] = noisy[i];
+        }
+      }
+    }
+  }
 }
 
 /// Steps towards the neighbours' mean where faces are folded, no further than noise explains: tips and blades would
@@ -144,6 +171,7 @@ class Denoiser {
     const Risks risks = risks_of(mesh_, pointers(shapes), noisy_, normals_, followed, deviation_, team_);
     Places result = choose(mesh_, pointers(shapes), risks, last_choice, deviation_, team_).front();
     unfold(mesh_, result, deviation_, team_);
+    take_back_new_folds(mesh_, result, noisy_, team_);
     return result;
   }
 

@@ -1,7 +1,7 @@
 // Scans smoothed: made shapes, and every mesh of the folder that is named, get Gaussian noise of three levels, and it
 // is taken off by fair with FitOptions::noise as estimated, or told the noise with rms of it or within three times as
-// much, by VTK's windowed sinc, by Taubin's filter and by
-// OpenMesh's smoother, which are told nothing and of whose settings the best counts. Boundaries and non-manifold spots
+// much, or by the smoothing length that does, by VTK's windowed sinc, by Taubin's filter and by OpenMesh's smoother,
+// which are told nothing and of whose settings the best counts. Boundaries and non-manifold spots
 // stay. Prints the table of docs/fit.md: root mean square distances between result and true shape, of the nodes of
 // either from the other, the greater of both, in per cent of the median edge; the greatest turn; how far the noisy
 // nodes are from the result, in noise; time on one thread, also in plain iterations of the same mesh.
@@ -66,7 +66,24 @@ std::string cell(const Result& result) {
 }
 
 /// What our own fit is told of the noise.
-enum class Told { nothing, rms, within };
+enum class Told { nothing, rms, within, length };
+
+/// By the smoothing length, of a ladder in median edges, that leaves the nodes about as far away as the noise has put
+/// them.
+FitResult fit_by_length(const PolygonMesh& noisy, const Constraints& held, FitOptions options, double edge,
+                        double deviation, Context& context) {
+  FitResult best;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const double length : {0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8}) {
+    options.smoothing_length = length * edge;
+    FitResult one = fit(noisy, held, {noisy.positions()}, options, context);
+    const double off = std::abs(std::log(one.report.after.all.rms / deviation));
+    if (off > nearest) break;
+    nearest = off;
+    best = std::move(one);
+  }
+  return best;
+}
 
 void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drivers, unsigned seed, Told told) {
   if (mesh.face_count() == 0) return;  // a curve
@@ -91,7 +108,8 @@ void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drive
     if (told == Told::nothing) options.noise = estimate_noise(noisy, context).deviation;
     if (told == Told::rms) options.rms = level * edge;
     if (told == Told::within) options.within = 3 * level * edge;
-    const FitResult fitted = fit(noisy, held, {noisy.positions()}, options, context);
+    const FitResult fitted = told == Told::length ? fit_by_length(noisy, held, options, edge, level * edge, context)
+                                                  : fit(noisy, held, {noisy.positions()}, options, context);
     const Result ours = look(fitted.positions);
     FitOptions plain = options;
     plain.noise.reset();
@@ -144,7 +162,10 @@ int main(int argc, char** argv) {
   const fs::path drivers = fs::path(argv[0]).parent_path();
   const unsigned seed = argc > 2 ? static_cast<unsigned>(std::stoul(argv[2])) : 1;
   const std::string way = argc > 3 ? argv[3] : "";
-  const Told told = way == "rms" ? Told::rms : way == "within" ? Told::within : Told::nothing;
+  const Told told = way == "rms"      ? Told::rms
+                    : way == "within" ? Told::within
+                    : way == "length" ? Told::length
+                                      : Told::nothing;
   const auto run_one = [&](const std::string& name, const PolygonMesh& mesh) { run(name, mesh, drivers, seed, told); };
   run_one("torus", generate::torus({.columns = 64, .rows = 48, .jitter = 0.2}, 1, 0.5));
   run_one("block", generate::genus({.holes = 1, .cells = 8}));

@@ -35,13 +35,14 @@ constexpr int most_turns_back = 5;
 constexpr int most_turns_on = 3;
 constexpr double greatest_raise = 2;
 
-// Noise that a tolerance allows for, as a share of it; and from which share on it is more than the tolerance bears, to
-// which share on it is what the tolerance is about.
+// Noise that a tolerance allows for, as a share of it, and how much of that may be for an estimate that is too large;
+// from which share on it is more than the tolerance bears; to which share on it is what the tolerance is about.
 constexpr double allowed_noise = 1.0 / 3;
+constexpr double allowed_noise_at_most = 0.4;
 constexpr double too_much_noise = 1.0 / 2;
 constexpr double least_noise = 1.0 / 6;
-// Rings of neighbours that go along with a node that is taken back, one turn after the other. With none it is at its
-// bound after one turn.
+// Rings of neighbours that go along with a node that is taken back, one turn after the other. In the last one every
+// node goes by itself, to within the tolerance of its own place: so all are within.
 constexpr int rings_taken_back[] = {3, 3, 3, 3, 3, 3, 1, 1, 1, 0};
 // Of the tolerance.
 constexpr double taken_back_to = 0.999;
@@ -116,11 +117,11 @@ class NoisyNodes {
       std::vector<Vector3> moves(net_.moving, Vector3::Zero());
       std::vector<double> weights(net_.moving, 0);
       for (std::size_t i = 0; i < net_.moving; ++i) {
-        const double distance = now[static_cast<std::size_t>(net_.node[i])];
+        const Vector3 way = net_.positions[i] - found.positions[i];
+        const double distance =
+            rings > 0 ? now[static_cast<std::size_t>(net_.node[i])] : way.norm() / net_.frame.scale();
         if (distance <= tolerance) continue;
-        const double share =
-            taken_back_to * tolerance / (rings > 0 ? distance : (found.positions[i] - net_.positions[i]).norm());
-        const Vector3 move = (1 - share) * (net_.positions[i] - found.positions[i]);
+        const Vector3 move = (1 - taken_back_to * tolerance / distance) * way;
         for_each_around(i, rings, [&](std::size_t j, double weight) {
           moves[j] += weight * move;
           weights[j] += weight;
@@ -227,7 +228,7 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   NoisyNodes noisy(run, points);
   if (noisy.has_normals()) return false;
   const bool is_too_noisy = noise > too_much_noise * tolerance;
-  Net found = noisy.without(is_too_noisy ? noise : allowed_noise * tolerance);
+  Net found = noisy.without(noise > allowed_noise_at_most * tolerance ? noise : allowed_noise * tolerance);
   const auto distances = [&] {
     run.finish_positions(found);
     std::vector<double> all = run.distances();

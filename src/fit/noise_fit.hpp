@@ -15,10 +15,10 @@ void fit_without_noise(FitRun<FitSurface>& run, UntiedPoints points, ProgressRep
 bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, ProgressReporter& progress);
 
 /// The same for FitOptions::within, where the nodes have noise that the tolerance is little more than: takes a third of
-/// the tolerance off as noise, or where noise is larger than half of it, that noise; nodes that end further away than
-/// the tolerance are taken back, and what is near goes along. In the second case the shape does not count as
-/// converged. only_smooth: no node is taken back. False, and nothing is done, where that does not apply: a method that
-/// is asked for by name, points that are not the nodes, normals that are given, less noise.
+/// the tolerance off as noise, or where the noise is clearly larger, that; nodes that end further away than the
+/// tolerance are taken back, and what is near goes along. Where noise is larger than half the tolerance, the shape does
+/// not count as converged. only_smooth: no node is taken back. False, and nothing is done, where that does not apply: a
+/// method that is asked for by name, points that are not the nodes, normals that are given, less noise.
 bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, bool only_smooth,
                            ProgressReporter& progress);
 

@@ -46,8 +46,8 @@ constexpr int steps_of_unknown = 20;
 
 // Edges that turn by more than 115° are folds: those of blocks turn by about 90°.
 constexpr double folded = -0.42;
-// Those of which more make a result worse than its input turn by more than 90°.
-constexpr double turned_back = 0;
+// Those of which more make a result worse than its input turn by more than 90°, but for rounding.
+constexpr double turned_back = -1e-6;
 constexpr int most_rounds = 20;
 constexpr int steps_of_round = 3;
 // In standard deviations of the noise, which is what noise folds nodes by.

@@ -176,6 +176,105 @@ TEST(FitNoisyScan, ARootMeanSquareIsKeptAndTakesTheNoiseOff) {
   }
 }
 
+/// Within a tolerance, nodes keep their place.
+FitOptions within(double tolerance) {
+  FitOptions options;
+  options.fair.distribution = Distribution::keep;
+  options.within = tolerance;
+  return options;
+}
+
+/// A torus with Gaussian-like noise: of balls in turn, so that some nodes are far out.
+PolygonMesh with_far_nodes(const PolygonMesh& mesh, double radius) {
+  PolygonMesh noisy = mesh;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) noisy = generate::add_noise(noisy, radius, seed);
+  return noisy;
+}
+
+TEST(FitNoisyScan, WithinThreeTimesTheNoiseTheNoiseIsOffAndNoNodeIsFurtherAway) {
+  const PolygonMesh torus = generate::torus({.columns = 64, .rows = 32}, 1, minor_radius);
+  constexpr double radius = 0.03;
+  const PolygonMesh noisy = with_far_nodes(torus, radius);
+  const double deviation = std::sqrt(5.0) * deviation_in_ball(radius);
+  const FitResult free = fit_to_itself(noisy, without_noise(deviation));
+  const FitResult result = fit_to_itself(noisy, within(3 * deviation));
+  ASSERT_GT(free.report.after.all.greatest, 1.05 * 3 * deviation) << "else nothing is taken back";
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_LE(result.report.after.all.greatest, 3 * deviation);
+  EXPECT_GT(result.report.active_points, 0);
+  EXPECT_EQ(result.report.outside_points, 0);
+  EXPECT_LT(greatest_turn(noisy, result.positions), greatest_turn(torus, torus.positions()) + 10);
+  EXPECT_LT(rms_from_torus(result.positions), 0.25 * rms_from_torus(noisy.positions()));
+}
+
+TEST(FitNoisyScan, WithinLessThanTheNoiseSaysThatItIsNotOff) {
+  const PolygonMesh torus = generate::torus({.columns = 48, .rows = 24}, 1, minor_radius);
+  constexpr double radius = 0.05;
+  const PolygonMesh noisy = generate::add_noise(torus, radius, 1);
+  const double tolerance = deviation_in_ball(radius);
+  const FitResult result = fit_to_itself(noisy, within(tolerance));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::stalled);
+  EXPECT_LE(result.report.after.all.greatest, tolerance);
+  EXPECT_LT(rms_from_torus(result.positions), rms_from_torus(noisy.positions()));
+}
+
+TEST(FitNoisyScan, WithinFarMoreThanTheNoiseIsTheShapeOfLeastBending) {
+  // A dent that is wider than filters see: with far more room than noise it goes, as nothing holds it.
+  const PolygonMesh plane = generate::plane({.columns = 24, .rows = 24});
+  std::vector<Vector3> positions = plane.positions();
+  for (Vector3& p : positions) p.z() = 0.02 * std::exp(-(p - Vector3(0.5, 0.5, 0)).squaredNorm() / 0.05);
+  PolygonMesh dented = plane;
+  dented.set_positions(positions);
+  const FitResult result = fit(dented, held_boundary(dented), {.positions = dented.positions()}, within(0.01));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_LE(result.report.after.all.greatest, 0.01);
+  EXPECT_GT(result.report.after.all.greatest, 0.009);
+}
+
+TEST(FitNoisyScan, APlainFairShapeThatIsWithinIsTheResult) {
+  const PolygonMesh plane = generate::plane({.columns = 24, .rows = 24});
+  const PolygonMesh noisy = generate::add_noise(plane, 0.01, 1);
+  const Constraints held = held_boundary(noisy);
+  const FitResult result = fit(noisy, held, {.positions = noisy.positions()}, within(0.012));
+  FairOptions options;
+  options.distribution = Distribution::keep;
+  EXPECT_EQ(result.positions, fair(noisy, held, options).positions);
+}
+
+TEST(FitNoisyScan, NodesWithoutAFaceAreNoPoints) {
+  const PolygonMesh torus = generate::torus({.columns = 32, .rows = 16}, 1, minor_radius);
+  const PolygonMesh noisy = generate::add_noise(torus, 0.05, 1);
+  std::vector<Vector3> positions = noisy.positions();
+  positions.emplace_back(3, 0, 0);
+  std::vector<Index> begin = {0};
+  std::vector<Index> corners;
+  for (Index f = 0; f < noisy.face_count(); ++f) {
+    corners.insert(corners.end(), noisy.face(f).begin(), noisy.face(f).end());
+    begin.push_back(static_cast<Index>(corners.size()));
+  }
+  const PolygonMesh loose(positions, begin, corners);
+  const FitResult result = fit_to_itself(loose, within(0.1));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.points, noisy.node_count());
+  EXPECT_EQ(result.report.outliers, 0);
+  EXPECT_LE(result.report.after.all.greatest, 0.1);
+  EXPECT_EQ(result.positions.back(), positions.back());
+}
+
+TEST(FitNoisyScan, ARootMeanSquareOfMoreThanTheNoiseIsReachedByFilters) {
+  const PolygonMesh block = generate::genus({.holes = 1, .cells = 8});
+  const double edge = (block.position(block.face(0)[0]) - block.position(block.face(0)[1])).norm();
+  const PolygonMesh noisy = generate::add_noise(block, 0.1 * edge, 1);
+  FitOptions options;
+  options.fair.distribution = Distribution::keep;
+  options.rms = 0.15 * edge;
+  const FitResult result = fit_to_itself(noisy, options);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.fair.iterations, 0);
+  EXPECT_LE(result.report.after.all.rms, *options.rms);
+  EXPECT_GT(result.report.after.all.rms, 0.7 * *options.rms);
+}
+
 TEST(FitNoisyScan, TheSameBitsOnAnyNumberOfThreads) {
   const PolygonMesh noisy = folded();
   const auto run = [&](int threads) {

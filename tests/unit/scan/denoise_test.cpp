@@ -50,6 +50,21 @@ TEST(Denoise, NoiseFarLessThanThatOfTheNodesMovesNothingAndFarMoreLeavesAShape) 
   }
 }
 
+TEST(Denoise, AThinPlateIsNotTurnedInsideOut) {
+  // Its sides are nearer than the noise that it is said to have: low passes take its rim through itself.
+  PolygonMesh plate = generate::genus({.holes = 0, .cells = 8});
+  std::vector<Vector3> positions = plate.positions();
+  for (Vector3& p : positions) p.z() *= 0.01;
+  plate.set_positions(positions);
+  Scan scan(plate);
+  const Places smooth = scan.smoothed(0.05);
+  EXPECT_GT(greatest_move(smooth, scan.net.positions), 0.001);
+  for (std::size_t i = 0; i < smooth.size(); ++i) positions[static_cast<std::size_t>(scan.net.node[i])] = smooth[i];
+  PolygonMesh after = plate;
+  after.set_positions(positions);
+  EXPECT_LE(measure(after).greatest_turn, measure(plate).greatest_turn + 0.01);
+}
+
 TEST(Denoise, WhatIsNotKnownIsTakenFromItsNeighbours) {
   Scan plane(generate::plane({.columns = 16, .rows = 16}));
   std::vector<std::uint8_t> known(plane.net.moving, 1);

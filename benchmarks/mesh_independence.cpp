@@ -109,8 +109,8 @@ struct Meridian {
   /// The share at which ∫ ds / r has a value.
   [[nodiscard]] double share_at(double value) const {
     const auto above = std::upper_bound(conformal.begin() + 1, conformal.end() - 1, value);
-    const double part = (value - *(above - 1)) / (*above - *(above - 1));
-    return (static_cast<double>(above - 1 - conformal.begin()) + part) / static_cast<double>(conformal.size() - 1);
+    const double fraction = (value - *(above - 1)) / (*above - *(above - 1));
+    return (static_cast<double>(above - 1 - conformal.begin()) + fraction) / static_cast<double>(conformal.size() - 1);
   }
 };
 

@@ -302,7 +302,8 @@ class Fitting {
     if (!nearest || report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
     // Nodes that stay about where they are do not crumple the shape.
     nearest->report.fair.warnings.push_back(
-        fmt::format("no equilibrium was found: this is the nearest shape, {}; noise may have folded faces",
+        fmt::format("no equilibrium was found: this is the nearest shape, {}; noise may have folded faces: smooth by "
+                    "more or less, or only take its noise off",
                     distance_from_equilibrium(nearest->report.fair)));
     run_.result = std::move(*nearest);
   }

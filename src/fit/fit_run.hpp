@@ -63,7 +63,7 @@ class FitRun {
     if constexpr (std::is_same_v<Subject, FitCurve>)
       smooth_noise(gathered);
     else
-      unfold(gathered, team);
+      unfold(gathered, subject.shape(), context, team);
     // Else the nodes slide along a shape that noise has crumpled until it comes apart.
     net.target_positions.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
     return gathered;

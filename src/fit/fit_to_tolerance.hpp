@@ -26,8 +26,12 @@ class FitToTolerance {
   explicit FitToTolerance(FitRun<Subject>& run)
       : run_(run), tolerance_(run.options.within ? *run.options.within : *run.options.rms) {}
 
-  /// Then that is the fairest, and the result.
-  bool plain_fairing_is_within(const FairOptions& options) {
+  /// Then that is the fairest, and the result. in_few_steps: whole scans have no equilibrium, and take long to show it.
+  bool plain_fairing_is_within(FairOptions options, bool in_few_steps) {
+    if (in_few_steps) {
+      options.method = Method::equilibrium;
+      options.max_iterations = std::min(options.max_iterations.value_or(few_steps), few_steps);
+    }
     FitResult& result = run_.result;
     try {
       (void)run_.subject.check({});
@@ -45,7 +49,7 @@ class FitToTolerance {
 
   /// only_smooth: by some edges, instead of to the tolerance.
   void fit(UntiedPoints points, ProgressReporter& progress, bool only_smooth) {
-    if (!only_smooth && plain_fairing_is_within(run_.options.fair)) return;
+    if (!only_smooth && plain_fairing_is_within(run_.options.fair, points.are_nodes)) return;
     FitReport& report = run_.result.report;
     Context& context = run_.context;
     auto gathered = run_.gather_start();
@@ -118,6 +122,8 @@ class FitToTolerance {
   }
 
  private:
+  // On each level.
+  static constexpr int few_steps = 20;
   // The smoothing lengths that tolerances are looked for from, in mean edges.
   static constexpr std::array<double, 4> first_lengths = {3, 1, 0.3, 0.1};
   // The same of surfaces whose nodes keep their place, and whose details may be few edges wide.

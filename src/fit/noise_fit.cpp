@@ -31,9 +31,6 @@ constexpr double least_rms_taken = 0.7;
 // What is aimed at on the way back to the nodes.
 constexpr double aimed_rms = 0.999;
 constexpr int most_turns_back = 5;
-// Where filters leave nodes nearer, more noise is taken for granted; by so much in a turn.
-constexpr int most_turns_on = 3;
-constexpr double greatest_raise = 2;
 
 // Noise that a tolerance allows for, as a share of it, and how much of that may be for an estimate that is too large;
 // from which share on it is more than the tolerance bears; to which share on it is what the tolerance is about.
@@ -47,8 +44,6 @@ constexpr int rings_taken_back[] = {3, 3, 3, 3, 3, 3, 1, 1, 1, 0};
 // Of the tolerance.
 constexpr double taken_back_to = 0.999;
 constexpr double held_from = 0.99;
-// On each level: plain fairing of what is within a tolerance takes no more, and whole scans have no equilibrium.
-constexpr int iterations_of_plain_fairing = 10;
 
 /// Has a shape without noise keep the normals that are given: a fit to it that smooths no more than an edge. Nodes keep
 /// their places where there is no equilibrium.
@@ -189,18 +184,12 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   NoisyNodes noisy(run, points);
   if (noisy.has_normals()) return false;
   const double tolerance = *run.options.rms;
-  double deviation = tolerance;
-  Net found = noisy.without(deviation);
+  Net found = noisy.without(tolerance);
   const auto distance = [&] {
     run.finish_positions(found);
     return summary(run.distances(), run.kept).all.rms;
   };
   double now = run.context.cancelled() ? tolerance : distance();
-  for (int turn = 0; turn < most_turns_on && now < least_rms_taken * tolerance; ++turn) {
-    deviation *= std::min(tolerance / now, greatest_raise);
-    found = noisy.without(deviation);
-    now = run.context.cancelled() ? tolerance : distance();
-  }
   if (now < least_rms_taken * tolerance) return false;
   const std::vector<Vector3>& nodes = noisy.net().positions;
   for (int turn = 0; turn < most_turns_back && now > tolerance; ++turn) {
@@ -219,11 +208,7 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   const double tolerance = *run.options.within;
   const double noise = estimate_noise(run.subject.shape(), run.measuring).deviation;
   if (noise < least_noise * tolerance) return false;
-  FairOptions plain = run.options.fair;
-  plain.method = Method::equilibrium;
-  plain.max_iterations =
-      std::min(plain.max_iterations.value_or(iterations_of_plain_fairing), iterations_of_plain_fairing);
-  if (!only_smooth && FitToTolerance<FitSurface>(run).plain_fairing_is_within(plain)) return true;
+  if (!only_smooth && FitToTolerance<FitSurface>(run).plain_fairing_is_within(run.options.fair, true)) return true;
   progress.report("taking noise off", 0);
   NoisyNodes noisy(run, points);
   if (noisy.has_normals()) return false;

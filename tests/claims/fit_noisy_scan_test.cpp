@@ -261,20 +261,6 @@ TEST(FitNoisyScan, NodesWithoutAFaceAreNoPoints) {
   EXPECT_EQ(result.positions.back(), positions.back());
 }
 
-TEST(FitNoisyScan, ARootMeanSquareOfMoreThanTheNoiseIsReachedByFilters) {
-  const PolygonMesh block = generate::genus({.holes = 1, .cells = 8});
-  const double edge = (block.position(block.face(0)[0]) - block.position(block.face(0)[1])).norm();
-  const PolygonMesh noisy = generate::add_noise(block, 0.1 * edge, 1);
-  FitOptions options;
-  options.fair.distribution = Distribution::keep;
-  options.rms = 0.15 * edge;
-  const FitResult result = fit_to_itself(noisy, options);
-  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
-  EXPECT_EQ(result.report.fair.iterations, 0);
-  EXPECT_LE(result.report.after.all.rms, *options.rms);
-  EXPECT_GT(result.report.after.all.rms, 0.7 * *options.rms);
-}
-
 TEST(FitNoisyScan, TheSameBitsOnAnyNumberOfThreads) {
   const PolygonMesh noisy = folded();
   const auto run = [&](int threads) {

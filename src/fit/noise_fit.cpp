@@ -38,6 +38,9 @@ constexpr double allowed_noise = 1.0 / 3;
 constexpr double allowed_noise_at_most = 0.4;
 constexpr double too_much_noise = 1.0 / 2;
 constexpr double least_noise = 1.0 / 6;
+// In median edges: what turns faces by less than some degrees is offsets of a fair shape rather than a scan, and room
+// for a fairer one.
+constexpr double least_noise_in_edges = 0.01;
 // Rings of neighbours that go along with a node that is taken back, one turn after the other. In the last one every
 // node goes by itself, to within the tolerance of its own place: so all are within.
 constexpr int rings_taken_back[] = {3, 3, 3, 3, 3, 3, 1, 1, 1, 0};
@@ -111,18 +114,21 @@ class NoisyNodes {
       if (greatest() <= tolerance || run_.context.cancelled()) break;
       std::vector<Vector3> moves(net_.moving, Vector3::Zero());
       std::vector<double> weights(net_.moving, 0);
+      std::vector<std::pair<std::size_t, Vector3>> beyond;
       for (std::size_t i = 0; i < net_.moving; ++i) {
         const Vector3 way = net_.positions[i] - found.positions[i];
         const double distance =
             rings > 0 ? now[static_cast<std::size_t>(net_.node[i])] : way.norm() / net_.frame.scale();
         if (distance <= tolerance) continue;
-        const Vector3 move = (1 - taken_back_to * tolerance / distance) * way;
+        beyond.emplace_back(i, (1 - taken_back_to * tolerance / distance) * way);
         for_each_around(i, rings, [&](std::size_t j, double weight) {
-          moves[j] += weight * move;
+          moves[j] += weight * beyond.back().second;
           weights[j] += weight;
         });
       }
-      for (std::size_t i = 0; i < net_.moving; ++i) found.positions[i] += moves[i] / std::max(1.0, weights[i]);
+      for (std::size_t i = 0; i < net_.moving; ++i) moves[i] /= std::max(1.0, weights[i]);
+      for (const auto& [i, move] : beyond) moves[i] = move;
+      for (std::size_t i = 0; i < net_.moving; ++i) found.positions[i] += moves[i];
       now = off();
     }
     return greatest();
@@ -206,8 +212,9 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
                            ProgressReporter& progress) {
   if (!points.are_nodes || run.options.fair.method) return false;
   const double tolerance = *run.options.within;
-  const double noise = estimate_noise(run.subject.shape(), run.measuring).deviation;
-  if (noise < least_noise * tolerance) return false;
+  const NoiseEstimate estimate = estimate_noise(run.subject.shape(), run.measuring);
+  const double noise = estimate.deviation;
+  if (noise < least_noise * tolerance || estimate.edges < least_noise_in_edges) return false;
   if (!only_smooth && FitToTolerance<FitSurface>(run).plain_fairing_is_within(run.options.fair, true)) return true;
   progress.report("taking noise off", 0);
   NoisyNodes noisy(run, points);

@@ -231,6 +231,19 @@ TEST(FitNoisyScan, WithinFarMoreThanTheNoiseIsTheShapeOfLeastBending) {
   EXPECT_GT(result.report.after.all.greatest, 0.009);
 }
 
+TEST(FitNoisyScan, OffsetsOfAFairShapeAreFairedWithinTheWholeTolerance) {
+  // Noise of far less than edges is what measured offsets have: nobody looks for details in it.
+  const PolygonMesh saddle = generate::saddle({.columns = 24, .rows = 24});
+  constexpr double radius = 0.0005;
+  const PolygonMesh noisy = generate::add_noise(saddle, radius, 1);
+  const double tolerance = 4 * deviation_in_ball(radius);
+  ASSERT_GT(estimate_noise(noisy).deviation, tolerance / 6);
+  const FitResult result = fit(noisy, held_boundary(noisy), {.positions = noisy.positions()}, within(tolerance));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_GT(result.report.fair.iterations, 0);
+  EXPECT_LE(result.report.after.all.greatest, tolerance);
+}
+
 TEST(FitNoisyScan, APlainFairShapeThatIsWithinIsTheResult) {
   const PolygonMesh plane = generate::plane({.columns = 24, .rows = 24});
   const PolygonMesh noisy = generate::add_noise(plane, 0.01, 1);

@@ -46,9 +46,10 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
       ->type_name("L")
       ->check(positive_number())
       ->group(heading);
-  add_amount(command, "--within", arguments.within, arguments,
-             "The fairest shape from which no point is further away than this; of scans whose noise is about a third of "
-             "that: noise off, details kept (units of the input)")
+  add_amount(
+      command, "--within", arguments.within, arguments,
+      "The fairest shape from which no point is further away than this; of scans whose noise is about a third of "
+      "that: noise off, details kept (units of the input)")
       ->group(heading);
   add_amount(command, "--rms", arguments.rms, arguments,
              "The fairest shape from which points are this far away, root mean square (units of the input)")

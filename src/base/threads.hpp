@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <vector>
 
 namespace vspring {
 
@@ -60,6 +61,17 @@ template <typename Body>
 void parallel_ranges(ThreadTeam& team, std::size_t count, std::size_t grain, const Body& body) {
   const std::size_t ranges = (count + grain - 1) / grain;
   team.run(ranges, [&](std::size_t k) { body(k * grain, k + 1 == ranges ? count : (k + 1) * grain); });
+}
+
+/// The same, where each range has a part of the result: body(begin, end, part). Returns the parts in their order, so
+/// that what is made of them has the same bits for every size of team.
+template <typename Part, typename Body>
+std::vector<Part> parallel_parts(ThreadTeam& team, std::size_t count, std::size_t grain, const Part& initial,
+                                 const Body& body) {
+  std::vector<Part> parts((count + grain - 1) / grain, initial);
+  parallel_ranges(team, count, grain,
+                  [&](std::size_t begin, std::size_t end) { body(begin, end, parts[begin / grain]); });
+  return parts;
 }
 
 }  // namespace vspring

@@ -143,9 +143,7 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
     }
     return defects;
   }
-  std::vector<ShapeDefects> parts((net.computed + nodes_per_task - 1) / nodes_per_task);
-  parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    ShapeDefects& part = parts[begin / nodes_per_task];
+  const auto look = [&](std::size_t begin, std::size_t end, ShapeDefects& part) {
     std::vector<std::size_t> spokes;
     std::vector<Vector3> faces;
     for (std::size_t i = begin; i < end; ++i) {
@@ -164,9 +162,9 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
       if (with_bending && std::none_of(links.begin(), links.end(), [&](Link link) { return is_dragged(link.node()); }))
         part.bending += bending_at(net, positions, i, spokes, faces);
     }
-  });
+  };
   ShapeDefects defects;
-  for (const ShapeDefects& part : parts) {
+  for (const ShapeDefects& part : parallel_parts(team, net.computed, nodes_per_task, ShapeDefects(), look)) {
     defects.turned += part.turned;
     defects.collapsed += part.collapsed;
     defects.bending += part.bending;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/dense_algebra.hpp"
+#include "base/disjoint_sets.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
 #include "shape/fan.hpp"
 #include "shape/frame.hpp"
@@ -34,11 +35,7 @@ class Holding {
         pulled_(pulled),
         incidence_(mesh),
         graph_(mesh, incidence_),
-        part_(static_cast<std::size_t>(mesh.node_count()), -1) {
-    for (Index i = 0; i < mesh.node_count(); ++i) {
-      if (moves(i)) part_[static_cast<std::size_t>(i)] = i;
-    }
-  }
+        parts_(static_cast<std::size_t>(mesh.node_count())) {}
 
   void refuse_defects() {
     for (Index f = 0; f < mesh_.face_count(); ++f) {
@@ -134,7 +131,7 @@ class Holding {
       if (moves(i) && pulled(i)) box.extend(mesh_.position(i));
     }
     const Frame frame(box);
-    std::vector<Index> system_of(part_.size(), -1);
+    std::vector<Index> system_of(static_cast<std::size_t>(mesh_.node_count()), -1);
     std::vector<System> systems;
     std::vector<Index> first_node;
     std::vector<std::uint8_t> bounded;
@@ -240,27 +237,19 @@ class Holding {
     for (Index i = 0; i < mesh_.node_count(); ++i) {
       if (!moves(i)) continue;
       graph_.for_each_neighbour(i, [&](Index j) {
-        if (!moves(j)) return;
-        const auto [low, high] = std::minmax({find(i), find(j)});
-        part_[static_cast<std::size_t>(high)] = low;
+        if (moves(j)) parts_.join(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
       });
     }
   }
 
-  Index find(Index i) {
-    while (part_[static_cast<std::size_t>(i)] != i) {
-      part_[static_cast<std::size_t>(i)] = part_[static_cast<std::size_t>(part_[static_cast<std::size_t>(i)])];
-      i = part_[static_cast<std::size_t>(i)];
-    }
-    return i;
-  }
+  Index find(Index i) { return static_cast<Index>(parts_.find(static_cast<std::size_t>(i))); }
 
   const PolygonMesh& mesh_;
   const Constraints& constraints_;
   std::span<const std::uint8_t> pulled_;
   Incidence incidence_;
   NodeGraph graph_;
-  std::vector<Index> part_;  // union-find over moving nodes
+  DisjointSets parts_;  // of moving nodes
   std::vector<std::string> faults_;
   std::size_t fault_count_ = 0;
   Index fault_node_ = -1;

@@ -380,18 +380,16 @@ class Run {
   Displacements greatest_displacements(Net& net) {
     model_.prepare(net);
     update_directions(net, model_, team_);
-    std::vector<Displacements> of_ranges((net.moving + nodes_per_task - 1) / nodes_per_task);
-    parallel_ranges(team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    const auto find = [&](std::size_t begin, std::size_t end, Displacements& greatest) {
       std::vector<NodeForce> forces(end - begin);
       model_.find_forces(net, {begin, end}, forces);
-      Displacements& greatest = of_ranges[begin / nodes_per_task];
       for (const NodeForce& force : forces) {
         greatest.all = std::max(greatest.all, (force.spring + force.regularisation).norm());
         greatest.of_springs = std::max(greatest.of_springs, force.spring.norm());
       }
-    });
+    };
     Displacements greatest;
-    for (const Displacements& one : of_ranges) {
+    for (const Displacements& one : parallel_parts(team_, net.moving, nodes_per_task, Displacements(), find)) {
       greatest.all = std::max(greatest.all, one.all);
       greatest.of_springs = std::max(greatest.of_springs, one.of_springs);
     }

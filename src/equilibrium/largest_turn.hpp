@@ -15,17 +15,16 @@ namespace vspring {
 /// called on all threads of the team.
 template <typename Value>
 double greatest_over_nodes(const Net& net, ThreadTeam& team, const Value& value) {
-  std::vector<double> greatest((net.moving + nodes_per_task - 1) / nodes_per_task, 0);
-  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    double of_range = 0;
+  const auto find = [&](std::size_t begin, std::size_t end, double& of_range) {
     bool finite = true;
     for (std::size_t i = begin; i < end; ++i) {
       const double one = value(i);
       finite = finite && std::isfinite(one);
       of_range = std::max(of_range, one);
     }
-    greatest[begin / nodes_per_task] = finite ? of_range : std::numeric_limits<double>::infinity();
-  });
+    if (!finite) of_range = std::numeric_limits<double>::infinity();
+  };
+  const std::vector<double> greatest = parallel_parts(team, net.moving, nodes_per_task, 0.0, find);
   return greatest.empty() ? 0 : *std::max_element(greatest.begin(), greatest.end());
 }
 

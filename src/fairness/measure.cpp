@@ -29,8 +29,6 @@ struct Turns {
   }
 };
 
-std::size_t tasks(std::size_t size, std::size_t per_task) { return (size + per_task - 1) / per_task; }
-
 /// The other end of the edge that leaves a corner forward or backward.
 Index end_of(const PolygonMesh& mesh, Corner corner, bool forward) {
   const auto face = mesh.face(corner.face);
@@ -74,10 +72,8 @@ FairnessMeter::FairnessMeter(const PolygonMesh& mesh, const Constraints* constra
     Rings rings;
     std::vector<Neighbours> neighbours;
   };
-  std::vector<Run> runs(tasks(node_.size(), nodes_per_task));
-  parallel_ranges(team, node_.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
+  const auto look = [&](std::size_t begin, std::size_t end, Run& run) {
     FanWalker walker(mesh, incidence);
-    Run& run = runs[begin / nodes_per_task];
     for (std::size_t k = begin; k < end; ++k) {
       run.rings.add(walker.walk(node_[k]).links);
       for_neighbouring_faces(mesh, node_[k], incidence.corners(node_[k]), [&](Index a, Index b, bool same_sense) {
@@ -85,7 +81,8 @@ FairnessMeter::FairnessMeter(const PolygonMesh& mesh, const Constraints* constra
           run.neighbours.push_back({a, b, same_sense});
       });
     }
-  });
+  };
+  std::vector<Run> runs = parallel_parts(team, node_.size(), nodes_per_task, Run(), look);
   rings_.reserve(node_.size(), 7 * node_.size());
   for (Run& run : runs) {
     for (std::size_t k = 0; k < run.rings.size(); ++k) rings_.add(run.rings.links(k));
@@ -116,9 +113,7 @@ Fairness FairnessMeter::measure(const std::vector<Vector3>& positions, const Con
     }
   });
 
-  std::vector<double> energies(tasks(node_.size(), nodes_per_task), 0);
-  parallel_ranges(*team_, node_.size(), nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    double& energy = energies[begin / nodes_per_task];
+  const auto add_energy = [&](std::size_t begin, std::size_t end, double& energy) {
     for (std::size_t k = begin; k < end; ++k) {
       const Index i = node_[k];
       const bool held = constraints != nullptr && constraints->position_fixed(i);
@@ -133,10 +128,8 @@ Fairness FairnessMeter::measure(const std::vector<Vector3>& positions, const Con
         energy += difference * difference;
       }
     }
-  });
-  std::vector<Turns> parts(tasks(neighbours_.size(), edges_per_task));
-  parallel_ranges(*team_, neighbours_.size(), edges_per_task, [&](std::size_t begin, std::size_t end) {
-    Turns& part = parts[begin / edges_per_task];
+  };
+  const auto add_turns = [&](std::size_t begin, std::size_t end, Turns& part) {
     for (std::size_t k = begin; k < end; ++k) {
       const Vector3& a = face_normals[static_cast<std::size_t>(neighbours_[k].a)];
       const Vector3& b = face_normals[static_cast<std::size_t>(neighbours_[k].b)];
@@ -144,12 +137,14 @@ Fairness FairnessMeter::measure(const std::vector<Vector3>& positions, const Con
       const double turn = std::atan2(a.cross(b).norm(), neighbours_[k].same_sense ? -a.dot(b) : a.dot(b));
       part.add({.squares = turn * turn, .greatest = turn, .count = 1});
     }
-  });
+  };
 
   Fairness fairness;
-  for (const double energy : energies) fairness.vspring_energy += energy;
+  for (const double energy : parallel_parts(*team_, node_.size(), nodes_per_task, 0.0, add_energy))
+    fairness.vspring_energy += energy;
   Turns turns;
-  for (const Turns& part : parts) turns.add(part);
+  for (const Turns& part : parallel_parts(*team_, neighbours_.size(), edges_per_task, Turns(), add_turns))
+    turns.add(part);
   fairness.greatest_turn = degrees_per_radian * turns.greatest;
   fairness.rms_turn = turns.count > 0 ? degrees_per_radian * std::sqrt(turns.squares / turns.count) : 0;
   return fairness;

@@ -28,16 +28,15 @@ class Inspection {
     MeshQuality all;
     over_faces(team, all, [&](Index f, MeshQuality& part) { look_at_face(f, part); });
     const auto nodes = static_cast<std::size_t>(mesh_.node_count());
-    std::vector<MeshQuality> parts((nodes + nodes_per_task - 1) / nodes_per_task);
-    parallel_ranges(team, nodes, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    const auto look = [&](std::size_t begin, std::size_t end, MeshQuality& part) {
       FanWalker walker(mesh_, incidence_);
       EdgeFinder edges(mesh_, incidence_);
       for (std::size_t i = begin; i < end; ++i) {
-        look_at_edges(static_cast<Index>(i), edges, parts[begin / nodes_per_task]);
+        look_at_edges(static_cast<Index>(i), edges, part);
         judge_faces(static_cast<Index>(i), walker);
       }
-    });
-    for (const MeshQuality& part : parts) all.add(part);
+    };
+    for (const MeshQuality& part : parallel_parts(team, nodes, nodes_per_task, MeshQuality(), look)) all.add(part);
     over_faces(team, all, [&](Index f, MeshQuality& part) { part.flipped_faces += flipped(f) ? 1 : 0; });
     return all;
   }
@@ -48,13 +47,13 @@ class Inspection {
 
   template <typename Look>
   void over_faces(ThreadTeam& team, MeshQuality& all, const Look& look) {
-    std::vector<MeshQuality> parts((marked_.size() + faces_per_task - 1) / faces_per_task);
-    parallel_ranges(team, marked_.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
+    const auto look_at = [&](std::size_t begin, std::size_t end, MeshQuality& part) {
       for (std::size_t f = begin; f < end; ++f) {
-        if (marked_[f] != 0) look(static_cast<Index>(f), parts[begin / faces_per_task]);
+        if (marked_[f] != 0) look(static_cast<Index>(f), part);
       }
-    });
-    for (const MeshQuality& part : parts) all.add(part);
+    };
+    for (const MeshQuality& part : parallel_parts(team, marked_.size(), faces_per_task, MeshQuality(), look_at))
+      all.add(part);
   }
 
   void look_at_face(Index f, MeshQuality& part) {

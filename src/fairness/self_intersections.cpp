@@ -121,15 +121,13 @@ std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh,
   const BoxTree tree(std::move(boxes), team);
 
   using Pairs = std::vector<std::pair<Index, Index>>;
-  std::vector<Pairs> found((tree.leaf_count() + leaves_per_task - 1) / leaves_per_task);
   const auto test = [&](Index i, Index j, Pairs& pairs) {
     const Triangle& a = triangles[static_cast<std::size_t>(i)];
     const Triangle& b = triangles[static_cast<std::size_t>(j)];
     if (a.face == b.face || !tree.box(i).intersects(tree.box(j))) return;
     if (crossings.cross(a, b)) pairs.emplace_back(std::minmax(a.face, b.face));
   };
-  parallel_ranges(team, tree.leaf_count(), leaves_per_task, [&](std::size_t begin, std::size_t end) {
-    Pairs& pairs = found[begin / leaves_per_task];
+  const auto test_leaves = [&](std::size_t begin, std::size_t end, Pairs& pairs) {
     for (std::size_t leaf = begin; leaf < end && !context.cancelled(); ++leaf) {
       const auto items = tree.leaf_items(leaf);
       tree.for_each_overlapping_leaf(tree.leaf_box(leaf), leaf, [&](std::size_t other_leaf) {
@@ -139,9 +137,10 @@ std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh,
         }
       });
     }
-  });
+  };
   Pairs all;
-  for (const Pairs& pairs : found) all.insert(all.end(), pairs.begin(), pairs.end());
+  for (const Pairs& pairs : parallel_parts(team, tree.leaf_count(), leaves_per_task, Pairs(), test_leaves))
+    all.insert(all.end(), pairs.begin(), pairs.end());
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "base/definite3.hpp"
+#include "base/linear_precision.hpp"
 #include "levels/balance.hpp"
 
 namespace vspring {
@@ -53,9 +53,7 @@ bool weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector
     square += (net.positions[link.node()] - net.positions[centre]).squaredNorm();
   }
   square *= blur / static_cast<double>(neighbours.size());
-  double sum = 0;
-  Vector3 mean = Vector3::Zero();
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  LinearPrecision linear;
   const Vector3& normal = net.normals[centre];
   const auto across = [&](std::size_t j) -> Vector3 {
     const Vector3 d = net.positions[j] - place;
@@ -64,17 +62,13 @@ bool weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector
   for (Neighbour& one : neighbours) {
     const Vector3 d = across(one.node);
     one.weight = 1 / (d.squaredNorm() + square + net.tiny);
-    sum += one.weight;
-    mean += one.weight * d;
-    spread += one.weight * d * d.transpose();
+    linear.add(one.weight, d);
   }
-  const double size = spread.trace();
-  if (!(size > 0)) {
-    for (Neighbour& one : neighbours) one.weight /= sum;
+  if (!(linear.size() > 0)) {
+    for (Neighbour& one : neighbours) one.weight /= linear.sum();
     return true;
   }
-  spread += size * normal * normal.transpose() + 1e-9 * size * Eigen::Matrix3d::Identity();
-  const Vector3 slope = solve_definite(spread, mean);
+  const Vector3 slope = linear.slope_across(normal);
   double total = 0;
   for (Neighbour& one : neighbours) {
     one.weight = std::max(0.0, one.weight * (1 - slope.dot(across(one.node))));

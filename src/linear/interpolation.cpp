@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "base/definite3.hpp"
+#include "base/linear_precision.hpp"
 
 namespace vspring {
 
@@ -25,22 +25,13 @@ struct Source {
 void find_shares(const Vector3& centre, std::span<const Vector3> positions, std::span<const Source> sources,
                  std::vector<double>& shares) {
   shares.clear();
-  double sum = 0;
-  Vector3 mean = Vector3::Zero();
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  LinearPrecision linear;
   for (const Source& source : sources) {
-    const Vector3 d = positions[source.node] - centre;
     const double weight = 1 / std::max(source.distance2, 1e-300);
     shares.push_back(weight);
-    sum += weight;
-    mean += weight * d;
-    spread += weight * d * d.transpose();
+    linear.add(weight, positions[source.node] - centre);
   }
-  // Across that plane there is little to be reproduced; a ridge_share keeps it from being tried.
-  spread += ridge_share * spread.trace() * Eigen::Matrix3d::Identity();
-  Vector3 slope = solve_definite(spread, mean);
-  const double left = 1 - mean.dot(slope) / sum;
-  if (left < least_share_left) slope *= (1 - least_share_left) / (1 - left);
+  const Vector3 slope = linear.leaving(least_share_left, linear.slope(ridge_share));
   double total = 0;
   for (std::size_t k = 0; k < sources.size(); ++k) {
     shares[k] *= 1 - slope.dot(positions[sources[k].node] - centre);

@@ -88,22 +88,20 @@ Value row_times(const GraphLaplacian& matrix, std::size_t i, const std::vector<V
 template <typename Value>
 Sum<Value> dot(ThreadTeam& team, const std::vector<Value>& a, const std::vector<Value>& b) {
   Sum<Value> nothing = wide<Value>(zero<Value>());
-  std::vector<Sum<Value>> parts((a.size() + rows_per_task - 1) / rows_per_task, nothing);
-  parallel_ranges(team, a.size(), rows_per_task, [&](std::size_t begin, std::size_t end) {
+  const auto add = [&](std::size_t begin, std::size_t end, Sum<Value>& part) {
     Sum<Value> sum = nothing;
     for (std::size_t i = begin; i < end; ++i) sum += wide<Value>(a[i]) * wide<Value>(b[i]);
-    parts[begin / rows_per_task] = sum;
-  });
+    part = sum;
+  };
   Sum<Value> total = nothing;
-  for (const Sum<Value>& part : parts) total += part;
+  for (const Sum<Value>& part : parallel_parts(team, a.size(), rows_per_task, nothing, add)) total += part;
   return total;
 }
 
 /// The greatest length of a value.
 template <typename Value>
 double greatest(ThreadTeam& team, const std::vector<Value>& values) {
-  std::vector<float> parts((values.size() + rows_per_task - 1) / rows_per_task, 0);
-  parallel_ranges(team, values.size(), rows_per_task, [&](std::size_t begin, std::size_t end) {
+  const auto find = [&](std::size_t begin, std::size_t end, float& part) {
     float square = 0;
     for (std::size_t i = begin; i < end; ++i) {
       if constexpr (std::is_same_v<Value, One>) {
@@ -112,8 +110,9 @@ double greatest(ThreadTeam& team, const std::vector<Value>& values) {
         square = std::max(square, values[i].square().sum());
       }
     }
-    parts[begin / rows_per_task] = square;
-  });
+    part = square;
+  };
+  const std::vector<float> parts = parallel_parts(team, values.size(), rows_per_task, 0.0F, find);
   return std::sqrt(*std::max_element(parts.begin(), parts.end()));
 }
 

@@ -33,16 +33,15 @@ class BasicSparseRows {
     BasicSparseRows matrix;
     matrix.columns_ = columns;
     matrix.begin_.assign(rows + 1, 0);
-    std::vector<Row> runs((rows + rows_per_task - 1) / rows_per_task);
-    parallel_ranges(team, rows, rows_per_task, [&](std::size_t begin, std::size_t end) {
+    const auto make = [&](std::size_t begin, std::size_t end, Row& run) {
       auto worker = make_worker();
-      Row& run = runs[begin / rows_per_task];
       for (std::size_t i = begin; i < end; ++i) {
         const std::size_t before = run.size();
         worker(i, run);
         matrix.begin_[i + 1] = static_cast<std::uint32_t>(run.size() - before);
       }
-    });
+    };
+    std::vector<Row> runs = parallel_parts(team, rows, rows_per_task, Row(), make);
     std::partial_sum(matrix.begin_.begin(), matrix.begin_.end(), matrix.begin_.begin());
     matrix.entries_ = std::unique_ptr<Entry[]>(new Entry[matrix.begin_.back()]);
     // Runs go one after the other as they are copied, so that there are never two of all.

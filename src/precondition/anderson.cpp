@@ -25,11 +25,9 @@ void Anderson<Scalar>::accelerate(std::vector<Vector3>& correction) {
   const std::size_t newest = next_;
 
   // The products of all columns with each other and with the correction; the newest column is made on the way.
-  const std::size_t tasks = (size_ + vectors_per_task - 1) / vectors_per_task;
-  std::vector<Eigen::MatrixXd> parts(tasks, Eigen::MatrixXd::Zero(columns, columns + 1));
   last_correction_.resize(size_);
-  parallel_ranges(*team_, size_, vectors_per_task, [&](std::size_t begin, std::size_t end) {
-    Eigen::MatrixXd& part = parts[begin / vectors_per_task];
+  const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(columns, columns + 1);
+  const auto multiply = [&](std::size_t begin, std::size_t end, Eigen::MatrixXd& part) {
     if (remembers) {
       for (std::size_t i = begin; i < end; ++i) {
         corrections_[newest][i] = (correction[i] - last_correction_[i].template cast<double>()).template cast<Scalar>();
@@ -48,10 +46,11 @@ void Anderson<Scalar>::accelerate(std::vector<Vector3>& correction) {
       for (Eigen::Index b = 0; b <= a; ++b) part(a, b) = with_a(corrections_[static_cast<std::size_t>(b)]);
       part(a, columns) = with_a(correction);
     }
-  });
+  };
+  const std::vector<Eigen::MatrixXd> parts = parallel_parts(*team_, size_, vectors_per_task, nothing, multiply);
   if (remembers) next_ = (next_ + 1) % depth_;
   if (columns > 0) {
-    Eigen::MatrixXd products = Eigen::MatrixXd::Zero(columns, columns + 1);
+    Eigen::MatrixXd products = nothing;
     for (const Eigen::MatrixXd& part : parts) products += part;
     const Eigen::MatrixXd gram = products.leftCols(columns).selfadjointView<Eigen::Lower>();
     const Eigen::VectorXd shares = damped_solution(gram, products.col(columns), 1e-12);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/definite3.hpp"
+#include "base/linear_precision.hpp"
 #include "linear/sparse_sum.hpp"
 
 namespace vspring {
@@ -32,9 +32,7 @@ double curvature_row(const Net& net, std::size_t i, const Wanted& wanted, Sparse
   const auto links = net.rings.links(i);
   const Vector3& normal = net.normals[i];
   row.clear();
-  double sum = 0;
-  Vector3 mean = Vector3::Zero();
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  LinearPrecision linear;
   const auto across = [&](std::size_t j) -> Vector3 {
     const Vector3 d = net.positions[j] - net.positions[i];
     return d - d.dot(normal) * normal;
@@ -43,19 +41,12 @@ double curvature_row(const Net& net, std::size_t i, const Wanted& wanted, Sparse
     if (!links[k].spoke() || !wanted(k)) continue;
     const std::size_t j = links[k].node();
     const double w = edge_weight(net, i, j);
-    const Vector3 u = across(j);
-    sum += w;
-    mean += w * u;
-    spread += w * u * u.transpose();
+    linear.add(w, across(j));
     row.push_back({static_cast<std::uint32_t>(j), w});
   }
-  const double size = spread.trace();
-  if (!(size > 0) || row.size() < 3) return sum;
-  spread += size * normal * normal.transpose() + 1e-9 * size * Eigen::Matrix3d::Identity();
-  Vector3 slope = solve_definite(spread, mean);
-  // Neighbours all to one side leave next to nothing.
-  const double left = 1 - mean.dot(slope) / sum;
-  if (left < least_left) slope *= (1 - least_left) / (1 - left);
+  const double sum = linear.sum();
+  if (!(linear.size() > 0) || row.size() < 3) return sum;
+  const Vector3 slope = linear.leaving(least_left, linear.slope_across(normal));
   double total = 0;
   for (auto& [j, value] : row) {
     value *= 1 - slope.dot(across(j));

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "base/disjoint_sets.hpp"
 #include "base/threads.hpp"
 #include "shape/box_tree.hpp"
 #include "shape/frame.hpp"
@@ -45,8 +46,7 @@ class PlaceGroups {
       }
       boxes_.back().extend(places[order_[k]]);
     }
-    parent_.resize(begin_.size());
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    groups_ = DisjointSets(begin_.size());
     begin_.push_back(order_.size());
   }
 
@@ -56,9 +56,8 @@ class PlaceGroups {
     const BoxTree tree(boxes_, team);
     std::vector<Box> wide = boxes_;  // of groups, at their roots
     const auto unite = [&](std::size_t a, std::size_t b) {
-      const auto [low, high] = std::minmax(a, b);
-      parent_[high] = low;
-      wide[low].extend(wide[high]);
+      const std::size_t low = groups_.join(a, b);
+      wide[low].extend(wide[low == a ? b : a]);
       if (wide[low].sizes().maxCoeff() > widest_group * reach_) too_wide_ = low;
     };
     for (std::size_t cell = 0; cell < boxes_.size() && too_wide_ == none; ++cell) {
@@ -66,8 +65,9 @@ class PlaceGroups {
       tree.for_each_overlapping_leaf(around, 0, [&](std::size_t leaf) {
         for (const Index item : tree.leaf_items(leaf)) {
           const auto other = static_cast<std::size_t>(item);
-          if (other <= cell || too_wide_ != none || root(other) == root(cell) || !touch(cell, other)) continue;
-          unite(root(cell), root(other));
+          if (other <= cell || too_wide_ != none || groups_.find(other) == groups_.find(cell) || !touch(cell, other))
+            continue;
+          unite(groups_.find(cell), groups_.find(other));
         }
       });
     }
@@ -78,7 +78,7 @@ class PlaceGroups {
   template <typename Use>
   void for_each(const Use& use) {
     for (std::size_t cell = 0; cell + 1 < begin_.size(); ++cell) {
-      for (std::size_t k = begin_[cell]; k < begin_[cell + 1]; ++k) use(order_[k], root(cell));
+      for (std::size_t k = begin_[cell]; k < begin_[cell + 1]; ++k) use(order_[k], groups_.find(cell));
     }
   }
 
@@ -102,11 +102,6 @@ class PlaceGroups {
  private:
   static constexpr auto none = static_cast<std::size_t>(-1);
 
-  std::size_t root(std::size_t cell) {
-    while (parent_[cell] != cell) cell = parent_[cell] = parent_[parent_[cell]];
-    return cell;
-  }
-
   [[nodiscard]] bool touch(std::size_t a, std::size_t b) const {
     for (std::size_t i = begin_[a]; i < begin_[a + 1]; ++i) {
       const Vector3& place = places_[order_[i]];
@@ -120,10 +115,10 @@ class PlaceGroups {
 
   const std::vector<Vector3>& places_;
   double reach_;
-  std::vector<std::size_t> order_;   // of the places, cell by cell
-  std::vector<std::size_t> begin_;   // of every cell in that, and at last the end
-  std::vector<Box> boxes_;           // around the places of a cell
-  std::vector<std::size_t> parent_;  // union-find over cells
+  std::vector<std::size_t> order_;  // of the places, cell by cell
+  std::vector<std::size_t> begin_;  // of every cell in that, and at last the end
+  std::vector<Box> boxes_;          // around the places of a cell
+  DisjointSets groups_{0};          // of cells
   std::size_t too_wide_ = none;
 };
 

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "base/definite3.hpp"
+#include "vspring/types.hpp"
+
+namespace vspring {
+
+/// Weights w (1 − g·d) of neighbours at offsets d that reproduce linear functions, nearest to weights w: their first
+/// moment Σ w (1 − g·d) d vanishes (moving least squares of first order; P. Lancaster, K. Salkauskas, Math. Comp. 37,
+/// 1981).
+class LinearPrecision {
+ public:
+  void add(double weight, const Vector3& offset) {
+    sum_ += weight;
+    mean_ += weight * offset;
+    spread_ += weight * offset * offset.transpose();
+  }
+
+  /// Of the weights before.
+  [[nodiscard]] double sum() const { return sum_; }
+  /// 0 where all offsets are.
+  [[nodiscard]] double size() const { return spread_.trace(); }
+
+  /// g, for offsets in the plane across a unit normal.
+  [[nodiscard]] Vector3 slope_across(const Vector3& normal) const {
+    Eigen::Matrix3d spread = spread_;
+    spread += size() * normal * normal.transpose() + 1e-9 * size() * Eigen::Matrix3d::Identity();
+    return solve_definite(spread, mean_);
+  }
+
+  /// g, for offsets that lie about in a plane, which need not be known: across it, where there is little to be
+  /// reproduced, a ridge, as a share of the size, keeps that from being tried.
+  [[nodiscard]] Vector3 slope(double ridge) const {
+    Eigen::Matrix3d spread = spread_;
+    spread += ridge * size() * Eigen::Matrix3d::Identity();
+    return solve_definite(spread, mean_);
+  }
+
+  /// g shortened so that at least this share of the sum of weights is left: of neighbours all to one side next to
+  /// nothing is.
+  [[nodiscard]] Vector3 leaving(double least_share, Vector3 slope) const {
+    const double left = 1 - mean_.dot(slope) / sum_;
+    if (left < least_share) slope *= (1 - least_share) / (1 - left);
+    return slope;
+  }
+
+ private:
+  double sum_ = 0;
+  Vector3 mean_ = Vector3::Zero();
+  Eigen::Matrix3d spread_ = Eigen::Matrix3d::Zero();
+};
+
+}  // namespace vspring

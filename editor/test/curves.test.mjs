@@ -4,13 +4,13 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { compiled } from './support.mjs';
 
-const { shapeOf } = await compiled('shape');
-const { withParts, grown } = await compiled('neighbours');
-const { planeOf } = await compiled('curve_plane');
-const { combOf, toothOf } = await compiled('comb');
+const { shapeOf } = await compiled('shape/shape');
+const { withParts, grown } = await compiled('shape/neighbours');
+const { planeOf } = await compiled('shape/curve_plane');
+const { combOf, toothOf } = await compiled('view/comb');
 const { Pull } = await compiled('pull/pull');
-const { tiltedWithin } = await compiled('turning');
-const { heldNodes, toFile, edited, initial } = await compiled('constraints');
+const { tiltedWithin } = await compiled('base/turning');
+const { heldNodes, toFile, edited, initial } = await compiled('constraints/constraints');
 
 // An open chain of three nodes and a closed one of four, in one file.
 const positions = Float64Array.of(0, 0, 0, 1, 0, 0, 2, 1, 0, 5, 0, 0, 6, 0, 0, 6, 1, 0, 5, 1, 0);

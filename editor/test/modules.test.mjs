@@ -4,15 +4,15 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { compiled } from './support.mjs';
 
-const constraints = await compiled('constraints');
-const history = await compiled('history');
-const { merged, Solver } = await compiled('client');
-const { pick } = await compiled('picking');
-const { verticesOf, setNormals, partOf } = await compiled('vertices');
-const { shapeOf, placesOf } = await compiled('shape');
-const { withLoops } = await compiled('loops');
+const constraints = await compiled('constraints/constraints');
+const history = await compiled('edit/history');
+const { merged, Solver } = await compiled('library/client');
+const { pick } = await compiled('pick/picking');
+const { verticesOf, setNormals, partOf } = await compiled('shape/vertices');
+const { shapeOf, placesOf } = await compiled('shape/shape');
+const { withLoops } = await compiled('shape/loops');
 const { Pull } = await compiled('pull/pull');
-const { FrameCounter } = await compiled('frames');
+const { FrameCounter } = await compiled('edit/frames');
 
 test('constraints come out of the file that they are written to', () => {
   const { initial, edited, placed, toFile, fromFile, heldNodes, withBoundary } = constraints;
@@ -233,7 +233,7 @@ function grid(side) {
 }
 
 test('a picture of a drag has fewer triangles, even ones though the surface is flat, the same boundary and the same normals', async () => {
-  const { loadSimplifier, simplified } = await compiled('simplify');
+  const { loadSimplifier, simplified } = await compiled('view/simplify');
   const shape = grid(60);
   const places = placesOf(shape, shape.input);
   const vertices = verticesOf(shape.faces, places, shape.edges);

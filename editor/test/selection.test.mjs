@@ -4,12 +4,12 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { compiled } from './support.mjs';
 
-const { inBox, inLoop, Squares } = await compiled('within');
-const { visibleNodes } = await compiled('visible');
-const { grown, rim, shrunk, withParts, all, inverted } = await compiled('neighbours');
-const { restricted } = await compiled('region');
-const { shapeOf } = await compiled('shape');
-const { initial, edited, toFile } = await compiled('constraints');
+const { inBox, inLoop, Squares } = await compiled('pick/within');
+const { visibleNodes } = await compiled('pick/visible');
+const { grown, rim, shrunk, withParts, all, inverted } = await compiled('shape/neighbours');
+const { restricted } = await compiled('constraints/region');
+const { shapeOf } = await compiled('shape/shape');
+const { initial, edited, toFile } = await compiled('constraints/constraints');
 
 // Nodes at whole pixels, 10 across and 10 down, in rows.
 const screen = Float32Array.from({ length: 300 }, (_, k) => [Math.floor(k / 3) % 10, Math.floor(k / 30), 0][k % 3]);

@@ -1,12 +1,12 @@
 // How the shape is shown: shaded, by lines or colours, with edges over it, and beside its input.
 
-import type { Command } from '../commands';
-import type { Editor } from '../editor';
-import { fieldNames, type Fields } from '../fields';
+import type { Command } from '../base/commands';
+import type { Shape } from '../shape/shape';
+import type { Editor } from '../edit/editor';
+import { fieldNames, type Fields } from '../view/fields';
+import { looks, type Look } from '../view/materials';
+import type { View } from '../view/view';
 import type { Marks } from './marks';
-import { looks, type Look } from '../materials';
-import type { Shape } from '../shape';
-import type { View } from '../view';
 
 const titles: Record<Look, string> = { shaded: 'Shaded', wire: 'Wire', zebra: 'Zebra', mean: 'Mean curvature', gaussian: 'Gaussian curvature', deviation: 'Deviation from the input' };
 

@@ -24,6 +24,7 @@ import { Tilts } from './pick/tilts';
 import { Tools } from './pick/tools';
 import { Ways } from './pick/ways';
 import { Drawing } from './draw/drawing';
+import { Nodes } from './draw/nodes';
 import { Looks } from './look/looks';
 import { Marks } from './look/marks';
 import { Dropped } from './start/dropped';
@@ -64,6 +65,11 @@ const editor: Editor = new Editor({
     view.open(shape, stays);
     looks.opened(shape);
     fields.open(shape);
+  },
+  renumbered: (shape) => {
+    marks.clear();
+    curves.open(shape);
+    view.open(shape, true);
   },
   shape: (positions, settled) => {
     view.show(positions, settled);
@@ -117,6 +123,7 @@ const gestures = new Gestures(canvas, {
   cancelled: () => { ways.end(); editor.drags.end(false); },
 });
 const view = newView();
+const nodes = new Nodes(canvas, editor, () => view.seen(), () => tools.tool === 'pick');
 
 function newView(): View {
   try {
@@ -146,6 +153,7 @@ const commands: Command[] = [
   ...start.commands,
   ...points.commands,
   ...drawing.commands,
+  ...nodes.commands,
   { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => opening.undo(), enabled: () => opening.undoes !== null,
     detail: () => opening.undoes ?? undefined },
   { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => opening.redo(), enabled: () => opening.redoes !== null,

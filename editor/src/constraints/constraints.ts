@@ -1,7 +1,7 @@
 // What holds the surface, as plain data: the rules of a constraints file, then what was done by hand, node by node.
 
 import type { Vector } from '../base/vectors';
-import { parts, type Part } from '../library/protocol';
+import { parts, type CurveNodes, type Part } from '../library/protocol';
 import type { Fit } from './points';
 
 export type Hold<Given> = 'fixed' | 'free' | Given;
@@ -32,6 +32,8 @@ export interface Constraints {
   readonly loopNodes?: readonly number[];
   /** In no file either: points that the shape is drawn towards. */
   readonly fit?: Fit;
+  /** In no file either: the nodes of a curve, which all else here numbers, where some were inserted or deleted. */
+  readonly curve?: CurveNodes;
 }
 
 export const initial: Constraints = { rules: [{ nodes: 'boundary', position: 'fixed' }], edits: {} };
@@ -113,6 +115,24 @@ export function withFairBoundary(constraints: Constraints, fairBoundary: boolean
   }
   for (const node of held) edits[node] = { ...edits[node], position: 'fixed' };
   return { ...withBoundary({ ...constraints, edits }, 'position', !fairBoundary), fairBoundary, loopNodes: held };
+}
+
+/** What holds, by other numbers of nodes. now: by the old ones; -1: the node is gone, and what held it. */
+export function renumbered(constraints: Constraints, now: Int32Array): Constraints {
+  const rules = (all: readonly Rule[]): Rule[] => all.flatMap((rule) => renumberedRule(rule, now) ?? []);
+  const edits = Object.entries(constraints.edits).map(([node, edit]) => [now[Number(node)], edit] as const).filter(([node]) => node >= 0);
+  // What leaves a file as it is goes by no numbers.
+  const region = isUntouched(constraints) ? constraints.region : constraints.region && rules(constraints.region);
+  return { ...constraints, rules: rules(constraints.rules), region, edits: Object.fromEntries(edits) };
+}
+
+function renumberedRule(rule: Rule, now: Int32Array): Rule | null {
+  if (!Array.isArray(rule.nodes)) return rule;
+  const nodes = rule.nodes as number[];
+  const left = nodes.flatMap((node, k) => (now[node] >= 0 ? [k] : []));
+  if (left.length === 0) return null;
+  const parted = parts.filter((part) => Array.isArray(rule[part]) && Array.isArray((rule[part] as unknown[])[0]));
+  return { ...rule, nodes: left.map((k) => now[nodes[k]]), ...Object.fromEntries(parted.map((part) => [part, left.map((k) => (rule[part] as unknown[])[k])])) };
 }
 
 export const heldPosition = 1;

@@ -2,7 +2,8 @@
 
 import type { Vector } from '../base/vectors';
 import type { Region } from '../library/protocol';
-import { ownRules, type Constraints, type Rule } from './constraints';
+import { isUntouched, ownRules, type Constraints, type Rule } from './constraints';
+import type { Renumbered } from './nodes';
 
 /** In place of what another region held: what that one has moved stays as it is seen. input, seen: positions. */
 export function restricted(constraints: Constraints, nodes: Iterable<number>, { fixed, rim, normals, tangents }: Region, input: Float64Array, seen: Float64Array): Constraints {
@@ -20,6 +21,14 @@ export function restricted(constraints: Constraints, nodes: Iterable<number>, { 
     if (directions?.length) region.push({ nodes: [...rim], [part]: Array.from(rim, (_, k) => [...directions.subarray(3 * k, 3 * k + 3)]) });
   }
   return { ...constraints, rules: ownRules(constraints), region, edits: {} };
+}
+
+/** A new node between two that a region keeps is kept too, where it is seen. */
+export function keepingAdded(constraints: Constraints, { added }: Renumbered, seen: Float64Array): Constraints {
+  const { region } = constraints;
+  if (!region || isUntouched(constraints)) return constraints;
+  const kept = added.filter(({ between }) => between.every((node) => keepsSome(region, [node]))).map(({ node }) => node);
+  return kept.length > 0 ? { ...constraints, region: [...region, { nodes: kept, position: kept.map((node) => [...seen.subarray(3 * node, 3 * node + 3)]) }] } : constraints;
 }
 
 /** Whether the rules of a region keep one of those nodes where it is. */

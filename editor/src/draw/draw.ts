@@ -59,8 +59,11 @@ export class DrawTool {
     this.show(null);
   }
 
-  private click({ offsetX: x, offsetY: y, detail }: MouseEvent): void {
-    if (!this.nodes || Math.hypot(x - this.down[0], y - this.down[1]) > clickReach) return;
+  private click(event: MouseEvent): void {
+    const { offsetX: x, offsetY: y, detail } = event;
+    if (!this.nodes) return;
+    event.stopImmediatePropagation();
+    if (Math.hypot(x - this.down[0], y - this.down[1]) > clickReach) return;
     if (detail > 1) return this.end(false);
     if (this.closes(x, y)) return this.end(true);
     const place = this.events.placeAt(x, y);

@@ -5,14 +5,15 @@ import type { Loading } from '../base/loading';
 import type { Vector } from '../base/vectors';
 import { counted } from '../base/words';
 import { CoreClient, Solver } from '../library/client';
-import type { Ask, Job, Opened, Part, Report, Solved } from '../library/protocol';
+import type { Ask, CurveNodes, Job, Opened, Part, Report, Solved } from '../library/protocol';
 import { between, furthest } from '../shape/between';
 import { heldOn, loopsOf } from '../shape/loops';
 import { normalNear, nothing, shapeOf, type Shape } from '../shape/shape';
 import type { Constraints, Edit, Held } from '../constraints/constraints';
 import * as holding from '../constraints/constraints';
+import { nodesOf, type Renumbered } from '../constraints/nodes';
 import type { Cloud, PointSource } from '../constraints/points';
-import { keepsSome, restricted } from '../constraints/region';
+import { keepingAdded, keepsSome, restricted } from '../constraints/region';
 import { Drags } from '../pull/drags';
 import { near, within } from '../pull/reach';
 import { FrameCounter } from './frames';
@@ -21,6 +22,8 @@ import { begun, done, type History } from './history';
 export interface EditorEvents {
   /** stays: where it is seen. */
   opened: (shape: Shape, stays: boolean) => void;
+  /** What is open has other nodes. */
+  renumbered: (shape: Shape) => void;
   /** Another shape is to be seen; settled: it is not one of many during a drag. */
   shape: (positions: Float64Array, settled: boolean) => void;
   /** Anything else that is shown has changed. */
@@ -341,9 +344,48 @@ export class Editor {
   }
 
   travel(history: History<Constraints>): void {
+    const other = history.now.state.curve !== this.history.now.state.curve;
     this.history = history;
     this.tried = null;
-    this.settle();
+    if (other) void this.takeNodes();
+    else this.settle();
+  }
+
+  /** Nodes of the curve as it is open. */
+  get nodes(): CurveNodes {
+    return nodesOf(this.shape!, this.history.now.state.curve);
+  }
+
+  /** The curve has other nodes, as a step; what holds by their numbers follows. picked: some of the new ones. */
+  renumber(label: string, changed: Renumbered, picked: readonly number[]): void {
+    this.try(null);
+    const { history, positions, seen } = this;
+    const held = { ...holding.renumbered(history.now.state, changed.now), curve: changed.curve };
+    this.history = done(history, label, keepingAdded(held, changed, changed.carried(seen)));
+    void this.takeNodes(changed.carried(positions), picked);
+  }
+
+  /** The nodes that now hold, in place of those that are open. positions: where they are until it is solved. */
+  private async takeNodes(positions?: Float64Array, picked: readonly number[] = []): Promise<void> {
+    const { source, history } = this;
+    const { curve } = history.now.state;
+    this.solver.clear();
+    this.drags.drop();
+    this.set({ picked: new Set(), hovered: -1, atArrow: false });
+    try {
+      const opened = await this.client.ask('nodes', curve ?? null);
+      // Something else may have been done meanwhile.
+      if (source !== this.source || curve !== this.history.now.state.curve) return;
+      this.shape = shapeOf(opened);
+      this.positions = positions ?? opened.positions;
+      this.normals = new Map();
+      this.events.renumbered(this.shape);
+      this.settle();
+      this.set({ picked: new Set(picked) });
+      this.show({ showsInput: false }, true);
+    } catch (error) {
+      this.setFault((error as Error).message, 'file');
+    }
   }
 
   settle(): void {

@@ -5,6 +5,7 @@ import { painted } from '../base/loading';
 import type { Vector } from '../base/vectors';
 import { counted } from '../base/words';
 import type { Constraints, Edit } from '../constraints/constraints';
+import type { Opened } from '../library/protocol';
 import * as holding from '../constraints/constraints';
 import type { Fit } from '../constraints/points';
 import { Documents, type Document } from './documents';
@@ -72,12 +73,14 @@ export class Opening {
   /** As it was when the page, or it for something else, was left. */
   async restore({ source, history, strength }: Document): Promise<void> {
     this.editor.halt();
-    const file = 'bytes' in source;
-    const opened = file ? await this.editor.client.ask('open', { ...source, rules: holding.toFile(history.now.state) }) : await this.editor.client.ask('draw', source);
+    const { client } = this.editor;
+    const { state } = history.now;
+    let opened: Opened = 'bytes' in source ? await client.ask('open', { ...source, rules: holding.toFile(state.curve ? holding.initial : state) }) : await client.ask('draw', source);
+    if (state.curve) opened = await client.ask('nodes', state.curve);
     const clouds = new Set([...history.past, history.now, ...history.future].flatMap(({ state }) => state.fit?.cloud ?? []));
     for (const cloud of clouds) {
       const { number, name, bytes } = cloud;
-      await this.editor.client.ask('points', { number, name, bytes });
+      await client.ask('points', { number, name, bytes });
       this.editor.clouds = Math.max(this.editor.clouds, cloud.number);
     }
     this.editor.take(source, opened, history);
@@ -120,7 +123,7 @@ export class Opening {
     if (!this.editor.shape) throw new Error('Open a shape first: constraints name its nodes');
     const constraints = holding.fromFile(text);
     await this.editor.client.ask('hold', { rules: holding.toFile(constraints) });
-    this.editor.apply('Load constraints', { ...constraints, region: null, fit: this.editor.constraints.fit });
+    this.editor.apply('Load constraints', { ...constraints, region: null, fit: this.editor.constraints.fit, curve: this.editor.constraints.curve });
   }
 
   /** What undo takes back, in words; null where there is nothing. */

@@ -21,7 +21,7 @@ export class CoreClient {
   private readonly ended = self.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(8)) : null;
   private last = 0;
 
-  /** What opened the shape and read its points, and what held it last: all that another worker has to know. */
+  /** What opened the shape, changed its nodes and read its points, and what held it last: all that another worker has to know. */
   private sources: Request[] = [];
   private holds: Job = {};
   private anew = false;
@@ -96,7 +96,7 @@ export class CoreClient {
 
   private keep(request: Request): void {
     if (request.kind === 'open' || request.kind === 'draw') this.sources = [request];
-    else if (request.kind === 'points') this.sources.push(request);
+    else if (request.kind === 'points' || request.kind === 'nodes') this.sources.push(request);
   }
 
   private receive(reply: Reply): void {

@@ -43,6 +43,7 @@ export interface CoreCurve extends CoreShape {
   holdTangent(node: number, x: number, y: number, z: number): void;
   heldTangents(): { nodes: Int32Array; tangents: Float64Array };
   resample(nodes: number): Int32Array;
+  setNodes(positions: Float64Array, chainBegin: Int32Array, chainNodes: Int32Array, closed: Uint8Array, from: Int32Array): void;
 }
 
 export interface Core {

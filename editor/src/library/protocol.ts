@@ -28,6 +28,15 @@ export interface OpenedCurve extends OpenedShape {
 
 export type Opened = OpenedSurface | OpenedCurve;
 
+/** Nodes and chains of a curve where some were inserted or deleted. from: the number that each had when it was opened; -1: none. */
+export interface CurveNodes {
+  positions: Float64Array;
+  chainBegin: Int32Array;
+  chainNodes: Int32Array;
+  closed: Uint8Array;
+  from: Int32Array;
+}
+
 export interface Report {
   outcome: string;
   iterations: number;
@@ -111,6 +120,8 @@ export interface Requests {
   open: { ask: { name: string; bytes: Uint8Array; rules: string }; answer: Opened };
   /** Opens the curve through places, three numbers each, that are held there, with so many nodes in all. from: for every node the place that it is at, or -1. */
   draw: { ask: { places: Float64Array; closed: boolean; nodes: number }; answer: OpenedCurve & { from: Int32Array } };
+  /** Gives the curve that was opened other nodes; null: its own. Nothing holds it then, and points stay. */
+  nodes: { ask: CurveNodes | null; answer: OpenedCurve };
   /** Throws, and leaves what held, where the rules are refused. */
   hold: { ask: { rules: string }; answer: null };
   /** Reads scattered points, which the jobs name by that number; without bytes they are the nodes of the input. Another shape has none. */

@@ -8,6 +8,8 @@ declare function postMessage(reply: Reply, transfer?: Transferable[]): void;
 
 let core: Core;
 let shape: CoreSurface | CoreCurve | null = null;
+/** Makes the curve that is open once more, as it was opened. */
+let anew: (() => CoreCurve) | null = null;
 let ended: Int32Array | null = null;
 const fits = new Fits();
 let input: Float64Array = new Float64Array();
@@ -25,9 +27,19 @@ function opened(): CoreSurface | CoreCurve {
 
 function take(next: CoreSurface | CoreCurve): void {
   shape?.delete();
-  fits.clear();
   shape = next;
   input = next.positions();
+}
+
+function drawn({ places, closed, nodes }: Ask<'draw'>): { curve: CoreCurve; from: Int32Array } {
+  const curve = core.Curve.through(places, closed);
+  try {
+    curve.setRules('{"rules": [{"nodes": "all", "position": "fixed"}]}');
+    return { curve, from: curve.resample(nodes) };
+  } catch (error) {
+    curve.delete();
+    throw error;
+  }
 }
 
 function hold(target: CoreSurface | CoreCurve, { rules, fairBoundary, fit }: Job): void {
@@ -60,20 +72,24 @@ const handlers: Handlers = {
       next.delete();
       throw error;
     }
+    fits.clear();
     take(next);
+    anew = 'faceBegin' in next ? null : () => openShape(core, name, bytes) as CoreCurve;
     return describe(next);
   },
-  draw({ places, closed, nodes }) {
-    const curve = core.Curve.through(places, closed);
-    try {
-      curve.setRules('{"rules": [{"nodes": "all", "position": "fixed"}]}');
-      const from = curve.resample(nodes);
-      take(curve);
-      return { ...describeCurve(curve), from };
-    } catch (error) {
-      curve.delete();
-      throw error;
-    }
+  draw(ask) {
+    const { curve, from } = drawn(ask);
+    fits.clear();
+    take(curve);
+    anew = () => drawn(ask).curve;
+    return { ...describeCurve(curve), from };
+  },
+  nodes(ask) {
+    if (!anew) throw new Error('Only curves get other nodes');
+    const next = anew();
+    if (ask) next.setNodes(ask.positions, ask.chainBegin, ask.chainNodes, ask.closed, ask.from);
+    take(next);
+    return describeCurve(next);
   },
   hold({ rules }) {
     opened().setRules(rules);

@@ -2,14 +2,14 @@
 
 import type { Command } from '../base/commands';
 import { nameOf } from '../base/files';
-import type { Shape } from '../shape/shape';
 import type { Constraints } from '../constraints/constraints';
-import type { Editor } from '../edit/editor';
+import type { Editor, Source } from '../edit/editor';
 
 export class ServedFile {
   private readonly name: string;
   private readonly button = Object.assign(document.createElement('button'), { type: 'button' });
-  private shape: Shape | null = null;
+  /** What it was opened from; the shape may get other nodes. */
+  private source: Source | null = null;
   private saved: { constraints: Constraints; strength: number } | null = null;
 
   /** Null where nothing may be saved. before: what the button comes before. */
@@ -35,14 +35,14 @@ export class ServedFile {
   /** What that address has is open. */
   opened(address: string): void {
     if (address !== this.file) return;
-    this.shape = this.editor.shape;
+    this.source = this.editor.source;
     this.saved = null;
     this.editor.set({});
   }
 
   /** Whether there is something to save. Another surface, opened since, does not go into the file. */
   private tell(): boolean {
-    const open = this.shape !== null && this.shape === this.editor.shape;
+    const open = this.source !== null && this.source === this.editor.source;
     const { constraints, strength } = this.editor;
     const saved = open && this.saved?.constraints === constraints && this.saved.strength === strength;
     const text = `${saved ? 'Saved' : 'Save'} to ${this.name}`;

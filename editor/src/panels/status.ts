@@ -29,7 +29,7 @@ function ofSolution({ report, dragging, busy, showsInput, shape, moved, constrai
   if (!shape) return 'Open a mesh or a curve, or drop one here';
   if (showsInput) return 'The input';
   if (busy && !dragging) return 'Solving …';
-  if (isUntouched(constraints) && moved === 0) return 'As it is in the file';
+  if (isUntouched(constraints) && moved === 0) return `As it is in the file${constraints.curve ? ', with other nodes' : ''}`;
   if (!report) return '';
   const what = dragging ? 'Following' : (words[report.outcome] ?? 'Not settled');
   if (report.movingNodes === 0 && moved === 0 && report.outcome === 'converged') return 'Nothing moves: all of it is held';

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { find, open, page, picture, settled, useSession } from './support.mjs';
+import { drop, find, open, page, picture, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -89,4 +89,52 @@ test('input and result are compared left and right of a line, which is moved', a
   assert.ok((await part()) === input, 'all of the input');
   await slider.fill('0');
   assert.ok((await part()) === result, 'all of the result');
+});
+
+// How often a row and a column through the middle of the picture change between dark and light.
+async function changes() {
+  return page.evaluate(async (picture) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${picture}`;
+    await image.decode();
+    const context = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height }).getContext('2d');
+    context.drawImage(image, 0, 0);
+    const { width, height } = image;
+    const half = Math.round(0.2 * height);  // of the line that is looked at: within the square
+    return [[width / 2 - 144 - half, height / 2, 2 * half, 1], [width / 2 - 144, height / 2 - half, 1, 2 * half]].map(([x, y, across, down]) => {
+      const { data } = context.getImageData(x, y, across, down);
+      const bright = Array.from({ length: across * down }, (_, k) => data[4 * k] > 128);
+      return bright.filter((now, k) => k > 0 && now !== bright[k - 1]).length;
+    });
+  }, await seen());
+}
+
+test('reflection lines are as many as a slider says, and turned', async () => {
+  await open();
+  await drop(page, 'square.obj', 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n');
+  await page.locator('#name', { hasText: 'square.obj' }).waitFor();
+  await page.getByRole('button', { name: 'View from the top' }).click();
+  const lines = page.getByRole('slider', { name: 'Lines' });
+  assert.ok(await lines.isHidden());
+  await page.keyboard.press('3');
+  const [usual, down] = await changes();
+  assert.ok(usual > 1 && down === 0, `upright: ${usual} across, ${down} down`);
+  await lines.fill('48');
+  const [many] = await changes();
+  assert.ok(many > 2 * usual, `${usual}, then ${many}`);
+  await page.getByRole('slider', { name: 'Turned' }).fill('90');
+  const turned = await changes();
+  assert.ok(turned[0] === 0 && turned[1] > 2 * usual, `level: ${turned}`);
+  await page.getByLabel('Example').selectOption({ label: 'Noisy wave' });
+  await page.locator('#size', { hasText: 'curve' }).waitFor();
+  assert.ok(await lines.isHidden());
+});
+
+test('that edge springs took over is in the tip of the status, not among the warnings', async () => {
+  await open();
+  await page.getByLabel('Example').selectOption({ label: 'Pipe blend' });
+  await page.locator('#name', { hasText: 'pipe-blend' }).waitFor();
+  await settled(page);
+  await page.locator('#status[title$="sphere springs have no equilibrium here: these are edge springs"]').waitFor();
+  assert.ok(await page.locator('#warnings').isHidden());
 });

@@ -135,7 +135,7 @@ function newView(): View {
 }
 
 const marks = new Marks(editor, view);
-const looks: Looks = new Looks(editor, view, fields, marks, document.getElementById('wipe')!, () => refresh());
+const looks: Looks = new Looks(editor, view, fields, marks, document.getElementById('wipe')!, document.getElementById('lamps')!, () => refresh());
 const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('comb-clip') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
 const served = ServedFile.of(location.href, editor, format.parentElement!);
 

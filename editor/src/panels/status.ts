@@ -2,7 +2,7 @@
 
 import { short } from '../../../page/numbers.js';
 import { withUnit } from '../base/units';
-import { counted, inEditorWords } from '../base/words';
+import { counted, inEditorWords, isNote } from '../base/words';
 import type { Shape } from '../shape/shape';
 import { heldNormal, heldPosition, heldTangent, isUntouched } from '../constraints/constraints';
 import type { Editor } from '../edit/editor';
@@ -43,11 +43,11 @@ function share(part: number): string {
 /** What somebody may want to know who looks after it. */
 function detailsOf({ report, dragging, drags, frames, showsInput }: Editor): string {
   if (!report || showsInput) return '';
-  const { outcome, iterations, expectedError, seconds, threads } = report;
+  const { outcome, iterations, expectedError, seconds, threads, warnings } = report;
   const error = expectedError === null || !Number.isFinite(expectedError) ? '' : ` · expected error ${short(Number((100 * expectedError).toPrecision(2)))} %`;
   const [solved, all] = frames.perSecond(performance.now()).map(Math.round);
   const rate = !dragging ? '' : drags.slow ? ` · ${all} frames/s, ${solved} solved` : ` · ${solved} frames/s`;
-  return `${outcome} · ${counted(iterations, 'iteration')}${error} · ${Math.round(1000 * seconds)} ms${threads > 1 ? ` on ${threads} threads` : ''}${rate}`;
+  return `${outcome} · ${counted(iterations, 'iteration')}${error} · ${Math.round(1000 * seconds)} ms${threads > 1 ? ` on ${threads} threads` : ''}${rate}${warnings.filter(isNote).map((note) => ` · ${note}`).join('')}`;
 }
 
 function ofNode({ atArrow, hovered, held, normals, shape }: Editor, field: Field | null): string {
@@ -92,7 +92,7 @@ export function describe(editor: Editor, field: Field | null): void {
   if (part('fault').firstElementChild!.textContent !== message) part('fault').firstElementChild!.textContent = message;
   part('progress').hidden = !canEnd;
   part('progress').querySelector('progress')!.value = fraction;
-  const warnings = [...fileWarnings, ...(report?.warnings ?? [])].map(inEditorWords);
+  const warnings = [...fileWarnings, ...(report?.warnings ?? []).filter((warning) => !isNote(warning))].map(inEditorWords);
   part('warnings').hidden = warnings.length === 0;
   part('warnings').querySelector('ul')!.replaceChildren(...warnings.map((textContent) =>
     Object.assign(document.createElement('li'), { textContent })));

@@ -1,7 +1,7 @@
 // What the graphics card does: surfaces as in the page of --html, markers as discs.
 
 import { Color, DoubleSide, GLSL3, ShaderMaterial, Vector2, Vector3 } from 'three';
-import { fragmentShader } from '../../../page/shaders.js';
+import { fragmentShader, usualLamps } from '../../../page/shaders.js';
 import { fieldNames } from './fields';
 
 const vertexShader = `
@@ -25,6 +25,12 @@ export function kindOf(look: Look): number {
   return Math.min(3, looks.indexOf(look));
 }
 
+/** Reflection lines: how many lamps are around the surface, and by how much they are turned in the view, in radians; upright at 0. */
+export interface Lamps {
+  count: number;
+  turn: number;
+}
+
 export function surfaceMaterial(): ShaderMaterial {
   return new ShaderMaterial({
     glslVersion: GLSL3,
@@ -33,6 +39,8 @@ export function surfaceMaterial(): ShaderMaterial {
     fragmentShader: fragmentShader.replace(/^#version.*/, ''),
     uniforms: {
       kind: { value: 1 }, colour: { value: new Color() }, range: { value: new Vector2(0, 1) }, stops: { value: Array.from({ length: 9 }, () => new Vector3()) },
+      // As far away as the shape is large.
+      nearness: { value: 1 }, lamps: { value: usualLamps }, across: { value: new Vector2(1, 0) },
     },
     side: DoubleSide,
     // Lines on the surface are drawn before it.

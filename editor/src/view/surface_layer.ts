@@ -4,7 +4,7 @@ import { BufferAttribute, BufferGeometry, Group, LineBasicMaterial, LineSegments
 import type { Shape } from '../shape/shape';
 import { partOf, setNormals, verticesOf, type Part, type Vertices } from '../shape/vertices';
 import type { Field } from './fields';
-import { kindOf, surfaceMaterial, type Look } from './materials';
+import { kindOf, surfaceMaterial, type Lamps, type Look } from './materials';
 import { loadSimplifier, simplified } from './simplify';
 
 /** Triangles that are drawn in a picture's time without a graphics card. */
@@ -62,6 +62,12 @@ export class SurfaceLayer {
 
   setLook(look: Look): void {
     this.look = look;
+  }
+
+  setLamps({ count, turn }: Lamps): void {
+    const { lamps, across } = this.surface.material.uniforms;
+    lamps.value = count;
+    across.value.set(Math.cos(turn), Math.sin(turn));
   }
 
   restyle(colour: (name: string) => Color): void {

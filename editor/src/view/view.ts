@@ -13,7 +13,7 @@ import { Dots } from './dots';
 import type { Field } from './fields';
 import { gridOfUnits } from './grid';
 import { Markers } from './markers';
-import type { Look } from './materials';
+import type { Lamps, Look } from './materials';
 import { pixelOf, placeAt, towards } from './projection';
 import type { Seen } from './seen';
 import { drawsInSoftware } from './software';
@@ -116,6 +116,12 @@ export class View {
     this.look = look;
     this.surface.setLook(look);
     this.restyle();
+  }
+
+  setLamps(lamps: Lamps): void {
+    this.surface.setLamps(lamps);
+    this.wipe.setLamps(lamps);
+    this.draw();
   }
 
   /** The input left of a line at that share of the view; null: no line. */

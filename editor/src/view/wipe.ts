@@ -2,7 +2,7 @@
 
 import type { Color, Object3D } from 'three';
 import { placesOf, type Shape } from '../shape/shape';
-import type { Look } from './materials';
+import type { Lamps, Look } from './materials';
 import { SurfaceLayer } from './surface_layer';
 
 export class Wipe {
@@ -28,6 +28,10 @@ export class Wipe {
     this.shape = shape;
     this.layer.open(shape!);
     this.layer.show(shape!, placesOf(shape!, shape!.input), true);
+  }
+
+  setLamps(lamps: Lamps): void {
+    this.layer.setLamps(lamps);
   }
 
   /** Colours are those of the result, so the input is shaded beside them. */

@@ -6,19 +6,27 @@ import type { Editor } from '../edit/editor';
 import type { Opening } from '../edit/opening';
 import type { View } from '../view/view';
 import { DrawTool } from './draw';
+import { Preview } from './preview';
 
 export class Drawing {
   private normal: Vector = [0, 0, 1];
   private readonly hint = document.getElementById('hint')!;
   private readonly perSpan = document.getElementById('per-span') as HTMLInputElement;
   private readonly tool: DrawTool;
+  private sketched: readonly Vector[] = [];
+  private readonly preview: Preview;
 
   /** To be made before all else that listens to the canvas. refresh: brings the buttons up to date. */
   constructor(canvas: HTMLCanvasElement, private readonly editor: Editor, private readonly opening: Opening, private readonly view: () => View, private readonly refresh: () => void) {
+    this.preview = new Preview((curve) => editor.client.ask('sketch', curve), (curve) => view().showSketch(this.sketched, curve));
     this.tool = new DrawTool(canvas, {
       placeAt: (x, y) => view().placeAt(x, y, this.normal),
       pixelOf: (place) => view().pixelOf(place),
-      changed: (nodes, next) => view().showSketch(next ? [...nodes, next] : nodes),
+      changed: (nodes, next) => {
+        const closes = next !== null && next === nodes[0];
+        this.sketched = next && !closes ? [...nodes, next] : [...nodes];
+        this.preview.through(this.sketched, closes, this.nodesPerSpan);
+      },
       ended: (nodes, closed) => {
         this.tell();
         if (nodes.length > 0) void opening.draw(nodes, closed, this.nodesPerSpan);

@@ -120,6 +120,8 @@ export interface Requests {
   open: { ask: { name: string; bytes: Uint8Array; rules: string }; answer: Opened };
   /** Opens the curve through places, three numbers each, that are held there, with so many nodes in all. from: for every node the place that it is at, or -1. */
   draw: { ask: { places: Float64Array; closed: boolean; nodes: number }; answer: OpenedCurve & { from: Int32Array } };
+  /** The fair curve through places as `draw` opens it, with its first node once more at its end where it is closed; what is open stays. */
+  sketch: { ask: Ask<'draw'>; answer: Float64Array };
   /** Gives the curve that was opened other nodes; null: its own. Nothing holds it then, and points stay. */
   nodes: { ask: CurveNodes | null; answer: OpenedCurve };
   /** Throws, and leaves what held, where the rules are refused. */

@@ -84,6 +84,13 @@ const handlers: Handlers = {
     anew = () => drawn(ask).curve;
     return { ...describeCurve(curve), from };
   },
+  sketch(ask) {
+    const { curve } = drawn(ask);
+    curve.fair(null);
+    const positions = curve.positions();
+    curve.delete();
+    return ask.closed ? Float64Array.of(...positions, ...positions.subarray(0, 3)) : positions;
+  },
   nodes(ask) {
     if (!anew) throw new Error('Only curves get other nodes');
     const next = anew();

@@ -14,8 +14,8 @@ export class CurveLayer {
   private readonly hairs = new LineSegments(new BufferGeometry(), new LineBasicMaterial({ transparent: true, opacity: 0.55 }));
   private readonly envelope = new LineSegments(new BufferGeometry(), new LineBasicMaterial());
 
-  /** behind: of another shape to compare with, thin and without its nodes. */
-  constructor(private readonly behind = false) {
+  /** Behind, of another shape to compare with, it is thin. nodes: whether they are shown. */
+  constructor(private readonly behind = false, private readonly nodes = !behind) {
     if (behind) this.line.material.linewidth = 1;
     this.dots.material.uniforms.rimWidth.value = 0;
     this.dots.material.uniforms.lift.value = 0.001;
@@ -35,7 +35,7 @@ export class CurveLayer {
     this.line.geometry.dispose();
     this.line.geometry = new LineSegmentsGeometry();
     if (this.line.visible) this.line.geometry.setPositions(segments);
-    this.dots.visible = !this.behind && places.length > 0 && places.length / 3 <= mostDots;
+    this.dots.visible = this.nodes && places.length > 0 && places.length / 3 <= mostDots;
     replace(this.dots, this.dots.visible ? places.slice() : new Float32Array());
   }
 
@@ -47,9 +47,9 @@ export class CurveLayer {
     }
   }
 
-  /** ratio: of pixels of the picture to those of the page. */
-  scale(ratio: number): void {
-    this.dots.material.uniforms.size.value = 4.5 * ratio;
+  /** ratio: of pixels of the picture to those of the page. dots: of these, how large nodes are. */
+  scale(ratio: number, dots = 4.5): void {
+    this.dots.material.uniforms.size.value = dots * ratio;
   }
 
   restyle(colour: (name: string) => Color): void {

@@ -31,7 +31,9 @@ export class View {
   readonly dots = new Dots();
   readonly arrows = new Arrows();
   readonly curve = new CurveLayer();
+  /** What somebody draws: the nodes, and the curve through them. */
   private readonly sketch = new CurveLayer();
+  private readonly through = new CurveLayer(false, false);
   private readonly input = new CurveLayer(true);
   private readonly grid = gridOfUnits();
   private readonly scene = new Scene();
@@ -73,7 +75,7 @@ export class View {
     this.controls.minZoom = 0.05;
     this.controls.maxZoom = 1e4;
     this.controls.addEventListener('change', () => this.draw());
-    this.scene.add(this.surface.object, this.wipe.object, this.grid, ...this.input.objects, ...this.curve.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
+    this.scene.add(this.surface.object, this.wipe.object, this.grid, ...this.input.objects, ...this.curve.objects, ...this.through.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
     this.scene.traverse((object) => { object.frustumCulled = false; });
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
@@ -148,6 +150,7 @@ export class View {
     this.wipe.restyle(this.look, this.surface.edges, colour);
     this.curve.restyle(colour);
     this.sketch.restyle(colour);
+    this.through.restyle(colour);
     this.input.restyle(colour);
     this.grid.material.color = colour('--line');
     this.markers.restyle(colour);
@@ -258,10 +261,12 @@ export class View {
     return pixelOf(this.camera, this.canvas, this.shape ?? nothing, place);
   }
 
-  /** Places joined one after the other, as somebody draws them. */
-  showSketch(places: readonly Vector[]): void {
-    const ends = places.flatMap((_, k) => (k > 0 ? [k - 1, k] : []));
-    this.sketch.show(placesOf(this.shape ?? nothing, Float64Array.from(places.flat())), ends);
+  /** Nodes as somebody draws them, and the curve through them, three numbers a node; both none: nothing is drawn. */
+  showSketch(nodes: readonly Vector[], through: Float64Array): void {
+    const shape = this.shape ?? nothing;
+    this.sketch.show(placesOf(shape, Float64Array.from(nodes.flat())), []);
+    const ends = Array.from({ length: Math.max(0, through.length / 3 - 1) }, (_, k) => [k, k + 1]).flat();
+    this.through.show(placesOf(shape, through), ends);
     this.draw();
   }
 
@@ -345,7 +350,8 @@ export class View {
     const ratio = this.renderer.getPixelRatio();
     this.markers.scale(ratio, this.spacing);
     this.dots.scale(ratio);
-    for (const layer of [this.curve, this.sketch]) layer.scale(ratio);
+    this.curve.scale(ratio);
+    this.sketch.scale(ratio, 8);
   }
 
   private resize(): void {

@@ -37,6 +37,7 @@ import { showLegend, showLengths } from './panels/legend';
 import { Numbers } from './panels/numbers';
 import { PointsPanel } from './panels/points';
 import { bindReach, showReach } from './panels/reach_slider';
+import { SectionPanel } from './panels/section_panel';
 import { ServedFile } from './panels/served';
 import { describe, sayItCannotDraw } from './panels/status';
 import { bindStrength } from './panels/strength';
@@ -65,6 +66,7 @@ const editor: Editor = new Editor({
     view.open(shape, stays);
     looks.opened(shape);
     fields.open(shape);
+    section.open(shape);
   },
   renumbered: (shape) => {
     marks.clear();
@@ -74,6 +76,7 @@ const editor: Editor = new Editor({
   shape: (positions, settled) => {
     view.show(positions, settled);
     curves.show(positions, settled);
+    section.show(positions, settled);
     fields.move(positions, editor.result, settled);
   },
   changed,
@@ -137,6 +140,7 @@ function newView(): View {
 const marks = new Marks(editor, view);
 const looks: Looks = new Looks(editor, view, fields, marks, document.getElementById('wipe')!, document.getElementById('lamps')!, () => refresh());
 const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('comb-clip') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
+const section = new SectionPanel(view.section, () => view.draw());
 const served = ServedFile.of(location.href, editor, format.parentElement!);
 
 const opened = (): boolean => editor.shape !== null;
@@ -174,6 +178,7 @@ const commands: Command[] = [
   { id: 'comb-root', title: 'Hairs by the root of the curvature', keys: [], run: () => { curves.toggleRoot(); refresh(); }, enabled: isCurve, pressed: () => curves.root },
   { id: 'plot', title: 'Plot of curvature', keys: ['p'], run: () => { curves.fold(); refresh(); }, enabled: isCurve, pressed: () => curves.unfolded },
   ...looks.commands,
+  section.command,
   { id: 'input', title: 'Show the input or the result', keys: ['i'], run: () => editor.toggleInput(), enabled: opened, pressed: () => editor.showsInput },
   { id: 'fit', title: 'Show all', keys: ['0', 'home'], run: () => view.fit() },
   { id: 'zoom-in', title: 'Zoom in', keys: ['+', '='], run: () => view.zoomBy(1.25) },

@@ -35,6 +35,7 @@ export class View {
   private readonly sketch = new CurveLayer();
   private readonly through = new CurveLayer(false, false);
   private readonly input = new CurveLayer(true);
+  readonly section = new CurveLayer(false, false);
   private readonly grid = gridOfUnits();
   private readonly scene = new Scene();
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, -50, 50);
@@ -75,7 +76,7 @@ export class View {
     this.controls.minZoom = 0.05;
     this.controls.maxZoom = 1e4;
     this.controls.addEventListener('change', () => this.draw());
-    this.scene.add(this.surface.object, this.wipe.object, this.grid, ...this.input.objects, ...this.curve.objects, ...this.through.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
+    this.scene.add(this.surface.object, this.wipe.object, this.grid, ...this.input.objects, ...this.curve.objects, ...this.section.objects, ...this.through.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
     this.scene.traverse((object) => { object.frustumCulled = false; });
     new ResizeObserver(() => this.resize()).observe(canvas);
   }
@@ -152,6 +153,7 @@ export class View {
     this.sketch.restyle(colour);
     this.through.restyle(colour);
     this.input.restyle(colour);
+    this.section.restyle(colour);
     this.grid.material.color = colour('--line');
     this.markers.restyle(colour);
     this.arrows.restyle(colour);

@@ -41,6 +41,7 @@ import { SectionPanel } from './panels/section_panel';
 import { ServedFile } from './panels/served';
 import { describe, sayItCannotDraw } from './panels/status';
 import { bindStrength } from './panels/strength';
+import { bindSymmetry, showSymmetry } from './panels/symmetry';
 
 const canvas = document.getElementById('canvas') as HTMLCanvasElement;
 const panel = document.querySelector('aside')!;
@@ -97,6 +98,7 @@ const tools: Tools = new Tools(canvas, document.querySelector('#overlay')!, {
   seen: () => view.seen(),
   picked: () => editor.picked,
   pick: (picked) => editor.set({ picked }),
+  withImages: (nodes) => editor.withImages(nodes),
 });
 const ways = new Ways(document.getElementById('way')!, {
   wayOf: (across, down) => view.wayOf(across, down),
@@ -203,6 +205,7 @@ function changed(): void {
   showLoading(document.getElementById('loading')!, editor.loading);
   start.refresh();
   numbers.refresh();
+  showSymmetry(document.getElementById('symmetric')!, editor);
   showReach(document.getElementById('reach') as HTMLInputElement, editor);
   document.getElementById('loop-nodes')!.hidden = !editor.constraints.loopNodes?.length;
   points.refresh();
@@ -300,6 +303,7 @@ range.addEventListener('input', () => {
   fields.setShare(range.valueAsNumber / 100);
 });
 bindUnit(document.getElementById('unit') as HTMLSelectElement, () => { fields.setShare(range.valueAsNumber / 100); changed(); });
+bindSymmetry(document.getElementById('symmetry') as HTMLSelectElement, editor);
 bindReach(document.getElementById('reach') as HTMLInputElement, editor);
 bindPresets(document.getElementById('mouse') as HTMLSelectElement, (preset) => view.setPreset(preset));
 loopCount.addEventListener('change', () => editor.setFairBoundary(true, loopNodes()));

@@ -72,3 +72,22 @@ test('a region comes after what held already, as rules of a constraints file; an
   assert.deepEqual(rules(second), [...before, { nodes: [0, 2, 7], position: 'fixed' }, { nodes: [1], position: [[4, 5, 6]] }]);
   assert.equal(rules(restricted(initial, [0], { ...none, fixed: new Int32Array() }, input, input)).length, 1);
 });
+
+test('nodes have mirror images within a small share of an edge, and moves and turns are mirrored', async () => {
+  const { Mirror } = await compiled('shape/mirror');
+  // Five by three nodes about x = 0, one of them moved a little, one too far.
+  const positions = new Float64Array(45);
+  for (let k = 0; k < 15; ++k) positions.set([(k % 5) - 2, Math.floor(k / 5), 7], 3 * k);
+  positions[0] -= 0.05;
+  positions[3 * 14] += 0.2;
+  const shape = { input: positions, scale: 0.25, spacing: 0.25 };
+  const mirror = new Mirror(shape, 0);
+  assert.deepEqual([0, 1, 2, 5, 14, 10].map((node) => mirror.with([node])), [[0, 4], [1, 3], [2], [5, 9], [14], [10]]);
+  assert.equal(mirror.count, 13);
+  assert.equal(new Mirror(shape, 1).count, 5, 'of y only those at 0 are their own images: all others lie on one side');
+  assert.deepEqual(mirror.with([3, 1, 2]), [3, 1, 2]);
+  const way = [1, 2, 3];
+  assert.deepEqual([4, 0, 2, 3, 14].map((node) => mirror.mirrored(way, 4, node, false)), [way, [-1, 2, 3], [0, 2, 3], way, way]);
+  assert.deepEqual([0, 2].map((node) => mirror.mirrored(way, 4, node, true)), [[1, -2, -3], [1, 0, 0]], 'a turn is mirrored the other way round');
+  assert.deepEqual(mirror.mirrored(way, 2, 1, false), [-1, 2, 3], 'from a node on the plane the side of greater coordinates goes as it does');
+});

@@ -8,6 +8,7 @@ import { CoreClient, Solver } from '../library/client';
 import type { Ask, CurveNodes, Job, Opened, Part, Report, Solved } from '../library/protocol';
 import { between, furthest } from '../shape/between';
 import { heldOn, loopsOf } from '../shape/loops';
+import { Mirror } from '../shape/mirror';
 import { normalNear, nothing, shapeOf, type Shape } from '../shape/shape';
 import type { Constraints, Edit, Held } from '../constraints/constraints';
 import * as holding from '../constraints/constraints';
@@ -71,6 +72,9 @@ export class Editor {
   private cancels = 0;
   /** Null: as is usual for what is open. */
   reach: number | null = null;
+  /** Across the plane of symmetry: 0, 1 or 2; null: there is none. */
+  private axis: number | null = null;
+  private reflection: { shape: Shape; mirror: Mirror } | null = null;
   readonly frames = new FrameCounter();
   private positions: Float64Array = new Float64Array();
   seen: Float64Array = this.positions;
@@ -198,9 +202,31 @@ export class Editor {
     this.events.changed();
   }
 
+  /** Each time the same for what is open. */
+  get mirror(): Mirror | null {
+    const { shape, axis, reflection } = this;
+    if (!shape || axis === null) return null;
+    if (reflection?.shape !== shape || reflection.mirror.axis !== axis) this.reflection = { shape, mirror: new Mirror(shape, axis) };
+    return this.reflection!.mirror;
+  }
+
+  setSymmetry(axis: number | null): void {
+    this.axis = axis;
+    this.set({ picked: new Set(this.withImages(this.picked)) });
+  }
+
+  /** Those nodes, and with symmetry their mirror images. */
+  withImages(nodes: Iterable<number>): Iterable<number> {
+    return this.mirror?.with(nodes) ?? nodes;
+  }
+
   pick(node: number, add: boolean): void {
     const picked = new Set(add ? this.picked : []);
-    if (node >= 0 && !(add && picked.delete(node))) picked.add(node);
+    const takes = add && picked.has(node);
+    for (const other of node < 0 ? [] : this.withImages([node])) {
+      if (takes) picked.delete(other);
+      else picked.add(other);
+    }
     this.set({ picked });
   }
 

@@ -82,7 +82,11 @@ export class Numbers {
       this.editor.setFault('A normal or tangent has a direction: not all three numbers may be 0', 'file');
       return;
     }
-    const vectors = nodes.flatMap((node) => (part !== 'position' || nodes.length === 1 ? vector : this.editor.placeOf(node).map((place, i) => place + vector[i])));
+    const { mirror } = this.editor;
+    const vectors = nodes.flatMap((node) => {
+      const own = mirror?.mirrored(vector, nodes[0], node, false) ?? vector;
+      return part !== 'position' || nodes.length === 1 ? own : this.editor.placeOf(node).map((place, i) => place + own[i]);
+    });
     this.editor.apply(labelOf(part, nodes), placed(this.editor.constraints, nodes, Float64Array.from(vectors), part));
   }
 }

@@ -12,6 +12,8 @@ export interface ToolEvents {
   seen: () => Seen | null;
   picked: () => ReadonlySet<number>;
   pick: (nodes: ReadonlySet<number>) => void;
+  /** Those nodes, and others that go with them. */
+  withImages: (nodes: Iterable<number>) => Iterable<number>;
 }
 
 interface Stroke {
@@ -119,8 +121,7 @@ export class Tools {
 
   private take(nodes: number[]): void {
     const { visible, takes, nodes: picked } = this.stroke!;
-    for (const node of nodes) {
-      if (visible && !visible[node]) continue;
+    for (const node of this.events.withImages(visible ? nodes.filter((which) => visible[which]) : nodes)) {
       if (takes) picked.delete(node);
       else picked.add(node);
     }

@@ -4,6 +4,7 @@ import { turned } from '../base/turning';
 import type { Vector } from '../base/vectors';
 import type { Solver } from '../library/client';
 import type { Drag, Job, Part, Report, Solved } from '../library/protocol';
+import type { Mirror } from '../shape/mirror';
 import type { Shape } from '../shape/shape';
 import { placed, type Constraints } from '../constraints/constraints';
 import { Ahead } from './ahead';
@@ -26,6 +27,8 @@ export interface Pulled {
   readonly report: Report | null;
   readonly busy: boolean;
   readonly constraints: Constraints;
+  /** Picked nodes go as their mirror images do. */
+  readonly mirror: Mirror | null;
   readonly picked: ReadonlySet<number>;
   readonly normals: ReadonlyMap<number, Vector>;
   isDraggable(node: number): boolean;
@@ -72,7 +75,12 @@ export class Drags {
     const turns = part !== 'position';
     const nodes = [...editor.picked].filter((other) => (turns ? editor.normals.has(other) : editor.isDraggable(other) || !editor.isDraggable(node)));
     const start = Float64Array.from(nodes.flatMap((other) => (turns ? editor.normals.get(other)! : editor.placeOf(other))));
-    const at = (way: Vector): Float64Array => (turns ? turned(start, way) : start.map((place, k) => place + way[k % 3]));
+    const { mirror } = editor;
+    const each = (way: Vector, k: number): Vector => mirror?.mirrored(way, node, nodes[k], turns) ?? way;
+    const at = (way: Vector): Float64Array => Float64Array.from(nodes.flatMap((_, k) => {
+      const [from, to] = [start.subarray(3 * k, 3 * k + 3), each(way, k)];
+      return turns ? [...turned(from, to)] : to.map((part, i) => from[i] + part);
+    }));
     this.node = node;
     const { report, shape } = editor;
     this.ahead = shape!.curve ? null : new Ahead(editor.busy ? null : editor.result);

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { drop, find, follows, open, page, picture, settled, useSession } from './support.mjs';
+import { choose, drop, find, follows, open, page, picture, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -190,4 +190,15 @@ test('a section of a surface has a comb, is moved by a slider, and follows a dra
   for (let k = 0; k < 3; ++k) await page.keyboard.press('v');  // Y, Z, none
   await page.locator('#section-at').waitFor({ state: 'hidden' });
   assert.equal(await combBox(await seen()), null);
+});
+
+test('colours that are chosen are those of a file that is then opened, too', async () => {
+  await open();
+  await page.keyboard.press('4');
+  await page.locator('#legend .marks').waitFor();
+  await choose(page, 'Open…', session.generated('saddle.obj', 'saddle', '--columns', '20', '--rows', '20'));
+  await page.locator('#size', { hasText: '441 nodes' }).waitFor();
+  await settled(page);
+  await page.locator('#legend').waitFor();
+  await find(page, /mean [−\d.e]+, radius/, [0.3, 0.4], [0.4, 0.7]);
 });

@@ -98,7 +98,7 @@ const tools: Tools = new Tools(canvas, document.querySelector('#overlay')!, {
   seen: () => view.seen(),
   picked: () => editor.picked,
   pick: (picked) => editor.set({ picked }),
-  withImages: (nodes) => editor.withImages(nodes),
+  withImages: (nodes) => editor.symmetry.with(nodes),
 });
 const ways = new Ways(document.getElementById('way')!, {
   wayOf: (across, down) => view.wayOf(across, down),

@@ -8,7 +8,7 @@ import { CoreClient, Solver } from '../library/client';
 import type { Ask, CurveNodes, Job, Opened, Part, Report, Solved } from '../library/protocol';
 import { between, furthest } from '../shape/between';
 import { heldOn, loopsOf } from '../shape/loops';
-import { Mirror } from '../shape/mirror';
+import type { Mirror } from '../shape/mirror';
 import { normalNear, nothing, shapeOf, type Shape } from '../shape/shape';
 import type { Constraints, Edit, Held } from '../constraints/constraints';
 import * as holding from '../constraints/constraints';
@@ -19,6 +19,7 @@ import { Drags } from '../pull/drags';
 import { near, within } from '../pull/reach';
 import { FrameCounter } from './frames';
 import { begun, done, type History } from './history';
+import { Symmetry } from './symmetry';
 
 export interface EditorEvents {
   /** stays: where it is seen. */
@@ -72,12 +73,12 @@ export class Editor {
   private cancels = 0;
   /** Null: as is usual for what is open. */
   reach: number | null = null;
-  /** Across the plane of symmetry: 0, 1 or 2; null: there is none. */
-  private axis: number | null = null;
-  private reflection: { shape: Shape; mirror: Mirror } | null = null;
+  readonly symmetry = new Symmetry(() => this.shape);
   readonly frames = new FrameCounter();
   private positions: Float64Array = new Float64Array();
   seen: Float64Array = this.positions;
+  /** Whether that was shown for more than a moment. */
+  private rests = true;
   /** Numbers of points that are known to the worker. */
   clouds = 0;
   source: Source | null = null;
@@ -155,6 +156,7 @@ export class Editor {
     this.shape = shapeOf(opened);
     this.positions = this.seen = opened.positions;
     Object.assign(this, { name, drawn, report: null, fault: null, showsInput: false, strength: 1, picked: new Set(), hovered: -1, fileWarnings: opened.warnings });
+    this.rests = true;
     this.events.opened(this.shape, drawn);
     this.settle();
   }
@@ -198,32 +200,24 @@ export class Editor {
   show(state: Partial<Pick<Editor, 'showsInput' | 'strength'>>, settled: boolean): void {
     Object.assign(this, state);
     this.seen = this.drags.shape ?? between(this.shape!.input, this.positions, this.showsInput ? 0 : this.strength);
+    this.rests = settled;
     this.events.shape(this.seen, settled);
     this.events.changed();
   }
 
-  /** Each time the same for what is open. */
   get mirror(): Mirror | null {
-    const { shape, axis, reflection } = this;
-    if (!shape || axis === null) return null;
-    if (reflection?.shape !== shape || reflection.mirror.axis !== axis) this.reflection = { shape, mirror: new Mirror(shape, axis) };
-    return this.reflection!.mirror;
+    return this.symmetry.mirror;
   }
 
   setSymmetry(axis: number | null): void {
-    this.axis = axis;
-    this.set({ picked: new Set(this.withImages(this.picked)) });
-  }
-
-  /** Those nodes, and with symmetry their mirror images. */
-  withImages(nodes: Iterable<number>): Iterable<number> {
-    return this.mirror?.with(nodes) ?? nodes;
+    this.symmetry.axis = axis;
+    this.set({ picked: new Set(this.symmetry.with(this.picked)) });
   }
 
   pick(node: number, add: boolean): void {
     const picked = new Set(add ? this.picked : []);
     const takes = add && picked.has(node);
-    for (const other of node < 0 ? [] : this.withImages([node])) {
+    for (const other of node < 0 ? [] : this.symmetry.with([node])) {
       if (takes) picked.delete(other);
       else picked.add(other);
     }
@@ -429,13 +423,15 @@ export class Editor {
       this.drags.solved(drag, solved);
       return;
     }
-    this.positions = positions;
+    // Of a large shape that stays as it is a picture would take seconds.
+    const same = this.rests && this.seen === this.positions && furthest(positions, this.positions) === 0;
+    if (!same) this.positions = positions;
     this.report = report;
     if (this.fault?.source === 'solver') this.fault = null;
     if (drag) this.frames.solved(drag.time);
     if (drag) this.drags.solved(drag, solved);
     if (normals && this.drags.part !== this.direction) this.normals = new Map([...normals.nodes].map((node, k) => [node, [...normals.normals.subarray(3 * k, 3 * k + 3)] as Vector]));
-    if (this.showsInput) this.events.changed();
+    if (this.showsInput || same) this.events.changed();
     else this.show({}, !drag);
   }
 }

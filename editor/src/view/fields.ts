@@ -54,6 +54,7 @@ export class Fields {
   open(shape: Shape): void {
     Object.assign(this, { shape, normals: null, seen: shape.input, result: shape.input, range: null, settled: true });
     if (this.name) this.events.show(null);
+    void this.update();
   }
 
   choose(name: FieldName | null): void {

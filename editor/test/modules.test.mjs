@@ -88,6 +88,36 @@ test('newer jobs stand for those that wait, and constraints are not lost', async
   assert.deepEqual(ends, [3, 5], 'a slow step of a drag that has ended is not waited for');
 });
 
+test('another worker is told what opened the shape, its points and its newest nodes', async () => {
+  const { CoreClient } = await compiled('library/client');
+  const workers = [];
+  globalThis.self = globalThis;
+  globalThis.document = { baseURI: 'http://here/' };
+  globalThis.Worker = class {
+    posted = [];
+    constructor() { workers.push(this); }
+    addEventListener(type, call) { this[type] = call; }
+    postMessage(message) { this.posted.push(message); }
+    terminate() {}
+  };
+  const client = new CoreClient(assert.fail);
+  const answered = async (kind, ask) => {
+    const answer = client.ask(kind, ask);
+    workers[0].message({ data: { number: workers[0].posted.at(-1).number, answer: {} } });
+    await answer;
+  };
+  await answered('open', 'an older file');
+  await answered('open', 'file');
+  await answered('nodes', 'before the points');
+  await answered('points', 'cloud');
+  await answered('nodes', 'older');
+  await answered('nodes', 'newest');
+  const given = client.ask('solve', {});
+  client.endNow();
+  await assert.rejects(given);
+  assert.deepEqual(workers[1].posted.slice(1).map(({ kind, ask }) => [kind, ask]), [['open', 'file'], ['nodes', 'before the points'], ['points', 'cloud'], ['nodes', 'newest']]);
+});
+
 // A cube of six quads about the origin, its sides all facing outwards.
 function cube() {
   const positions = Float64Array.from({ length: 24 }, (_, k) => ((Math.floor(k / 3) >> (k % 3)) & 1 ? 3 : 1));

@@ -96,7 +96,9 @@ export class CoreClient {
 
   private keep(request: Request): void {
     if (request.kind === 'open' || request.kind === 'draw') this.sources = [request];
-    else if (request.kind === 'points' || request.kind === 'nodes') this.sources.push(request);
+    // Newer nodes stand for older ones, as far as no points were those of the older ones.
+    if (request.kind === 'nodes' && this.sources.at(-1)?.kind === 'nodes') this.sources.pop();
+    if (request.kind === 'points' || request.kind === 'nodes') this.sources.push(request);
   }
 
   private receive(reply: Reply): void {

@@ -11,7 +11,7 @@ out vec3 facing;
 out float height;
 void main() {
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
-  place = seen.xyz;
+  place = mat3(modelViewMatrix) * position;  // from the middle of the shape, so that lamps stay with it where the view is moved
   facing = normalMatrix * normal;
   height = value;
   gl_Position = projectionMatrix * seen;

@@ -17,7 +17,7 @@ export class SectionPanel {
   private positions: Float64Array = new Float64Array();
   private vertices: Vertices | null = null;
   private tooth = 0;
-  private asked = false;
+  private shown = false;
   private readonly axis = document.getElementById('section-axis') as HTMLSelectElement;
   private readonly at = document.getElementById('section-at') as HTMLInputElement;
   private readonly comb = document.getElementById('section-comb') as HTMLInputElement;
@@ -25,9 +25,9 @@ export class SectionPanel {
   /** drawn: has the view drawn. */
   constructor(private readonly layer: CurveLayer, private readonly drawn: () => void) {
     this.axis.addEventListener('change', () => this.rescale());
-    this.at.addEventListener('input', () => this.refresh());
+    this.at.addEventListener('input', () => this.draw());
     this.at.addEventListener('change', () => this.rescale());
-    this.comb.addEventListener('input', () => this.refresh());
+    this.comb.addEventListener('input', () => this.draw());
   }
 
   get command(): Command {
@@ -47,29 +47,23 @@ export class SectionPanel {
     this.positions = positions;
     if (settled) this.vertices = null;
     if (settled) this.rescale();
-    else this.refresh();
+    else this.draw();
   }
 
   private rescale(): void {
     this.tooth = 0;
-    this.refresh();
-  }
-
-  /** Many changes, one picture. */
-  private refresh(): void {
-    if (this.asked) return;
-    this.asked = true;
-    requestAnimationFrame(() => {
-      this.asked = false;
-      this.draw();
-    });
+    this.draw();
   }
 
   private draw(): void {
     const { shape, positions, axis, at } = this;
     const chosen = 'xyz'.indexOf(axis.value || '-');
     for (const slider of [at, this.comb]) slider.parentElement!.hidden = chosen < 0;
-    const runs = shape && chosen >= 0 ? this.runsAt(shape, positions, chosen) : [];
+    // Without a section another picture would be drawn for nothing.
+    const draws = shape !== null && chosen >= 0;
+    if (!draws && !this.shown) return;
+    this.shown = draws;
+    const runs = draws ? this.runsAt(shape, positions, chosen) : [];
     const chains = runs.map((run) => combedSection(run, shape!.spacing));
     if (this.tooth === 0) this.tooth = toothOf(chains, 1, share);
     const tooth = this.tooth * this.comb.valueAsNumber;

@@ -21,6 +21,9 @@ void main() {
   height = value;
 }`;
 
+// Of reflection lines.
+export const usualLamps = 16;
+
 // kind: 0 one colour; 1 shaded; 2 reflection lines; 3 the value by its colour, shaded a little.
 export const fragmentShader = `#version 300 es
 precision highp float;
@@ -29,6 +32,8 @@ uniform vec3 colour;
 uniform vec3 stops[9];
 uniform vec2 range;
 uniform float nearness;  // one over the distance of the lamps of reflection lines
+uniform float lamps;  // how many there are around the surface
+uniform vec2 across;  // in the view, a unit vector across them
 in vec3 place;
 in vec3 facing;
 in float height;
@@ -52,10 +57,10 @@ void main() {
     float shine = pow(max(dot(n, normalize(key + vec3(0.0, 0.0, 1.0))), 0.0), 40.0);
     result = vec4(colour * (0.25 + 0.3 * towards + 0.5 * max(dot(n, key), 0.0)) + 0.2 * shine, 1.0);
   } else if (kind == 2) {
-    // Long parallel lamps around the surface, upright in the view, as mirrored towards the eye. They are near: a plane
+    // Long parallel lamps around the surface as mirrored towards the eye. They are near: a plane
     // mirrors several of them, as straight lines.
     vec3 mirrored = reflect(vec3(0.0, 0.0, -1.0), n);
-    float wave = cos(16.0 * atan(mirrored.x + nearness * place.x, mirrored.z));
+    float wave = cos(lamps * atan(dot(across, mirrored.xy + nearness * place.xy), mirrored.z));
     float soft = min(fwidth(wave), 1.0);
     float lamp = smoothstep(-soft, soft, wave);
     result = vec4(vec3(0.08 + 0.86 * lamp) * (0.75 + 0.25 * towards), 1.0);

@@ -1,6 +1,6 @@
 // Draws a surface with WebGL 2.
 
-import {fragmentShader, vertexShader} from './shaders.js';
+import {fragmentShader, usualLamps, vertexShader} from './shaders.js';
 import {styleColour} from './colours.js';
 
 const dotColour = [0.78, 0.27, 0.12];
@@ -28,7 +28,7 @@ export class SurfaceView {
     const gl = this.gl = canvas.getContext('webgl2', {antialias: true});
     if (!gl) throw new Error('This browser has no WebGL 2, which the view needs. Charts and figures are below.');
     this.program = programOf(gl);
-    this.places = Object.fromEntries(['turn', 'middle', 'scale', 'lift', 'dot_size', 'kind', 'colour', 'stops', 'range', 'nearness']
+    this.places = Object.fromEntries(['turn', 'middle', 'scale', 'lift', 'dot_size', 'kind', 'colour', 'stops', 'range', 'nearness', 'lamps', 'across']
       .map((name) => [name, gl.getUniformLocation(this.program, name)]));
     this.shapes = shapes.map((shape) => this.upload(shape));
     this.dots = this.uploadDots(points);
@@ -97,6 +97,8 @@ export class SurfaceView {
     gl.uniform2f(this.places.scale, scale / width, scale / height);
     gl.uniform1f(this.places.lift, 0);
     gl.uniform1f(this.places.nearness, 1 / camera.breadth);
+    gl.uniform1f(this.places.lamps, usualLamps);
+    gl.uniform2f(this.places.across, 1, 0);  // upright
     gl.uniform1i(this.places.kind, kinds[mode]);
     gl.uniform3fv(this.places.colour, mode === 'wire' ? paper : [0.56, 0.66, 0.78]);
     if (colours) {

@@ -1,8 +1,10 @@
 // A curve that is open or drawn: what holds it, and its fair shape.
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "points.hpp"
 #include "region.hpp"
@@ -119,6 +121,36 @@ class Curve {
     });
   }
 
+  /// Other nodes and chains in place of its own, as some are inserted or deleted. from: for every node its number
+  /// before, −1 for new ones. Groups keep what stays; nothing holds it.
+  void set_nodes(const val& positions, const val& chain_begin, const val& chain_nodes, const val& closed,
+                 const val& from) {
+    forwarding_errors([&] {
+      const auto numbers = [](const val& array) { return emscripten::convertJSArrayToNumberVector<Index>(array); };
+      const std::vector<Index> begin = numbers(chain_begin);
+      const std::vector<Index> nodes = numbers(chain_nodes);
+      const std::vector<Index> loops = numbers(closed);
+      std::vector<PolygonCurve::Chain> chains(loops.size());
+      for (std::size_t c = 0; c < chains.size(); ++c)
+        chains[c] = {.nodes = {nodes.begin() + begin[c], nodes.begin() + begin[c + 1]}, .closed = loops[c] != 0};
+      PolygonCurve curve(vectors_of(positions), std::move(chains));
+      std::map<Index, Index> now;
+      const std::vector<Index> before = numbers(from);
+      for (std::size_t node = 0; node < before.size(); ++node) now[before[node]] = static_cast<Index>(node);
+      for (auto& [name, members] : file_.groups) {
+        std::vector<Index> kept;
+        for (const Index member : members)
+          if (const auto found = now.find(member); found != now.end()) kept.push_back(found->second);
+        std::sort(kept.begin(), kept.end());
+        members = std::move(kept);
+      }
+      file_.source = nullptr;
+      file_.curve = std::move(curve);
+      constraints_.emplace(file_.curve.node_count());
+      positions_ = file_.curve.positions();
+    });
+  }
+
   /// Always from the file's shape: curves take so little time that they follow this way too.
   val fair(const val& progress) {
     return forwarding_errors([&] {
@@ -184,6 +216,7 @@ EMSCRIPTEN_BINDINGS(vspring_curve) {
       .function("region", &Curve::region)
       .function("noise", &Curve::noise)
       .function("resample", &Curve::resample)
+      .function("setNodes", &Curve::set_nodes)
       .function("fair", &Curve::fair)
       .function("update", &Curve::fair)
       .function("fit", &Curve::fit)

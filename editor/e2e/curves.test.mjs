@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { choose, drag, drop, find, follows, freeForm, greatestDistance, native, open, page, placesOf, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { choose, drag, drop, find, follows, freeForm, greatestDistance, native, open, page, picture, placesOf, root, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession(() => {
   const wave = Array.from({ length: 61 }, (_, k) => [k / 10, Math.sin(k / 9) + 0.02 * ((k * 7) % 5)]);
@@ -174,6 +174,40 @@ test('a curve is drawn by clicks, ended by Enter, pulled, closed and saved, as t
   await page.keyboard.press('Tab');
   await page.locator('#size', { hasText: '40 nodes, closed curve' }).waitFor();
   await settled(page);
+});
+
+test('the curve through the clicked places and the pointer is seen while it is drawn', async () => {
+  await open();
+  await page.getByRole('button', { name: 'New curve' }).click();
+  const box = await page.locator('#canvas').boundingBox();
+  const clicks = [[0.1, 0.6], [0.25, 0.3], [0.35, 0.7], [0.55, 0.5]].map(([x, y]) => [box.x + box.width * x, box.y + box.height * y]);
+  for (const [x, y] of clicks.slice(0, 3)) await page.mouse.click(x, y);
+  await page.mouse.move(...clicks[3]);
+  const before = await picture(page);
+  await page.mouse.click(...clicks[3]);
+  await page.keyboard.press('Enter');
+  await page.locator('#size', { hasText: '61 nodes, open curve' }).waitFor();
+  await settled(page);
+  const places = placesOf((await saved(page, 'csv')).path);
+  // In the plane from above: the first and the third click say how places come to the picture.
+  const { nodes } = JSON.parse(await rulesOf(page)).rules.find((rule) => Array.isArray(rule.position));
+  const scale = (clicks[2][0] - clicks[0][0]) / (places[nodes[2]][0] - places[0][0]);
+  const pixels = places.map(([x, y]) => [clicks[0][0] - box.x + scale * (x - places[0][0]), clicks[0][1] - box.y - scale * (y - places[0][1])]);
+  assert.ok(Math.hypot(pixels[60][0] + box.x - clicks[3][0], pixels[60][1] + box.y - clicks[3][1]) < 2);
+  const between = pixels.filter((_, k) => nodes.every((node) => Math.abs(node - k) > 3));
+  const dark = await page.evaluate(async ([picture, where]) => {
+    const image = Object.assign(new Image(), { src: `data:image/png;base64,${picture}` });
+    await image.decode();
+    const context = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height }).getContext('2d');
+    context.drawImage(image, 0, 0);
+    return where.map(([x, y]) => context.getImageData(Math.round(x) - 1, Math.round(y) - 1, 3, 3).data.some((part, k) => k % 4 === 0 && part < 110));
+  }, [before, between]);
+  assert.ok(dark.every(Boolean), `${dark}`);
+  const chords = between.map(([x, y]) => Math.min(...[0, 1, 2].map((k) => {
+    const [[ax, ay], [bx, by]] = [pixels[nodes[k]], pixels[nodes[k + 1]]];
+    return Math.abs((x - ax) * (by - ay) - (y - ay) * (bx - ax)) / Math.hypot(bx - ax, by - ay);
+  })));
+  assert.ok(Math.max(...chords) > 15, 'it is no polygon');
 });
 
 test('a drawn curve that is closed, or gets other nodes, keeps the points that it is drawn towards', async () => {

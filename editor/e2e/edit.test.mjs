@@ -91,5 +91,14 @@ test('a curve is saved back as the command line fairs it', async () => {
   const [saved, expected, before] = [file, fair, input].map(placesOf);
   assert.ok(greatestDistance(saved, expected) < 6e-5, `${greatestDistance(saved, expected)}`);  // six times the tolerance of 1e-5, on a size of some 1
   assert.ok(greatestDistance(saved, before) > 0.01);
+
+  // With other nodes it is still that file.
+  await page.keyboard.press('Control+a');
+  await page.keyboard.press('a');
+  await page.locator('#size', { hasText: '79 nodes' }).waitFor();
+  await settled(page);
+  await page.getByRole('button', { name: 'Save to arc.csv' }).click();
+  await page.getByRole('button', { name: 'Saved to arc.csv' }).waitFor();
+  assert.equal(placesOf(file).length, 79);
   await ended(editor);
 });

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { find, open, page, picture, settled, useSession } from './support.mjs';
+import { choose, drop, find, follows, open, page, picture, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -89,4 +89,116 @@ test('input and result are compared left and right of a line, which is moved', a
   assert.ok((await part()) === input, 'all of the input');
   await slider.fill('0');
   assert.ok((await part()) === result, 'all of the result');
+});
+
+// The numbers of the picture as it is, red, green, blue and opacity of each pixel.
+async function pixels(picture) {
+  const { width, height, data } = await page.evaluate(async (picture) => {
+    const image = Object.assign(new Image(), { src: `data:image/png;base64,${picture}` });
+    await image.decode();
+    const { width, height } = image;
+    const context = Object.assign(document.createElement('canvas'), { width, height }).getContext('2d');
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, width, height);
+    return { width, height, data: btoa(Array.from(data, (part) => String.fromCharCode(part)).join('')) };
+  }, picture);
+  return { width, height, data: Buffer.from(data, 'base64') };
+}
+
+// How often a row and a column through the middle of the picture, left of the panel, change between dark and light.
+async function changes() {
+  const { width, height, data } = await pixels(await seen());
+  const [x, y] = [Math.round(width / 2 - 144), Math.round(height / 2)];
+  const half = Math.round(0.2 * height);  // of the line that is looked at: within the square
+  return [(k) => [x + k, y], (k) => [x, y + k]].map((at) => {
+    const bright = Array.from({ length: 2 * half }, (_, k) => at(k - half)).map(([column, row]) => data[4 * (row * width + column)] > 128);
+    return bright.filter((now, k) => k > 0 && now !== bright[k - 1]).length;
+  });
+}
+
+// The box around all that has the colour of combs; null where nothing has.
+async function combBox(picture) {
+  const { width, data } = await pixels(picture);
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  for (let k = 0; k < data.length; k += 4) {
+    const [red, green, blue] = data.subarray(k, k + 3);
+    if (green < red + 50 || green < blue + 15 || k / 4 % width > width - 310) continue;
+    const [x, y] = [(k / 4) % width, Math.floor(k / 4 / width)];
+    box.splice(0, 4, Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y));
+  }
+  return Number.isFinite(box[0]) ? box : null;
+}
+
+test('reflection lines are as many as a slider says, and turned', async () => {
+  await open();
+  await drop(page, 'square.obj', 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n');
+  await page.locator('#name', { hasText: 'square.obj' }).waitFor();
+  await page.getByRole('button', { name: 'View from the top' }).click();
+  const lines = page.getByRole('slider', { name: 'Lines' });
+  assert.ok(await lines.isHidden());
+  await page.keyboard.press('3');
+  const [usual, down] = await changes();
+  assert.ok(usual > 1 && down === 0, `upright: ${usual} across, ${down} down`);
+  await lines.fill('48');
+  const [many] = await changes();
+  assert.ok(many > 2 * usual, `${usual}, then ${many}`);
+  await page.getByRole('slider', { name: 'Turned' }).fill('90');
+  const turned = await changes();
+  assert.ok(turned[0] === 0 && turned[1] > 2 * usual, `level: ${turned}`);
+  await page.getByLabel('Example').selectOption({ label: 'Noisy wave' });
+  await page.locator('#size', { hasText: 'curve' }).waitFor();
+  assert.ok(await lines.isHidden());
+});
+
+test('that edge springs took over is in the tip of the status, not among the warnings', async () => {
+  await open();
+  await page.getByLabel('Example').selectOption({ label: 'Pipe blend' });
+  await page.locator('#name', { hasText: 'pipe-blend' }).waitFor();
+  await settled(page);
+  await page.locator('#status[title$="sphere springs have no equilibrium here: these are edge springs"]').waitFor();
+  assert.ok(await page.locator('#warnings').isHidden());
+});
+
+test('a section of a surface has a comb, is moved by a slider, and follows a drag', async () => {
+  await open();
+  await page.locator('#gizmo').evaluate((one) => one.remove());  // its axes are coloured too
+  const bare = await seen();
+  assert.equal(await combBox(bare), null);
+  assert.ok(await page.locator('#section-at').isHidden());
+  await page.getByLabel('Across').selectOption({ label: 'X' });
+  const middle = await combBox(await seen());
+  assert.ok(middle[2] - middle[0] > 50 || middle[3] - middle[1] > 50, `${middle}`);
+  await page.locator('#section-at').fill('150');
+  const aside = await combBox(await seen());
+  assert.ok(aside[0] < middle[0] - 50, `${middle}, then ${aside}`);
+  await page.locator('#section-comb').fill('0');
+  assert.equal(await combBox(await seen()), null, 'no hairs');
+  await page.locator('#section-comb').fill('1');
+  await page.locator('#section-at').fill('500');
+
+  const { x, y } = await find(page, /position fixed/, [0.35, 0.4], [0.35, 0.7]);
+  await page.mouse.click(x, y);
+  await page.keyboard.press('l');
+  await page.mouse.down();
+  for (let k = 1; k <= 10; ++k) await page.mouse.move(x, y - 10 * k);
+  await follows(page);
+  await page.waitForTimeout(300);
+  const held = await combBox(await picture(page));
+  assert.ok(Math.max(...held.map((end, k) => Math.abs(end - middle[k]))) > 20, `${middle}, then ${held}`);
+  await page.mouse.up();
+  await settled(page);
+  for (let k = 0; k < 3; ++k) await page.keyboard.press('v');  // Y, Z, none
+  await page.locator('#section-at').waitFor({ state: 'hidden' });
+  assert.equal(await combBox(await seen()), null);
+});
+
+test('colours that are chosen are those of a file that is then opened, too', async () => {
+  await open();
+  await page.keyboard.press('4');
+  await page.locator('#legend .marks').waitFor();
+  await choose(page, 'Open…', session.generated('saddle.obj', 'saddle', '--columns', '20', '--rows', '20'));
+  await page.locator('#size', { hasText: '441 nodes' }).waitFor();
+  await settled(page);
+  await page.locator('#legend').waitFor();
+  await find(page, /mean [−\d.e]+, radius/, [0.3, 0.4], [0.4, 0.7]);
 });

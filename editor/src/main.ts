@@ -1,43 +1,47 @@
 // Puts the editor together.
 
 import { sequential } from '../../page/colours.js';
-import { Autosave } from './autosave';
-import { bindCommands, listShortcuts, type Command } from './commands';
-import { toFile } from './constraints';
-import { CurvePanel } from './curve_panel';
-import { Drawing } from './drawing';
-import { Editor } from './editor';
-import { Examples } from './examples';
-import { acceptDrops, choose, download, fromAddress, stem } from './files';
-import { Fields, type Field } from './fields';
-import { Gestures } from './gestures';
-import { showFor } from './kinds';
-import { showLegend, showLengths } from './legend';
+import { bindCommands, listShortcuts, type Command } from './base/commands';
+import { acceptDrops, choose, download, fromAddress, stem } from './base/files';
+import { showLoading, type Loading } from './base/loading';
+import { startTheme, switchTheme } from './base/theme';
+import { rove } from './base/toolbar';
+import { bindUnit } from './base/units';
+import type { Report } from './library/protocol';
+import { placesOf } from './shape/shape';
+import { toFile } from './constraints/constraints';
+import type { Fit } from './constraints/points';
+import { Autosave } from './edit/autosave';
+import { Editor } from './edit/editor';
+import { Opening } from './edit/opening';
+import { bindPresets } from './navigation/presets';
+import { Fields, type Field } from './view/fields';
+import { View } from './view/view';
+import { Gestures } from './pick/gestures';
+import { pick } from './pick/picking';
+import { selectionCommands } from './pick/selection';
+import { Tilts } from './pick/tilts';
+import { Tools } from './pick/tools';
+import { Ways } from './pick/ways';
+import { Drawing } from './draw/drawing';
+import { Nodes } from './draw/nodes';
 import { Looks } from './look/looks';
 import { Marks } from './look/marks';
-import { bindPresets } from './navigation/presets';
-import { Numbers } from './numbers';
-import { Opening } from './opening';
-import { pick } from './picking';
-import { PointsPanel, type Fit } from './points';
-import type { Report } from './protocol';
-import { bindReach, showReach } from './pull/reach_slider';
-import { placesOf } from './shape';
-import { selectionCommands } from './selection';
-import { ServedFile } from './served';
-import { describe, sayItCannotDraw } from './status';
 import { Dropped } from './start/dropped';
-import { showLoading, type Loading } from './start/loading';
 import { StartPanel } from './start/start_panel';
 import type { Way } from './start/ways';
-import { bindStrength } from './strength';
-import { startTheme, switchTheme } from './theme';
-import { Tilts } from './tilts';
-import { rove } from './toolbar';
-import { Tools } from './tools';
-import { bindUnit } from './units';
-import { View } from './view';
-import { Ways } from './ways';
+import { CurvePanel } from './panels/curve_panel';
+import { Examples } from './panels/examples';
+import { showFor } from './panels/kinds';
+import { showLegend, showLengths } from './panels/legend';
+import { Numbers } from './panels/numbers';
+import { PointsPanel } from './panels/points';
+import { bindReach, showReach } from './panels/reach_slider';
+import { SectionPanel } from './panels/section_panel';
+import { ServedFile } from './panels/served';
+import { describe, sayItCannotDraw } from './panels/status';
+import { bindStrength } from './panels/strength';
+import { bindSymmetry, showSymmetry } from './panels/symmetry';
 
 const canvas = document.getElementById('canvas') as HTMLCanvasElement;
 const panel = document.querySelector('aside')!;
@@ -63,10 +67,17 @@ const editor: Editor = new Editor({
     view.open(shape, stays);
     looks.opened(shape);
     fields.open(shape);
+    section.open(shape);
+  },
+  renumbered: (shape) => {
+    marks.clear();
+    curves.open(shape);
+    view.open(shape, true);
   },
   shape: (positions, settled) => {
     view.show(positions, settled);
     curves.show(positions, settled);
+    section.show(positions, settled);
     fields.move(positions, editor.result, settled);
   },
   changed,
@@ -87,6 +98,7 @@ const tools: Tools = new Tools(canvas, document.querySelector('#overlay')!, {
   seen: () => view.seen(),
   picked: () => editor.picked,
   pick: (picked) => editor.set({ picked }),
+  withImages: (nodes) => editor.symmetry.with(nodes),
 });
 const ways = new Ways(document.getElementById('way')!, {
   wayOf: (across, down) => view.wayOf(across, down),
@@ -116,6 +128,7 @@ const gestures = new Gestures(canvas, {
   cancelled: () => { ways.end(); editor.drags.end(false); },
 });
 const view = newView();
+const nodes = new Nodes(canvas, editor, () => view.seen(), () => tools.tool === 'pick');
 
 function newView(): View {
   try {
@@ -127,8 +140,9 @@ function newView(): View {
 }
 
 const marks = new Marks(editor, view);
-const looks: Looks = new Looks(editor, view, fields, marks, document.getElementById('wipe')!, () => refresh());
+const looks: Looks = new Looks(editor, view, fields, marks, document.getElementById('wipe')!, document.getElementById('lamps')!, () => refresh());
 const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('comb-clip') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
+const section = new SectionPanel(view.section, () => view.draw());
 const served = ServedFile.of(location.href, editor, format.parentElement!);
 
 const opened = (): boolean => editor.shape !== null;
@@ -145,6 +159,7 @@ const commands: Command[] = [
   ...start.commands,
   ...points.commands,
   ...drawing.commands,
+  ...nodes.commands,
   { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => opening.undo(), enabled: () => opening.undoes !== null,
     detail: () => opening.undoes ?? undefined },
   { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => opening.redo(), enabled: () => opening.redoes !== null,
@@ -165,6 +180,7 @@ const commands: Command[] = [
   { id: 'comb-root', title: 'Hairs by the root of the curvature', keys: [], run: () => { curves.toggleRoot(); refresh(); }, enabled: isCurve, pressed: () => curves.root },
   { id: 'plot', title: 'Plot of curvature', keys: ['p'], run: () => { curves.fold(); refresh(); }, enabled: isCurve, pressed: () => curves.unfolded },
   ...looks.commands,
+  section.command,
   { id: 'input', title: 'Show the input or the result', keys: ['i'], run: () => editor.toggleInput(), enabled: opened, pressed: () => editor.showsInput },
   { id: 'fit', title: 'Show all', keys: ['0', 'home'], run: () => view.fit() },
   { id: 'zoom-in', title: 'Zoom in', keys: ['+', '='], run: () => view.zoomBy(1.25) },
@@ -189,6 +205,7 @@ function changed(): void {
   showLoading(document.getElementById('loading')!, editor.loading);
   start.refresh();
   numbers.refresh();
+  showSymmetry(document.getElementById('symmetric')!, editor);
   showReach(document.getElementById('reach') as HTMLInputElement, editor);
   document.getElementById('loop-nodes')!.hidden = !editor.constraints.loopNodes?.length;
   points.refresh();
@@ -286,6 +303,7 @@ range.addEventListener('input', () => {
   fields.setShare(range.valueAsNumber / 100);
 });
 bindUnit(document.getElementById('unit') as HTMLSelectElement, () => { fields.setShare(range.valueAsNumber / 100); changed(); });
+bindSymmetry(document.getElementById('symmetry') as HTMLSelectElement, editor);
 bindReach(document.getElementById('reach') as HTMLInputElement, editor);
 bindPresets(document.getElementById('mouse') as HTMLSelectElement, (preset) => view.setPreset(preset));
 loopCount.addEventListener('change', () => editor.setFairBoundary(true, loopNodes()));

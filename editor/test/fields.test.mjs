@@ -4,9 +4,9 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { compiled } from './support.mjs';
 
-const { Fields } = await compiled('fields');
-const { between } = await compiled('strength');
-const { shapeOf } = await compiled('shape');
+const { Fields } = await compiled('view/fields');
+const { between } = await compiled('shape/between');
+const { shapeOf } = await compiled('shape/shape');
 
 let clock = 0;
 performance.now = () => clock;

@@ -4,15 +4,15 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { compiled } from './support.mjs';
 
-const constraints = await compiled('constraints');
-const history = await compiled('history');
-const { merged, Solver } = await compiled('client');
-const { pick } = await compiled('picking');
-const { verticesOf, setNormals, partOf } = await compiled('vertices');
-const { shapeOf, placesOf } = await compiled('shape');
-const { withLoops } = await compiled('loops');
+const constraints = await compiled('constraints/constraints');
+const history = await compiled('edit/history');
+const { merged, Solver } = await compiled('library/client');
+const { pick } = await compiled('pick/picking');
+const { verticesOf, setNormals, partOf } = await compiled('shape/vertices');
+const { shapeOf, placesOf } = await compiled('shape/shape');
+const { withLoops } = await compiled('shape/loops');
 const { Pull } = await compiled('pull/pull');
-const { FrameCounter } = await compiled('frames');
+const { FrameCounter } = await compiled('edit/frames');
 
 test('constraints come out of the file that they are written to', () => {
   const { initial, edited, placed, toFile, fromFile, heldNodes, withBoundary } = constraints;
@@ -86,6 +86,36 @@ test('newer jobs stand for those that wait, and constraints are not lost', async
   assert.deepEqual(ends, [3], 'the drag goes on');
   solver.push({ rules: 'd' });
   assert.deepEqual(ends, [3, 5], 'a slow step of a drag that has ended is not waited for');
+});
+
+test('another worker is told what opened the shape, its points and its newest nodes', async () => {
+  const { CoreClient } = await compiled('library/client');
+  const workers = [];
+  globalThis.self = globalThis;
+  globalThis.document = { baseURI: 'http://here/' };
+  globalThis.Worker = class {
+    posted = [];
+    constructor() { workers.push(this); }
+    addEventListener(type, call) { this[type] = call; }
+    postMessage(message) { this.posted.push(message); }
+    terminate() {}
+  };
+  const client = new CoreClient(assert.fail);
+  const answered = async (kind, ask) => {
+    const answer = client.ask(kind, ask);
+    workers[0].message({ data: { number: workers[0].posted.at(-1).number, answer: {} } });
+    await answer;
+  };
+  await answered('open', 'an older file');
+  await answered('open', 'file');
+  await answered('nodes', 'before the points');
+  await answered('points', 'cloud');
+  await answered('nodes', 'older');
+  await answered('nodes', 'newest');
+  const given = client.ask('solve', {});
+  client.endNow();
+  await assert.rejects(given);
+  assert.deepEqual(workers[1].posted.slice(1).map(({ kind, ask }) => [kind, ask]), [['open', 'file'], ['nodes', 'before the points'], ['points', 'cloud'], ['nodes', 'newest']]);
 });
 
 // A cube of six quads about the origin, its sides all facing outwards.
@@ -233,7 +263,7 @@ function grid(side) {
 }
 
 test('a picture of a drag has fewer triangles, even ones though the surface is flat, the same boundary and the same normals', async () => {
-  const { loadSimplifier, simplified } = await compiled('simplify');
+  const { loadSimplifier, simplified } = await compiled('view/simplify');
   const shape = grid(60);
   const places = placesOf(shape, shape.input);
   const vertices = verticesOf(shape.faces, places, shape.edges);

@@ -4,10 +4,10 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { compiled } from './support.mjs';
 
-const { tilted, turnBetween, turned } = await compiled('turning');
-const { along } = await compiled('ways');
-const { vectorOf } = await compiled('numbers');
-const { inEditorWords } = await compiled('words');
+const { tilted, turnBetween, turned } = await compiled('base/turning');
+const { along } = await compiled('pick/ways');
+const { vectorOf } = await compiled('panels/numbers');
+const { inEditorWords } = await compiled('base/words');
 
 const frame = [[1, 0, 0], [0, 0, 1], [0, -1, 0]];  // seen along y
 const near = (a, b) => assert.ok(a.every((part, i) => Math.abs(part - b[i]) < 1e-12), `${a} and ${b}`);

@@ -4,12 +4,12 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { compiled } from './support.mjs';
 
-const { inBox, inLoop, Squares } = await compiled('within');
-const { visibleNodes } = await compiled('visible');
-const { grown, rim, shrunk, withParts, all, inverted } = await compiled('neighbours');
-const { restricted } = await compiled('region');
-const { shapeOf } = await compiled('shape');
-const { initial, edited, toFile } = await compiled('constraints');
+const { inBox, inLoop, Squares } = await compiled('pick/within');
+const { visibleNodes } = await compiled('pick/visible');
+const { grown, rim, shrunk, withParts, all, inverted } = await compiled('shape/neighbours');
+const { restricted } = await compiled('constraints/region');
+const { shapeOf } = await compiled('shape/shape');
+const { initial, edited, toFile } = await compiled('constraints/constraints');
 
 // Nodes at whole pixels, 10 across and 10 down, in rows.
 const screen = Float32Array.from({ length: 300 }, (_, k) => [Math.floor(k / 3) % 10, Math.floor(k / 30), 0][k % 3]);
@@ -71,4 +71,23 @@ test('a region comes after what held already, as rules of a constraints file; an
   const second = restricted(first, [8], { ...none, fixed: Int32Array.of(0, 1, 2, 7) }, input, seen);
   assert.deepEqual(rules(second), [...before, { nodes: [0, 2, 7], position: 'fixed' }, { nodes: [1], position: [[4, 5, 6]] }]);
   assert.equal(rules(restricted(initial, [0], { ...none, fixed: new Int32Array() }, input, input)).length, 1);
+});
+
+test('nodes have mirror images within a small share of an edge, and moves and turns are mirrored', async () => {
+  const { Mirror } = await compiled('shape/mirror');
+  // Five by three nodes about x = 0, one of them moved a little, one too far.
+  const positions = new Float64Array(45);
+  for (let k = 0; k < 15; ++k) positions.set([(k % 5) - 2, Math.floor(k / 5), 7], 3 * k);
+  positions[0] -= 0.05;
+  positions[3 * 14] += 0.2;
+  const shape = { input: positions, scale: 0.25, spacing: 0.25 };
+  const mirror = new Mirror(shape, 0);
+  assert.deepEqual([0, 1, 2, 5, 14, 10].map((node) => mirror.with([node])), [[0, 4], [1, 3], [2], [5, 9], [14], [10]]);
+  assert.equal(mirror.count, 13);
+  assert.equal(new Mirror(shape, 1).count, 5, 'of y only those at 0 are their own images: all others lie on one side');
+  assert.deepEqual(mirror.with([3, 1, 2]), [3, 1, 2]);
+  const way = [1, 2, 3];
+  assert.deepEqual([4, 0, 2, 3, 14].map((node) => mirror.mirrored(way, 4, node, false)), [way, [-1, 2, 3], [0, 2, 3], way, way]);
+  assert.deepEqual([0, 2].map((node) => mirror.mirrored(way, 4, node, true)), [[1, -2, -3], [1, 0, 0]], 'a turn is mirrored the other way round');
+  assert.deepEqual(mirror.mirrored(way, 2, 1, false), [-1, 2, 3], 'from a node on the plane the side of greater coordinates goes as it does');
 });

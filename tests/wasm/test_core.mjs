@@ -380,6 +380,20 @@ test('curves: through places that were drawn, with even nodes in between', () =>
   curve.delete();
 });
 
+test('curves: other nodes in place of their own; groups keep what stays', () => {
+  const text = 'g rim\nv 0 0 0\nv 1 1 0\nv 2 0 0\nv 3 0 0\nl 1 2 3\ng tail\nl 3 4\n';
+  const curve = new core.Curve(new TextEncoder().encode(text), 'line.obj');
+  curve.setNodes(Float64Array.of(0, 0, 0, 0.5, 0.6, 0, 2, 0, 0, 3, 0, 0), Int32Array.of(0, 4), Int32Array.of(0, 1, 2, 3), Uint8Array.of(0), Int32Array.of(0, -1, 2, 3));
+  assert.deepEqual([curve.nodeCount(), ...curve.chainBegin(), ...curve.boundary()], [4, 0, 4, 1, 0, 0, 1]);
+  curve.setRules('{"rules": [{"nodes": {"group": "rim"}, "position": "fixed"}, {"nodes": "boundary", "position": "fixed"}]}');
+  const report = curve.fair(null);
+  assert.deepEqual([report.outcome, report.movingNodes], ['converged', 1], 'of the group node 1 is gone');
+  assert.match(new TextDecoder().decode(curve.write('out.csv')), /^x,y,z\n0,0,0\n.*\n2,0,0\n3,0,0\n$/);
+  assert.throws(() => curve.setNodes(Float64Array.of(0, 0, 0), Int32Array.of(0, 2), Int32Array.of(0, 7), Uint8Array.of(0), Int32Array.of(0)), /7/);
+  assert.equal(curve.nodeCount(), 4, 'it is as it was');
+  curve.delete();
+});
+
 test('fairs boundary loops first, as the native program does', () => {
   const path = generated('loops.obj', 'saddle', '--columns', '12', '--rows', '12', '--noise', '0.02');
   const held = JSON.stringify({ rules: [{ nodes: [0, 6, 12, 84, 168, 162, 156, 78], position: 'fixed' }] });

@@ -1,12 +1,13 @@
 // How the shape is shown: shaded, by lines or colours, with edges over it, and beside its input.
 
-import type { Command } from '../commands';
-import type { Editor } from '../editor';
-import { fieldNames, type Fields } from '../fields';
+import type { Command } from '../base/commands';
+import type { Shape } from '../shape/shape';
+import type { Editor } from '../edit/editor';
+import { fieldNames, type Fields } from '../view/fields';
+import { looks, type Look } from '../view/materials';
+import type { View } from '../view/view';
+import { bindLamps } from './lamps';
 import type { Marks } from './marks';
-import { looks, type Look } from '../materials';
-import type { Shape } from '../shape';
-import type { View } from '../view';
 
 const titles: Record<Look, string> = { shaded: 'Shaded', wire: 'Wire', zebra: 'Zebra', mean: 'Mean curvature', gaussian: 'Gaussian curvature', deviation: 'Deviation from the input' };
 
@@ -15,10 +16,11 @@ export class Looks {
   private before: Look | null = null;
   private edges = false;
 
-  /** wipe: the slider between input and result, in its card. changed: the buttons are to be brought up to date. */
+  /** wipe, lamps: the sliders between input and result and of reflection lines, in their cards. changed: the buttons are to be brought up to date. */
   constructor(private readonly editor: Editor, private readonly view: View, private readonly fields: Fields, private readonly marks: Marks, private readonly wipe: HTMLElement,
-    private readonly changed: () => void) {
+    private readonly lamps: HTMLElement, private readonly changed: () => void) {
     wipe.addEventListener('input', () => this.setWipe());
+    bindLamps(lamps, (set) => view.setLamps(set));
   }
 
   get commands(): Command[] {
@@ -41,11 +43,13 @@ export class Looks {
   opened(shape: Shape): void {
     this.wipe.hidden ||= shape.curve !== null;
     this.setWipe();
+    this.showLamps();
   }
 
   set(which: Look): void {
     this.look = which;
     this.view.setLook(which);
+    this.showLamps();
     this.marks.refresh(which, false);
     this.fields.choose(fieldNames.find((name) => name === which) ?? null);
     this.changed();
@@ -61,6 +65,10 @@ export class Looks {
       this.set(this.before);
       this.before = null;
     }
+  }
+
+  private showLamps(): void {
+    this.lamps.hidden = this.look !== 'zebra' || this.editor.shape?.curve != null;
   }
 
   private setWipe(): void {

@@ -1,10 +1,10 @@
 // Which nodes are marked: those that are held, picked, and under the pointer.
 
-import { heldPosition } from '../constraints';
-import type { Editor } from '../editor';
-import type { Look } from '../materials';
-import { rim } from '../neighbours';
-import type { View } from '../view';
+import { rim } from '../shape/neighbours';
+import { heldPosition } from '../constraints/constraints';
+import type { Editor } from '../edit/editor';
+import type { Look } from '../view/materials';
+import type { View } from '../view/view';
 
 export class Marks {
   private held: Uint8Array = new Uint8Array();

@@ -1,6 +1,6 @@
 // The axes in the corner of the view: how it is turned, and a click on an end looks from there.
 
-import type { Vector } from '../constraints';
+import type { Vector } from '../base/vectors';
 
 const titles: [string, Vector][] = [['X', [1, 0, 0]], ['Y', [0, 1, 0]], ['Z', [0, 0, 1]], ['−X', [-1, 0, 0]], ['−Y', [0, -1, 0]], ['−Z', [0, 0, -1]]];
 const names: Record<string, string> = { X: 'right', '−X': 'left', Y: 'back', '−Y': 'front', Z: 'top', '−Z': 'bottom' };

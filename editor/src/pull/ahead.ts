@@ -1,8 +1,7 @@
 // Where a large shape goes while the library is still at work on it: on from its last shapes, as these went with the pointer. So the picture
 // keeps up with a pointer that the library cannot keep up with.
 
-import type { Vector } from '../constraints';
-import { dot } from '../turning';
+import { dot, type Vector } from '../base/vectors';
 
 interface Reached {
   way: Vector;

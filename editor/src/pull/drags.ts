@@ -1,12 +1,14 @@
 // What is held and goes with the pointer: positions of nodes, or their normals or tangents, which turn. The shape follows; on release it is faired anew.
 
+import { turned } from '../base/turning';
+import type { Vector } from '../base/vectors';
+import type { Solver } from '../library/client';
+import type { Drag, Job, Part, Report, Solved } from '../library/protocol';
+import type { Mirror } from '../shape/mirror';
+import type { Shape } from '../shape/shape';
+import { placed, type Constraints } from '../constraints/constraints';
 import { Ahead } from './ahead';
-import type { Solver } from '../client';
-import { placed, type Constraints, type Part, type Vector } from '../constraints';
-import type { Editor } from '../editor';
-import type { Drag, Solved } from '../protocol';
 import { Pull } from './pull';
-import { turned } from '../turning';
 
 /** Moving nodes from which on the library is taken to be slower than the pointer; and seconds in which it is not. */
 const many = 30_000;
@@ -16,6 +18,34 @@ const firstStep = 0.02;
 const firstOfMany = 0.005;
 /** Milliseconds between pictures of what is ahead: drawing takes from the library's time. */
 const pause = 70;
+
+/** What a drag knows of the shape, and tells whoever has it. */
+export interface Pulled {
+  readonly shape: Shape | null;
+  /** The newest shape that is solved, without what the drag is ahead of it. */
+  readonly result: Float64Array;
+  readonly report: Report | null;
+  readonly busy: boolean;
+  readonly constraints: Constraints;
+  /** Picked nodes go as their mirror images do. */
+  readonly mirror: Mirror | null;
+  readonly picked: ReadonlySet<number>;
+  readonly normals: ReadonlyMap<number, Vector>;
+  isDraggable(node: number): boolean;
+  placeOf(node: number): Vector;
+  pick(node: number, add: boolean): void;
+  /** What holds for only what is near to go along; null where what holds already says what does. */
+  nearby(nodes: readonly number[]): Promise<Constraints | null> | null;
+  jobOf(constraints: Constraints): Job;
+  dragBegun(now: number): void;
+  showDrag(): void;
+  turnNormals(nodes: readonly number[], vectors: Float64Array): void;
+  /** The drag is a step. */
+  apply(label: string, constraints: Constraints): void;
+  /** It was none. */
+  settle(): void;
+  setFault(message: string, source: 'solver'): void;
+}
 
 export class Drags {
   private pull: Pull | null = null;
@@ -32,7 +62,7 @@ export class Drags {
   /** The one that the pointer has taken. */
   node = -1;
 
-  constructor(private readonly editor: Editor, private readonly solver: Solver) {}
+  constructor(private readonly editor: Pulled, private readonly solver: Solver) {}
 
   get part(): Part | null {
     return this.pull?.part ?? null;
@@ -45,7 +75,12 @@ export class Drags {
     const turns = part !== 'position';
     const nodes = [...editor.picked].filter((other) => (turns ? editor.normals.has(other) : editor.isDraggable(other) || !editor.isDraggable(node)));
     const start = Float64Array.from(nodes.flatMap((other) => (turns ? editor.normals.get(other)! : editor.placeOf(other))));
-    const at = (way: Vector): Float64Array => (turns ? turned(start, way) : start.map((place, k) => place + way[k % 3]));
+    const { mirror } = editor;
+    const each = (way: Vector, k: number): Vector => mirror?.mirrored(way, node, nodes[k], turns) ?? way;
+    const at = (way: Vector): Float64Array => Float64Array.from(nodes.flatMap((_, k) => {
+      const [from, to] = [start.subarray(3 * k, 3 * k + 3), each(way, k)];
+      return turns ? [...turned(from, to)] : to.map((part, i) => from[i] + part);
+    }));
     this.node = node;
     const { report, shape } = editor;
     this.ahead = shape!.curve ? null : new Ahead(editor.busy ? null : editor.result);

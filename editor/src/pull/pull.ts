@@ -1,8 +1,8 @@
 // Held nodes or normals on their way to the pointer. A shape follows short steps quickly and long ones badly, so long ways are made in
 // steps, as long as lately took few iterations.
 
-import type { Part, Vector } from '../constraints';
-import type { Drag } from '../protocol';
+import type { Vector } from '../base/vectors';
+import type { Drag, Part } from '../library/protocol';
 
 // Beyond 30 the library fairs anew, which takes many times as long.
 const few = 8;

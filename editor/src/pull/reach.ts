@@ -1,6 +1,6 @@
 // How far around what is pulled the shape goes with it.
 
-import type { Shape } from '../shape';
+import type { Shape } from '../shape/shape';
 
 /** Of the size, where nothing else is said and a file is as it came or only a part of it moves. */
 export const near = 0.15;

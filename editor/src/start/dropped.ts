@@ -1,9 +1,9 @@
 // What becomes of a file that is dropped: opened, or points that what is open is drawn towards. Where it could be either, that is asked.
 
-import type { Editor } from '../editor';
-import type { NamedBytes } from '../files';
-import type { Opening } from '../opening';
-import { counted } from '../words';
+import type { NamedBytes } from '../base/files';
+import { counted } from '../base/words';
+import type { Editor } from '../edit/editor';
+import type { Opening } from '../edit/opening';
 import { areScattered, rowsOf } from './tables';
 
 export interface DropEvents {

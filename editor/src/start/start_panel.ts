@@ -1,14 +1,14 @@
 // The panel of a file that is as it came: it offers what may be done, shows on the shape what would come of it, and makes it a step.
 
 import { short } from '../../../page/numbers.js';
-import type { Command } from '../commands';
-import { isUntouched } from '../constraints';
-import type { Editor } from '../editor';
-import type { Cloud } from '../points';
-import type { Shape } from '../shape';
-import type { Tools } from '../tools';
-import { withUnit } from '../units';
-import { counted } from '../words';
+import type { Command } from '../base/commands';
+import { withUnit } from '../base/units';
+import { counted } from '../base/words';
+import type { Shape } from '../shape/shape';
+import { isUntouched } from '../constraints/constraints';
+import type { Cloud } from '../constraints/points';
+import type { Editor } from '../edit/editor';
+import type { Tools } from '../pick/tools';
 import { freed, isHeld, isNoisy, smoothed, suggestedTolerance, type Way } from './ways';
 
 function rounded(length: number): string {

@@ -1,7 +1,7 @@
 // What may be done to a shape that is as it is in its file: the constraints of each way.
 
-import { heldPosition, type Constraints, type Held } from '../constraints';
-import type { Cloud } from '../points';
+import { heldPosition, type Constraints, type Held } from '../constraints/constraints';
+import type { Cloud } from '../constraints/points';
 
 export const ways = ['smooth', 'repair', 'free'] as const;
 export type Way = (typeof ways)[number];

@@ -1,0 +1,175 @@
+// What holds the surface, as plain data: the rules of a constraints file, then what was done by hand, node by node.
+
+import type { Vector } from '../base/vectors';
+import { parts, type CurveNodes, type Part } from '../library/protocol';
+import type { Fit } from './points';
+
+export type Hold<Given> = 'fixed' | 'free' | Given;
+
+/** One rule of a constraints file; what the editor does not know of it is kept as it is. */
+export interface Rule {
+  nodes: unknown;
+  position?: unknown;
+  normal?: unknown;
+  tangent?: unknown;
+}
+
+export interface Edit {
+  position?: Hold<Vector>;
+  normal?: Hold<Vector>;
+  /** Of curves. */
+  tangent?: Hold<Vector>;
+}
+
+export interface Constraints {
+  readonly rules: readonly Rule[];
+  /** What keeps all outside a region where it is; null where all may move. It comes before the edits, and another region has others. */
+  readonly region?: readonly Rule[] | null;
+  readonly edits: Readonly<Record<number, Edit>>;
+  /** Of surfaces, and in no file: boundary nodes whose position is free are faired first, as curves. */
+  readonly fairBoundary?: boolean;
+  /** Nodes that were fixed for that, as loops are faired between nodes that are. */
+  readonly loopNodes?: readonly number[];
+  /** In no file either: points that the shape is drawn towards. */
+  readonly fit?: Fit;
+  /** In no file either: the nodes of a curve, which all else here numbers, where some were inserted or deleted. */
+  readonly curve?: CurveNodes;
+}
+
+export const initial: Constraints = { rules: [{ nodes: 'boundary', position: 'fixed' }], edits: {} };
+/** As a file is opened: nothing moves, until it is said what is to. */
+export const untouched: Constraints = { ...initial, region: [{ nodes: 'all', position: 'fixed' }] };
+
+export function isUntouched({ region }: Constraints): boolean {
+  return region === untouched.region || region?.[0]?.nodes === 'all';
+}
+
+/** Throws where the text is no constraints file; what its rules say is checked by the library. */
+export function fromFile(text: string): Constraints {
+  const rules = (JSON.parse(text) as { rules?: unknown }).rules;
+  if (!Array.isArray(rules)) throw new Error('A constraints file has a list "rules"');
+  return { rules: rules as Rule[], edits: {} };
+}
+
+export function allRules({ rules, region, edits }: Constraints): Rule[] {
+  return [...rules, ...(region ?? []), ...byHand(edits)];
+}
+
+/** Without those of the region. */
+export function ownRules({ rules, edits }: Constraints): Rule[] {
+  return [...rules, ...byHand(edits)];
+}
+
+function byHand(edits: Constraints['edits']): Rule[] {
+  const nodes = Object.keys(edits).map(Number);
+  const found: Rule[] = [];
+  for (const part of parts) {
+    for (const hold of ['fixed', 'free'] as const) {
+      const these = nodes.filter((node) => edits[node][part] === hold);
+      if (these.length > 0) found.push({ nodes: these, [part]: hold });
+    }
+    const given = nodes.filter((node) => Array.isArray(edits[node][part]));
+    if (given.length > 0) found.push({ nodes: given, [part]: given.map((node) => edits[node][part]) });
+  }
+  return found;
+}
+
+/** Numbers come out so that they are read as the same ones. */
+export function toFile(constraints: Constraints): string {
+  return `{"rules": [\n${allRules(constraints).map((rule) => '  ' + JSON.stringify(rule)).join(',\n')}\n]}\n`;
+}
+
+export function edited(constraints: Constraints, nodes: Iterable<number>, change: (node: number) => Edit): Constraints {
+  const edits = { ...constraints.edits };
+  for (const node of nodes) edits[node] = { ...edits[node], ...change(node) };
+  return { ...constraints, edits };
+}
+
+/** Holds positions at places, or normals in directions, three numbers each. */
+export function placed(constraints: Constraints, nodes: readonly number[], vectors: Float64Array, part: Part = 'position'): Constraints {
+  const given = new Map(nodes.map((node, k) => [node, [...vectors.subarray(3 * k, 3 * k + 3)] as Vector]));
+  return edited(constraints, nodes, (node) => ({ [part]: given.get(node) }));
+}
+
+export function boundaryFixed({ rules }: Constraints, part: Part): boolean {
+  return rules.some((rule) => rule.nodes === 'boundary' && rule[part] === 'fixed');
+}
+
+export function withBoundary(constraints: Constraints, part: Part, fixed: boolean): Constraints {
+  const rest = constraints.rules
+    .map((rule) => {
+      if (rule.nodes !== 'boundary' || rule[part] !== 'fixed') return rule;
+      const { [part]: _, ...kept } = rule;
+      return kept as Rule;
+    })
+    .filter((rule) => parts.some((other) => rule[other] !== undefined));
+  return { ...constraints, rules: fixed ? [{ nodes: 'boundary', [part]: 'fixed' }, ...rest] : rest };
+}
+
+/** In place of a boundary that is fixed, and the other way round. held: nodes to fix for it; those that were before are free again. */
+export function withFairBoundary(constraints: Constraints, fairBoundary: boolean, held: readonly number[]): Constraints {
+  const edits = { ...constraints.edits };
+  for (const node of constraints.loopNodes ?? []) {
+    const { position, ...others } = edits[node] ?? {};
+    if (position === 'fixed') edits[node] = others;
+  }
+  for (const node of held) edits[node] = { ...edits[node], position: 'fixed' };
+  return { ...withBoundary({ ...constraints, edits }, 'position', !fairBoundary), fairBoundary, loopNodes: held };
+}
+
+/** What holds, by other numbers of nodes. now: by the old ones; -1: the node is gone, and what held it. */
+export function renumbered(constraints: Constraints, now: Int32Array): Constraints {
+  const rules = (all: readonly Rule[]): Rule[] => all.flatMap((rule) => renumberedRule(rule, now) ?? []);
+  const edits = Object.entries(constraints.edits).map(([node, edit]) => [now[Number(node)], edit] as const).filter(([node]) => node >= 0);
+  // What leaves a file as it is goes by no numbers.
+  const region = isUntouched(constraints) ? constraints.region : constraints.region && rules(constraints.region);
+  return { ...constraints, rules: rules(constraints.rules), region, edits: Object.fromEntries(edits) };
+}
+
+function renumberedRule(rule: Rule, now: Int32Array): Rule | null {
+  if (!Array.isArray(rule.nodes)) return rule;
+  const nodes = rule.nodes as number[];
+  const left = nodes.flatMap((node, k) => (now[node] >= 0 ? [k] : []));
+  if (left.length === 0) return null;
+  const parted = parts.filter((part) => Array.isArray(rule[part]) && Array.isArray((rule[part] as unknown[])[0]));
+  return { ...rule, nodes: left.map((k) => now[nodes[k]]), ...Object.fromEntries(parted.map((part) => [part, left.map((k) => (rule[part] as unknown[])[k])])) };
+}
+
+export const heldPosition = 1;
+export const heldNormal = 2;
+export const heldTangent = 4;
+const bits: Record<Part, number> = { position: heldPosition, normal: heldNormal, tangent: heldTangent };
+
+export interface Held {
+  /** Sums of heldPosition, heldNormal and heldTangent, by node. */
+  nodes: Uint8Array;
+  /** Rules whose nodes only the library knows, such as groups and regions: they hold, but are not marked. */
+  unmarked: number;
+}
+
+export function heldNodes(constraints: Constraints, boundary: Uint8Array): Held {
+  const nodes = new Uint8Array(boundary.length);
+  let unmarked = 0;
+  // What keeps a file as it is holds nothing that anybody asked for.
+  for (const rule of isUntouched(constraints) ? ownRules(constraints) : allRules(constraints)) {
+    const among = nodesOf(rule.nodes, boundary);
+    if (!among) {
+      ++unmarked;
+      continue;
+    }
+    const said = parts.filter((part) => rule[part] !== undefined);
+    for (const node of among) {
+      for (const part of said) nodes[node] = rule[part] === 'free' ? nodes[node] & ~bits[part] : nodes[node] | bits[part];
+    }
+  }
+  return { nodes, unmarked };
+}
+
+function nodesOf(which: unknown, boundary: Uint8Array): Iterable<number> | null {
+  if (Array.isArray(which)) return (which as number[]).filter((node) => node >= 0 && node < boundary.length);
+  const all = Array.from(boundary.keys());
+  if (which === 'all') return all;
+  if (which === 'boundary') return all.filter((node) => boundary[node]);
+  if (which === 'interior') return all.filter((node) => !boundary[node]);
+  return null;
+}

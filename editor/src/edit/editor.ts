@@ -1,0 +1,437 @@
+// The state of the editor, and all that changes it.
+
+import type { NamedBytes } from '../base/files';
+import type { Loading } from '../base/loading';
+import type { Vector } from '../base/vectors';
+import { counted } from '../base/words';
+import { CoreClient, Solver } from '../library/client';
+import type { Ask, CurveNodes, Job, Opened, Part, Report, Solved } from '../library/protocol';
+import { between, furthest } from '../shape/between';
+import { heldOn, loopsOf } from '../shape/loops';
+import type { Mirror } from '../shape/mirror';
+import { normalNear, nothing, shapeOf, type Shape } from '../shape/shape';
+import type { Constraints, Edit, Held } from '../constraints/constraints';
+import * as holding from '../constraints/constraints';
+import { nodesOf, type Renumbered } from '../constraints/nodes';
+import type { Cloud, PointSource } from '../constraints/points';
+import { keepingAdded, keepsSome, restricted } from '../constraints/region';
+import { Drags } from '../pull/drags';
+import { near, within } from '../pull/reach';
+import { FrameCounter } from './frames';
+import { begun, done, type History } from './history';
+import { Symmetry } from './symmetry';
+
+export interface EditorEvents {
+  /** stays: where it is seen. */
+  opened: (shape: Shape, stays: boolean) => void;
+  /** What is open has other nodes. */
+  renumbered: (shape: Shape) => void;
+  /** Another shape is to be seen; settled: it is not one of many during a drag. */
+  shape: (positions: Float64Array, settled: boolean) => void;
+  /** Anything else that is shown has changed. */
+  changed: () => void;
+}
+
+const cancelled: Report = { outcome: 'cancelled', iterations: 0, seconds: 0, threads: 1, expectedError: null, movingNodes: 0, warnings: [] };
+/** What a shape was opened from: a file, or places that were clicked. */
+export type Source = NamedBytes | Ask<'draw'>;
+
+export function nameOf(source: Source): string {
+  return 'places' in source ? 'curve.csv' : source.name;
+}
+
+type FaultSource = 'file' | 'solver';
+
+export class Editor {
+  name = '';
+  shape: Shape | null = null;
+  report: Report | null = null;
+  fileWarnings: string[] = [];
+  fault: { message: string; source: FaultSource } | null = null;
+  held: Held = { nodes: new Uint8Array(), unmarked: 0 };
+  /** Normals that are held, of curves tangents, as the library takes them. */
+  normals: Map<number, Vector> = new Map();
+  picked: ReadonlySet<number> = new Set();
+  hovered = -1;
+  /** Whether the pointer is at the arrow of that node. */
+  atArrow = false;
+  busy = false;
+  /** A file waits for its shape. */
+  saving = false;
+  fraction = 0;
+  showsInput = false;
+  /** What is being opened. */
+  loading: Loading | null = null;
+  /** Whether the curve was drawn here. */
+  drawn = false;
+  /** How far on the way from the input to the result that is which is seen and saved: 0 to 1. */
+  strength = 1;
+  history: History<Constraints> = begun(holding.initial);
+  /** What is shown to be judged before it is a step, and what was there before. */
+  private tried: Constraints | null = null;
+  private before: { positions: Float64Array; strength: number; report: Report | null } = { positions: new Float64Array(), strength: 1, report: null };
+  private cancels = 0;
+  /** Null: as is usual for what is open. */
+  reach: number | null = null;
+  readonly symmetry = new Symmetry(() => this.shape);
+  readonly frames = new FrameCounter();
+  private positions: Float64Array = new Float64Array();
+  seen: Float64Array = this.positions;
+  /** Whether that was shown for more than a moment. */
+  private rests = true;
+  /** Numbers of points that are known to the worker. */
+  clouds = 0;
+  source: Source | null = null;
+  readonly client = new CoreClient((message) => this.setFault(message, 'file'));
+  private readonly solver = new Solver(this.client, {
+    solved: (solved, job) => this.solved(solved, job),
+    failed: (message) => this.setFault(message, 'solver'),
+    ended: () => { this.report = cancelled; },
+    progress: (fraction) => this.set({ fraction }),
+    busy: (busy) => this.set({ busy, fraction: 0 }),
+  });
+
+  readonly drags = new Drags(this, this.solver);
+
+  constructor(private readonly events: EditorEvents) {}
+
+  get constraints(): Constraints {
+    return this.tried ?? this.history.now.state;
+  }
+
+  /** How far what is tried moves a node. */
+  get movedInTrial(): number {
+    return this.tried ? furthest(this.positions, this.before.positions) : 0;
+  }
+
+  /** How far what is seen is from the input. */
+  get moved(): number {
+    return this.shape ? furthest(this.seen, this.shape.input) : 0;
+  }
+
+  get trying(): boolean {
+    return this.tried !== null;
+  }
+
+  get result(): Float64Array {
+    return this.positions;
+  }
+
+  get dragging(): boolean {
+    return this.drags.part !== null;
+  }
+
+  get canEnd(): boolean {
+    return this.saving || (this.busy && !this.dragging);
+  }
+
+  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'hovered' | 'picked' | 'fault' | 'loading' | 'reach'>>): void {
+    Object.assign(this, state);
+    this.events.changed();
+  }
+
+  setFault(message: string, source: FaultSource): void {
+    this.set({ fault: { message, source }, loading: null });
+  }
+
+  /** What the normal of a surface is to a curve: its tangent. */
+  get direction(): Part {
+    return this.shape?.curve ? 'tangent' : 'normal';
+  }
+
+  /** Ends what is solved, as another shape is to come. */
+  halt(): void {
+    this.solver.clear();
+  }
+
+  take(source: Source, opened: Opened, history: History<Constraints>): void {
+    const drawn = 'places' in source;
+    const name = nameOf(source);
+    this.source = source;
+    this.drags.drop();
+    this.normals = new Map();
+    this.history = history;
+    this.tried = null;
+    this.loading = null;
+    this.shape = shapeOf(opened);
+    this.positions = this.seen = opened.positions;
+    Object.assign(this, { name, drawn, report: null, fault: null, showsInput: false, strength: 1, picked: new Set(), hovered: -1, fileWarnings: opened.warnings });
+    this.rests = true;
+    this.events.opened(this.shape, drawn);
+    this.settle();
+  }
+
+  /** Nothing is open. */
+  close(): void {
+    this.source = null;
+    this.tried = null;
+    this.solver.clear();
+    this.drags.drop();
+    this.normals = new Map();
+    this.history = begun(holding.initial);
+    this.shape = null;
+    this.positions = this.seen = new Float64Array();
+    this.held = { nodes: new Uint8Array(), unmarked: 0 };
+    Object.assign(this, { name: '', drawn: false, report: null, fault: null, showsInput: false, strength: 1, picked: new Set(), hovered: -1, fileWarnings: [] });
+    this.events.opened(nothing, false);
+    this.events.changed();
+  }
+
+  async cloudOf({ name, bytes }: PointSource): Promise<Cloud> {
+    const number = ++this.clouds;
+    const { positions } = await this.client.ask('points', { number, name, bytes });
+    return { number, name, bytes, positions };
+  }
+
+  toggleInput(): void {
+    this.show({ showsInput: !this.showsInput }, true);
+  }
+
+  /** settled: the slider has been let go. */
+  setStrength(strength: number, settled: boolean): void {
+    this.show({ strength, showsInput: false }, settled);
+  }
+
+  /** As what is dragged has moved on. */
+  showDrag(): void {
+    this.show({}, false);
+  }
+
+  show(state: Partial<Pick<Editor, 'showsInput' | 'strength'>>, settled: boolean): void {
+    Object.assign(this, state);
+    this.seen = this.drags.shape ?? between(this.shape!.input, this.positions, this.showsInput ? 0 : this.strength);
+    this.rests = settled;
+    this.events.shape(this.seen, settled);
+    this.events.changed();
+  }
+
+  get mirror(): Mirror | null {
+    return this.symmetry.mirror;
+  }
+
+  setSymmetry(axis: number | null): void {
+    this.symmetry.axis = axis;
+    this.set({ picked: new Set(this.symmetry.with(this.picked)) });
+  }
+
+  pick(node: number, add: boolean): void {
+    const picked = new Set(add ? this.picked : []);
+    const takes = add && picked.has(node);
+    for (const other of node < 0 ? [] : this.symmetry.with([node])) {
+      if (takes) picked.delete(other);
+      else picked.add(other);
+    }
+    this.set({ picked });
+  }
+
+  setBoundary(part: Part, fixed: boolean): void {
+    this.apply(`${fixed ? 'Fix' : 'Free'} boundary ${part}s`, holding.withBoundary(this.constraints, part, fixed));
+  }
+
+  /** many: nodes to hold each loop by where nothing holds it and it has no corners. */
+  setFairBoundary(first: boolean, many: number): void {
+    const { constraints, shape } = this;
+    const bare = holding.withFairBoundary(constraints, first, []);
+    const held = holding.heldNodes({ ...bare, region: null }, shape!.boundary).nodes;
+    const loose = first ? loopsOf(shape!).filter((loop) => !loop.some((node) => held[node] & holding.heldPosition)) : [];
+    const nodes = loose.flatMap((loop) => heldOn(loop, shape!.input, many));
+    this.apply(first ? `Fair boundary loops${nodes.length > 0 ? `, ${counted(nodes.length, 'node')} held` : ''}` : 'Fix boundary positions', holding.withFairBoundary(constraints, first, nodes));
+  }
+
+  isBoundaryFixed(part: Part): boolean {
+    return holding.boundaryFixed(this.constraints, part);
+  }
+
+  /** Positions are fixed where they are now seen; normals and tangents as in the input. */
+  hold(part: Part, fixed: boolean): void {
+    const change = (node: number): Edit => ({ [part]: !fixed ? 'free' : part === 'position' ? this.placeOf(node) : 'fixed' });
+    this.apply(`${fixed ? 'Fix' : 'Free'} ${part} of ${this.picked.size} ${this.picked.size === 1 ? 'node' : 'nodes'}`,
+      holding.edited(this.constraints, this.picked, change));
+  }
+
+  /** All nodes but these stay where they are seen, and what moves joins them smoothly. Null where something else has been done meanwhile. */
+  async restrictedTo(nodes: ReadonlySet<number>): Promise<Constraints | null> {
+    if (!this.tried) await this.solver.rest();
+    const { history, shape } = this;
+    const constraints = history.now.state;
+    const { positions, strength } = this.tried ? this.before : { positions: this.positions, strength: this.strength };
+    const seen = between(shape!.input, positions, strength);
+    const rules = holding.toFile({ ...constraints, region: null });
+    const region = await this.client.ask('region', { rules, nodes: Int32Array.from(nodes), positions: seen });
+    return history === this.history && shape === this.shape ? restricted(constraints, nodes, region, shape!.input, seen) : null;
+  }
+
+  async fairOnlyPicked(): Promise<void> {
+    try {
+      const { picked } = this;
+      this.try(null);
+      const next = await this.restrictedTo(picked);
+      if (!next) return;
+      this.strength = 1;
+      this.apply(`Fair only ${counted(picked.size, 'node')}`, next);
+    } catch (error) {
+      this.setFault((error as Error).message, 'solver');
+    }
+  }
+
+  /** Shows what would come of these; null: what there was. */
+  try(constraints: Constraints | null): void {
+    if (constraints === this.tried) return;
+    const { positions, strength, report } = this;
+    if (!this.tried) this.before = { positions, strength, report };
+    this.tried = constraints;
+    if (!constraints) Object.assign(this, this.before);
+    this.show({ strength: constraints ? 1 : this.strength, showsInput: false }, true);
+    this.settle();
+  }
+
+  /** What is tried becomes a step, with the shape that it has. */
+  accept(label: string): void {
+    if (!this.tried) return;
+    this.history = done(this.history, label, this.tried);
+    this.tried = null;
+    this.events.changed();
+  }
+
+  /** How much of the size around what is pulled goes with it; 1: all. */
+  get reaches(): number {
+    return this.reach ?? (this.constraints.region ? near : 1);
+  }
+
+  /** What holds for only what is near to go with these nodes; null where what holds already says what does. */
+  nearby(nodes: readonly number[]): Promise<Constraints | null> | null {
+    const { constraints, reaches, shape } = this;
+    const whole = reaches >= 1;
+    const kept = constraints.region && (holding.isUntouched(constraints) || keepsSome(constraints.region, nodes));
+    if (!kept && (constraints.region || whole)) return null;
+    return whole ? Promise.resolve({ ...constraints, region: null }) : this.restrictedTo(within(shape!, this.seen, nodes, reaches));
+  }
+
+  isDraggable(node: number): boolean {
+    return (this.held.nodes[node] & holding.heldPosition) !== 0;
+  }
+
+  /** The bytes of a file of that name, with the shape that is seen, or that is on its way. */
+  async written(name: string): Promise<Uint8Array> {
+    const { cancels } = this;
+    this.set({ saving: true });
+    await this.solver.rest();
+    this.set({ saving: false });
+    if (cancels !== this.cancels) throw new Error(`${name} is not saved, as its solution was cancelled`);
+    return this.client.ask('write', { name, positions: between(this.shape!.input, this.positions, this.strength) });
+  }
+
+  /** The solution that runs ends, and the last shape stays. */
+  cancel(): void {
+    ++this.cancels;
+    this.client.endNow();
+  }
+
+  private get holds(): Job {
+    return this.jobOf(this.constraints);
+  }
+
+  jobOf(constraints: Constraints): Job {
+    const { fairBoundary, fit } = constraints;
+    const job = fit ? { kind: fit.kind, value: fit.value, outliers: fit.outliers, points: fit.cloud.number } : null;
+    return { rules: holding.toFile(constraints), fairBoundary: fairBoundary ?? false, fit: job };
+  }
+
+  dragBegun(now: number): void {
+    this.show({ showsInput: false, strength: 1 }, false);
+    this.frames.start(now);
+  }
+
+  /** What their arrows show until the library says what is held. */
+  turnNormals(nodes: readonly number[], vectors: Float64Array): void {
+    this.normals = new Map(this.normals);
+    nodes.forEach((node, k) => this.normals.set(node, [...vectors.subarray(3 * k, 3 * k + 3)] as Vector));
+    this.events.changed();
+  }
+
+  /** The one that is held, or else that of the shape now. */
+  normalOf(node: number): Vector {
+    const { normals, shape, positions } = this;
+    return normals.get(node) ?? normalNear(shape!, positions, node);
+  }
+
+  placeOf(node: number): Vector {
+    return [...this.seen.subarray(3 * node, 3 * node + 3)] as Vector;
+  }
+
+  apply(label: string, constraints: Constraints): void {
+    this.travel(done(this.history, label, constraints));
+  }
+
+  travel(history: History<Constraints>): void {
+    const other = history.now.state.curve !== this.history.now.state.curve;
+    this.history = history;
+    this.tried = null;
+    if (other) void this.takeNodes();
+    else this.settle();
+  }
+
+  /** Nodes of the curve as it is open. */
+  get nodes(): CurveNodes {
+    return nodesOf(this.shape!, this.history.now.state.curve);
+  }
+
+  /** The curve has other nodes, as a step; what holds by their numbers follows. picked: some of the new ones. */
+  renumber(label: string, changed: Renumbered, picked: readonly number[]): void {
+    this.try(null);
+    const { history, positions, seen } = this;
+    const held = { ...holding.renumbered(history.now.state, changed.now), curve: changed.curve };
+    this.history = done(history, label, keepingAdded(held, changed, changed.carried(seen)));
+    void this.takeNodes(changed.carried(positions), picked);
+  }
+
+  /** The nodes that now hold, in place of those that are open. positions: where they are until it is solved. */
+  private async takeNodes(positions?: Float64Array, picked: readonly number[] = []): Promise<void> {
+    const { source, history } = this;
+    const { curve } = history.now.state;
+    this.solver.clear();
+    this.drags.drop();
+    this.set({ picked: new Set(), hovered: -1, atArrow: false });
+    try {
+      const opened = await this.client.ask('nodes', curve ?? null);
+      // Something else may have been done meanwhile.
+      if (source !== this.source || curve !== this.history.now.state.curve) return;
+      this.shape = shapeOf(opened);
+      this.positions = positions ?? opened.positions;
+      this.normals = new Map();
+      this.events.renumbered(this.shape);
+      this.settle();
+      this.set({ picked: new Set(picked) });
+      this.show({ showsInput: false }, true);
+    } catch (error) {
+      this.setFault((error as Error).message, 'file');
+    }
+  }
+
+  settle(): void {
+    if (!this.shape) return;
+    this.held = holding.heldNodes(this.constraints, this.shape.boundary);
+    this.solver.push(this.holds);
+    this.events.changed();
+  }
+
+  private solved(solved: Solved, { drag }: Job): void {
+    const { positions, report, normals } = solved;
+    if (positions.length !== this.positions.length) return;
+    if (drag && report.outcome === 'cancelled') return;
+    if (drag && report.outcome === 'foreseen') {
+      this.drags.solved(drag, solved);
+      return;
+    }
+    // Of a large shape that stays as it is a picture would take seconds.
+    const same = this.rests && this.seen === this.positions && furthest(positions, this.positions) === 0;
+    if (!same) this.positions = positions;
+    this.report = report;
+    if (this.fault?.source === 'solver') this.fault = null;
+    if (drag) this.frames.solved(drag.time);
+    if (drag) this.drags.solved(drag, solved);
+    if (normals && this.drags.part !== this.direction) this.normals = new Map([...normals.nodes].map((node, k) => [node, [...normals.normals.subarray(3 * k, 3 * k + 3)] as Vector]));
+    if (this.showsInput || same) this.events.changed();
+    else this.show({}, !drag);
+  }
+}

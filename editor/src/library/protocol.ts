@@ -1,0 +1,164 @@
+// What the page asks of the worker, and what it answers. Arrays are handed over, not copied.
+
+import type { Vector } from '../base/vectors';
+
+/** What may be held of a node; tangents are those of curves. */
+export const parts = ['position', 'normal', 'tangent'] as const;
+export type Part = (typeof parts)[number];
+
+interface OpenedShape {
+  positions: Float64Array;
+  /** 1 for every node of a boundary, of a curve: for every end. */
+  boundary: Uint8Array;
+  warnings: string[];
+}
+
+export interface OpenedSurface extends OpenedShape {
+  faceBegin: Int32Array;
+  corners: Int32Array;
+}
+
+export interface OpenedCurve extends OpenedShape {
+  chainBegin: Int32Array;
+  chainNodes: Int32Array;
+  closed: Uint8Array;
+  /** Whether the file has two coordinates a node. */
+  planar: boolean;
+}
+
+export type Opened = OpenedSurface | OpenedCurve;
+
+/** Nodes and chains of a curve where some were inserted or deleted. from: the number that each had when it was opened; -1: none. */
+export interface CurveNodes {
+  positions: Float64Array;
+  chainBegin: Int32Array;
+  chainNodes: Int32Array;
+  closed: Uint8Array;
+  from: Int32Array;
+}
+
+export interface Report {
+  outcome: string;
+  iterations: number;
+  seconds: number;
+  threads: number;
+  expectedError: number | null;
+  movingNodes: number;
+  warnings: string[];
+  /** Of a fit: distances in units of the file, outliers left out. */
+  fit?: { points: number; outliers: number; smoothingLength: number | null; greatest: number; rms: number };
+  /** Of all points. */
+  distances?: Float64Array;
+}
+
+/** Places of held nodes, or their normals, three numbers each. */
+export interface Drag {
+  part: Part;
+  nodes: Int32Array;
+  vectors: Float64Array;
+  /** How far that is from where the drag began. */
+  way: Vector;
+  /** When the pointer was there, in milliseconds as of performance.now(). */
+  time: number;
+  /** Only about where that leads, in less time; nothing is solved. */
+  rough?: boolean;
+}
+
+export type FitKind = 'smoothingLength' | 'within' | 'rms' | 'weight';
+
+/** outliers: a share of the points. */
+export interface FitSettings {
+  readonly kind: FitKind;
+  readonly value: number;
+  readonly outliers: number;
+}
+
+/** points: the number that they were given. */
+export interface FitJob extends FitSettings {
+  points: number;
+}
+
+/** rules: a constraints file, where what holds has changed; with it, whether free boundary nodes are faired first. drag: held nodes under the pointer; without it the surface is faired anew from the input. */
+export interface Job {
+  rules?: string;
+  fairBoundary?: boolean;
+  /** Comes with rules: null where there are no points to be drawn towards. */
+  fit?: FitJob | null;
+  drag?: Drag;
+}
+
+/** Normals, of curves tangents, that are held, three numbers each. */
+export interface HeldNormals {
+  nodes: Int32Array;
+  normals: Float64Array;
+}
+
+export interface Solved {
+  positions: Float64Array;
+  report: Report;
+  /** Where rules came with the job. */
+  normals?: HeldNormals;
+}
+
+/** The principal curvatures at the nodes, in units of the file; k1 is not less than k2. */
+export interface Curvatures {
+  k1: Float64Array;
+  k2: Float64Array;
+}
+
+/** What must hold besides for only some nodes to move: nodes that stay, and the rim with its normals, three numbers each. */
+export interface Region {
+  fixed: Int32Array;
+  rim: Int32Array;
+  /** Of surfaces. */
+  normals?: Float64Array;
+  /** Of curves. */
+  tangents?: Float64Array;
+}
+
+export interface Requests {
+  open: { ask: { name: string; bytes: Uint8Array; rules: string }; answer: Opened };
+  /** Opens the curve through places, three numbers each, that are held there, with so many nodes in all. from: for every node the place that it is at, or -1. */
+  draw: { ask: { places: Float64Array; closed: boolean; nodes: number }; answer: OpenedCurve & { from: Int32Array } };
+  /** The fair curve through places as `draw` opens it, with its first node once more at its end where it is closed; what is open stays. */
+  sketch: { ask: Ask<'draw'>; answer: Float64Array };
+  /** Gives the curve that was opened other nodes; null: its own. Nothing holds it then, and points stay. */
+  nodes: { ask: CurveNodes | null; answer: OpenedCurve };
+  /** Throws, and leaves what held, where the rules are refused. */
+  hold: { ask: { rules: string }; answer: null };
+  /** Reads scattered points, which the jobs name by that number; without bytes they are the nodes of the input. Another shape has none. */
+  points: { ask: { number: number; name: string; bytes: Uint8Array | null }; answer: { positions: Float64Array } };
+  /** Of a shape of those positions. */
+  region: { ask: { rules: string; nodes: Int32Array; positions: Float64Array }; answer: Region };
+  /** The standard deviation of the nodes of the input, as far as that can be told; else 0. */
+  noise: { ask: null; answer: number };
+  solve: { ask: Job; answer: Solved };
+  curvatures: { ask: { positions: Float64Array }; answer: Curvatures };
+  /** The bytes of a file of that name, with those positions. */
+  write: { ask: { name: string; positions: Float64Array }; answer: Uint8Array };
+}
+
+export type Kind = keyof Requests;
+export type Ask<K extends Kind> = Requests[K]['ask'];
+export type Answer<K extends Kind> = Requests[K]['answer'];
+
+export interface Request<K extends Kind = Kind> {
+  number: number;
+  kind: K;
+  ask: Ask<K>;
+}
+
+/** Where in shared memory the page writes the number of the last request that is to end soon: of solutions that are out of date, and of all. */
+export const endedSolution = 0;
+export const endedAll = 1;
+
+/** folder: an address in the one that the library is loaded from. ended: that memory; null where it may not be shared. */
+export interface Start {
+  folder: string;
+  ended: Int32Array | null;
+}
+
+export type Reply =
+  | { number: number; answer: Answer<Kind> }
+  | { number: number; error: string }
+  | { number: number; fraction: number };

@@ -1,0 +1,175 @@
+// The worker that owns the library and the open shape. It answers one request after the other.
+
+import { describe, describeCurve, loadFastest, openShape, type Core, type CoreCurve, type CoreSurface } from './core';
+import { Fits } from './fits';
+import { endedAll, endedSolution, type Answer, type Ask, type Drag, type HeldNormals, type Job, type Kind, type Reply, type Report, type Request, type Start } from './protocol';
+
+declare function postMessage(reply: Reply, transfer?: Transferable[]): void;
+
+let core: Core;
+let shape: CoreSurface | CoreCurve | null = null;
+/** Makes the curve that is open once more, as it was opened. */
+let anew: (() => CoreCurve) | null = null;
+let ended: Int32Array | null = null;
+const fits = new Fits();
+let input: Float64Array = new Float64Array();
+
+/** Of a shape that nobody has looked at. */
+const rough: Report = { outcome: 'foreseen', iterations: 0, seconds: 0, threads: 1, expectedError: null, movingNodes: 0, warnings: [] };
+
+type Progress = (fraction: number) => boolean;
+type Handlers = { [K in Kind]: (ask: Ask<K>, progress: Progress) => Answer<K> };
+
+function opened(): CoreSurface | CoreCurve {
+  if (!shape) throw new Error('Nothing is open');
+  return shape;
+}
+
+function take(next: CoreSurface | CoreCurve): void {
+  shape?.delete();
+  shape = next;
+  input = next.positions();
+}
+
+function drawn({ places, closed, nodes }: Ask<'draw'>): { curve: CoreCurve; from: Int32Array } {
+  const curve = core.Curve.through(places, closed);
+  try {
+    curve.setRules('{"rules": [{"nodes": "all", "position": "fixed"}]}');
+    return { curve, from: curve.resample(nodes) };
+  } catch (error) {
+    curve.delete();
+    throw error;
+  }
+}
+
+function hold(target: CoreSurface | CoreCurve, { rules, fairBoundary, fit }: Job): void {
+  if (fit !== undefined) fits.use(fit);
+  if (rules !== undefined) target.setRules(rules);
+  if (fairBoundary !== undefined && 'setFairBoundary' in target) target.setFairBoundary(fairBoundary);
+}
+
+function heldDirections(target: CoreSurface | CoreCurve): HeldNormals {
+  if ('heldNormals' in target) return target.heldNormals();
+  const { nodes, tangents } = target.heldTangents();
+  return { nodes, normals: tangents };
+}
+
+function holdAt(target: CoreSurface | CoreCurve, { part, nodes, vectors }: Drag): void {
+  nodes.forEach((node, k) => {
+    const [x, y, z] = vectors.subarray(3 * k, 3 * k + 3);
+    if (part === 'normal' && 'holdNormal' in target) target.holdNormal(node, x, y, z);
+    else if (part === 'tangent' && 'holdTangent' in target) target.holdTangent(node, x, y, z);
+    else target.holdPosition(node, x, y, z);
+  });
+}
+
+const handlers: Handlers = {
+  open({ name, bytes, rules }) {
+    const next = openShape(core, name, bytes);
+    try {
+      next.setRules(rules);
+    } catch (error) {
+      next.delete();
+      throw error;
+    }
+    fits.clear();
+    take(next);
+    anew = 'faceBegin' in next ? null : () => openShape(core, name, bytes) as CoreCurve;
+    return describe(next);
+  },
+  draw(ask) {
+    const { curve, from } = drawn(ask);
+    fits.clear();
+    take(curve);
+    anew = () => drawn(ask).curve;
+    return { ...describeCurve(curve), from };
+  },
+  sketch(ask) {
+    const { curve } = drawn(ask);
+    curve.fair(null);
+    const positions = curve.positions();
+    curve.delete();
+    return ask.closed ? Float64Array.of(...positions, ...positions.subarray(0, 3)) : positions;
+  },
+  nodes(ask) {
+    if (!anew) throw new Error('Only curves get other nodes');
+    const next = anew();
+    if (ask) next.setNodes(ask.positions, ask.chainBegin, ask.chainNodes, ask.closed, ask.from);
+    take(next);
+    return describeCurve(next);
+  },
+  hold({ rules }) {
+    opened().setRules(rules);
+    return null;
+  },
+  points({ number, name, bytes }) {
+    // As the program does: a shape that is drawn to its own nodes leaves them about where they are.
+    return { positions: fits.add(number, bytes ? new core.Points(bytes, name) : core.Points.at(input), !bytes) };
+  },
+  region({ rules, nodes, positions }) {
+    opened().setRules(rules);
+    return opened().region(nodes, positions);
+  },
+  noise() {
+    return opened().noise();
+  },
+  solve({ rules, fairBoundary, fit, drag }, progress) {
+    const target = opened();
+    hold(target, { rules, fairBoundary, fit });
+    const normals = rules !== undefined ? heldDirections(target) : undefined;
+    if (drag) holdAt(target, drag);
+    const foreseen = drag?.rough ? (target as CoreSurface).predict() : null;
+    if (foreseen) return { positions: foreseen, report: rough };
+    const before = target.positions();
+    const report = drag ? fits.update(target, progress) : fits.fair(target, progress);
+    // What was given up on the way may be crumpled.
+    if (report.outcome === 'cancelled') target.setPositions(before);
+    return { positions: target.positions(), report, normals };
+  },
+  curvatures({ positions }) {
+    return (opened() as CoreSurface).curvatures(positions);  // nobody asks it of curves
+  },
+  write({ name, positions }) {
+    const target = opened();
+    const before = target.positions();
+    target.setPositions(positions);
+    try {
+      return target.write(name);
+    } finally {
+      target.setPositions(before);
+    }
+  },
+};
+
+function transferables(answer: Answer<Kind>): Transferable[] {
+  if (answer === null || typeof answer === 'number') return [];
+  return [answer, ...(ArrayBuffer.isView(answer) ? [] : Object.values(answer))].filter(ArrayBuffer.isView).map((array) => array.buffer as ArrayBuffer);
+}
+
+function handle<K extends Kind>({ number, kind, ask }: Request<K>): void {
+  const progress: Progress = (fraction) => {
+    postMessage({ number, fraction });
+    return ended !== null && (Atomics.load(ended, endedAll) >= number || (kind === 'solve' && Atomics.load(ended, endedSolution) >= number));
+  };
+  try {
+    const answer = handlers[kind](ask, progress);
+    postMessage({ number, answer }, transferables(answer));
+  } catch (error) {
+    postMessage({ number, error: error instanceof Error ? error.message : String(error) });
+  }
+}
+
+const ready = new Promise<void>((done, failed) => {
+  self.addEventListener('message', ({ data }: MessageEvent<Start>) => {
+    ended = data.ended;
+    loadFastest(data.folder).then((loaded) => {
+      core = loaded;
+      done();
+    }, failed);
+  }, { once: true });
+});
+
+self.addEventListener('message', ({ data }: MessageEvent<Start | Request>) => {
+  if (!('kind' in data)) return;
+  ready.then(() => handle(data), (error: unknown) => postMessage({ number: data.number, error: `The library cannot be loaded: ${error}` }));
+});

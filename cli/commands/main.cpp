@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <new>
@@ -115,17 +116,33 @@ int run_program(int argc, char** argv) {
   return run_command(run);
 }
 
+[[noreturn]] void end_without_memory() {
+  constexpr std::string_view message = "vspring: error: out of memory\n";
+  (void)!::write(STDERR_FILENO, message.data(), message.size());
+  ::_exit(exit_unusable);
+}
+
+/// Memory may lack where nothing may be thrown: the library of JSON takes some to give some back.
+[[noreturn]] void end_at_once() {
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    end_without_memory();
+  } catch (...) {
+  }
+  std::abort();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::set_terminate(end_at_once);
   // A reader that goes away shows as a failed write, with its message, and not as a silent end.
   std::signal(SIGPIPE, SIG_IGN);
   try {
     return run_program(argc, argv);
   } catch (...) {
     // Such as no memory for the message of an error.
-    constexpr std::string_view message = "vspring: error: out of memory\n";
-    (void)!::write(STDERR_FILENO, message.data(), message.size());
-    return exit_unusable;
+    end_without_memory();
   }
 }

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
-#include <cstdlib>
 #include <exception>
 #include <functional>
 #include <new>
@@ -37,6 +36,12 @@ int fail(const std::string& message, int status) {
   return status;
 }
 
+[[noreturn]] void end_without_memory() {
+  constexpr std::string_view message = "vspring: error: out of memory\n";
+  (void)!::write(STDERR_FILENO, message.data(), message.size());
+  ::_exit(exit_unusable);
+}
+
 int run_command(const std::function<int()>& run) {
   try {
     return run();
@@ -44,7 +49,7 @@ int run_command(const std::function<int()>& run) {
     return fail(with_options(error.what()),
                 error.code() == ErrorCode::invalid_argument ? exit_wrong_use : exit_unusable);
   } catch (const std::bad_alloc&) {
-    return fail("out of memory", exit_unusable);
+    end_without_memory();
   } catch (const std::exception& error) {
     return fail(error.what(), exit_unusable);
   }
@@ -116,27 +121,11 @@ int run_program(int argc, char** argv) {
   return run_command(run);
 }
 
-[[noreturn]] void end_without_memory() {
-  constexpr std::string_view message = "vspring: error: out of memory\n";
-  (void)!::write(STDERR_FILENO, message.data(), message.size());
-  ::_exit(exit_unusable);
-}
-
-/// Memory may lack where nothing may be thrown: the library of JSON takes some to give some back.
-[[noreturn]] void end_at_once() {
-  try {
-    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
-  } catch (const std::bad_alloc&) {
-    end_without_memory();
-  } catch (...) {
-  }
-  std::abort();
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::set_terminate(end_at_once);
+  // At once: what the library of JSON has begun it cannot take back without memory.
+  std::set_new_handler(end_without_memory);
   // A reader that goes away shows as a failed write, with its message, and not as a silent end.
   std::signal(SIGPIPE, SIG_IGN);
   try {

@@ -73,6 +73,28 @@ class Limits(Case):
         self.assertEqual((report["outcome"], report["moving_nodes"]), ("converged", 4000))
         self.assertLess(max(abs(z) for _, _, z in after), 1e-3, "each is flat, as its rim is")
 
+    def test_eight_at_once_give_the_same_bits(self):
+        path = self.write("in.obj", grid(40))
+        outputs = [self.folder / f"out{k}.obj" for k in range(8)]
+        processes = [subprocess.Popen([PROGRAM, "fair", path, "-o", out, "--quiet", "--threads", str(1 + k % 4)]) for k, out in enumerate(outputs)]
+        self.assertEqual([process.wait(timeout=300) for process in processes], [0] * 8)
+        self.assertEqual({out.read_bytes() for out in outputs}, {outputs[0].read_bytes()})
+
+    def test_a_time_limit_ends_fits_and_curves_with_a_shape(self):
+        surface = self.write("in.obj", grid(100))
+        curve = self.write("wave.csv", "x,y\n" + "".join(f"{k},{(k * k * k) % 11}\n" for k in range(30000)))
+        report = self.folder / "report.json"
+        for command, path, options in (("fit", surface, ("--points", surface, "--weight", "0.001", "--method", "sweep", "--step-tolerance", "1e-30",
+                                                         "--max-iterations", "100000000")),
+                                       ("curve", curve, ("--method", "sweep", "--step-tolerance", "1e-30", "--max-iterations", "100000000"))):
+            out = self.folder / ("out" + path.suffix)
+            result = run(command, path, "-o", out, "--quiet", "--time-limit", "0.3", "--report", report, *options)
+            self.assertEqual(result.returncode, 3, result.stderr)
+            self.assertEqual(json.loads(report.read_text())["outcome"], "work-limit", command)
+            self.assertIn("--time-limit", result.stderr.decode())
+            self.assertEqual(len(out.read_text().splitlines()), len(path.read_text().splitlines()))
+            self.assertNotEqual(out.read_text(), path.read_text())
+
     def test_promises_are_refused_before_memory_is_taken(self):
         head = "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n" \
                "element face {}\nproperty list uchar int vertex_indices\nend_header\n"

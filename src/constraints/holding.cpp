@@ -41,7 +41,7 @@ class Holding {
   }
 
   void refuse_defects() {
-    // Held nodes whose normals follow from all faces around them, on which the moving nodes beside them depend.
+    // Held nodes beside moving ones, whose normals and spheres follow from all faces around them.
     std::vector<std::uint8_t> is_rim(part_.size(), 0);
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       const auto face = mesh_.face(f);
@@ -49,7 +49,7 @@ class Holding {
       if (face.size() < 3) add_fault(Defect{.kind = Defect::Kind::too_few_nodes, .face = f}, face[0]);
       refuse_lost_nodes(face);
       for (const Index i : face) {
-        if (constraints_.position_fixed(i) && !constraints_.normal_fixed(i)) is_rim[static_cast<std::size_t>(i)] = 1;
+        if (constraints_.position_fixed(i)) is_rim[static_cast<std::size_t>(i)] = 1;
       }
     }
     for (Index f = 0; f < mesh_.face_count(); ++f) {

@@ -1,8 +1,6 @@
 #include "editor_server.hpp"
 
 #include <fmt/format.h>
-// The one source that includes it: it takes long to compile.
-#include <httplib.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "guarded_server.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
 
@@ -58,10 +57,17 @@ class EditorServer::Running {
                                  {"Cross-Origin-Resource-Policy", "same-origin"},
                                  {"Referrer-Policy", "same-origin"},
                                  {"X-Content-Type-Options", "nosniff"},
+                                 {"X-Frame-Options", "DENY"},
                                  {"Cache-Control", "no-store"}});
     server_.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
-      if (permitted(request)) return httplib::Server::HandlerResponse::Unhandled;
-      answer(response, 403, "Not from here: open the address that vspring edit has printed.\n");
+      if (!permitted(request)) {
+        answer(response, 403, "Not from here: open the address that vspring edit has printed.\n");
+      } else if (request.has_header("Content-Encoding")) {
+        // What little becomes much of is not unpacked.
+        answer(response, 415, "Send the bytes of the file as they are.\n");
+      } else {
+        return httplib::Server::HandlerResponse::Unhandled;
+      }
       return httplib::Server::HandlerResponse::Handled;
     });
     server_.Get(".*",
@@ -75,7 +81,6 @@ class EditorServer::Running {
       const int yes = 1;
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
-    server_.set_keep_alive_timeout(1);  // the end waits for this
     port_ = port == 0 ? server_.bind_to_any_port(loopback) : server_.bind_to_port(loopback, port) ? port : -1;
     if (port_ < 0)
       throw Error(
@@ -95,7 +100,7 @@ class EditorServer::Running {
     while (!server_.is_running()) std::this_thread::yield();
   }
   ~Running() {
-    server_.stop();
+    server_.end();
     thread_.join();
   }
   Running(const Running&) = delete;
@@ -138,7 +143,7 @@ class EditorServer::Running {
   std::string output_;
   std::string address_;
   int port_ = -1;
-  httplib::Server server_;
+  GuardedServer server_{RequestLimits{}};
   std::thread thread_;
 };
 

@@ -181,7 +181,6 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
     const UninterruptedWhileWriting guard;
     for (std::string& warning : writers.shape()) warnings.push_back(std::move(warning));
   }
-  // Made only for those who ask: without memory for it the library that makes it ends the program.
   const bool is_reported = !(arguments_->report.empty() && arguments_->html.empty());
   nlohmann::ordered_json json;
   if (is_reported) {

@@ -8,7 +8,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   FuzzedDataProvider data(bytes, size);
   const PolygonMesh shape = mesh(data);
   constexpr double tolerance = 1e-4;
-  const FairOptions options = {.tolerance = tolerance};
+  FairOptions options = {.tolerance = tolerance};
+  // Most inputs are to take little time.
+  if (data.ConsumeIntegralInRange(0, 7) > 0) options.max_iterations = data.ConsumeIntegralInRange(1, 60);
   attempt([&] {
     FairingSession session(shape, options, 1);
     Constraints held = constraints(data, shape);

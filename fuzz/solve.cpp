@@ -19,8 +19,11 @@ FairOptions options_of(FuzzedDataProvider& data) {
   options.fair_boundary = data.ConsumeIntegralInRange(0, 7) == 0;
   options.strength = data.ConsumeIntegralInRange(0, 3) == 0 ? 0.5 : 1;
   options.tolerance = data.ConsumeBool() ? 1e-5 : 1e-3;
-  // The paper's methods take as long as they are let.
-  if (options.method && *options.method != Method::equilibrium) options.max_iterations = 100;
+  // The paper's methods take as long as they are let, and most inputs are to take little time.
+  if (options.method && *options.method != Method::equilibrium)
+    options.max_iterations = 100;
+  else if (data.ConsumeIntegralInRange(0, 7) > 0)
+    options.max_iterations = data.ConsumeIntegralInRange(1, 60);
   return options;
 }
 

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -124,6 +125,8 @@ class AwaitedSignals {
 };
 
 int run_edit(const EditArguments& arguments) {
+  // A request that takes too much memory fails alone.
+  std::set_new_handler(nullptr);
   EditedFile file = {arguments.input, arguments.output.empty() ? arguments.input : arguments.output};
   if (!file.input.empty()) {
     check_input(file.input);

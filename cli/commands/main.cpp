@@ -36,6 +36,12 @@ int fail(const std::string& message, int status) {
   return status;
 }
 
+[[noreturn]] void end_without_memory() {
+  constexpr std::string_view message = "vspring: error: out of memory\n";
+  (void)!::write(STDERR_FILENO, message.data(), message.size());
+  ::_exit(exit_unusable);
+}
+
 int run_command(const std::function<int()>& run) {
   try {
     return run();
@@ -43,7 +49,7 @@ int run_command(const std::function<int()>& run) {
     return fail(with_options(error.what()),
                 error.code() == ErrorCode::invalid_argument ? exit_wrong_use : exit_unusable);
   } catch (const std::bad_alloc&) {
-    return fail("out of memory", exit_unusable);
+    end_without_memory();
   } catch (const std::exception& error) {
     return fail(error.what(), exit_unusable);
   }
@@ -118,14 +124,14 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // At once: what the library of JSON has begun it cannot take back without memory.
+  std::set_new_handler(end_without_memory);
   // A reader that goes away shows as a failed write, with its message, and not as a silent end.
   std::signal(SIGPIPE, SIG_IGN);
   try {
     return run_program(argc, argv);
   } catch (...) {
     // Such as no memory for the message of an error.
-    constexpr std::string_view message = "vspring: error: out of memory\n";
-    (void)!::write(STDERR_FILENO, message.data(), message.size());
-    return exit_unusable;
+    end_without_memory();
   }
 }

@@ -1,8 +1,10 @@
 #include "base/threads.hpp"
 
 #include <algorithm>
-#include <system_error>
+#include <exception>
+#include <new>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "vspring/context.hpp"
@@ -50,16 +52,22 @@ class WorkerPool {
     return helpers;
   }
 
-  void call(ThreadTeam& team, int count) {
+  /// Returns how many have been called: none where there is no memory for that.
+  int call(ThreadTeam& team, int count) noexcept {
     calls_so_far_.fetch_add(1, std::memory_order_relaxed);
     const std::lock_guard lock(mutex_);
-    calls_.insert(calls_.end(), count, &team);
+    try {
+      calls_.insert(calls_.end(), count, &team);
+    } catch (const std::bad_alloc&) {
+      return 0;
+    }
     try {
       for (; idle_ < calls_.size(); ++idle_) std::thread([this] { live(); }).detach();
-    } catch (const std::system_error&) {
-      // There are no more: whoever becomes idle will come.
+    } catch (const std::exception&) {
+      // There are no more, or no memory for one: whoever becomes idle will come.
     }
-    for (; count > 0; --count) called_.notify_one();
+    for (int k = 0; k < count; ++k) called_.notify_one();
+    return count;
   }
 
   [[nodiscard]] std::size_t calls_so_far() const noexcept { return calls_so_far_.load(std::memory_order_relaxed); }
@@ -118,7 +126,11 @@ void ThreadTeam::run(std::size_t count, const std::function<void(std::size_t)>& 
     missing = size_ - 1 - helpers_;
     helpers_ += missing;
   }
-  if (missing > 0) WorkerPool::of_program().call(*this, missing);
+  if (missing > 0) {
+    const int called = WorkerPool::of_program().call(*this, missing);
+    const std::lock_guard lock(mutex_);
+    helpers_ -= missing - called;
+  }
   take_tasks(task, count);
   {
     // Whoever has not come by now is not waited for: another program may have its core.
@@ -126,16 +138,25 @@ void ThreadTeam::run(std::size_t count, const std::function<void(std::size_t)>& 
     task_ = nullptr;
   }
   const auto done = [this] { return busy_ == 0; };
-  if (soon(done)) return;
-  std::unique_lock lock(mutex_);
-  finished_.wait(lock, done);
+  if (!soon(done)) {
+    std::unique_lock lock(mutex_);
+    finished_.wait(lock, done);
+  }
+  if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 void ThreadTeam::take_tasks(const std::function<void(std::size_t)>& task, std::size_t count) {
   for (;;) {
     const std::size_t k = next_.fetch_add(1, std::memory_order_relaxed);
     if (k >= count) return;
-    task(k);
+    try {
+      task(k);
+    } catch (...) {
+      // Others are still at their tasks, and what these read must stay until they are done.
+      next_.store(count, std::memory_order_relaxed);
+      const std::lock_guard lock(mutex_);
+      failure_ = std::current_exception();
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <vector>
@@ -27,7 +28,8 @@ class ThreadTeam {
   /// How often teams of this program have called for helpers: whether something ran on several threads.
   [[nodiscard]] static std::size_t calls_for_help() noexcept;
 
-  /// Calls task(k) for k from 0 to count − 1 and returns when all are done. Tasks must not throw.
+  /// Calls task(k) for k from 0 to count − 1 and returns when all are done. Where one throws, those that have not begun
+  /// are left out, and what it threw, or another did, is thrown here when nobody works any more.
   void run(std::size_t count, const std::function<void(std::size_t)>& task);
 
  private:
@@ -47,6 +49,7 @@ class ThreadTeam {
   const std::function<void(std::size_t)>* task_ = nullptr;  // while others may join
   std::size_t count_ = 0;
   std::atomic<std::size_t> next_ = 0;
+  std::exception_ptr failure_;  // what a task of this round has thrown
 };
 
 // What is worth handing to another thread: nodes or faces that something is computed for, and nodes that are only moved

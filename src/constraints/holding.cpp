@@ -38,14 +38,21 @@ class Holding {
         parts_(static_cast<std::size_t>(mesh.node_count())) {}
 
   void refuse_defects() {
+    // Held nodes beside moving ones, whose normals and spheres follow from all faces around them.
+    std::vector<std::uint8_t> is_rim(part_.size(), 0);
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       const auto face = mesh_.face(f);
       if (std::none_of(face.begin(), face.end(), [&](Index i) { return !constraints_.position_fixed(i); })) continue;
       if (face.size() < 3) add_fault(Defect{.kind = Defect::Kind::too_few_nodes, .face = f}, face[0]);
+      refuse_lost_nodes(face);
       for (const Index i : face) {
-        const Vector3& position = constraints_.position_fixed(i) ? constraints_.position(i) : mesh_.position(i);
-        if (!position.allFinite()) add_fault(Defect{.kind = Defect::Kind::not_finite, .node = i}, i);
+        if (constraints_.position_fixed(i)) is_rim[static_cast<std::size_t>(i)] = 1;
       }
+    }
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      const auto face = mesh_.face(f);
+      if (std::any_of(face.begin(), face.end(), [&](Index i) { return is_rim[static_cast<std::size_t>(i)] != 0; }))
+        refuse_lost_nodes(face);
     }
     FanWalker walker(mesh_, incidence_);
     for (Index i = 0; i < mesh_.node_count(); ++i) {
@@ -189,6 +196,13 @@ class Holding {
   }
 
  private:
+  void refuse_lost_nodes(std::span<const Index> face) {
+    for (const Index i : face) {
+      const Vector3& position = constraints_.position_fixed(i) ? constraints_.position(i) : mesh_.position(i);
+      if (!position.allFinite()) add_fault(Defect{.kind = Defect::Kind::not_finite, .node = i}, i);
+    }
+  }
+
   [[nodiscard]] bool moves(Index i) const { return !constraints_.position_fixed(i) && !incidence_.corners(i).empty(); }
   [[nodiscard]] bool pulled(Index i) const { return !pulled_.empty() && pulled_[static_cast<std::size_t>(i)] != 0; }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <utility>
@@ -15,7 +17,8 @@ namespace vspring {
 /// The levels of a curve.
 class CurveHierarchy final : public Hierarchy {
  public:
-  explicit CurveHierarchy(std::vector<CurveLevel> levels) : levels_(std::move(levels)) {}
+  explicit CurveHierarchy(std::vector<CurveLevel> levels)
+      : levels_(std::make_move_iterator(levels.begin()), std::make_move_iterator(levels.end())) {}
 
   [[nodiscard]] std::size_t count() const override { return levels_.size(); }
   Net& net(std::size_t level) override { return levels_[level].curve.net; }
@@ -40,7 +43,8 @@ class CurveHierarchy final : public Hierarchy {
   CurveNet take() && { return std::move(levels_.back().curve); }
 
  private:
-  std::vector<CurveLevel> levels_;
+  // Nets stay where they are when coarser levels are dropped: ties of points refer to them.
+  std::deque<CurveLevel> levels_;
   std::optional<CurvePreconditioner> preconditioner_;
 };
 

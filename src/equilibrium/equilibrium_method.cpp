@@ -72,7 +72,8 @@ class Run {
       : hierarchy_(hierarchy),
         model_(model),
         options_(options),
-        size_(diagonal(hierarchy.net(hierarchy.count() - 1))),
+        // Shares of a shape without extent are nothing or infinite, but something.
+        size_(std::max(diagonal(hierarchy.net(hierarchy.count() - 1)), std::numeric_limits<double>::min())),
         team_(team),
         context_(context),
         progress_(progress),

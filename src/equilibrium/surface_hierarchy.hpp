@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deque>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -19,7 +21,8 @@ namespace vspring {
 /// The levels of a surface (§4.7).
 class SurfaceHierarchy final : public Hierarchy {
  public:
-  SurfaceHierarchy(std::vector<SurfaceLevel> levels, ThreadTeam& team) : levels_(std::move(levels)), team_(&team) {}
+  SurfaceHierarchy(std::vector<SurfaceLevel> levels, ThreadTeam& team)
+      : levels_(std::make_move_iterator(levels.begin()), std::make_move_iterator(levels.end())), team_(&team) {}
 
   [[nodiscard]] std::size_t count() const override { return levels_.size(); }
   Net& net(std::size_t level) override { return levels_[level].net; }
@@ -70,7 +73,8 @@ class SurfaceHierarchy final : public Hierarchy {
   /// Makes the systems of a level ready: hands its shape down as far as they need it.
   void make_systems(std::size_t level);
 
-  std::vector<SurfaceLevel> levels_;
+  // Nets stay where they are when coarser levels are dropped: ties of points refer to them.
+  std::deque<SurfaceLevel> levels_;
   std::optional<std::size_t> systems_of_;  ///< the level that these are for
   SystemLevels system_levels_;
   std::optional<TangentialRigidModes> rigid_modes_;

@@ -74,6 +74,7 @@ class OffBody {
   std::vector<Vector3> positions_;
   std::vector<Vector3> normals_;
   FaceList faces_;
+  bool in_stream_ = false;
   bool coloured_ = false;
 };
 
@@ -199,10 +200,11 @@ void OffBody::read(NodeLayout layout, std::int64_t& progress) {
   // A line of another length is the fault, unless the stream goes on to the second half of the faces.
   if (layout == NodeLayout::by_line) progress = header_.nodes + header_.faces / 2;
   if (layout == NodeLayout::in_stream_behind_edges) static_cast<void>(cursor_.count("the number of edges"));
-  if (layout == NodeLayout::by_line)
-    read_node_lines();
-  else
+  in_stream_ = layout != NodeLayout::by_line;
+  if (in_stream_)
     read_node_stream();
+  else
+    read_node_lines();
   const OffCursor behind_nodes = cursor_;
   const bool coloured_nodes = coloured_;
   OffInterpretations readings;
@@ -225,6 +227,7 @@ SurfaceFile OffBody::take(InputFile file) {
   surface.normals = std::move(normals_);
   const auto source = std::make_shared<OffSource>();
   source->rows = std::move(rows_);
+  source->in_stream = in_stream_;
   source->normal_column = normal_column_;
   source->positions = positions_;
   source->corner_count = faces_.corner_count();

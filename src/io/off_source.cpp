@@ -2,8 +2,24 @@
 
 #include "io/file_normals.hpp"
 #include "io/text_rewriter.hpp"
+#include "vspring/error.hpp"
 
 namespace vspring {
+namespace {
+
+bool reads_as(const std::string& text, const PolygonMesh& mesh, const Rewrite& rewrite) {
+  std::vector<Vector3> expected = mesh.positions();
+  for (std::size_t node = 0; node < expected.size(); ++node)
+    if (rewrite.moved[node] != 0) expected[node] = rewrite.positions[node];
+  try {
+    const PolygonMesh read = read_off({"", text}).mesh;
+    return read.positions() == expected && read.face_begin() == mesh.face_begin() && read.corners() == mesh.corners();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+}  // namespace
 
 std::string OffSource::rewritten(Rewrite& rewrite) const {
   const SurfaceFile& surface = rewrite.surface;
@@ -23,7 +39,13 @@ std::string OffSource::rewritten(Rewrite& rewrite) const {
     }
     if (!numbers.empty()) out.replace_words(rows[node], numbers);
   }
-  return out.finish();
+  std::string text = out.finish();
+  if (in_stream && !reads_as(text, surface.mesh, rewrite))
+    file.refuse(
+        "with other coordinates its lines and numbers could be read in another way; write it in another format, such "
+        "as "
+        "PLY");
+  return text;
 }
 
 }  // namespace vspring

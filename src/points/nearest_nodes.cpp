@@ -22,7 +22,7 @@ std::vector<Index> nearest_in(const Frame& frame, std::span<const Vector3> point
   std::vector<Vector3> places;
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    if (usable[i] == 0) continue;
+    if (usable[i] == 0 || !nodes[i].allFinite()) continue;
     number.push_back(static_cast<Index>(i));
     boxes.emplace_back(places.emplace_back(frame.to_local(nodes[i])));
   }
@@ -34,6 +34,7 @@ std::vector<Index> nearest_in(const Frame& frame, std::span<const Vector3> point
       const Vector3 point = frame.to_local(points[j]);
       const auto square = [&](Index k) { return (places[static_cast<std::size_t>(k)] - point).squaredNorm(); };
       const auto found = tree.nearest(point, square);
+      if (found.item < 0) continue;  // squares have overflowed
       nearest[j] = number[static_cast<std::size_t>(found.item)];
       const auto content = [&](Index k) {
         return preference.content(j, static_cast<std::size_t>(number[static_cast<std::size_t>(k)]));

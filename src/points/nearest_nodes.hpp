@@ -22,8 +22,8 @@ struct Preference {
 };
 
 /// The node nearest to each of the points, of those that it is content with where one is in reach; of several the one
-/// with the smallest number; −1 where there is none. usable: one entry per node, 0 for nodes that do not count. Usable
-/// nodes must be finite. Throws Error(invalid_argument) naming a point beyond furthest_point. Cost: n log n.
+/// with the smallest number; −1 where there is none that is finite. usable: one entry per node, 0 for nodes that do not
+/// count. Throws Error(invalid_argument) naming a point beyond furthest_point. Cost: n log n.
 std::vector<Index> nearest_nodes(std::span<const Vector3> points, std::span<const Vector3> nodes,
                                  std::span<const std::uint8_t> usable, ThreadTeam& team,
                                  const Preference& preference = {});

@@ -105,7 +105,11 @@ void PointTies::tie_to_nearest(ThreadTeam& team) {
   if (!tied.normals.empty())
     alike = {[&](std::size_t k, std::size_t node) { return may_pull(k, node, 0); }, reach_in_edges * mean_edge(*net_)};
   const std::vector<Index> nearest = nearest_places(tied.positions, net_->positions, first, team, alike);
-  node_.assign(nearest.begin(), nearest.end());
+  // Where a shape has gone astray, nodes have no place, and ties stay as they are.
+  node_.resize(nearest.size(), 0);
+  for (std::size_t k = 0; k < nearest.size(); ++k) {
+    if (nearest[k] >= 0) node_[k] = static_cast<std::uint32_t>(nearest[k]);
+  }
 }
 
 Vector3 PointTies::side(std::size_t node) const {

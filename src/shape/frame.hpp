@@ -19,7 +19,7 @@ class Frame {
     centre_ = box.min() / 2 + box.max() / 2;
     const double half = (box.max() / 2 - box.min() / 2).maxCoeff();
     // The limits keep the scale and its inverse finite.
-    if (half > 0) scale_ = std::ldexp(1.0, -std::clamp(std::ilogb(half) + 1, -1000, 1000));
+    if (half > 0) scale_ = std::ldexp(1.0, -std::clamp(std::ilogb(half), -1001, 999) - 1);
   }
 
   [[nodiscard]] Vector3 to_local(const Vector3& position) const { return (position - centre_) * scale_; }

@@ -166,7 +166,7 @@ TEST(Constraints, NodesThatCannotMoveAreHeldAndBrokenPlacesRefusedWhereTheyWould
                                     [](auto&, auto& f) {
                                       f.push_back({24, 25});
                                     }},
-                                   {"node 24: a coordinate is not finite", 0, [](auto& p, auto&) { p[24].z() = NAN; }},
+                                   {"node 25: a coordinate is not finite", 0, [](auto& p, auto&) { p[25].z() = NAN; }},
                                    {"node 24: its faces form more than one fan", 1, [](auto& p, auto& f) {
                                       p.emplace_back(0.5, 0.5, 1);
                                       p.emplace_back(0.6, 0.5, 1);
@@ -202,6 +202,25 @@ TEST(Constraints, NodesThatCannotMoveAreHeldAndBrokenPlacesRefusedWhereTheyWould
     restrict_to_region(elsewhere, mesh, region);
     EXPECT_EQ(fair(mesh, elsewhere).report.outcome, Outcome::converged);
   }
+}
+
+TEST(Constraints, AHeldNodeThatIsNowhereIsRefusedWhereTheRimDependsOnIt) {
+  const PolygonMesh plane = generate::plane({.columns = 8, .rows = 8, .faces = generate::Faces::quads});
+  std::vector<Vector3> positions = plane.positions();
+  positions[40].y() = INFINITY;
+  const PolygonMesh mesh = with_positions(plane, positions);
+  const auto moving = [&](Index node) {
+    Constraints constraints(mesh.node_count());
+    const std::vector<Index> region = {node};
+    restrict_to_region(constraints, mesh, region);
+    return constraints;
+  };
+  // Faces of 30, 39 and 48, beside the moving node, have node 40, which is held.
+  Constraints near = moving(38);
+  EXPECT_TRUE(says(refusal(mesh, near, ErrorCode::unusable_shape), "node 40: a coordinate is not finite"));
+  EXPECT_EQ(fair(mesh, moving(10)).report.outcome, Outcome::converged) << "far from it";
+  near.fix_position(40, plane.position(40));
+  EXPECT_EQ(fair(mesh, near).report.outcome, Outcome::converged);
 }
 
 TEST(Constraints, InconsistentOrientationZeroLengthsAndIsolatedNodesAreFaired) {

@@ -74,6 +74,24 @@ void expect_the_same_by_cycles(const FitSpecimen<Shape>& specimen, FitOptions op
   EXPECT_LT(greatest_distance(equilibrium.positions, cycled.positions), 1e-5);
 }
 
+/// Of a cycle on few levels the coarser ones are dropped; points must stay tied to the nodes of the finest.
+template <typename Shape>
+void expect_a_cycle_of_one_level_to_be_sweeps(const FitSpecimen<Shape>& specimen) {
+  FitOptions options = by_sweeps(0.05, 1e-5, 2000);
+  const FitResult swept = specimen.fit(options);
+  options.fair.method = Method::multigrid;
+  options.fair.levels = 1;
+  const FitResult cycled = specimen.fit(options);
+  EXPECT_EQ(cycled.report.fair.outcome, Outcome::converged);
+  EXPECT_EQ(cycled.report.fair.iterations, swept.report.fair.iterations);
+  EXPECT_EQ(cycled.positions, swept.positions);
+}
+
+TEST(FitEquilibrium, ACycleOfOneLevelIsThePlainIteration) {
+  expect_a_cycle_of_one_level_to_be_sweeps(noisy_wave(100, 0.0005));
+  expect_a_cycle_of_one_level_to_be_sweeps(wavy_plane(generate::Faces::triangles, 16));
+}
+
 TEST(FitEquilibrium, IsWhereTheVCycleEnds) {
   expect_the_same_by_cycles(noisy_wave(100, 0.0005), {.weight = 1e-3});
   expect_the_same_by_cycles(noisy_wave(100, 0.0005), {.smoothing_length = 0.05});

@@ -1,5 +1,6 @@
 """A headless Chromium, driven through its DevTools pipe; and pictures of what it shows."""
 import base64
+import fcntl
 import itertools
 import json
 import os
@@ -21,14 +22,17 @@ OPTIONS = ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swif
 class Browser:
     """One page of one browser. `faults` has what the console complains of, `requests` the addresses that were asked for."""
 
-    def __init__(self, width=640, height=560):
+    def __init__(self, width=640, height=560, hosts=""):
+        """hosts: names that are to lead elsewhere, as --host-resolver-rules takes them."""
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_browser, self.out = os.pipe()
         self.into, from_browser = os.pipe()
-        # The pipe is on the descriptors 3 and 4; the shell puts it there.
+        # The pipe is on the descriptors 3 and 4; the shell puts it there, from others that are neither.
+        to_browser, from_browser = (self.moved_up(descriptor) for descriptor in (to_browser, from_browser))
         self.process = subprocess.Popen(
-            ["sh", "-c", f'exec "$@" 3<&{to_browser} 4>&{from_browser}', "sh", PROGRAM, *OPTIONS,
-             f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}", "about:blank"],
+            ["bash", "-c", f'exec "$@" 3<&{to_browser} 4>&{from_browser}', "bash", PROGRAM, *OPTIONS,
+             f"--user-data-dir={self.profile.name}", f"--window-size={width},{height}",
+             f"--host-resolver-rules={hosts}", "about:blank"],
             pass_fds=(to_browser, from_browser), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(to_browser)
         os.close(from_browser)
@@ -42,6 +46,12 @@ class Browser:
         self.session = self.call("Target.attachToTarget", targetId=pages[0]["targetId"], flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(f"{domain}.enable")
+
+    @staticmethod
+    def moved_up(descriptor):
+        above = fcntl.fcntl(descriptor, fcntl.F_DUPFD, 10)
+        os.close(descriptor)
+        return above
 
     def close(self):
         try:
@@ -95,8 +105,11 @@ class Browser:
 
     def open(self, path):
         """Shows a file; complaints and requests are those since then."""
+        self.visit(path.as_uri())
+
+    def visit(self, url):
         self.loaded, self.faults, self.requests = False, [], []
-        self.call("Page.navigate", url=path.as_uri())
+        self.call("Page.navigate", url=url)
         begin = time.monotonic()
         while not self.loaded:
             self.receive()

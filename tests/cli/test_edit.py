@@ -1,48 +1,18 @@
 """The editor as it is served: who is answered and who is not, what is written and when, and how it ends."""
-import http.client
+import gzip
 import os
+import pathlib
+import random
 import shutil
 import signal
 import socket
 import subprocess
-import urllib.parse
 
-from support import PROGRAM, Case, hat, run
+from served import Served
+from support import PROGRAM, hat, run
 
 
-class Edit(Case):
-    def setUp(self):
-        super().setUp()
-        self.page = self.folder / "page"
-        self.page.mkdir()
-        (self.page / "index.html").write_text("<!doctype html>the page")
-        (self.page / "vspring_core.wasm").write_bytes(b"\0asm")
-        self.environment = {"VSPRING_EDITOR": str(self.page), "PATH": str(self.folder)}
-
-    def start(self, *arguments, program=PROGRAM):
-        """Starts it; reads the address that it prints."""
-        process = subprocess.Popen([program, "edit", *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True, env={**os.environ, **self.environment})
-        self.addCleanup(process.communicate)
-        self.addCleanup(process.kill)
-        self.process = process
-        self.address = urllib.parse.urlsplit(process.stdout.readline().strip())
-        self.query = urllib.parse.parse_qs(self.address.query)
-
-    def ask(self, method, path, body=None, **headers):
-        connection = http.client.HTTPConnection(self.address.hostname, self.address.port, timeout=60)
-        connection.request(method, path, body, {name.replace("_", "-"): value for name, value in headers.items()})
-        answer = connection.getresponse()
-        content = answer.read()
-        connection.close()
-        return answer, content
-
-    def end(self, number=signal.SIGINT):
-        self.process.send_signal(number)
-        _, errors = self.process.communicate(timeout=60)
-        self.assertEqual(self.process.returncode, 0, errors)
-        return errors
-
+class Edit(Served):
     def test_serves_page_and_file_and_saves_when_told(self):
         path = self.write("a hat & more.obj", hat())
         self.start(path, "--no-browser")
@@ -51,6 +21,7 @@ class Edit(Case):
         self.assertEqual(content, b"<!doctype html>the page")
         self.assertEqual(answer.headers["Cross-Origin-Opener-Policy"], "same-origin")
         self.assertEqual(answer.headers["Cross-Origin-Embedder-Policy"], "require-corp")
+        self.assertEqual(answer.headers["X-Frame-Options"], "DENY")
         self.assertEqual(self.ask("GET", self.address.path + "vspring_core.wasm")[0].headers["Content-Type"], "application/wasm")
 
         file = self.address.path + self.query["file"][0]
@@ -165,3 +136,138 @@ class Edit(Case):
             taken.listen()
             refused(2, "choose another by --port", path, "--port", str(taken.getsockname()[1]))
         self.assertEqual(path.read_text(), hat())
+
+
+class Hostile(Served):
+    """Other programs of this machine, with the address and without."""
+
+    def setUp(self):
+        super().setUp()
+        self.path = self.write("in.obj", hat())
+        self.start(self.path, "--no-browser")
+        self.file = self.address.path + self.query["file"][0]
+        self.here = f"127.0.0.1:{self.address.port}"
+        self.addCleanup(lambda: self.assertEqual(self.path.read_text(), hat(), "nothing has been written"))
+
+    def connect(self):
+        connection = socket.create_connection((self.address.hostname, self.address.port), timeout=60)
+        self.addCleanup(connection.close)
+        return connection
+
+    def send(self, request):
+        """The whole answer to those bytes, as far as the server takes them."""
+        connection = self.connect()
+        answer = b""
+        try:
+            connection.sendall(request)
+            connection.shutdown(socket.SHUT_WR)
+            while piece := connection.recv(65536):
+                answer += piece
+        except (BrokenPipeError, ConnectionResetError):
+            pass
+        connection.close()
+        return answer
+
+    def head(self, method, path=None, *lines):
+        return "\r\n".join((f"{method} {path or self.file} HTTP/1.1", f"Host: {self.here}", *lines, "", "")).encode()
+
+    def assert_still_serves(self):
+        self.assertEqual(self.ask("GET", self.file)[1].decode(), hat())
+
+    def memory(self):
+        """The most that the server has taken, in MiB."""
+        status = pathlib.Path(f"/proc/{self.process.pid}/status").read_text()
+        return int(next(line for line in status.splitlines() if line.startswith("VmHWM")).split()[1]) / 1024
+
+    def test_paths_lead_nowhere_else(self):
+        secret = self.write("secret.txt", "secret")
+        word = self.address.path
+        for path in ("../secret.txt", "shape/../../secret.txt", "%2e%2e/secret.txt", "..%2fsecret.txt", "%2e%2e%2fsecret.txt", "..\\secret.txt",
+                     "./../secret.txt", "shape/..%2f..%2fsecret.txt", "//" + str(secret), str(secret), "%2f" + str(secret), "shape/secret.txt",
+                     "index.html/../../secret.txt", "..%00/secret.txt", "shape/in.obj%00.txt", "shape/in.obj/", "%", "%zz", "?file=../secret.txt",
+                     "a" * 8000, "../" * 2000 + "etc/passwd"):
+            for asked in (word + path, "/" + path):
+                for method in ("GET", "HEAD", "PUT"):
+                    answer = self.send(self.head(method, asked, "Content-Length: 1", "Connection: close") + b"v")
+                    self.assertNotIn(b"secret\r", answer + b"\r", (method, asked))
+                    self.assertNotIn(b"root:", answer, (method, asked))
+                    if method == "PUT":
+                        self.assertNotRegex(answer, rb"^HTTP/1.1 2", (method, asked))
+        self.assertEqual(secret.read_text(), "secret")
+        self.assertEqual(self.files(), ["in.obj", "page", "secret.txt"])
+        self.assert_still_serves()
+        self.end()
+
+    def test_half_a_file_is_not_saved(self):
+        save = self.address.path + self.query["save"][0]
+        for lines, body in ((["Content-Length: 1000"], b"v 0 0 0\n"), (["Transfer-Encoding: chunked"], b"8\r\nv 0 0 0\n\r\n"),
+                            (["Transfer-Encoding: chunked"], b"8\r\nv 0 0"), (["Transfer-Encoding: chunked"], b"zz\r\nv 0 0 0\r\n0\r\n\r\n"),
+                            (["Content-Length: -1"], b"v"), (["Content-Length: 1000000000000000000"], b"v"),
+                            (["Content-Length: 99999999999999999999999"], b"v"), (["Content-Length: ten"], b"v"), ([], b""),
+                            (["Content-Encoding: gzip", "Content-Length: 30"], gzip.compress(b"v 0 0 0\n" * 1000)[:30])):
+            answer = self.send(self.head("PUT", save, *lines) + body)
+            self.assertNotRegex(answer, rb"^HTTP/1.1 2", (lines, answer))
+            self.assertEqual(self.path.read_text(), hat(), lines)
+        bomb = gzip.compress(bytes(200_000_000), 1)
+        answer = self.send(self.head("PUT", save, "Content-Encoding: gzip", f"Content-Length: {len(bomb)}") + bomb)
+        self.assertRegex(answer, rb"^HTTP/1.1 415")
+        self.assertLess(self.memory(), 150)
+        self.assert_still_serves()
+        self.end()
+
+    def test_what_is_no_request_is_answered_or_dropped_and_takes_no_memory(self):
+        draw = random.Random(11)
+        whole = self.head("GET")
+        requests = [draw.randbytes(draw.randrange(1, 400)) for _ in range(60)]
+        for _ in range(100):
+            broken = bytearray(whole)
+            for _ in range(draw.randrange(1, 6)):
+                broken[draw.randrange(len(broken))] = draw.randrange(256)
+            requests.append(bytes(broken))
+        requests += [b"", b"\r\n" * 100, b"GET", whole[:-2], b"GET / HTTP/9.9\r\n\r\n", whole.replace(b"Host", b"Hos"), whole.replace(b"GET", b"BREW"),
+                     whole.replace(b"\r\n\r\n", b"\r\nRange: bytes=9-1,-,x\r\n\r\n"), b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n"]
+        for request in requests:
+            answer = self.send(request)
+            if request.splitlines()[:2] != whole.splitlines()[:2]:
+                self.assertNotIn(b"\nv 0 0 1", answer, request)
+        line = b"X: " + bytes(16_000_000)
+        for endless in (line, b"GET /" + line, b"X: y\r\n" * 2_000_000):
+            self.assertNotIn(b"\nv 0 0 1", self.send(whole[:-2] + endless))
+        self.assertLess(self.memory(), 150)
+        self.assert_still_serves()
+        self.end()
+
+    def test_those_who_take_their_time_keep_nobody_waiting(self):
+        slow = [self.connect() for _ in range(24)]
+        for k, connection in enumerate(slow):
+            connection.sendall(self.head("PUT", None, "Content-Length: 9")[:20 * (k % 3)])
+        self.assert_still_serves()
+        # A byte now and then does not help: whoever has not said what it wants in time is shown out.
+        trickling = slow[0]
+        letters = 0
+        trickling.settimeout(0.3)
+        while True:
+            try:
+                trickling.sendall(b"x")
+                letters += 1
+                if trickling.recv(1) == b"":
+                    break
+            except socket.timeout:
+                self.assertLess(letters, 1000, "it is never shown out")
+            except OSError:
+                break
+        for connection in slow[1:]:
+            try:
+                self.assertEqual(connection.recv(1), b"")
+            except ConnectionResetError:
+                pass
+        self.assert_still_serves()
+        self.end()
+
+    def test_ends_whoever_is_connected(self):
+        save = self.address.path + self.query["save"][0]
+        connections = [self.connect() for _ in range(6)]
+        for connection in connections:
+            connection.sendall(self.head("PUT", save, "Content-Length: 1000") + b"v 0")
+        self.assert_still_serves()
+        self.end()

@@ -1,32 +1,42 @@
-/* Preloaded into the program: lets one call fail, as a machine without memory or a full disk would.
-   FAULT=KIND:N fails the N-th call, from 0, of its kind after main() begins: allocation, open, write, sync or rename.
+/* Preloaded into the program: lets calls fail, as a machine without memory or a full disk would.
+   FAULT=KIND:N fails the N-th call, from 0, of its kind after main() begins: allocation, open, write, sync (of a file),
+   folder (its sync), rename or thread. FAULT=KIND:N+ fails that one and all after it.
    FAULT_COUNTS=FILE gets a line "KIND NUMBER" for each kind when the program ends. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
+#include <pthread.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-enum { allocation, opening, writing, syncing, renaming, kinds };
-static const char* const names[kinds] = {"allocation", "open", "write", "sync", "rename"};
-static const int numbers[kinds] = {ENOMEM, ENOSPC, ENOSPC, EIO, EACCES};
+enum { allocation, opening, writing, syncing, syncing_folder, renaming, threading, kinds };
+static const char* const names[kinds] = {"allocation", "open", "write", "sync", "folder", "rename", "thread"};
+static const int numbers[kinds] = {ENOMEM, ENOSPC, ENOSPC, EIO, EIO, EACCES, EAGAIN};
 static atomic_long counts[kinds];
-static long failing[kinds] = {-1, -1, -1, -1, -1};
+static long first_failing[kinds] = {-1, -1, -1, -1, -1, -1, -1};
+static long last_failing[kinds] = {-1, -1, -1, -1, -1, -1, -1};
 static int counts_file = -1;
 static atomic_int is_running;
 
 extern void* __libc_malloc(size_t);
+extern void* __libc_calloc(size_t, size_t);
+extern void* __libc_realloc(void*, size_t);
 
 static void begin(void) {
   const char* fault = getenv("FAULT");
   for (int kind = 0; fault && kind < kinds; ++kind) {
     const size_t length = strlen(names[kind]);
-    if (strncmp(fault, names[kind], length) == 0 && fault[length] == ':') failing[kind] = atol(fault + length + 1);
+    if (strncmp(fault, names[kind], length) != 0 || fault[length] != ':') continue;
+    char* rest;
+    first_failing[kind] = strtol(fault + length + 1, &rest, 10);
+    last_failing[kind] = *rest == '+' ? LONG_MAX : first_failing[kind];
   }
   const char* path = getenv("FAULT_COUNTS");
   if (path) counts_file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -56,12 +66,22 @@ __attribute__((destructor)) static void end(void) {
 }
 
 static int fails(int kind) {
-  if (!is_running || atomic_fetch_add(&counts[kind], 1) != failing[kind]) return 0;
+  if (!is_running) return 0;
+  const long number = atomic_fetch_add(&counts[kind], 1);
+  if (number < first_failing[kind] || number > last_failing[kind]) return 0;
   errno = numbers[kind];
   return 1;
 }
 
 void* malloc(size_t size) { return fails(allocation) ? NULL : __libc_malloc(size); }
+void* calloc(size_t count, size_t size) { return fails(allocation) ? NULL : __libc_calloc(count, size); }
+void* realloc(void* block, size_t size) { return fails(allocation) ? NULL : __libc_realloc(block, size); }
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*start)(void*), void* argument) {
+  static int (*next)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*);
+  if (!next) next = (int (*)(pthread_t*, const pthread_attr_t*, void* (*)(void*), void*))dlsym(RTLD_NEXT, "pthread_create");
+  return fails(threading) ? EAGAIN : next(thread, attributes, start, argument);
+}
 
 int open(const char* path, int flags, ...) {
   static int (*next)(const char*, int, ...);
@@ -87,7 +107,9 @@ ssize_t write(int file, const void* bytes, size_t size) {
 int fsync(int file) {
   static int (*next)(int);
   if (!next) next = (int (*)(int))dlsym(RTLD_NEXT, "fsync");
-  return fails(syncing) ? -1 : next(file);
+  struct stat status;
+  const int kind = fstat(file, &status) == 0 && S_ISDIR(status.st_mode) ? syncing_folder : syncing;
+  return fails(kind) ? -1 : next(file);
 }
 
 int rename(const char* from, const char* to) {

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <mutex>
+#include <new>
 #include <numeric>
 #include <set>
 #include <thread>
@@ -33,6 +35,26 @@ TEST(Threads, ManyShortRunsFollowEachOther) {
     team.run(values.size(), [&](std::size_t k) { values[k] += static_cast<long>(k); });
   }
   for (std::size_t k = 0; k < values.size(); ++k) EXPECT_EQ(values[k], static_cast<long>(2000 * k));
+}
+
+TEST(Threads, WhatATaskThrowsReachesTheCallerWhenNobodyWorksAnyMore) {
+  for (const int threads : {1, 2, 5}) {
+    ThreadTeam team(threads);
+    for (const std::size_t faulty : {0U, 7U, 99U}) {
+      std::atomic<int> busy = 0;
+      const auto task = [&](std::size_t k) {
+        ++busy;
+        std::this_thread::sleep_for(std::chrono::microseconds(20));
+        --busy;
+        if (k == faulty) throw std::bad_alloc();
+      };
+      EXPECT_THROW(team.run(100, task), std::bad_alloc);
+      EXPECT_EQ(busy, 0);
+      std::atomic<int> done = 0;
+      team.run(100, [&](std::size_t) { ++done; });
+      EXPECT_EQ(done, 100) << "the team goes on";
+    }
+  }
 }
 
 TEST(Threads, TeamsSideBySideHelpNobodyElse) {

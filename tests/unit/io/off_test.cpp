@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "unit/io/scratch.hpp"
+#include "vspring/error.hpp"
 #include "vspring/surface_file.hpp"
 
 namespace vspring::off_test {
@@ -33,6 +34,34 @@ const Kind kinds[] = {
     {"STCNOFF\n3 1 0\n", " 0 0 4 255 0 7 0.5 0.5", true},
     {"NCSTOFF\n3 1 0\n", " 255 0 7 9 0 0 4 0.5 0.5", true},
 };
+
+TEST_F(OffFile, WhatOtherCoordinatesWouldMakeAnotherFileIsRefused) {
+  // Nodes 0 0 1 and 0 0 0 and the face 1 1, with a colour, since the lines fit no face.
+  const std::string text = "OFF\n2 1#0\n0 0 0\n1 0 0\n0 1 1 2\n";
+  const SurfaceFile surface = read(text);
+  ASSERT_EQ(surface.mesh.position(0), Vector3(0, 0, 1));
+  EXPECT_TRUE(write_surface(path("out.off"), surface, surface.mesh.positions()).empty());
+  EXPECT_EQ(get("out.off"), text);
+  // Then lines would do: nodes 0 0.5 0 and 1 1 0, face 1.
+  const std::vector<Vector3> moved = {{0.5, 0, 1}, {1, 0, 1}};
+  try {
+    write_surface(path("out.off"), surface, moved);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::unusable_file);
+    EXPECT_NE(std::string(error.what()).find("in.off: with other coordinates"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(get("out.off"), text);
+  write_surface(path("out.ply"), surface, moved);
+  EXPECT_EQ(read_surface(path("out.ply")).mesh.positions(), moved);
+}
+
+TEST_F(OffFile, AStreamOfNumbersKeepsItsLines) {
+  const SurfaceFile surface = read("OFF\n3 1\n0\n0 0\n0 1 0\n0 0 1 0 3\n0 1\n2\n");
+  ASSERT_EQ(surface.mesh.node_count(), 3);
+  write_surface(path("out.off"), surface, {{0, 0, 7}, {1, 0, 0}, {0, 1, 0}});
+  EXPECT_EQ(get("out.off"), "OFF\n3 1\n0\n0 0\n7 1 0\n0 0 1 0 3\n0 1\n2\n");
+}
 
 TEST_F(OffFile, EveryKindKeepsItsBytesButThoseOfMovedNodes) {
   for (const Kind& kind : kinds) {

@@ -55,6 +55,31 @@ TEST(NearestNodes, AreTheNearestOfThoseThatCount) {
   EXPECT_NE(nearest_nodes(points, plane.mesh.positions(), plane.all, team)[0], nearest[0]);
 }
 
+TEST(NearestNodes, ThoseWithoutAPlaceAreNearToNothing) {
+  ThreadTeam team(1);
+  std::vector<Vector3> nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  const std::vector<std::uint8_t> all(3, 1);
+  const std::vector<Vector3> points = {{1, 0.1, 0}, {0, 1, 0}};
+  nodes[1].x() = NAN;
+  EXPECT_EQ(nearest_places(points, nodes, all, team), (std::vector<Index>{0, 0}));
+  for (Vector3& node : nodes) node = Vector3(1e200, 0, 0);
+  EXPECT_EQ(nearest_places(points, nodes, all, team), (std::vector<Index>{-1, -1}));
+  for (Vector3& node : nodes) node.z() = INFINITY;
+  EXPECT_EQ(nearest_places(points, nodes, all, team), (std::vector<Index>{-1, -1}));
+}
+
+TEST(PointTies, StayWhereAShapeHasLostItsPlaces) {
+  Plane plane;
+  ThreadTeam team(1);
+  const std::vector<Vector3> points = scattered(50);
+  const std::vector<Index> nearest = nearest_nodes(points, plane.mesh.positions(), plane.all, team);
+  PointTies ties(plane.net, points, std::vector<double>(points.size(), 1), nearest, nullptr);
+  const std::vector<std::size_t> before = ties_of(plane.net);
+  for (Vector3& place : plane.net.positions) place.x() = NAN;
+  ties.tie_anew(team);
+  EXPECT_EQ(ties_of(plane.net), before);
+}
+
 TEST(NearestNodes, OfEquallyNearOnesTheFirst) {
   ThreadTeam team(1);
   const std::vector<Vector3> nodes(9, Vector3(1, 2, 3));

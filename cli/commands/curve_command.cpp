@@ -165,7 +165,6 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
                               .input = ".obj (l elements), .csv, .dat (aerofoils) or .xyz",
                               .ends = "End nodes",
                               .directions = "tangents",
-                              .rim = "tangents",
                               .rules = "positions, tangents and normals"};
   const auto arguments = std::make_shared<CurveArguments>();
   CLI::App& command = *app.add_subcommand("curve", "Fair a polygonal curve");

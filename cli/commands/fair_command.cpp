@@ -135,7 +135,6 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
                               .input = ".obj, .off, .ply or .stl",
                               .ends = "Boundary nodes",
                               .directions = "normals",
-                              .rim = "tangent planes",
                               .rules = "positions and normals"};
   const auto arguments = std::make_shared<FairArguments>();
   CLI::App& command = *app.add_subcommand("fair", "Fair a polygonal surface");

@@ -50,10 +50,8 @@ void add_constraint_options(CLI::App& command, FairingArguments& arguments, cons
       ->group(holding_group);
   command
       .add_option("--region", arguments.region,
-                  fmt::format("Only these nodes move; their fixed neighbours get the {} of what lies outside. "
-                              "sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1 (units of the input), group:NAME, or a JSON file "
-                              "with a list of nodes (default: all nodes)",
-                              words.rim))
+                  "Only these nodes move, and meet what lies outside smoothly. sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1 "
+                  "(units of the input), group:NAME, or a JSON file with a list of nodes (default: all nodes)")
       ->type_name("SPEC")
       ->group(holding_group);
 }

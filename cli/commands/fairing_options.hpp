@@ -17,7 +17,6 @@ struct FairingWords {
   std::string input;       ///< what files the input may be
   std::string ends;        ///< "Boundary nodes" or "End nodes"
   std::string directions;  ///< what --fix-normals fixes
-  std::string rim;         ///< what fixed neighbours of a region get
   std::string rules;       ///< what rules speak of
 };
 

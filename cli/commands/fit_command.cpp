@@ -205,7 +205,6 @@ void add_fit_command(CLI::App& app, std::function<int()>& run) {
                                   "faces, .csv, .dat, .xyz)",
                               .ends = "Boundary or end nodes",
                               .directions = "normals (curves: tangents)",
-                              .rim = "tangent planes (curves: tangents)",
                               .rules = "positions and normals"};
   const auto arguments = std::make_shared<FitArguments>();
   CLI::App& command = *app.add_subcommand("fit", "Fair a surface or curve and draw it towards scattered points");

@@ -312,7 +312,6 @@ void add_measure_command(CLI::App& app, std::function<int()>& run) {
                               .input = "",
                               .ends = "Boundary or end nodes",
                               .directions = "normals (curves: tangents)",
-                              .rim = "tangent planes (curves: tangents)",
                               .rules = "positions and normals"};
   const auto arguments = std::make_shared<MeasureArguments>();
   CLI::App& command = *app.add_subcommand("measure", "Figures of fairness of a surface or curve, nothing changed");

@@ -39,7 +39,7 @@ class Holding {
 
   void refuse_defects() {
     // Held nodes beside moving ones, whose normals and spheres follow from all faces around them.
-    std::vector<std::uint8_t> is_rim(part_.size(), 0);
+    std::vector<std::uint8_t> is_rim(static_cast<std::size_t>(mesh_.node_count()), 0);
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       const auto face = mesh_.face(f);
       if (std::none_of(face.begin(), face.end(), [&](Index i) { return !constraints_.position_fixed(i); })) continue;

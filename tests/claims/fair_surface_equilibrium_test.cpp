@@ -177,7 +177,8 @@ TEST(SurfaceEquilibrium, ThreadsGiveTheSameBits) {
 }
 
 TEST(SurfaceEquilibrium, CanBeCancelled) {
-  const PolygonMesh cap = generate::cap({.nodes = 5000, .half_angle = 60});
+  // So many that progress is told long before the end.
+  const PolygonMesh cap = generate::cap({.nodes = 20000, .half_angle = 60});
   const PolygonMesh start = flattened(cap, 60, 0.02);
   Context before;
   before.cancel();

@@ -22,7 +22,7 @@ async function startWorker() {
     const core = createRequire(import.meta.url)(new URL('vspring_core.js', library).pathname);
     globalThis.vspringCore = () => core({ wasmBinary: readFileSync(new URL('vspring_core.wasm', library)), print: () => {}, printErr: () => {} });
   };
-  await compiled('worker');
+  await compiled('library/worker');
   const post = (data) => {
     for (const entry of [...listeners]) {
       if (entry.once) listeners.splice(listeners.indexOf(entry), 1);

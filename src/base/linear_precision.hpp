@@ -40,9 +40,9 @@ class LinearPrecision {
 
   /// g shortened so that at least this share of the sum of weights is left: of neighbours all to one side next to
   /// nothing is.
-  [[nodiscard]] Vector3 leaving(double least_share, Vector3 slope) const {
+  [[nodiscard]] Vector3 leaving(double least, Vector3 slope) const {
     const double left = 1 - mean_.dot(slope) / sum_;
-    if (left < least_share) slope *= (1 - least_share) / (1 - left);
+    if (left < least) slope *= (1 - least) / (1 - left);
     return slope;
   }
 

@@ -31,8 +31,9 @@ struct FitOptions {
   /// curves in space: the shape of least V-Spring energy on the way there. On curves in a plane: the shape whose
   /// curvature changes least in proportion to itself, where that has fewer inflections or extremes of curvature
   /// (docs/curves.md). Method::equilibrium only. Surfaces whose own nodes are the points, with Distribution::keep, no
-  /// method and no normals given, and noise of a sixth of this or more and of a hundredth of the median edge: a third
-  /// of this is taken off as noise, by the filters of `noise`, and nodes that end further away go back (docs/fit.md).
+  /// method and no normals given, and noise of a sixth to a half of this and of a hundredth of the median edge or more:
+  /// a third of this is taken off as noise, by the filters of `noise`, and nodes that end further away go back
+  /// (docs/fit.md).
   std::optional<double> within = std::nullopt;
   /// The largest smoothing length for which the root mean square of the distances is not above this, in units of the
   /// input, more than 0. Method::equilibrium only. Surfaces whose own nodes are the points, with Distribution::keep and

@@ -32,11 +32,11 @@ constexpr double least_rms_taken = 0.7;
 constexpr double aimed_rms = 0.999;
 constexpr int most_turns_back = 5;
 
-// Noise that a tolerance allows for, as a share of it, and how much of that may be for an estimate that is too large;
-// from which share on it is more than the tolerance bears; to which share on it is what the tolerance is about.
+// Shares of a tolerance: the noise that it allows for, and what that may be estimated to be at most; the noise from
+// which and to which the tolerance is about that. What seems to be more is as often what a coarse shape bends.
 constexpr double allowed_noise = 1.0 / 3;
 constexpr double allowed_noise_at_most = 0.4;
-constexpr double too_much_noise = 1.0 / 2;
+constexpr double most_noise = 1.0 / 2;
 constexpr double least_noise = 1.0 / 6;
 // In median edges: what turns faces by less than some degrees is offsets of a fair shape rather than a scan, and room
 // for a fairer one.
@@ -214,12 +214,12 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   const double tolerance = *run.options.within;
   const NoiseEstimate estimate = estimate_noise(run.subject.shape(), run.measuring);
   const double noise = estimate.deviation;
-  if (noise < least_noise * tolerance || estimate.edges < least_noise_in_edges) return false;
+  if (noise < least_noise * tolerance || noise > most_noise * tolerance || estimate.edges < least_noise_in_edges)
+    return false;
   if (!only_smooth && FitToTolerance<FitSurface>(run).plain_fairing_is_within(run.options.fair, true)) return true;
   progress.report("taking noise off", 0);
   NoisyNodes noisy(run, points);
   if (noisy.has_normals()) return false;
-  const bool is_too_noisy = noise > too_much_noise * tolerance;
   Net found = noisy.without(noise > allowed_noise_at_most * tolerance ? noise : allowed_noise * tolerance);
   const auto distances = [&] {
     run.finish_positions(found);
@@ -237,7 +237,7 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   if (left > tolerance)
     report.fair.warnings.push_back(fmt::format(
         "nodes that are held keep the shape {:g} away from where they were, and {:g} was asked for", left, tolerance));
-  if (is_too_noisy || left > tolerance) report.fair.outcome = Outcome::stalled;
+  if (left > tolerance) report.fair.outcome = Outcome::stalled;
   return true;
 }
 

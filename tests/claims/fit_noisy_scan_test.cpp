@@ -207,13 +207,13 @@ TEST(FitNoisyScan, WithinThreeTimesTheNoiseTheNoiseIsOffAndNoNodeIsFurtherAway) 
   EXPECT_LT(rms_from_torus(result.positions), 0.25 * rms_from_torus(noisy.positions()));
 }
 
-TEST(FitNoisyScan, WithinLessThanTheNoiseSaysThatItIsNotOff) {
+TEST(FitNoisyScan, WithinLessThanTwiceTheNoiseIsTheShapeOfLeastBending) {
   const PolygonMesh torus = generate::torus({.columns = 48, .rows = 24}, 1, minor_radius);
   constexpr double radius = 0.05;
   const PolygonMesh noisy = generate::add_noise(torus, radius, 1);
   const double tolerance = deviation_in_ball(radius);
   const FitResult result = fit_to_itself(noisy, within(tolerance));
-  EXPECT_EQ(result.report.fair.outcome, Outcome::stalled);
+  EXPECT_GT(result.report.fair.iterations, 0) << "not by filters";
   EXPECT_LE(result.report.after.all.greatest, tolerance);
   EXPECT_LT(rms_from_torus(result.positions), rms_from_torus(noisy.positions()));
 }

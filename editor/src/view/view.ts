@@ -23,6 +23,9 @@ import { Wipe } from './wipe';
 /** Milliseconds between pictures of a drag beyond which they have fewer pixels, and beyond which nobody drags. */
 const slow = 45;
 const still = 300;
+/** Pixels along each side, as shares: of those of the picture before, and of all. */
+const fewer = 0.7;
+const coarsest = 0.3;
 
 ColorManagement.enabled = false;  // colours are those of the style sheet
 
@@ -101,7 +104,7 @@ export class View {
     this.places = placesOf(this.shape, positions);
     const gap = performance.now() - this.drawnAt;
     if (settled) this.moving = 1;
-    else if (this.software && gap > slow && gap < still) this.moving = 0.5;
+    else if (this.software && gap > slow && gap < still) this.moving = Math.max(coarsest, fewer * this.moving);
     this.surface.show(this.shape, this.places, settled);
     this.curve.show(this.shape.curve ? this.places : new Float32Array(), this.shape.curve ? this.shape.edges.ends : []);
     this.markers.move(this.places);

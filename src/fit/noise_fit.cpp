@@ -105,21 +105,20 @@ class NoisyNodes {
   }
 
   /// Takes nodes that are further than the tolerance from where they were back to within it, and what is near along.
-  /// off: distances of all nodes of the input from the shape, as it is then. Returns the greatest distance left.
-  /// Cost of a turn: linear.
-  double take_back(Net& found, double tolerance, const std::function<std::vector<double>()>& off) const {
+  /// Outliers stay. off: distances of all nodes of the input from the shape, as it is then, 0 for outliers. Returns
+  /// those at the end. Cost of a turn: linear.
+  std::vector<double> take_back(Net& found, double tolerance, const std::function<std::vector<double>()>& off) const {
     std::vector<double> now = off();
-    const auto greatest = [&] { return now.empty() ? 0 : *std::max_element(now.begin(), now.end()); };
     for (const int rings : rings_taken_back) {
-      if (greatest() <= tolerance || run_.context.cancelled()) break;
+      if (*std::max_element(now.begin(), now.end()) <= tolerance || run_.context.cancelled()) break;
       std::vector<Vector3> moves(net_.moving, Vector3::Zero());
       std::vector<double> weights(net_.moving, 0);
       std::vector<std::pair<std::size_t, Vector3>> beyond;
       for (std::size_t i = 0; i < net_.moving; ++i) {
+        const auto node = static_cast<std::size_t>(net_.node[i]);
         const Vector3 way = net_.positions[i] - found.positions[i];
-        const double distance =
-            rings > 0 ? now[static_cast<std::size_t>(net_.node[i])] : way.norm() / net_.frame.scale();
-        if (distance <= tolerance) continue;
+        const double distance = rings > 0 ? now[node] : way.norm() / net_.frame.scale();
+        if (run_.kept[node] == 0 || distance <= tolerance) continue;
         beyond.emplace_back(i, (1 - taken_back_to * tolerance / distance) * way);
         for_each_around(i, rings, [&](std::size_t j, double weight) {
           moves[j] += weight * beyond.back().second;
@@ -131,11 +130,11 @@ class NoisyNodes {
       for (std::size_t i = 0; i < net_.moving; ++i) found.positions[i] += moves[i];
       now = off();
     }
-    return greatest();
+    return now;
   }
 
   /// Makes a shape the result.
-  void finish(const Net& found) {
+  void finish(const Net& found) const {
     run_.finish(found);
     FitReport& report = run_.result.report;
     report.pulled_nodes = report.pulling_points = static_cast<Index>(std::count(known_.begin(), known_.end(), 1));
@@ -216,10 +215,10 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   const double noise = estimate.deviation;
   if (noise < least_noise * tolerance || noise > most_noise * tolerance || estimate.edges < least_noise_in_edges)
     return false;
+  const NoisyNodes noisy(run, points);
+  if (noisy.has_normals()) return false;
   if (!only_smooth && FitToTolerance<FitSurface>(run).plain_fairing_is_within(run.options.fair, true)) return true;
   progress.report("taking noise off", 0);
-  NoisyNodes noisy(run, points);
-  if (noisy.has_normals()) return false;
   Net found = noisy.without(noise > allowed_noise_at_most * tolerance ? noise : allowed_noise * tolerance);
   const auto distances = [&] {
     run.finish_positions(found);
@@ -227,17 +226,18 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
     for (std::size_t j = 0; j < all.size(); ++j) all[j] *= run.kept[j];
     return all;
   };
-  const double left = only_smooth ? 0 : noisy.take_back(found, tolerance, distances);
+  std::vector<double> off;
+  if (!only_smooth) off = noisy.take_back(found, tolerance, distances);
   noisy.finish(found);
   if (only_smooth || run.context.cancelled()) return true;
   FitReport& report = run.result.report;
-  const std::vector<double> off = distances();
   const auto holds = [&](double distance) { return distance > held_from * tolerance; };
   report.active_points = static_cast<Index>(std::count_if(off.begin(), off.end(), holds));
-  if (left > tolerance)
-    report.fair.warnings.push_back(fmt::format(
-        "nodes that are held keep the shape {:g} away from where they were, and {:g} was asked for", left, tolerance));
-  if (left > tolerance) report.fair.outcome = Outcome::stalled;
+  const double left = *std::max_element(off.begin(), off.end());
+  if (left <= tolerance) return true;
+  report.fair.outcome = Outcome::stalled;
+  report.fair.warnings.push_back(fmt::format(
+      "nodes that are held keep the shape {:g} away from where they were, and {:g} was asked for", left, tolerance));
   return true;
 }
 

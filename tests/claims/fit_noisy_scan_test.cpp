@@ -207,6 +207,23 @@ TEST(FitNoisyScan, WithinThreeTimesTheNoiseTheNoiseIsOffAndNoNodeIsFurtherAway) 
   EXPECT_LT(rms_from_torus(result.positions), 0.25 * rms_from_torus(noisy.positions()));
 }
 
+TEST(FitNoisyScan, OutliersThatAreLeftOutAreNotTakenBackTo) {
+  const PolygonMesh torus = generate::torus({.columns = 64, .rows = 32}, 1, minor_radius);
+  constexpr double radius = 0.03;
+  PolygonMesh noisy = with_far_nodes(torus, radius);
+  std::vector<Vector3> positions = noisy.positions();
+  for (std::size_t i = 7; i < positions.size(); i += 101) positions[i] *= 1.4;
+  noisy.set_positions(positions);
+  const double deviation = std::sqrt(5.0) * deviation_in_ball(radius);
+  FitOptions options = within(2.4 * deviation);
+  options.outliers = 0.015;
+  const FitResult result = fit_to_itself(noisy, options);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.fair.iterations, 0) << "by filters";
+  EXPECT_EQ(result.report.outside_points, 0);
+  EXPECT_LT(distance(result.positions, torus).greatest, 0.15);
+}
+
 TEST(FitNoisyScan, WithinLessThanTwiceTheNoiseIsTheShapeOfLeastBending) {
   const PolygonMesh torus = generate::torus({.columns = 48, .rows = 24}, 1, minor_radius);
   constexpr double radius = 0.05;

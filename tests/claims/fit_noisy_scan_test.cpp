@@ -209,13 +209,14 @@ TEST(FitNoisyScan, WithinThreeTimesTheNoiseTheNoiseIsOffAndNoNodeIsFurtherAway) 
 
 TEST(FitNoisyScan, OutliersThatAreLeftOutAreNotTakenBackTo) {
   const PolygonMesh torus = generate::torus({.columns = 64, .rows = 32}, 1, minor_radius);
-  constexpr double radius = 0.03;
+  constexpr double radius = 0.06;
   PolygonMesh noisy = with_far_nodes(torus, radius);
   std::vector<Vector3> positions = noisy.positions();
   for (std::size_t i = 7; i < positions.size(); i += 101) positions[i] *= 1.4;
   noisy.set_positions(positions);
+  // So little room that every node is taken back by itself in the end.
   const double deviation = std::sqrt(5.0) * deviation_in_ball(radius);
-  FitOptions options = within(2.4 * deviation);
+  FitOptions options = within(2.1 * deviation);
   options.outliers = 0.015;
   const FitResult result = fit_to_itself(noisy, options);
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);

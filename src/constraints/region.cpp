@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "base/message_text.hpp"
 #include "vspring/constraints.hpp"
 #include "vspring/error.hpp"
 #include "vspring/topology.hpp"
@@ -37,7 +38,7 @@ Error malformed(const std::string& specification, const std::string& what) {
       ErrorCode::unusable_constraint,
       fmt::format("region \"{}\": {}; write sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1, group:NAME or the name of a JSON "
                   "file with a list of nodes",
-                  specification, what)};
+                  in_one_line(specification), what)};
 }
 
 std::vector<double> numbers(const std::string& specification, const std::string& text, std::size_t count) {
@@ -46,7 +47,7 @@ std::vector<double> numbers(const std::string& specification, const std::string&
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const auto value = nlohmann::json::parse(text.substr(begin, end - begin), nullptr, false);
     if (!value.is_number())
-      throw malformed(specification, fmt::format("\"{}\" is no number", text.substr(begin, end - begin)));
+      throw malformed(specification, fmt::format("\"{}\" is no number", in_one_line(text.substr(begin, end - begin))));
     values.push_back(value.get<double>());
     begin = end + 1;
   }
@@ -71,22 +72,24 @@ std::vector<Index> nodes_of_file(Index node_count, const std::string& path) {
         ErrorCode::unusable_file,
         fmt::format("{}: cannot be read; a region is sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1, group:NAME or the name "
                     "of a JSON file with a list of nodes",
-                    path));
+                    in_one_line(path, 4096)));
   nlohmann::json json;
   try {
     json = nlohmann::json::parse(text);
   } catch (const nlohmann::json::exception& fault) {
-    throw Error(ErrorCode::unusable_constraint, fmt::format("{}: no JSON: {}", path, fault.what()));
+    throw Error(ErrorCode::unusable_constraint,
+                fmt::format("{}: no JSON: {}", in_one_line(path, 4096), in_one_line(fault.what())));
   }
   if (json.is_object() && json.size() == 1 && json.contains("nodes")) json = nlohmann::json(json["nodes"]);
   if (!json.is_array())
     throw Error(ErrorCode::unusable_constraint,
-                fmt::format("{}: write a list of node numbers, such as [1, 2, 3]", path));
+                fmt::format("{}: write a list of node numbers, such as [1, 2, 3]", in_one_line(path, 4096)));
   std::vector<Index> nodes;
   for (const auto& entry : json) {
     if (!entry.is_number_integer() || entry.get<std::int64_t>() < 0 || entry.get<std::int64_t>() >= node_count)
       throw Error(ErrorCode::unusable_constraint,
-                  fmt::format("{}: {} is not a node; nodes go from 0 to {}", path, entry.dump(), node_count - 1));
+                  fmt::format("{}: {} is not a node; nodes go from 0 to {}", in_one_line(path, 4096),
+                              in_one_line(entry.dump()), node_count - 1));
     nodes.push_back(entry.get<Index>());
   }
   std::sort(nodes.begin(), nodes.end());
@@ -158,15 +161,16 @@ std::vector<Index> select_region(const std::vector<Vector3>& positions, const st
       std::string known;
       for (const auto& [name, members] : groups) known += (known.empty() ? "" : ", ") + name;
       throw Error(ErrorCode::unusable_constraint,
-                  fmt::format("region \"{}\": the shape has no such group; {}", specification,
-                              known.empty() ? "it has none at all" : "it has " + known));
+                  fmt::format("region \"{}\": the shape has no such group; {}", in_one_line(specification),
+                              known.empty() ? "it has none at all" : "it has " + in_one_line(known, 1000)));
     }
     nodes = group->second;
   } else {
     nodes = nodes_of_file(static_cast<Index>(positions.size()), specification);
   }
   if (nodes.empty())
-    throw Error(ErrorCode::unusable_constraint, fmt::format("region \"{}\": no node lies in it", specification));
+    throw Error(ErrorCode::unusable_constraint,
+                fmt::format("region \"{}\": no node lies in it", in_one_line(specification)));
   return nodes;
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "base/message_text.hpp"
 #include "vspring/constraints.hpp"
 #include "vspring/error.hpp"
 #include "vspring/topology.hpp"
@@ -107,13 +108,13 @@ class RuleReader {
       if (std::find(known.begin(), known.end(), key) != known.end()) continue;
       std::string list;
       for (const char* name : known) list += (list.empty() ? "" : ", ") + std::string(name);
-      throw fault(fmt::format("\"{}\" means nothing here; known: {}", key, list));
+      throw fault(fmt::format("\"{}\" means nothing here; known: {}", in_one_line(key), list));
     }
   }
 
   void apply(const json& rule) {
     if (!rule.is_object())
-      throw fault(fmt::format("{} is no rule; write {{\"nodes\": …, \"position\": …}}", rule.dump()));
+      throw fault(fmt::format("{} is no rule; write {{\"nodes\": …, \"position\": …}}", in_one_line(rule.dump())));
     if (rule.contains("tangent") && !curve()) throw fault("\"tangent\" is for curves; a surface takes \"normal\"");
     if (curve()) {
       require_keys(rule, {"nodes", "position", "normal", "tangent"});
@@ -190,7 +191,7 @@ class RuleReader {
     throw fault(fmt::format(
         "{} selects no nodes; write \"all\", \"boundary\", \"interior\", \"non-manifold\", {{\"group\": NAME}}, "
         "{{\"region\": SPECIFICATION}} or a list of node numbers",
-        selection.dump()));
+        in_one_line(selection.dump())));
   }
 
   [[nodiscard]] std::vector<Index> group(const std::string& name) const {
@@ -198,14 +199,15 @@ class RuleReader {
       const auto found = input_.groups->find(name);
       if (found != input_.groups->end()) return found->second;
     }
-    throw fault(fmt::format("the shape has no group \"{}\"", name));
+    throw fault(fmt::format("the shape has no group \"{}\"", in_one_line(name)));
   }
 
   [[nodiscard]] std::vector<Index> listed(const json& list) const {
     std::vector<Index> nodes;
     for (const json& entry : list) {
       if (!entry.is_number_integer() || entry.get<std::int64_t>() < 0 || entry.get<std::int64_t>() >= node_count())
-        throw fault(fmt::format("{} is not a node; nodes go from 0 to {}", entry.dump(), node_count() - 1));
+        throw fault(
+            fmt::format("{} is not a node; nodes go from 0 to {}", in_one_line(entry.dump()), node_count() - 1));
       nodes.push_back(entry.get<Index>());
     }
     std::vector<Index> sorted = nodes;
@@ -219,7 +221,7 @@ class RuleReader {
     const bool size_fits = value.size() == 3 || (curve() && value.size() == 2);
     if (!value.is_array() || !size_fits ||
         !std::all_of(value.begin(), value.end(), [](const json& x) { return x.is_number(); }))
-      throw fault(fmt::format("{} is no {}; write {}", value.dump(), what, numbers()));
+      throw fault(fmt::format("{} is no {}; write {}", in_one_line(value.dump()), what, numbers()));
     return {value[0].get<double>(), value[1].get<double>(), value.size() == 3 ? value[2].get<double>() : 0};
   }
 
@@ -244,7 +246,8 @@ class RuleReader {
     } else if (value == "fixed") {
       for (const Index i : nodes) fix_position(i, positions_[static_cast<std::size_t>(first(i))]);
     } else if (value.is_string()) {
-      throw fault(fmt::format("{} is no position; write \"fixed\", \"free\" or {}", value.dump(), numbers()));
+      throw fault(
+          fmt::format("{} is no position; write \"fixed\", \"free\" or {}", in_one_line(value.dump()), numbers()));
     } else {
       const auto positions = vectors(value, nodes.size(), "position");
       for (std::size_t k = 0; k < nodes.size(); ++k) fix_position(nodes[k], positions[k]);
@@ -268,7 +271,8 @@ class RuleReader {
       for (const Index i : nodes) normals.push_back((*input_.normals)[static_cast<std::size_t>(i)]);
       fix_normals(nodes, normals, "the file gives it no normal");
     } else if (value.is_string()) {
-      throw fault(fmt::format("{} is no normal; write \"fixed\", \"file\", \"free\" or {}", value.dump(), numbers()));
+      throw fault(fmt::format("{} is no normal; write \"fixed\", \"file\", \"free\" or {}", in_one_line(value.dump()),
+                              numbers()));
     } else {
       fix_normals(nodes, vectors(value, nodes.size(), "normal"), "a normal of zero has no direction");
     }
@@ -280,7 +284,8 @@ class RuleReader {
       return;
     }
     if (value.is_string() && value != "fixed")
-      throw fault(fmt::format("{} is no tangent; write \"fixed\", \"free\" or {}", value.dump(), numbers()));
+      throw fault(
+          fmt::format("{} is no tangent; write \"fixed\", \"free\" or {}", in_one_line(value.dump()), numbers()));
     const Directions tangents = value.is_string() ? shape_.tangents(nodes) : vectors(value, nodes.size(), "tangent");
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (tangents[k].isZero(0))
@@ -321,7 +326,7 @@ void apply(Constraints& constraints, const RuledShape& shape, std::string_view t
   try {
     rules = json::parse(text);
   } catch (const json::exception& fault) {
-    throw Error(ErrorCode::unusable_constraint, fmt::format("rules: no JSON: {}", fault.what()));
+    throw Error(ErrorCode::unusable_constraint, fmt::format("rules: no JSON: {}", in_one_line(fault.what())));
   }
   Constraints changed = constraints;
   RuleReader(changed, shape, input).read(rules);

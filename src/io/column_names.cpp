@@ -10,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/message_text.hpp"
 #include "io/text_cursor.hpp"
 #include "vspring/error.hpp"
 

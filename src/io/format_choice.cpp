@@ -6,6 +6,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include "base/message_text.hpp"
 #include "io/input_file.hpp"
 #include "vspring/error.hpp"
 

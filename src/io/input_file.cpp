@@ -66,11 +66,4 @@ InputFile read_input(const std::string& path) {
   return file;
 }
 
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t longest = 24;
-  std::string result = "'";
-  for (const char c : text.substr(0, longest)) result += c >= ' ' && c <= '~' ? c : '?';
-  return result + (text.size() > longest ? "…'" : "'");
-}
-
 }  // namespace vspring

@@ -21,7 +21,4 @@ struct InputFile {
 /// Reads a file, or standard input for "-". Throws Error(unusable_file) for what cannot be read, and for nothing in it.
 InputFile read_input(const std::string& path);
 
-/// Text from a file for a message: in quotes, shortened, one line, printable.
-std::string in_quotes(std::string_view text);
-
 }  // namespace vspring

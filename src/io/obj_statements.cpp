@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <map>
 
+#include "base/message_text.hpp"
+
 namespace vspring {
 
 void ObjStatements::read() {

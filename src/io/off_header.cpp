@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/message_text.hpp"
 #include "io/face_list.hpp"
 
 namespace vspring {

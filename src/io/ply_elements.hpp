@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/message_text.hpp"
 #include "io/ply_data.hpp"
 
 namespace vspring {

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/message_text.hpp"
 #include "io/face_list.hpp"
 #include "io/text_cursor.hpp"
 

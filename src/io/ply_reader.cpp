@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "base/message_text.hpp"
 #include "io/face_list.hpp"
 #include "io/file_normals.hpp"
 #include "io/ply_elements.hpp"

@@ -6,6 +6,7 @@
 #include <array>
 #include <numeric>
 
+#include "base/message_text.hpp"
 #include "io/face_list.hpp"
 #include "io/text_rewriter.hpp"
 

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "base/message_text.hpp"
+
 namespace vspring {
 
 const char* parse_number(const char* begin, const char* end, double& value) {

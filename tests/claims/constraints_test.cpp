@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "support/refusal.hpp"
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
@@ -14,25 +15,12 @@ namespace vspring::constraints_test {
 namespace {
 
 using namespace support;
+using support::refusal;
 using generate::Faces;
-
-std::string refusal(const std::function<void()>& call, ErrorCode code) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code) << error.what();
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line";
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return "";
-}
 
 std::string refusal(const PolygonMesh& mesh, const Constraints& constraints, ErrorCode code) {
   return refusal([&] { (void)fair(mesh, constraints); }, code);
 }
-
-bool says(const std::string& message, const std::string& part) { return message.find(part) != std::string::npos; }
 
 // A mesh and a second one beside it, in one.
 PolygonMesh beside(const PolygonMesh& a, const PolygonMesh& b) {
@@ -371,39 +359,6 @@ TEST(Region, ARimNodeWithNothingOutsideKeepsItsNormalFree) {
   EXPECT_FALSE(constraints.normal_fixed(60));
   EXPECT_TRUE(constraints.position_fixed(0)) << "what was held before stays held";
   EXPECT_EQ(fair(mesh, constraints).report.outcome, Outcome::converged);
-}
-
-TEST(Rules, ApplyInOrderAndAllOrNone) {
-  const PolygonMesh mesh = generate::plane({.columns = 4, .rows = 4});
-  Constraints constraints(mesh.node_count());
-  apply_rules(constraints, mesh, R"({"rules": [
-      {"nodes": "all", "position": "fixed", "normal": [0, 0, 3]},
-      {"nodes": "interior", "position": "free"},
-      {"nodes": {"region": "box:0.4,0.4,0,0.6,0.6,0"}, "position": [1, 2, 3], "normal": "free"}]})");
-  EXPECT_EQ(constraints.position(0), mesh.position(0));
-  EXPECT_EQ(constraints.normal(0), Vector3(0, 0, 1));
-  EXPECT_FALSE(constraints.position_fixed(6));
-  EXPECT_EQ(constraints.position(12), Vector3(1, 2, 3));
-  EXPECT_FALSE(constraints.normal_fixed(12));
-  const std::string message = refusal(
-      [&] {
-        apply_rules(constraints, mesh,
-                    R"({"rules": [{"nodes": "all", "position": "free"}, {"nodes": [77], "normal": "free"}]})");
-      },
-      ErrorCode::unusable_constraint);
-  EXPECT_TRUE(says(message, "rule 2") && says(message, "77")) << message;
-  EXPECT_TRUE(constraints.position_fixed(0)) << "the first rule must not have been applied";
-}
-
-TEST(Rules, NormalsOfTheInputAndOfTheFile) {
-  const PolygonMesh sphere = generate::sphere_patch({.columns = 6, .rows = 6, .jitter = 0.3}, 2, 70);
-  Constraints constraints(sphere.node_count());
-  apply_rules(constraints, sphere, R"({"rules": [{"nodes": "all", "normal": "fixed"}]})");
-  for (Index i = 0; i < sphere.node_count(); ++i)
-    EXPECT_LT((constraints.normal(i) - sphere.position(i) / 2).norm(), 1e-12);
-  const std::vector<Vector3> normals(static_cast<std::size_t>(sphere.node_count()), Vector3(0, 1, 0));
-  apply_rules(constraints, sphere, R"({"rules": [{"nodes": [3], "normal": "file"}]})", {.normals = &normals});
-  EXPECT_EQ(constraints.normal(3), Vector3(0, 1, 0));
 }
 
 }  // namespace

@@ -9,24 +9,14 @@
 #include <vector>
 
 #include "support/curves.hpp"
+#include "support/refusal.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::curve_constraints_test {
 namespace {
 
 using namespace support;
-
-std::string refusal(const std::function<void()>& call, ErrorCode code) {
-  try {
-    call();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code(), code) << error.what();
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line";
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return "";
-}
+using support::refusal;
 
 /// By check_constraints() and by fair(), with the same words.
 std::string refusal(const PolygonCurve& curve, const Constraints& constraints, ErrorCode code) {
@@ -34,8 +24,6 @@ std::string refusal(const PolygonCurve& curve, const Constraints& constraints, E
   EXPECT_EQ(refusal([&] { (void)fair(curve, constraints); }, code), message);
   return message;
 }
-
-bool says(const std::string& message, const std::string& part) { return message.find(part) != std::string::npos; }
 
 std::vector<Vector3> circle(int count) {
   std::vector<Vector3> nodes;

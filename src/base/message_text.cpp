@@ -1,0 +1,27 @@
+#include "base/message_text.hpp"
+
+namespace vspring {
+
+std::string in_quotes(std::string_view bytes) {
+  constexpr std::size_t longest = 24;
+  std::string result = "'";
+  for (const char c : bytes.substr(0, longest)) result += c >= ' ' && c <= '~' ? c : '?';
+  return result + (bytes.size() > longest ? "…'" : "'");
+}
+
+std::string in_one_line(std::string_view text, std::size_t longest) {
+  std::size_t end = text.size();
+  if (end > longest) {
+    end = longest;
+    // A character of UTF-8 is kept whole: the bytes that go on with one begin with the bits 10.
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  }
+  std::string result;
+  for (const char c : text.substr(0, end)) {
+    const auto byte = static_cast<unsigned char>(c);
+    result += byte < 0x20U || byte == 0x7FU ? '?' : c;
+  }
+  return result + (end < text.size() ? "…" : "");
+}
+
+}  // namespace vspring

@@ -1,0 +1,75 @@
+// What rules for surfaces mean, and what is said of wrong ones.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "support/refusal.hpp"
+#include "vspring/vspring.hpp"
+
+namespace vspring::rules_test {
+namespace {
+
+using namespace support;
+
+TEST(Rules, ApplyInOrderAndAllOrNone) {
+  const PolygonMesh mesh = generate::plane({.columns = 4, .rows = 4});
+  Constraints constraints(mesh.node_count());
+  apply_rules(constraints, mesh, R"({"rules": [
+      {"nodes": "all", "position": "fixed", "normal": [0, 0, 3]},
+      {"nodes": "interior", "position": "free"},
+      {"nodes": {"region": "box:0.4,0.4,0,0.6,0.6,0"}, "position": [1, 2, 3], "normal": "free"}]})");
+  EXPECT_EQ(constraints.position(0), mesh.position(0));
+  EXPECT_EQ(constraints.normal(0), Vector3(0, 0, 1));
+  EXPECT_FALSE(constraints.position_fixed(6));
+  EXPECT_EQ(constraints.position(12), Vector3(1, 2, 3));
+  EXPECT_FALSE(constraints.normal_fixed(12));
+  const std::string message = refusal(
+      [&] {
+        apply_rules(constraints, mesh,
+                    R"({"rules": [{"nodes": "all", "position": "free"}, {"nodes": [77], "normal": "free"}]})");
+      },
+      ErrorCode::unusable_constraint);
+  EXPECT_TRUE(says(message, "rule 2") && says(message, "77")) << message;
+  EXPECT_TRUE(constraints.position_fixed(0)) << "the first rule must not have been applied";
+}
+
+TEST(Rules, NormalsOfTheInputAndOfTheFile) {
+  const PolygonMesh sphere = generate::sphere_patch({.columns = 6, .rows = 6, .jitter = 0.3}, 2, 70);
+  Constraints constraints(sphere.node_count());
+  apply_rules(constraints, sphere, R"({"rules": [{"nodes": "all", "normal": "fixed"}]})");
+  for (Index i = 0; i < sphere.node_count(); ++i)
+    EXPECT_LT((constraints.normal(i) - sphere.position(i) / 2).norm(), 1e-12);
+  const std::vector<Vector3> normals(static_cast<std::size_t>(sphere.node_count()), Vector3(0, 1, 0));
+  apply_rules(constraints, sphere, R"({"rules": [{"nodes": [3], "normal": "file"}]})", {.normals = &normals});
+  EXPECT_EQ(constraints.normal(3), Vector3(0, 1, 0));
+}
+
+TEST(Rules, WrongOnesAreNamedInOneShortLine) {
+  const PolygonMesh mesh = generate::plane({.columns = 4, .rows = 4});
+  const Groups groups = {{"rim", {0}}, {"two\nlines", {1}}};
+  Constraints constraints(mesh.node_count());
+  const std::string endless(100'000, 'x');
+  const std::vector<std::string> wrong = {
+      R"("two\nlines": 1)",
+      R"("nodes": {"group": "two\nlines, and more"}, "position": "fixed")",
+      R"("nodes": {"region": "sphere:\n"}, "position": "fixed")",
+      R"("nodes": {"region": "group:\n"}, "position": "fixed")",
+      R"("nodes": {"region": "box:0,0,0,1,1,\u0007"}, "position": "fixed")",
+      R"("nodes": {"region": "no\nfile"}, "position": "fixed")",
+      "\"nodes\": \"" + endless + "\", \"position\": \"fixed\"",
+      "\"nodes\": [0], \"position\": \"" + endless + "\"",
+      "\"nodes\": [0], \"normal\": " + endless,
+  };
+  for (const std::string& rule : wrong) {
+    const std::string message =
+        refusal([&] { apply_rules(constraints, mesh, "{\"rules\": [{" + rule + "}]}", {.groups = &groups}); },
+                rule.find("file") == std::string::npos ? ErrorCode::unusable_constraint : ErrorCode::unusable_file);
+    EXPECT_LT(message.size(), 500U) << message;
+    for (const char c : message) EXPECT_GE(static_cast<unsigned char>(c), 0x20U) << message;
+  }
+}
+
+}  // namespace
+}  // namespace vspring::rules_test

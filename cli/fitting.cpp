@@ -13,6 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Of the points that hold a shape.
+constexpr std::ptrdiff_t most_named = 1000;
+
 Json to_json(const PointDistances& distances) {
   return {{"greatest", distances.all.greatest},
           {"point", distances.all.node},
@@ -113,7 +116,10 @@ Json FitAccount::figures() const {
         {"count", report_.points},
         {"outliers", report_.outliers},
         {"outside", asks_for_distance() ? Json{{"count", report_.outside_points}, {"share", outside_share()}} : Json()},
-        {"active", report_.active_points},
+        {"active", report_.active_points.size()},
+        {"active_points", std::vector(report_.active_points.begin(),
+                                      report_.active_points.begin() +
+                                          std::min<std::ptrdiff_t>(std::ssize(report_.active_points), most_named))},
         {"pulling", report_.pulling_points},
         {"nodes_with_points", report_.pulled_nodes},
         {"most_on_a_node", report_.most_points},

@@ -75,7 +75,8 @@ struct FitReport {
   /// The one given or, for a tolerance, found. Empty for the paper's k, and where plain fairing or what
   /// filters of noise give is within the tolerance.
   std::optional<double> smoothing_length = std::nullopt;
-  Index active_points = 0;   ///< with `within`: those at that distance, to 1 %
+  /// With `within`: the points at that distance, to 1 %, in order. They keep the shape from becoming fairer.
+  std::vector<Index> active_points;
   Index outside_points = 0;  ///< with `within` or `rms`: those further away than that, of the points that count
   PointDistances before;
   PointDistances after;

@@ -49,8 +49,6 @@ constexpr double left_times = 10;
 // are such a balloon for certain.
 constexpr double balloon_move = 0.1;
 constexpr double balloon_times = 3;
-// Of a tolerance: a point that is further away holds the shape.
-constexpr double holds_from_share = 0.99;
 // An expected error, as a share of the size, from which a curve on its way to an equilibrium is no use.
 constexpr double curve_is_lost_at = 1e-2;
 
@@ -87,6 +85,7 @@ class Fitting {
     if (options_.noise) say_if_far_off();
     say_if_left_behind();
     report.outside_points = count_outside(result.distances);
+    if (options_.within) report.active_points = active_points(result.distances, run_.kept, *options_.within);
     report.fair.seconds = stopwatch.seconds();
     return std::move(result);
   }
@@ -162,8 +161,6 @@ class Fitting {
       run_.result.positions = own;
       return;
     }
-    const auto holds = [&](double distance) { return distance > holds_from_share * *options_.within; };
-    report.active_points = static_cast<Index>(std::count_if(distances.begin(), distances.end(), holds));
     // That was of the other shape.
     report.fair.expected_error.reset();
     auto gathered = run_.gather();

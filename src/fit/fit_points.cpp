@@ -16,6 +16,8 @@ namespace vspring {
 namespace {
 
 constexpr double largest_weight = 1e50;
+// Of a distance: from there on a point is at it.
+constexpr double nearly_at = 0.99;
 
 bool is_weight(double weight) { return weight >= 0 && weight <= largest_weight; }
 
@@ -60,6 +62,16 @@ std::vector<std::uint8_t> without_furthest(std::span<const double> distances, do
   std::vector<std::uint8_t> kept(distances.size(), 1);
   for (std::ptrdiff_t k = 0; k < count; ++k) kept[order[static_cast<std::size_t>(k)]] = 0;
   return kept;
+}
+
+std::vector<Index> active_points(std::span<const double> distances, std::span<const std::uint8_t> counted,
+                                 double distance) {
+  std::vector<Index> active;
+  for (std::size_t j = 0; j < distances.size(); ++j) {
+    if ((counted.empty() || counted[j] != 0) && distances[j] > nearly_at * distance)
+      active.push_back(static_cast<Index>(j));
+  }
+  return active;
 }
 
 PointDistances summary(std::span<const double> distances, std::span<const std::uint8_t> counted) {

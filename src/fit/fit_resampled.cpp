@@ -48,7 +48,6 @@ constexpr double settles_at_share = 0.95;
 constexpr double hopeless_share = 1.5;
 // Of the least distance before: where it falls no more nothing is within the tolerance.
 constexpr double no_nearer_share = 0.98;
-constexpr double holds_from = 0.99;
 // Of the tolerance: where no gentle curve is within it, one is looked for up to so much further out, to so near.
 constexpr double most_times_tolerance = 8;
 constexpr double nearly = 1.05;
@@ -161,7 +160,7 @@ class DenseFit {
       const auto& all = best_->distances;
       return static_cast<Index>(std::count_if(all.begin(), all.end(), [&](double d) { return d > beyond; }));
     };
-    report.active_points = options_.within ? count(holds_from * tolerance_) : 0;
+    if (options_.within) report.active_points = active_points(best_->distances, {}, tolerance_);
     report.outside_points = tolerance_ > 0 ? count(tolerance_) : 0;
     if (is_within() && fair.outcome == Outcome::stalled) {
       // The dense curve is a little further from points next to what is held than was aimed at, and says so last.

@@ -117,7 +117,6 @@ class FitToTolerance {
       report.fair.expected_error = last_error;
     }
     finish_with(found.length);
-    report.active_points = found.active;
     conclude(found);
   }
 

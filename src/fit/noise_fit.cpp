@@ -46,7 +46,6 @@ constexpr double least_noise_in_edges = 0.01;
 constexpr int rings_taken_back[] = {3, 3, 3, 3, 3, 3, 1, 1, 1, 0};
 // Of the tolerance.
 constexpr double taken_back_to = 0.999;
-constexpr double held_from = 0.99;
 
 /// Has a shape without noise keep the normals that are given: a fit to it that smooths no more than an edge. Nodes keep
 /// their places where there is no equilibrium.
@@ -231,8 +230,6 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   noisy.finish(found);
   if (only_smooth || run.context.cancelled()) return true;
   FitReport& report = run.result.report;
-  const auto holds = [&](double distance) { return distance > held_from * tolerance; };
-  report.active_points = static_cast<Index>(std::count_if(off.begin(), off.end(), holds));
   const double left = *std::max_element(off.begin(), off.end());
   if (left <= tolerance) return true;
   report.fair.outcome = Outcome::stalled;

@@ -15,8 +15,8 @@ namespace vspring::constraints_test {
 namespace {
 
 using namespace support;
-using support::refusal;
 using generate::Faces;
+using support::refusal;
 
 std::string refusal(const PolygonMesh& mesh, const Constraints& constraints, ErrorCode code) {
   return refusal([&] { (void)fair(mesh, constraints); }, code);

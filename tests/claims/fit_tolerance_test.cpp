@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -214,6 +215,18 @@ TEST(FitWithin, EveryPointIsWithinAndNoUniformWeightBendsLess) {
   EXPECT_LE(distance(plane.points.positions, with_positions(plane.plane, result.positions)).greatest, 0.01);
   EXPECT_LT(result.report.fair.after.rms_turn,
             best_of_weights([&](const FitOptions& options) { return plane.fit(options); }, 0.01));
+}
+
+TEST(FitWithin, NamesThePointsAtTheDistance) {
+  const NoisyWave wave(60);
+  for (const double tolerance : {0.01, 0.003}) {
+    const FitResult result = wave.fit(within(tolerance));
+    const std::vector<Index>& active = result.report.active_points;
+    EXPECT_GE(active.size(), 2U);
+    for (std::size_t j = 0; j < wave.nodes.size(); ++j)
+      EXPECT_EQ(std::count(active.begin(), active.end(), static_cast<Index>(j)),
+                result.distances[j] > 0.99 * tolerance ? 1 : 0);
+  }
 }
 
 TEST(FitWithin, PullsHardWhereNoUniformWeightIsWithin) {

@@ -86,6 +86,7 @@ nlohmann::ordered_json to_json(const FairReport& report) {
     json["levels"].push_back({{"moving_nodes", level.moving_nodes},
                               {"iterations", level.iterations},
                               {"outcome", name(level.outcome)},
+                              {"strategy", level.strategy},
                               {"seconds", level.seconds}});
   return json;
 }

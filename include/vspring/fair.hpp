@@ -105,6 +105,10 @@ struct LevelReport {
   Index moving_nodes = 0;
   int iterations = 0;
   Outcome outcome = Outcome::converged;  ///< of the level's own test; `cancelled` where it was not reached
+  /// What it was part of: "in place", "coarse to fine", "flow", "spacing of the input", "windings of the input", "from
+  /// the input without its noise", "from the input", "from the input, with its spacing", "from the last shape" or
+  /// "V-cycle" (docs/solver.md).
+  const char* strategy = "";
   double seconds = 0;
 };
 

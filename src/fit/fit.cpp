@@ -354,7 +354,7 @@ class Fitting {
     points = {};
     std::function<void()> renew_ties;
     if (!net.points.empty()) renew_ties = [&] { (void)ties.renew(run_.team); };
-    run_sweeps(net, *model, options, run_.team, run_.context, progress, run_.result.report.fair, renew_ties);
+    run_sweeps(net, *model, {options, run_.team, run_.context, progress, run_.result.report.fair}, renew_ties);
     run_.finish(net);
   }
 

@@ -62,9 +62,8 @@ class FitToTolerance {
     // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
     const auto nodes = static_cast<double>(shape.net().moving);
     const double most_work = std::max(least_most_work, most_work_a_node * nodes);
-    const auto& lengths = shape.net().tangents.empty() && !shape.net().target_positions.empty()
-                              ? first_lengths_on_surfaces
-                              : first_lengths;
+    const auto& lengths =
+        !shape.net().is_curve() && !shape.net().target_positions.empty() ? first_lengths_on_surfaces : first_lengths;
     for (const double first : lengths) {
       *length = first * edge;
       shape.find(context, progress, report.fair);

@@ -80,11 +80,11 @@ void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, s
 FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing) {
   FitOptions options;
   options.fair = fairing;
-  options.weight = arguments.weight.value_or(options.weight);
-  options.smoothing_length = arguments.smoothing_length;
-  options.within = arguments.within;
-  options.rms = arguments.rms;
-  options.noise = arguments.noise;
+  if (arguments.weight) options.criterion = Weight{*arguments.weight};
+  if (arguments.smoothing_length) options.criterion = SmoothingLength{*arguments.smoothing_length};
+  if (arguments.within) options.criterion = Within{*arguments.within};
+  if (arguments.rms) options.criterion = RootMeanSquare{*arguments.rms};
+  if (arguments.noise) options.criterion = Noise{*arguments.noise};
   options.outliers = arguments.outliers;
   return options;
 }

@@ -79,7 +79,7 @@ void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drive
   std::vector<Fitted> fitted;
   for (const double length : smoothing_lengths) {
     FitOptions options;
-    options.smoothing_length = length * edge;
+    options.criterion = SmoothingLength{length * edge};
     options.fair.distribution = Distribution::keep;
     const FitResult result = fit(noisy, held, {noisy.positions()}, options);
     fitted.push_back({distance_of(result.positions), result.report.fair.outcome == Outcome::converged});

@@ -82,10 +82,10 @@ class Fitting {
     result.distances = run_.distances();
     report.after = summary(result.distances, run_.kept);
     report.outliers = report.points - report.after.all.count;
-    if (options_.noise) say_if_far_off();
+    if (options_.noise()) say_if_far_off();
     say_if_left_behind();
     report.outside_points = count_outside(result.distances);
-    if (options_.within) report.active_points = active_points(result.distances, run_.kept, *options_.within);
+    if (options_.within()) report.active_points = active_points(result.distances, run_.kept, *options_.within());
     report.fair.seconds = stopwatch.seconds();
     return std::move(result);
   }
@@ -95,17 +95,17 @@ class Fitting {
   void say_if_far_off() {
     FairReport& report = run_.result.report.fair;
     const double distance = run_.result.report.after.all.rms;
-    if (report.outcome != Outcome::converged || !(distance > far_off * *options_.noise)) return;
+    if (report.outcome != Outcome::converged || !(distance > far_off * *options_.noise())) return;
     report.outcome = Outcome::stalled;
     report.warnings.push_back(fmt::format(
         "nodes were {:.2g} times the noise away from the shape in the root mean square: it could not follow "
         "them everywhere; they may be too few for their features, or faces folded without noise",
-        distance / *options_.noise));
+        distance / *options_.noise()));
   }
 
   void say_if_left_behind() {
     FairReport& report = run_.result.report.fair;
-    if (report.outcome != Outcome::converged || options_.within || options_.rms || options_.noise) return;
+    if (report.outcome != Outcome::converged || options_.within() || options_.rms() || options_.noise()) return;
     const double before = run_.result.report.before.all.rms;
     const double after = run_.result.report.after.all.rms;
     Eigen::AlignedBox3d box;
@@ -120,7 +120,7 @@ class Fitting {
 
   /// In words, where nodes went far, and away from the points; empty where not.
   std::string balloon(const Net& before, const Net& now) {
-    if (options_.within || options_.rms || options_.noise) return {};
+    if (options_.tolerance() || options_.noise()) return {};
     double squares = 0;
     for (std::size_t i = 0; i < now.moving; ++i) squares += (now.positions[i] - before.positions[i]).squaredNorm();
     const double share = std::sqrt(squares / std::max<double>(1, static_cast<double>(now.moving))) / diagonal(before);
@@ -140,13 +140,13 @@ class Fitting {
     FitReport& report = run_.result.report;
     const bool is_found = report.fair.outcome == Outcome::converged || report.fair.outcome == Outcome::work_limit;
     const bool all_count = options_.outliers == 0 && run_.points.weights.empty();
-    if (!options_.within || !is_found || !report.smoothing_length || !all_count) return;
+    if (!options_.within() || !is_found || !report.smoothing_length || !all_count) return;
     const Constraints& constraints = run_.subject.constraints();
     PolygonCurve curve = run_.subject.shape();
     curve.set_positions(run_.result.positions);
     const CurveFigures before = measure_curve(curve, &constraints);
     if (before.inflections + before.curvature_extrema == 0) return;
-    auto gentle = gentle_curve(curve, constraints, run_.points.positions, *options_.within,
+    auto gentle = gentle_curve(curve, constraints, run_.points.positions, *options_.within(),
                                std::numeric_limits<std::size_t>::max(), run_.context);
     if (!gentle) return;
     curve.set_positions(*gentle);
@@ -156,7 +156,7 @@ class Fitting {
     if (has_more || !has_fewer) return;
     const std::vector<Vector3> own = std::exchange(run_.result.positions, std::move(*gentle));
     const std::vector<double> distances = run_.distances();
-    if (*std::max_element(distances.begin(), distances.end()) > *options_.within ||
+    if (*std::max_element(distances.begin(), distances.end()) > *options_.within() ||
         !InputAndFound(*this).fault.empty()) {
       run_.result.positions = own;
       return;
@@ -211,7 +211,7 @@ class Fitting {
 
   /// Fits and leaves out the points that are furthest away, in turns, until they stay the same.
   void leave_outliers_out(ProgressReporter& progress) {
-    const bool searches = options_.within || options_.rms;
+    const bool searches = options_.tolerance().has_value();
     // A tolerance means nothing as long as outliers count.
     bool smooth_first = searches;
     for (int turn = 0; turn < most_turns_of_outliers; ++turn) {
@@ -259,14 +259,14 @@ class Fitting {
       return;
     }
     if constexpr (std::is_same_v<Subject, FitSurface>) {
-      if (options_.noise) {
+      if (options_.noise()) {
         fit_without_noise(run_, std::move(points), progress);
         return;
       }
-      if (options_.rms && fit_to_rms_by_filters(run_, points, progress)) return;
-      if (options_.within && fit_within_by_filters(run_, points, smooth, progress)) return;
+      if (options_.rms() && fit_to_rms_by_filters(run_, points, progress)) return;
+      if (options_.within() && fit_within_by_filters(run_, points, smooth, progress)) return;
     }
-    if (options_.within || options_.rms) {
+    if (options_.tolerance()) {
       FitToTolerance<Subject>(run_).fit(std::move(points), progress, smooth);
       return;
     }
@@ -286,8 +286,7 @@ class Fitting {
     const Index nodes = report.moving_nodes;
     run_.start_report(Method::sweep);
     FairOptions options = options_.fair;
-    if (!options_.smoothing_length)
-      options.step_tolerance = std::min(options.step_tolerance, step_share * options_.weight);
+    if (options_.weight()) options.step_tolerance = std::min(options.step_tolerance, step_share * *options_.weight());
     options.max_iterations = sweeps_of_last_resort(static_cast<std::size_t>(nodes));
     if (nearest) options.max_iterations = std::min(*options.max_iterations, most_sweeps_with_targets);
     points = run_.untied_points();
@@ -359,14 +358,14 @@ class Fitting {
   }
 
   std::shared_ptr<double> smoothing_in(const Net& net) {
-    if (!options_.smoothing_length) return nullptr;
-    run_.result.report.smoothing_length = options_.smoothing_length;
-    return std::make_shared<double>(*options_.smoothing_length * net.frame.scale());
+    if (!options_.smoothing_length()) return nullptr;
+    run_.result.report.smoothing_length = options_.smoothing_length();
+    return std::make_shared<double>(*options_.smoothing_length() * net.frame.scale());
   }
 
   [[nodiscard]] Index count_outside(const std::vector<double>& distances) const {
-    if (!options_.within && !options_.rms) return 0;
-    const double tolerance = options_.within ? *options_.within : *options_.rms;
+    if (!options_.tolerance()) return 0;
+    const double tolerance = *options_.tolerance();
     Index count = 0;
     for (std::size_t j = 0; j < distances.size(); ++j) count += run_.kept[j] != 0 && distances[j] > tolerance ? 1 : 0;
     return count;
@@ -406,7 +405,7 @@ FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const Sca
 
 FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {
-  if (options.noise)
+  if (options.noise())
     throw Error(
         ErrorCode::invalid_argument,
         "noise can be taken off surfaces only: of a curve ask for the root mean square of its points' distances");

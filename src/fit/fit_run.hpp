@@ -73,8 +73,7 @@ class FitRun {
   UntiedPoints untied_points() {
     std::vector<double> weights = points.weights;
     weights.resize(points.positions.size(), 1);
-    const double weight =
-        options.smoothing_length || options.within || options.rms || options.noise ? 1 : options.weight;
+    const double weight = options.weight().value_or(1);
     for (std::size_t j = 0; j < weights.size(); ++j) weights[j] *= kept[j] * weight;
     if (start_.nearest.empty()) find_start();
     if (start_.turned)

@@ -23,8 +23,7 @@ namespace vspring {
 template <typename Subject>
 class FitToTolerance {
  public:
-  explicit FitToTolerance(FitRun<Subject>& run)
-      : run_(run), tolerance_(run.options.within ? *run.options.within : *run.options.rms) {}
+  explicit FitToTolerance(FitRun<Subject>& run) : run_(run), tolerance_(*run.options.tolerance()) {}
 
   /// Then that is the fairest, and the result. in_few_steps: whole scans have no equilibrium, and take long to show it.
   bool plain_fairing_is_within(FairOptions options, bool in_few_steps) {
@@ -108,7 +107,7 @@ class FitToTolerance {
     };
     task.energy = [&] { return run_.subject.fairness(run_.result.positions).vspring_energy; };
     ToleranceFitResult found =
-        run_.options.within ? fit_within(task, tolerance_ * scale) : smooth(task, tolerance_ * scale);
+        run_.options.within() ? fit_within(task, tolerance_ * scale) : smooth(task, tolerance_ * scale);
     // Tries that led nowhere tell nothing of the shape that is kept.
     found.settled = found.settled && last_error;
     if (found.settled) {
@@ -173,7 +172,7 @@ class FitToTolerance {
       squares += distances[j] * distances[j];
       count += run_.kept[j];
     }
-    return run_.options.within ? greatest : std::sqrt(squares / count);
+    return run_.options.within() ? greatest : std::sqrt(squares / count);
   }
 
   /// Whether the shape is that is handed out, by the points that count.

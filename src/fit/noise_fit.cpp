@@ -175,7 +175,7 @@ void fit_without_noise(FitRun<FitSurface>& run, UntiedPoints points, ProgressRep
                 "noise can be taken off a surface whose own nodes are the points and keep their places only");
   progress.report("taking noise off", 0);
   NoisyNodes noisy(run, points);
-  const Net found = noisy.without(*run.options.noise);
+  const Net found = noisy.without(*run.options.noise());
   if (noisy.has_normals() && !run.context.cancelled())
     keep_normals(run, found, std::move(points), progress);
   else
@@ -187,7 +187,7 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   progress.report("taking noise off", 0);
   NoisyNodes noisy(run, points);
   if (noisy.has_normals()) return false;
-  const double tolerance = *run.options.rms;
+  const double tolerance = *run.options.rms();
   Net found = noisy.without(tolerance);
   const auto distance = [&] {
     run.finish_positions(found);
@@ -209,7 +209,7 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
 bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, bool only_smooth,
                            ProgressReporter& progress) {
   if (!points.are_nodes || run.options.fair.method) return false;
-  const double tolerance = *run.options.within;
+  const double tolerance = *run.options.within();
   const NoiseEstimate estimate = estimate_noise(run.subject.shape(), run.measuring);
   const double noise = estimate.deviation;
   if (noise < least_noise * tolerance || noise > most_noise * tolerance || estimate.edges < least_noise_in_edges)

@@ -45,10 +45,10 @@ TEST(FitNoisyScan, NoFoldIsLeftWhateverIsAskedFor) {
   const double before = rms_from_torus(noisy.positions());
   ASSERT_GT(greatest_turn(noisy, noisy.positions()), 120);
   FitOptions ways[4];
-  ways[0].within = 0.15;
-  ways[1].rms = before;
-  ways[2].smoothing_length = 0.2;
-  ways[3].weight = 0.03;
+  ways[0].criterion = Within{0.15};
+  ways[1].criterion = RootMeanSquare{before};
+  ways[2].criterion = SmoothingLength{0.2};
+  ways[3].criterion = Weight{0.03};
   for (FitOptions& options : ways) {
     SCOPED_TRACE(&options - ways);
     options.fair.distribution = Distribution::keep;
@@ -62,7 +62,7 @@ TEST(FitNoisyScan, NoFoldIsLeftWhateverIsAskedFor) {
 FitOptions without_noise(double deviation) {
   FitOptions options;
   options.fair.distribution = Distribution::keep;
-  options.noise = deviation;
+  options.criterion = Noise{deviation};
   return options;
 }
 
@@ -149,7 +149,7 @@ TEST(FitNoisyScan, WhatIsMoreThanNoiseStays) {
   FitOptions alike;
   // With other distributions that is an equilibrium.
   alike.fair.distribution = Distribution::smooth;
-  alike.rms = kept.report.after.all.rms;
+  alike.criterion = RootMeanSquare{kept.report.after.all.rms};
   const FitResult smoothed = fit(noisy, held, points, alike);
   const auto off = [&](const std::vector<Vector3>& places) { return distance(places, exact_bump); };
   EXPECT_LT(off(kept.positions).greatest, 0.7 * off(smoothed.positions).greatest);
@@ -167,11 +167,11 @@ TEST(FitNoisyScan, ARootMeanSquareIsKeptAndTakesTheNoiseOff) {
     SCOPED_TRACE(share);
     FitOptions options;
     options.fair.distribution = Distribution::keep;
-    options.rms = share * before;
+    options.criterion = RootMeanSquare{share * before};
     const FitResult result = fit_to_itself(noisy, options);
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
-    EXPECT_LE(result.report.after.all.rms, *options.rms);
-    EXPECT_GT(result.report.after.all.rms, 0.7 * *options.rms);
+    EXPECT_LE(result.report.after.all.rms, *options.rms());
+    EXPECT_GT(result.report.after.all.rms, 0.7 * *options.rms());
     EXPECT_LT(distance(result.positions, torus).rms, 0.35 * before);
   }
 }
@@ -180,7 +180,7 @@ TEST(FitNoisyScan, ARootMeanSquareIsKeptAndTakesTheNoiseOff) {
 FitOptions within(double tolerance) {
   FitOptions options;
   options.fair.distribution = Distribution::keep;
-  options.within = tolerance;
+  options.criterion = Within{tolerance};
   return options;
 }
 

@@ -190,10 +190,10 @@ TEST(FitPoints, RefusalsNameThePoint) {
   EXPECT_NE(refusal(points, by_sweeps(-1)).find("weight"), std::string::npos);
   FitOptions options;
   options.fair.method = Method::multigrid;
-  options.within = 0.01;
+  options.criterion = Within{0.01};
   EXPECT_NE(refusal(points, options).find("multigrid"), std::string::npos);
   options = {};
-  options.noise = 0.01;
+  options.criterion = Noise{0.01};
   EXPECT_NE(refusal(points, options).find("surfaces only"), std::string::npos);
 }
 

@@ -67,14 +67,15 @@ void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise) {
   if (arguments.automatic == "--noise") arguments.noise = noise.deviation;
 }
 
-void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, std::vector<std::string>& warnings) {
+void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, std::vector<Warning>& warnings) {
   const bool is_larger = (arguments.within && noise.deviation > *arguments.within / 2) ||
                          (arguments.rms && noise.deviation > *arguments.rms);
   if (!is_larger) return;
   warnings.push_back(
-      fmt::format("the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
-                  "{:.3g} in each coordinate; {} auto takes that off, --within auto allows for three times as much",
-                  noise.deviation, arguments.takes_noise ? "--noise" : "--rms"));
+      {WarningCode::noise_is_larger,
+       fmt::format("the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
+                   "{:.3g} in each coordinate; {} auto takes that off, --within auto allows for three times as much",
+                   noise.deviation, arguments.takes_noise ? "--noise" : "--rms")});
 }
 
 FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing) {

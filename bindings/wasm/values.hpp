@@ -127,7 +127,9 @@ inline val outcome_of(const FairReport& report) {
   result.set("threads", report.threads);
   result.set("expectedError", report.expected_error ? val(*report.expected_error) : val::null());
   result.set("movingNodes", report.moving_nodes);
-  result.set("warnings", list_of(report.warnings));
+  std::vector<std::string> warnings;
+  for (const Warning& warning : report.warnings) warnings.push_back(warning.text);
+  result.set("warnings", list_of(warnings));
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "vspring/model.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
+#include "vspring/warning.hpp"
 
 namespace vspring {
 
@@ -150,7 +151,7 @@ struct FairReport {
   Fairness after;
   /// With FairOptions::fair_boundary: the report of the boundary's own fairing.
   std::shared_ptr<const FairReport> boundary;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 struct FairResult {

@@ -27,4 +27,5 @@
 #include "vspring/topology.hpp"
 #include "vspring/types.hpp"
 #include "vspring/version.hpp"
+#include "vspring/warning.hpp"
 #include "vspring/weld.hpp"

@@ -326,7 +326,7 @@ std::string ResultCheck::fault(Net& now) const {
 void warn_if_worse(const ResultCheck& check, Net& found, FairReport& report) {
   const std::string fault = check.fault(found);
   if (fault.empty()) return;
-  report.warnings.push_back("what was found is worse than the input: " + fault);
+  report.warnings.push_back({WarningCode::worse_than_input, "what was found is worse than the input: " + fault});
   if (report.outcome == Outcome::converged) report.outcome = Outcome::worse_than_input;
 }
 

@@ -241,14 +241,16 @@ class EquilibriumSearch : private Relaxation {
     if (is_input_smoothed) best = Reached{net.positions, found.outcome, found.residual};
     go_back(last(), best ? *best : input_is_better ? Reached{input_, found.outcome, found.residual} : found);
     report_.outcome = cancelled ? Outcome::cancelled : Outcome::worse_than_input;
-    report_.warnings.push_back(fmt::format(
-        "no equilibrium was found that is no worse than the input ({}): this is {}; {}", fault,
-        is_input_smoothed ? "the input without its noise"
-        : best            ? "the fairest shape on the way"
-        : input_is_better ? "the input with its constraints"
-                          : "that shape, as the input with its constraints is no better",
-        is_unwound ? "hold a node in each winding, or fit it to its own nodes with a tolerance to stay within"
-                   : "hold more nodes or normals, let a smaller part move, or refine it"));
+    report_.warnings.push_back(
+        {WarningCode::worse_than_input,
+         fmt::format("no equilibrium was found that is no worse than the input ({}): this is {}; {}", fault,
+                     is_input_smoothed ? "the input without its noise"
+                     : best            ? "the fairest shape on the way"
+                     : input_is_better ? "the input with its constraints"
+                                       : "that shape, as the input with its constraints is no better",
+                     is_unwound
+                         ? "hold a node in each winding, or fit it to its own nodes with a tolerance to stay within"
+                         : "hold more nodes or normals, let a smaller part move, or refine it")});
   }
 
   /// The input without its noise, where that is little, and the shape then is fairer than such an energy and no worse.

@@ -51,7 +51,7 @@ class Cycle {
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
     }
-    if (lost_) report_.warnings.emplace_back(lost_warning);
+    if (lost_) report_.warnings.push_back({WarningCode::steps_grew, lost_warning});
     say_if_cut_short(limit);
   }
 
@@ -64,10 +64,12 @@ class Cycle {
       return level.outcome == Outcome::iteration_limit;
     });
     if (cut_short == coarser.end()) return;
-    report_.warnings.push_back(fmt::format(
-        "{} level, of {} moving nodes, ended at its limit of {} iterations: the shape may be far from its "
-        "equilibrium though its last steps are small; allow more iterations, or take the method equilibrium",
-        cut_short == coarser.begin() ? "the coarsest" : "a coarser", cut_short->moving_nodes, limit));
+    report_.warnings.push_back(
+        {WarningCode::level_cut_short,
+         fmt::format(
+             "{} level, of {} moving nodes, ended at its limit of {} iterations: the shape may be far from its "
+             "equilibrium though its last steps are small; allow more iterations, or take the method equilibrium",
+             cut_short == coarser.begin() ? "the coarsest" : "a coarser", cut_short->moving_nodes, limit)});
   }
 
   SweepResult iterate(std::size_t level, double step_tolerance, int max_iterations) {

@@ -81,7 +81,7 @@ void run_sweeps(Net& net, const Model& model, const SolverCall& call, std::funct
   report.iterations = result.iterations;
   report.work += work_of_sweep * static_cast<double>(result.iterations) * static_cast<double>(net.moving);
   report.residual = result.residual;
-  if (result.lost) report.warnings.emplace_back(lost_warning);
+  if (result.lost) report.warnings.push_back({WarningCode::steps_grew, lost_warning});
 }
 
 }  // namespace vspring

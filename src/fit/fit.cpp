@@ -97,10 +97,12 @@ class Fitting {
     const double distance = run_.result.report.after.all.rms;
     if (report.outcome != Outcome::converged || !(distance > far_off * *options_.noise())) return;
     report.outcome = Outcome::stalled;
-    report.warnings.push_back(fmt::format(
-        "nodes were {:.2g} times the noise away from the shape in the root mean square: it could not follow "
-        "them everywhere; they may be too few for their features, or faces folded without noise",
-        distance / *options_.noise()));
+    report.warnings.push_back(
+        {WarningCode::far_from_nodes,
+         fmt::format(
+             "nodes were {:.2g} times the noise away from the shape in the root mean square: it could not follow "
+             "them everywhere; they may be too few for their features, or faces folded without noise",
+             distance / *options_.noise())});
   }
 
   void say_if_left_behind() {
@@ -113,9 +115,10 @@ class Fitting {
     // The nodes themselves are no further away than smoothing takes them.
     if (!(before > 0) || after < left_behind * box.diagonal().norm() || after < left_times * before) return;
     report.warnings.push_back(
-        fmt::format("points are {:.2g} times as far from the shape as before, in the root mean square: give them "
-                    "a greater weight, a shorter smoothing length, or a tolerance to stay within",
-                    after / before));
+        {WarningCode::points_left_behind,
+         fmt::format("points are {:.2g} times as far from the shape as before, in the root mean square: give them "
+                     "a greater weight, a shorter smoothing length, or a tolerance to stay within",
+                     after / before)});
   }
 
   /// In words, where nodes went far, and away from the points; empty where not.
@@ -203,10 +206,11 @@ class Fitting {
     if (!as_found) run_.finish(shapes.input);
     if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
     report.warnings.push_back(
-        as_found ? "what was found is worse than the input: " + fault
-                 : fmt::format("what was found is worse than the input ({}): this is the input with its constraints; "
-                               "other weights or tolerances may do, or more that is held",
-                               fault));
+        {WarningCode::worse_than_input,
+         as_found ? "what was found is worse than the input: " + fault
+                  : fmt::format("what was found is worse than the input ({}): this is the input with its constraints; "
+                                "other weights or tolerances may do, or more that is held",
+                                fault)});
   }
 
   /// Fits and leaves out the points that are furthest away, in turns, until they stay the same.
@@ -227,8 +231,8 @@ class Fitting {
       smooth_first = false;
     }
     if (smooth_first) fit(progress, false);
-    run_.result.report.fair.warnings.emplace_back(
-        "the outliers went on changing with the shape: the last ones are left out");
+    run_.result.report.fair.warnings.push_back(
+        {WarningCode::outliers_changed, "the outliers went on changing with the shape: the last ones are left out"});
   }
 
   /// smooth: by some edges, instead of to a tolerance.
@@ -248,7 +252,7 @@ class Fitting {
       if (points.nearest[j] >= 0 && has_weight(points.weights[j]))
         pulled[static_cast<std::size_t>(points.nearest[j])] = 1;
     }
-    const std::vector<std::string> warnings = run_.subject.check(pulled);
+    const std::vector<Warning> warnings = run_.subject.check(pulled);
     report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
     if (report.method == Method::sweep) {
       sweep(std::move(points), options_.fair, progress);
@@ -276,11 +280,12 @@ class Fitting {
     // Nobody asked for this method: the paper's iteration ends where points crumple a shape, too.
     std::optional<FitResult> nearest;
     if (has_targets) nearest = run_.result;
-    std::vector<std::string> said = std::move(report.warnings);
-    said.emplace_back(
-        "no equilibrium was found: this is the plain iteration's shape; the points may be too noisy for their weight "
-        "and for edges as short as these, or too little may be held: hold more nodes, let a smaller region move, or "
-        "keep the distribution of the nodes");
+    std::vector<Warning> said = std::move(report.warnings);
+    said.push_back(
+        {WarningCode::no_equilibrium,
+         "no equilibrium was found: this is the plain iteration's shape; the points may be too noisy for their weight "
+         "and for edges as short as these, or too little may be held: hold more nodes, let a smaller region move, or "
+         "keep the distribution of the nodes"});
     const double work = report.work;
     const double limit = report.most_work;
     const Index nodes = report.moving_nodes;
@@ -298,9 +303,10 @@ class Fitting {
     if (!nearest || report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
     // Nodes that stay about where they are do not crumple the shape.
     nearest->report.fair.warnings.push_back(
-        fmt::format("no equilibrium was found: this is the nearest shape, {}; noise may have folded faces: smooth by "
-                    "more or less, or only take its noise off",
-                    distance_from_equilibrium(nearest->report.fair)));
+        {WarningCode::no_equilibrium,
+         fmt::format("no equilibrium was found: this is the nearest shape, {}; noise may have folded faces: smooth by "
+                     "more or less, or only take its noise off",
+                     distance_from_equilibrium(nearest->report.fair))});
     run_.result = std::move(*nearest);
   }
 
@@ -330,17 +336,19 @@ class Fitting {
     if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled || !may_replace()) return;
     if (report.expected_error && *report.expected_error < curve_is_lost_at) {
       report.warnings.push_back(
-          fmt::format("no equilibrium was found: this is the nearest shape, {}; the points may be too noisy for their "
-                      "weight",
-                      distance_from_equilibrium(report)));
+          {WarningCode::no_equilibrium,
+           fmt::format("no equilibrium was found: this is the nearest shape, {}; the points may be too noisy for their "
+                       "weight",
+                       distance_from_equilibrium(report))});
       return;
     }
     shape.go_to_spline();
     report.expected_error.reset();
-    report.warnings.emplace_back(
-        "no equilibrium was found: this is the smoothing spline of the points; they may be too noisy for their weight "
-        "and for edges as short as these, or smooth away more than the shape's sharpest bends: try another weight or "
-        "smoothing length, or a tolerance");
+    report.warnings.push_back(
+        {WarningCode::no_equilibrium,
+         "no equilibrium was found: this is the smoothing spline of the points; they may be too noisy for their weight "
+         "and for edges as short as these, or smooth away more than the shape's sharpest bends: try another weight or "
+         "smoothing length, or a tolerance"});
   }
 
   void sweep(UntiedPoints points, FairOptions options, ProgressReporter& progress) {

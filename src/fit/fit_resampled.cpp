@@ -165,13 +165,15 @@ class DenseFit {
     if (is_within() && fair.outcome == Outcome::stalled) {
       // The dense curve is a little further from points next to what is held than was aimed at, and says so last.
       fair.outcome = Outcome::work_limit;
-      fair.warnings.back() = "the shape is within the tolerance, but may not be the fairest";
+      fair.warnings.back() = {WarningCode::maybe_not_fairest,
+                              "the shape is within the tolerance, but may not be the fairest"};
     } else if (!is_within() && fair.outcome != Outcome::cancelled) {
       fair.outcome = Outcome::stalled;
-      fair.warnings.push_back(fmt::format(
-          "no shape of so many nodes was found within {:g}: this is a fair one that comes near; edges may be too long, "
-          "or points lie at what is held",
-          tolerance_));
+      fair.warnings.push_back(
+          {WarningCode::outside_tolerance, fmt::format("no shape of so many nodes was found within {:g}: this is a "
+                                                       "fair one that comes near; edges may be too long, "
+                                                       "or points lie at what is held",
+                                                       tolerance_)});
     }
     return std::move(*best_);
   }

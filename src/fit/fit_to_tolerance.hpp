@@ -191,17 +191,21 @@ class FitToTolerance {
     const Outcome limit = fair.most_work > 0 ? Outcome::work_limit : Outcome::iteration_limit;
     fair.outcome = found.settled ? Outcome::converged : found.within ? limit : Outcome::stalled;
     if (!found.within && is_within())
-      fair.warnings.emplace_back(
-          "the shape is within the tolerance, but no equilibrium was found there: more that is held, or other "
-          "tolerances, "
-          "may do");
+      fair.warnings.push_back(
+          {WarningCode::no_equilibrium,
+           "the shape is within the tolerance, but no equilibrium was found there: more that is held, or other "
+           "tolerances, "
+           "may do"});
     else if (!found.within)
       fair.warnings.push_back(
-          fmt::format("no shape of this mesh was found within {:g}: this is the one that comes nearest; points may lie "
-                      "at what is held, or edges may be too long",
-                      tolerance_));
+          {WarningCode::outside_tolerance,
+           fmt::format(
+               "no shape of this mesh was found within {:g}: this is the one that comes nearest; points may lie "
+               "at what is held, or edges may be too long",
+               tolerance_)});
     else if (!found.settled)
-      fair.warnings.emplace_back("the shape is within the tolerance, but may not be the fairest that is");
+      fair.warnings.push_back(
+          {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest that is"});
   }
 
   FitRun<Subject>& run_;

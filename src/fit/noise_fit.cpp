@@ -233,8 +233,10 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   const double left = *std::max_element(off.begin(), off.end());
   if (left <= tolerance) return true;
   report.fair.outcome = Outcome::stalled;
-  report.fair.warnings.push_back(fmt::format(
-      "nodes that are held keep the shape {:g} away from where they were, and {:g} was asked for", left, tolerance));
+  report.fair.warnings.push_back(
+      {WarningCode::outside_tolerance,
+       fmt::format("nodes that are held keep the shape {:g} away from where they were, and {:g} was asked for", left,
+                   tolerance)});
   return true;
 }
 

@@ -74,7 +74,7 @@ FairResult SurfaceFairing::fair_once(const Constraints& constraints, Context& co
   hierarchy_.reset();
   if (crosses_itself(net, constraints, context, result.report)) {
     net = gather_part(*whole_, part_, constraints);
-    result.report.warnings.back() +=
+    result.report.warnings.back().text +=
         ": this is the input with its constraints; hold more nodes, or let a smaller part move";
   }
   finish(net, constraints, result);
@@ -178,8 +178,9 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const So
   find_equilibrium(options.fair_by, constraints, call);
   if (options.springs == Springs::edge || options.fair_by == FairBy::curvature) return;
   if (report.springs == Springs::edge) {
-    report.warnings.emplace_back(
-        "least bending is for sphere springs, which would not see what is held here: these are edge springs");
+    report.warnings.push_back(
+        {WarningCode::other_springs,
+         "least bending is for sphere springs, which would not see what is held here: these are edge springs"});
     return;
   }
   if (is_final(report) || options.max_iterations || options.as_found) return;
@@ -188,7 +189,8 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const So
   report.iterations += by_bending.iterations;
   report.work += by_bending.work;
   report.most_work += by_bending.most_work;
-  report.warnings.emplace_back("no shape of least bending was found: this is fair by curvature");
+  report.warnings.push_back(
+      {WarningCode::other_fairness, "no shape of least bending was found: this is fair by curvature"});
 }
 
 void SurfaceFairing::find_equilibrium(FairBy fair_by, const Constraints& constraints, const SolverCall& call) {
@@ -232,7 +234,8 @@ void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constr
     report.work = one.work;
   }
   if (spheres_have_none)
-    report.warnings.emplace_back("sphere springs have no equilibrium here: these are edge springs");
+    report.warnings.push_back(
+        {WarningCode::other_springs, "sphere springs have no equilibrium here: these are edge springs"});
 }
 
 bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first,
@@ -253,8 +256,9 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
   if (was_found(even)) {
     report = std::move(even);
     if (report.outcome == Outcome::cancelled) return true;
-    report.warnings.emplace_back(
-        "with the spacing of the input no equilibrium was found: nodes go to the mean of their neighbours");
+    report.warnings.push_back(
+        {WarningCode::other_distribution,
+         "with the spacing of the input no equilibrium was found: nodes go to the mean of their neighbours"});
     return true;
   }
   report.iterations = even.iterations;
@@ -287,15 +291,19 @@ void SurfaceFairing::try_sweeps(const Constraints& constraints, const SolverCall
     if (!better) return;
     // In place of what was said of that.
     report.outcome = Outcome::stalled;
-    report.warnings.back() = fmt::format(
-        "no equilibrium was found that is no worse than the input: this is the plain iteration's shape, which is "
-        "fairer; {}",
-        ways_out);
+    report.warnings.back() = {
+        WarningCode::no_equilibrium,
+        fmt::format(
+            "no equilibrium was found that is no worse than the input: this is the plain iteration's shape, which is "
+            "fairer; {}",
+            ways_out)};
     return;
   }
-  report.warnings.push_back(fmt::format(
-      "no equilibrium was found (the nearest shape is {}): this is {}; {}", distance_from_equilibrium(report),
-      better ? "the plain iteration's shape, which is fairer" : "that shape", ways_out));
+  report.warnings.push_back(
+      {WarningCode::no_equilibrium,
+       fmt::format("no equilibrium was found (the nearest shape is {}): this is {}; {}",
+                   distance_from_equilibrium(report),
+                   better ? "the plain iteration's shape, which is fairer" : "that shape", ways_out)});
 }
 
 bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance,
@@ -320,7 +328,7 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std
     // Who has dragged something too far sees it, and drags it back.
     if (!tolerance && !options_.as_found) return false;
     report.outcome = Outcome::worse_than_input;
-    report.warnings.push_back("this is worse than the input: " + fault);
+    report.warnings.push_back({WarningCode::worse_than_input, "this is worse than the input: " + fault});
   }
   hierarchy_->arrived();
   return true;
@@ -332,7 +340,7 @@ bool SurfaceFairing::crosses_itself(const Net& net, const Constraints& constrain
       *whole_, scatter_positions(net, whole_->positions(), constraints, options_.strength), context, team_);
   if (crossings.empty()) return false;
   report.outcome = Outcome::worse_than_input;
-  report.warnings.push_back("what was found is worse than the input: " + crossings);
+  report.warnings.push_back({WarningCode::worse_than_input, "what was found is worse than the input: " + crossings});
   return report.method == Method::equilibrium && !options_.as_found;
 }
 

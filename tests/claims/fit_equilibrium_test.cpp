@@ -336,7 +336,7 @@ TEST(FitEquilibrium, TakesTheNearestShapeWhereNoiseHasFoldedFacesThatKeepTheirPl
   EXPECT_EQ(result.report.fair.outcome, Outcome::work_limit);
   EXPECT_EQ(result.report.fair.method, Method::equilibrium);
   ASSERT_FALSE(result.report.fair.warnings.empty());
-  EXPECT_NE(result.report.fair.warnings.back().find("no equilibrium"), std::string::npos);
+  EXPECT_EQ(result.report.fair.warnings.back().code, WarningCode::no_equilibrium);
   EXPECT_LT(share, 1);
 }
 
@@ -348,7 +348,7 @@ TEST(FitEquilibrium, WhereItFindsNothingForACurveASmoothingSplineStands) {
   EXPECT_NE(result.report.fair.outcome, Outcome::converged);
   EXPECT_FALSE(result.report.fair.expected_error);
   ASSERT_FALSE(result.report.fair.warnings.empty());
-  EXPECT_NE(result.report.fair.warnings.back().find("smoothing spline"), std::string::npos);
+  EXPECT_NE(result.report.fair.warnings.back().text.find("smoothing spline"), std::string::npos);
   EXPECT_LT(result.report.after.all.rms, 0.004);
   EXPECT_LT(result.report.fair.after.vspring_energy, 0.2 * result.report.fair.before.vspring_energy);
 }

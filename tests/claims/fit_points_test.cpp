@@ -65,7 +65,7 @@ TEST(FitPoints, SaysWhereTheyAreLeftBehindAndMakesNoBalloon) {
   const auto says = [](const FitResult& result, const std::string& words) {
     const auto& warnings = result.report.fair.warnings;
     return std::any_of(warnings.begin(), warnings.end(),
-                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+                       [&](const Warning& warning) { return warning.text.find(words) != std::string::npos; });
   };
   const FitResult near = fitted(1);
   EXPECT_EQ(near.report.fair.outcome, Outcome::converged);

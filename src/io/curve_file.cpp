@@ -7,12 +7,10 @@
 #include <filesystem>
 
 #include "io/column_names.hpp"
-#include "io/curve_source.hpp"
-#include "io/detect_curve_format.hpp"
-#include "io/format_choice.hpp"
-#include "io/fresh_curve.hpp"
-#include "io/moved_nodes.hpp"
-#include "io/svg_picture.hpp"
+#include "io/curve_formats.hpp"
+#include "io/formats.hpp"
+#include "io/rewriter.hpp"
+#include "io/svg.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
 
@@ -125,6 +123,24 @@ void write_curve(const std::string& path, const PolygonCurve& curve, std::option
   if (planar) require_plane(curve.positions());
   file.curve = curve;
   write_curve(path, file, curve.positions(), file.format);
+}
+
+std::string fresh_curve(CurveFormat format, const FreshCurve& curve, std::vector<std::string>& losses) {
+  switch (format) {
+    case CurveFormat::obj:
+      return fresh_curve_obj(curve);
+    case CurveFormat::csv:
+      return fresh_csv(curve, losses);
+    case CurveFormat::dat:
+      return fresh_dat(curve, losses);
+    default:
+      return fresh_xyz(curve, losses);
+  }
+}
+
+std::size_t first_off_plane(std::span<const Vector3> positions) {
+  const auto found = std::find_if(positions.begin(), positions.end(), [](const Vector3& p) { return p.z() != 0; });
+  return static_cast<std::size_t>(found - positions.begin());
 }
 
 }  // namespace vspring

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "io/format_choice.hpp"
-#include "io/fresh_file.hpp"
-#include "io/text_rewriter.hpp"
+#include "io/formats.hpp"
+#include "io/rewriter.hpp"
+#include "io/surface_formats.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
 

@@ -4,12 +4,10 @@
 
 #include <array>
 
-#include "io/detect_format.hpp"
 #include "io/file_normals.hpp"
-#include "io/format_choice.hpp"
-#include "io/fresh_file.hpp"
-#include "io/moved_nodes.hpp"
-#include "io/surface_source.hpp"
+#include "io/formats.hpp"
+#include "io/rewriter.hpp"
+#include "io/surface_formats.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
 
@@ -36,7 +34,7 @@ std::string converted(SurfaceFormat format, const Rewrite& rewrite, std::vector<
     losses = surface.source->carried;
   else if (!surface.groups.empty())
     losses.emplace_back("groups");
-  return fresh_file(format, surface.mesh, rewrite.positions, normals, losses);
+  return fresh_surface(format, surface.mesh, rewrite.positions, normals, losses);
 }
 
 }  // namespace
@@ -93,7 +91,23 @@ void write_surface(const std::string& path, const PolygonMesh& mesh, std::option
       throw Error(ErrorCode::invalid_argument, fmt::format("node {}: its position is not finite", node));
   }
   std::vector<std::string> losses;
-  write_file(path, fresh_file(target, mesh, mesh.positions(), {}, losses));
+  write_file(path, fresh_surface(target, mesh, mesh.positions(), {}, losses));
+}
+
+std::string fresh_surface(SurfaceFormat format, const PolygonMesh& mesh, std::span<const Vector3> positions,
+                          std::span<const Vector3> normals, std::vector<std::string>& losses) {
+  switch (format) {
+    case SurfaceFormat::obj:
+      return fresh_surface_obj(mesh, positions, normals);
+    case SurfaceFormat::off:
+      return fresh_off(mesh, positions, normals);
+    case SurfaceFormat::ply:
+      return fresh_ply(mesh, positions, normals, {});
+    case SurfaceFormat::stl:
+      break;
+  }
+  if (!normals.empty()) losses.emplace_back("normals of nodes");
+  return fresh_stl(mesh, positions, losses);
 }
 
 }  // namespace vspring

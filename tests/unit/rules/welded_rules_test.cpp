@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "vspring/constraints.hpp"
 #include "vspring/error.hpp"
+#include "vspring/rules.hpp"
 #include "vspring/weld.hpp"
 
 namespace vspring::welded_rules_test {

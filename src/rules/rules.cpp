@@ -1,3 +1,5 @@
+#include "vspring/rules.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 #include <string>
 
 #include "base/message_text.hpp"
-#include "vspring/constraints.hpp"
 #include "vspring/error.hpp"
 #include "vspring/topology.hpp"
 #include "vspring/weld.hpp"
@@ -181,7 +182,7 @@ class RuleReader {
     if (selection.is_object() && selection.size() == 1 && selection.contains("region") &&
         selection["region"].is_string()) {
       try {
-        return select_region(positions_, selection["region"].get<std::string>(),
+        return select_region(positions_, parse_region(selection["region"].get<std::string>()),
                              input_.groups != nullptr ? *input_.groups : Groups());
       } catch (const Error& error) {
         throw Error(error.code(), fmt::format("rule {}: {}", rule_, error.what()));

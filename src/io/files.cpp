@@ -65,25 +65,27 @@ class FileDescriptor {
   int number_;
 };
 
-void read_all(int number, InputFile& file) {
+std::string read_all(int number, const std::string& name) {
   struct stat status {};
-  if (::fstat(number, &status) != 0) refuse_file(file.name, "read", errno);
-  if (S_ISDIR(status.st_mode)) refuse_file(file.name, "read", EISDIR);
+  if (::fstat(number, &status) != 0) refuse_file(name, "read", errno);
+  if (S_ISDIR(status.st_mode)) refuse_file(name, "read", EISDIR);
   // One byte more than the size, so that the end is seen without growing.
   std::size_t room = S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) + 1 : std::size_t{1} << 16;
+  std::string bytes;
   std::size_t filled = 0;
   for (;;) {
-    file.bytes.resize(std::max(room, file.bytes.size()));
-    const ssize_t count = ::read(number, file.bytes.data() + filled, file.bytes.size() - filled);
+    bytes.resize(std::max(room, bytes.size()));
+    const ssize_t count = ::read(number, bytes.data() + filled, bytes.size() - filled);
     if (count < 0) {
       if (errno == EINTR) continue;
-      refuse_file(file.name, "read", errno);
+      refuse_file(name, "read", errno);
     }
     if (count == 0) break;
     filled += static_cast<std::size_t>(count);
-    if (filled == file.bytes.size()) room = 2 * filled;
+    if (filled == bytes.size()) room = 2 * filled;
   }
-  file.bytes.resize(filled);
+  bytes.resize(filled);
+  return bytes;
 }
 
 namespace fs = std::filesystem;
@@ -221,19 +223,20 @@ void InputFile::refuse_line(std::size_t offset, std::string_view what) const {
   throw Error(ErrorCode::unusable_file, fmt::format("{}:{}: {}", name, line_of(offset), what));
 }
 
-InputFile read_input(const std::string& path) {
-  InputFile file;
-  if (path == "-") {
-    file.name = "standard input";
-    read_all(STDIN_FILENO, file);
-  } else {
-    file.name = path;
-    const FileDescriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    if (!descriptor.valid()) refuse_file(path, "read", errno);
-    read_all(descriptor.number(), file);
-  }
+InputFile input_of(std::string bytes, const std::string& name) {
+  InputFile file{name, std::move(bytes)};
   if (file.bytes.empty()) file.refuse("is empty; choose another file");
   return file;
+}
+
+InputFile read_input(const std::string& path) {
+  if (path == "-") {
+    constexpr const char* name = "standard input";
+    return input_of(read_all(STDIN_FILENO, name), name);
+  }
+  const FileDescriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (!descriptor.valid()) refuse_file(path, "read", errno);
+  return input_of(read_all(descriptor.number(), path), path);
 }
 
 void check_writable(const std::string& path) {

@@ -29,18 +29,8 @@ ScatteredPoints read_surface_points(InputFile file, SurfaceFormat format) {
   return {read_stl(std::move(file)).mesh.positions()};
 }
 
-}  // namespace
-
-bool is_point_normal(const Vector3& normal) {
-  constexpr double tolerance = 0.01;
-  return normal.isZero(0) || std::abs(normal.norm() - 1) <= tolerance;
-}
-
-bool is_point_weight(double weight) { return std::isfinite(weight) && weight >= 0; }
-
-ScatteredPoints read_points(const std::string& path, const ColumnChoice& columns) {
-  InputFile file = read_input(path);
-  const std::string extension = extension_of(path);
+ScatteredPoints points_of(InputFile file, const ColumnChoice& columns) {
+  const std::string extension = extension_of(file.name);
   std::optional<CurveFormat> curve = curve_format(extension);
   if (!curve || *curve == CurveFormat::obj) {
     std::optional<SurfaceFormat> surface = detect_format(file.bytes);
@@ -63,6 +53,23 @@ ScatteredPoints read_points(const std::string& path, const ColumnChoice& columns
       break;
   }
   file.refuse("SVG is a picture; choose a file of points");
+}
+
+}  // namespace
+
+bool is_point_normal(const Vector3& normal) {
+  constexpr double tolerance = 0.01;
+  return normal.isZero(0) || std::abs(normal.norm() - 1) <= tolerance;
+}
+
+bool is_point_weight(double weight) { return std::isfinite(weight) && weight >= 0; }
+
+ScatteredPoints read_points(const std::string& path, const ColumnChoice& columns) {
+  return points_of(read_input(path), columns);
+}
+
+ScatteredPoints read_points_bytes(std::string bytes, const std::string& name, const ColumnChoice& columns) {
+  return points_of(input_of(std::move(bytes), name), columns);
 }
 
 }  // namespace vspring

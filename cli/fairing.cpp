@@ -84,7 +84,7 @@ Constraints constraints_of(const FairingArguments& arguments, const Shape& shape
     }
   }
   if (!arguments.region.empty()) {
-    auto region = select_region(shape.positions(), arguments.region, *input.groups);
+    auto region = select_region(shape.positions(), parse_region(arguments.region), *input.groups);
     if (input.welded != nullptr) region = whole_region(region, *input.welded);
     restrict_boundary(constraints, shape, region, arguments);
     restrict_to_region(constraints, shape, region);

@@ -18,6 +18,7 @@
 #include "vspring/context.hpp"
 #include "vspring/fair.hpp"
 #include "vspring/figures.hpp"
+#include "vspring/rules.hpp"
 #include "vspring/scalar_file.hpp"
 #include "welding.hpp"
 

@@ -85,7 +85,7 @@ void Welding::look_for_seams(const SurfaceFile& file, const FairingArguments& ar
   Seams seams = find_seams(mesh, suspiciously_near);
   if (!arguments.region.empty()) {
     // What is fixed anyway is nobody's business.
-    const std::vector<Index> region = select_region(mesh.positions(), arguments.region, file.groups);
+    const std::vector<Index> region = select_region(mesh.positions(), parse_region(arguments.region), file.groups);
     const auto is_outside = [&](Index node) { return !std::binary_search(region.begin(), region.end(), node); };
     std::erase_if(seams.same, is_outside);
     std::erase_if(seams.near_nodes, is_outside);

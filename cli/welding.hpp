@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fairing_arguments.hpp"
-#include "vspring/constraints.hpp"
 #include "vspring/curve_file.hpp"
+#include "vspring/rules.hpp"
 #include "vspring/scalar_file.hpp"
 #include "vspring/surface_file.hpp"
 #include "vspring/weld.hpp"

@@ -8,10 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "io/curve_source.hpp"
-#include "io/detect_curve_format.hpp"
-#include "io/fresh_curve.hpp"
-#include "io/svg_picture.hpp"
+#include "io/curve_formats.hpp"
+#include "io/formats.hpp"
+#include "io/svg.hpp"
 #include "vspring/error.hpp"
 
 using namespace vspring;
@@ -73,7 +72,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 2) return 0;
   const auto reader = readers[data[0] % readers.size()];
   const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
-  static_cast<void>(is_taken([&] { static_cast<void>(detect_curve_format({"fuzz", bytes})); }));
   CurveFile file;
   if (is_taken([&] { file = reader({"fuzz", bytes}); })) write_again(file, reader);
   return 0;

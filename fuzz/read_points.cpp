@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "io/point_source.hpp"
+#include "io/point_formats.hpp"
 #include "vspring/error.hpp"
 
 using namespace vspring;

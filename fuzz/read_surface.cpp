@@ -6,9 +6,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "io/detect_format.hpp"
-#include "io/fresh_file.hpp"
-#include "io/surface_source.hpp"
+#include "io/formats.hpp"
+#include "io/surface_formats.hpp"
 #include "vspring/error.hpp"
 
 using namespace vspring;
@@ -41,11 +40,11 @@ void write_again(const SurfaceFile& surface, SurfaceFile (*reader)(InputFile)) {
   require(again.mesh.corners() == surface.mesh.corners());
   std::vector<std::string> losses;
   for (const SurfaceFormat format : {SurfaceFormat::obj, SurfaceFormat::off, SurfaceFormat::ply})
-    require(!fresh_file(format, surface.mesh, places, surface.normals, losses).empty());
+    require(!fresh_surface(format, surface.mesh, places, surface.normals, losses).empty());
   bool any_triangle = false;
   for (Index face = 0; face < surface.mesh.face_count(); ++face)
     any_triangle = any_triangle || surface.mesh.face(face).size() > 2;
-  if (any_triangle) require(!fresh_file(SurfaceFormat::stl, surface.mesh, places, {}, losses).empty());
+  if (any_triangle) require(!fresh_surface(SurfaceFormat::stl, surface.mesh, places, {}, losses).empty());
 }
 
 }  // namespace

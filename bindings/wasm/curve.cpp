@@ -19,8 +19,7 @@ class Curve {
  public:
   /// bytes: a Uint8Array. name: of the file, for its format and for messages.
   Curve(const val& bytes, const std::string& name)
-      : Curve(forwarding_errors(
-            [&] { return read_from(bytes, name, [](const std::string& path) { return read_curve(path); }); })) {}
+      : Curve(forwarding_errors([&] { return read_curve_bytes(bytes.as<std::string>(), name); })) {}
 
   /// One chain through places that were drawn, of two columns where all of them have z = 0.
   static Curve through(const val& positions, bool closed) {
@@ -170,11 +169,8 @@ class Curve {
 
   /// The bytes of a file of that name, with the last shape; a picture has the first one behind.
   [[nodiscard]] val write(const std::string& name) const {
-    return forwarding_errors([&] {
-      return bytes_written(name, [&](const std::string& path) {
-        (void)write_curve(path, file_, positions_, std::nullopt, {.before = &file_.curve});
-      });
-    });
+    return forwarding_errors(
+        [&] { return bytes_array(curve_bytes(name, file_, positions_, std::nullopt, {.before = &file_.curve})); });
   }
   void set_positions(const val& positions) {
     forwarding_errors([&] {

@@ -5,8 +5,7 @@
 namespace vspring {
 
 Points::Points(const val& bytes, const std::string& name) {
-  forwarding_errors(
-      [&] { points_ = read_from(bytes, name, [](const std::string& path) { return read_points(path); }); });
+  forwarding_errors([&] { points_ = read_points_bytes(bytes.as<std::string>(), name); });
 }
 
 Points Points::at(const val& positions) { return Points(ScatteredPoints{.positions = vectors_of(positions)}); }

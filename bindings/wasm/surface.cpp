@@ -18,8 +18,7 @@ class Surface {
  public:
   /// bytes: a Uint8Array. name: of the file, for its format and for messages.
   Surface(const val& bytes, const std::string& name) {
-    forwarding_errors(
-        [&] { file_ = read_from(bytes, name, [](const std::string& path) { return read_surface(path); }); });
+    forwarding_errors([&] { file_ = read_surface_bytes(bytes.as<std::string>(), name); });
     constraints_.emplace(file_.mesh.node_count());
     positions_ = file_.mesh.positions();
   }
@@ -141,9 +140,7 @@ class Surface {
 
   /// The bytes of a file of that name, with the last shape.
   [[nodiscard]] val write(const std::string& name) const {
-    return forwarding_errors([&] {
-      return bytes_written(name, [&](const std::string& path) { (void)write_surface(path, file_, positions_); });
-    });
+    return forwarding_errors([&] { return bytes_array(surface_bytes(name, file_, positions_)); });
   }
   /// Another shape of the same nodes, such as an earlier one.
   void set_positions(const val& positions) {

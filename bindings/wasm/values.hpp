@@ -1,4 +1,4 @@
-// Between the library and JavaScript: arrays, lists, errors, progress, reports, files in memory.
+// Between the library and JavaScript: arrays, lists, errors, progress, reports, bytes of files.
 
 #pragma once
 
@@ -6,7 +6,7 @@
 #include <emscripten/bind.h>
 #include <emscripten/val.h>
 
-#include <cstdio>
+#include <cstdint>
 #include <exception>
 #include <span>
 #include <string>
@@ -67,43 +67,9 @@ auto forwarding_errors(const Call& call) {
   return none<Value>();
 }
 
-/// A file in memory for as long as something is read from it or written to it.
-class MemoryFile {
- public:
-  // As messages are to name it; - would be the standard streams.
-  explicit MemoryFile(const std::string& name) : path_(name == "-" ? "/-" : name) {}
-  ~MemoryFile() { (void)std::remove(path_.c_str()); }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-
-  [[nodiscard]] const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-/// What is written to a file of that name, as a Uint8Array. write(path).
-template <typename Write>
-val bytes_written(const std::string& name, const Write& write) {
-  const MemoryFile memory(name);
-  write(memory.path());
-  std::string bytes;
-  std::FILE* stream = std::fopen(memory.path().c_str(), "rb");
-  char part[65536];
-  for (std::size_t size = 1; size > 0;) {
-    size = std::fread(part, 1, sizeof part, stream);
-    bytes.append(part, size);
-  }
-  std::fclose(stream);
-  return array_of("Uint8Array", bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
-}
-
-/// What is read from bytes, a Uint8Array, under that name. read(path).
-template <typename Read>
-auto read_from(const val& bytes, const std::string& name, const Read& read) {
-  const MemoryFile memory(name);
-  write_file(memory.path(), bytes.as<std::string>());
-  return read(memory.path());
+/// What a file would hold, as a Uint8Array.
+inline val bytes_array(const FileBytes& file) {
+  return array_of("Uint8Array", file.bytes.size(), reinterpret_cast<const std::uint8_t*>(file.bytes.data()));
 }
 
 /// As many as whoever loads the library gives as `threads`; one where none are given, and where it is linked without.

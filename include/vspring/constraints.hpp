@@ -2,10 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "vspring/polygon_curve.hpp"
@@ -123,42 +121,6 @@ void restrict_to_region(Constraints& constraints, const PolygonMesh& mesh, std::
 
 /// The same for a curve: the rim gets the tangents of what lies outside.
 void restrict_to_region(Constraints& constraints, const PolygonCurve& curve, std::span<const Index> region);
-
-struct Welded;
-
-using Groups = std::map<std::string, std::vector<Index>>;
-
-/// The nodes that a region names, ascending. specification: `sphere:x,y,z,r` or `box:x0,y0,z0,x1,y1,z1` (with their
-/// surface; units of the positions), `group:NAME`, or the path of a JSON file with a list of node numbers. Throws
-/// Error(unusable_constraint) for a malformed or empty region, an unknown group or a node out of range, and
-/// Error(unusable_file) for a file that cannot be read. Cost: linear.
-[[nodiscard]] std::vector<Index> select_region(const std::vector<Vector3>& positions, const std::string& specification,
-                                               const Groups& groups = {});
-
-/// What rules may refer to besides the mesh.
-struct RuleInput {
-  const Groups* groups = nullptr;                 ///< for {"group": NAME}
-  const std::vector<Vector3>* normals = nullptr;  ///< the file's own, for "normal": "file"
-  const Welded* welded = nullptr;                 ///< of a surface whose mesh is that of weld()
-};
-
-/// Applies rules from a JSON text, in order, the later one winning:
-///   {"rules": [{"nodes": SELECTION, "position": P, "normal": N}, …]}
-/// SELECTION: "all", "boundary", "interior", "non-manifold", {"group": NAME}, {"region": SPECIFICATION}, or a list of
-/// node numbers. P: "fixed" (as in the mesh), "free", [x, y, z], or a list of those, one per node in the order of the
-/// selection. N: "fixed" (estimate_normals()), "file" (the file's own), "free", [x, y, z] or a list, node by node.
-///
-/// On a welded surface, rules use the numbers before welding and apply to all nodes joined with those. Joined nodes
-/// that are told different things by one rule, or by several that name them (or their groups or regions), are refused.
-///
-/// Throws Error(unusable_constraint) naming the rule, and line or nodes where it can; constraints are then unchanged.
-/// Cost: linear in the mesh, once, and in the nodes named.
-void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view json, const RuleInput& input = {});
-
-/// The same for a curve. "boundary" are the ends of its chains. Rules may also have "tangent": "fixed"
-/// (estimate_tangents()), "free", [x, y, z] or a list. Vectors may have two numbers instead of three.
-void apply_rules(Constraints& constraints, const PolygonCurve& curve, std::string_view json,
-                 const RuleInput& input = {});
 
 /// Checks that a surface can be faired under these constraints.
 ///

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "vspring/column_choice.hpp"
+#include "vspring/output_file.hpp"
 #include "vspring/polygon_curve.hpp"
 
 namespace vspring {
@@ -58,6 +59,12 @@ struct CurveFile {
 [[nodiscard]] CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format = std::nullopt,
                                    const ColumnChoice& columns = {});
 
+/// The same from the bytes of a file in memory. name: what messages call it; its extension decides as a path's does.
+/// bytes: kept for writing, so moved in without a copy. Throws and costs what read_curve() does.
+[[nodiscard]] CurveFile read_curve_bytes(std::string bytes, const std::string& name,
+                                         std::optional<CurveFormat> format = std::nullopt,
+                                         const ColumnChoice& columns = {});
+
 /// What a written picture shows.
 struct CurvePicture {
   /// The curve before, drawn thin behind; null draws none. It has chains of its own.
@@ -99,5 +106,13 @@ std::vector<std::string> write_curve(const std::string& path, const CurveFile& f
 /// above; every position must be finite.
 void write_curve(const std::string& path, const PolygonCurve& curve, std::optional<CurveFormat> format = std::nullopt,
                  bool planar = false);
+
+/// What write_curve() would write to a file of that name, in memory; no file is looked at. Throws
+/// Error(invalid_argument) as that does. Cost: linear.
+[[nodiscard]] FileBytes curve_bytes(const std::string& name, const CurveFile& file,
+                                    const std::vector<Vector3>& positions,
+                                    std::optional<CurveFormat> format = std::nullopt, const CurvePicture& picture = {});
+[[nodiscard]] FileBytes curve_bytes(const std::string& name, const PolygonCurve& curve,
+                                    std::optional<CurveFormat> format = std::nullopt, bool planar = false);
 
 }  // namespace vspring

@@ -2,8 +2,16 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace vspring {
+
+/// A file that is made, and not written yet.
+struct FileBytes {
+  std::string bytes;
+  /// What the source carried and the bytes do not, one line each; empty when nothing is lost.
+  std::vector<std::string> losses = {};
+};
 
 /// Writes a whole file: it appears with all of `bytes` or not at all. path: a file, or "-" for standard output.
 ///

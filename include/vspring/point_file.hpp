@@ -40,4 +40,9 @@ struct ScatteredPoints {
 /// are read as surfaces are.
 [[nodiscard]] ScatteredPoints read_points(const std::string& path, const ColumnChoice& columns = {});
 
+/// The same from the bytes of a file in memory. name: what messages call it; its extension decides as a path's does.
+/// bytes: moved in without a copy. Throws and costs what read_points() does.
+[[nodiscard]] ScatteredPoints read_points_bytes(std::string bytes, const std::string& name,
+                                                const ColumnChoice& columns = {});
+
 }  // namespace vspring

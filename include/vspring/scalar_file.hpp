@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "vspring/output_file.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
@@ -32,5 +33,12 @@ enum class ScalarFormat { vtp, ply };
 /// but letters, digits and underscores. Cost: linear.
 void write_scalars(const std::string& path, const PolygonMesh& mesh, std::span<const NodeScalar> scalars);
 void write_scalars(const std::string& path, const PolygonCurve& curve, std::span<const NodeScalar> scalars);
+
+/// What write_scalars() would write to a file of that name, in memory. Throws Error(invalid_argument) as that does.
+/// Cost: linear.
+[[nodiscard]] FileBytes scalar_bytes(const std::string& name, const PolygonMesh& mesh,
+                                     std::span<const NodeScalar> scalars);
+[[nodiscard]] FileBytes scalar_bytes(const std::string& name, const PolygonCurve& curve,
+                                     std::span<const NodeScalar> scalars);
 
 }  // namespace vspring

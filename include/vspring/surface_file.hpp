@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "vspring/context.hpp"
+#include "vspring/output_file.hpp"
 #include "vspring/polygon_mesh.hpp"
 
 namespace vspring {
@@ -42,6 +43,11 @@ struct SurfaceFile {
 /// without nodes. Cost: linear; the bytes of the file stay in memory.
 [[nodiscard]] SurfaceFile read_surface(const std::string& path, std::optional<SurfaceFormat> format = std::nullopt);
 
+/// The same from the bytes of a file in memory. name: what messages call it; its extension decides as a path's does.
+/// bytes: kept for writing, so moved in without a copy. Throws and costs what read_surface() does.
+[[nodiscard]] SurfaceFile read_surface_bytes(std::string bytes, const std::string& name,
+                                             std::optional<SurfaceFormat> format = std::nullopt);
+
 /// Writes the surface with `positions` in place of its own. path: a file, or "-" for standard output. format: where not
 /// given, the extension's, and without one the source's own.
 ///
@@ -65,5 +71,14 @@ std::vector<std::string> write_surface(const std::string& path, const SurfaceFil
 /// finite.
 void write_surface(const std::string& path, const PolygonMesh& mesh,
                    std::optional<SurfaceFormat> format = std::nullopt);
+
+/// What write_surface() would write to a file of that name, in memory; no file is looked at. Throws
+/// Error(invalid_argument) as that does, and Error(unusable_file) where new coordinates would make an OFF file that
+/// reads in another way. Cost: linear.
+[[nodiscard]] FileBytes surface_bytes(const std::string& name, const SurfaceFile& surface,
+                                      const std::vector<Vector3>& positions,
+                                      std::optional<SurfaceFormat> format = std::nullopt);
+[[nodiscard]] FileBytes surface_bytes(const std::string& name, const PolygonMesh& mesh,
+                                      std::optional<SurfaceFormat> format = std::nullopt);
 
 }  // namespace vspring

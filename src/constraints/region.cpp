@@ -1,10 +1,14 @@
+#include "vspring/region.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "base/message_text.hpp"
 #include "vspring/constraints.hpp"
@@ -33,27 +37,9 @@ void fix_estimated(Constraints& constraints, const PolygonMesh& mesh, const std:
   }
 }
 
-Error malformed(const std::string& specification, const std::string& what) {
-  return {
-      ErrorCode::unusable_constraint,
-      fmt::format("region \"{}\": {}; write sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1, group:NAME or the name of a JSON "
-                  "file with a list of nodes",
-                  in_one_line(specification), what)};
-}
-
-std::vector<double> numbers(const std::string& specification, const std::string& text, std::size_t count) {
-  std::vector<double> values;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const auto value = nlohmann::json::parse(text.substr(begin, end - begin), nullptr, false);
-    if (!value.is_number())
-      throw malformed(specification, fmt::format("\"{}\" is no number", in_one_line(text.substr(begin, end - begin))));
-    values.push_back(value.get<double>());
-    begin = end + 1;
-  }
-  if (values.size() != count)
-    throw malformed(specification, fmt::format("{} numbers are needed, {} are given", count, values.size()));
-  return values;
+/// How messages begin that are about a region.
+std::string called(const Region& region) {
+  return region.name.empty() ? "region" : fmt::format("region \"{}\"", in_one_line(region.name));
 }
 
 std::vector<Index> nodes_within(const std::vector<Vector3>& positions, const auto& inside) {
@@ -64,38 +50,48 @@ std::vector<Index> nodes_within(const std::vector<Vector3>& positions, const aut
   return nodes;
 }
 
-std::vector<Index> nodes_of_file(Index node_count, const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file.is_open() || file.bad() || text.empty())
-    throw Error(
-        ErrorCode::unusable_file,
-        fmt::format("{}: cannot be read; a region is sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1, group:NAME or the name "
-                    "of a JSON file with a list of nodes",
-                    in_one_line(path, 4096)));
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(text);
-  } catch (const nlohmann::json::exception& fault) {
-    throw Error(ErrorCode::unusable_constraint,
-                fmt::format("{}: no JSON: {}", in_one_line(path, 4096), in_one_line(fault.what())));
-  }
-  if (json.is_object() && json.size() == 1 && json.contains("nodes")) json = nlohmann::json(json["nodes"]);
-  if (!json.is_array())
-    throw Error(ErrorCode::unusable_constraint,
-                fmt::format("{}: write a list of node numbers, such as [1, 2, 3]", in_one_line(path, 4096)));
-  std::vector<Index> nodes;
-  for (const auto& entry : json) {
-    if (!entry.is_number_integer() || entry.get<std::int64_t>() < 0 || entry.get<std::int64_t>() >= node_count)
+std::vector<Index> nodes_of_group(const Region& region, const std::string& name, const Groups& groups) {
+  const auto group = groups.find(name);
+  if (group != groups.end()) return group->second;
+  std::string known;
+  for (const auto& [other, members] : groups) known += (known.empty() ? "" : ", ") + other;
+  throw Error(ErrorCode::unusable_constraint,
+              fmt::format("{}: the shape has no such group; {}", called(region),
+                          known.empty() ? "it has none at all" : "it has " + in_one_line(known, 1000)));
+}
+
+/// Those that are named, ascending and once each.
+std::vector<Index> nodes_of_list(const Region& region, std::vector<Index> nodes, std::size_t node_count) {
+  for (const Index node : nodes) {
+    if (node < 0 || static_cast<std::size_t>(node) >= node_count)
       throw Error(ErrorCode::unusable_constraint,
-                  fmt::format("{}: {} is not a node; nodes go from 0 to {}", in_one_line(path, 4096),
-                              in_one_line(entry.dump()), node_count - 1));
-    nodes.push_back(entry.get<Index>());
+                  fmt::format("{}: {} is not a node; nodes go from 0 to {}",
+                              region.name.empty() ? "region" : in_one_line(region.name, 4096), node,
+                              static_cast<std::int64_t>(node_count) - 1));
   }
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;
 }
+
+/// The nodes of each kind of region.
+struct RegionSelector {
+  const std::vector<Vector3>& positions;
+  const Region& region;
+  const Groups& groups;
+
+  std::vector<Index> operator()(const SphereRegion& sphere) const {
+    return nodes_within(positions, [&](const Vector3& p) { return (p - sphere.centre).norm() <= sphere.radius; });
+  }
+  std::vector<Index> operator()(const BoxRegion& corners) const {
+    const Eigen::AlignedBox<double, 3> box(corners.from.cwiseMin(corners.to), corners.from.cwiseMax(corners.to));
+    return nodes_within(positions, [&](const Vector3& p) { return box.contains(p); });
+  }
+  std::vector<Index> operator()(const GroupRegion& named) const { return nodes_of_group(region, named.group, groups); }
+  std::vector<Index> operator()(const NodeRegion& list) const {
+    return nodes_of_list(region, list.nodes, positions.size());
+  }
+};
 
 }  // namespace
 
@@ -139,38 +135,9 @@ void restrict_to_region(Constraints& constraints, const PolygonMesh& mesh, std::
   constraints = std::move(restricted);
 }
 
-std::vector<Index> select_region(const std::vector<Vector3>& positions, const std::string& specification,
-                                 const Groups& groups) {
-  std::vector<Index> nodes;
-  const std::size_t colon = specification.find(':');
-  const std::string kind = specification.substr(0, colon);
-  const std::string rest = colon == std::string::npos ? "" : specification.substr(colon + 1);
-  if (kind == "sphere" && colon != std::string::npos) {
-    const auto v = numbers(specification, rest, 4);
-    if (!(v[3] >= 0)) throw malformed(specification, "the radius must not be negative");
-    const Vector3 centre(v[0], v[1], v[2]);
-    nodes = nodes_within(positions, [&](const Vector3& p) { return (p - centre).norm() <= v[3]; });
-  } else if (kind == "box" && colon != std::string::npos) {
-    const auto v = numbers(specification, rest, 6);
-    const Eigen::AlignedBox<double, 3> box(Vector3(v[0], v[1], v[2]).cwiseMin(Vector3(v[3], v[4], v[5])),
-                                           Vector3(v[0], v[1], v[2]).cwiseMax(Vector3(v[3], v[4], v[5])));
-    nodes = nodes_within(positions, [&](const Vector3& p) { return box.contains(p); });
-  } else if (kind == "group" && colon != std::string::npos) {
-    const auto group = groups.find(rest);
-    if (group == groups.end()) {
-      std::string known;
-      for (const auto& [name, members] : groups) known += (known.empty() ? "" : ", ") + name;
-      throw Error(ErrorCode::unusable_constraint,
-                  fmt::format("region \"{}\": the shape has no such group; {}", in_one_line(specification),
-                              known.empty() ? "it has none at all" : "it has " + in_one_line(known, 1000)));
-    }
-    nodes = group->second;
-  } else {
-    nodes = nodes_of_file(static_cast<Index>(positions.size()), specification);
-  }
-  if (nodes.empty())
-    throw Error(ErrorCode::unusable_constraint,
-                fmt::format("region \"{}\": no node lies in it", in_one_line(specification)));
+std::vector<Index> select_region(const std::vector<Vector3>& positions, const Region& region, const Groups& groups) {
+  std::vector<Index> nodes = std::visit(RegionSelector{positions, region, groups}, region.extent);
+  if (nodes.empty()) throw Error(ErrorCode::unusable_constraint, fmt::format("{}: no node lies in it", called(region)));
   return nodes;
 }
 

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <string>
 
-#include "io/point_source.hpp"
+#include "io/point_formats.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {

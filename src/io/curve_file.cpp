@@ -7,12 +7,10 @@
 #include <filesystem>
 
 #include "io/column_names.hpp"
-#include "io/curve_source.hpp"
-#include "io/detect_curve_format.hpp"
-#include "io/format_choice.hpp"
-#include "io/fresh_curve.hpp"
-#include "io/moved_nodes.hpp"
-#include "io/svg_picture.hpp"
+#include "io/curve_formats.hpp"
+#include "io/formats.hpp"
+#include "io/rewriter.hpp"
+#include "io/svg.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
 
@@ -56,13 +54,8 @@ std::string converted(CurveFormat format, const CurveFile& file, const std::vect
   return fresh_curve(format, {file.curve.chains(), positions, planar, file.name}, losses);
 }
 
-}  // namespace
-
-std::optional<CurveFormat> curve_format(std::string_view extension) { return curve_formats.of_extension(extension); }
-
-CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format, const ColumnChoice& columns) {
-  InputFile file = read_input(path);
-  const std::optional<CurveFormat> said = format ? format : curve_format(extension_of(path));
+CurveFile curve_of(InputFile file, std::optional<CurveFormat> format, const ColumnChoice& columns) {
+  const std::optional<CurveFormat> said = format ? format : curve_format(extension_of(file.name));
   const CurveFormat taken = said ? *said : detect_curve_format(file);
   if (taken != CurveFormat::csv && taken != CurveFormat::xyz) refuse_choice(file, columns);
   switch (taken) {
@@ -80,12 +73,24 @@ CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format,
   file.refuse("SVG is a picture, it can only be written; choose a file of OBJ, CSV, DAT or XYZ");
 }
 
-std::vector<std::string> write_curve(const std::string& path, const CurveFile& file,
-                                     const std::vector<Vector3>& positions, std::optional<CurveFormat> format,
-                                     const CurvePicture& picture) {
+}  // namespace
+
+std::optional<CurveFormat> curve_format(std::string_view extension) { return curve_formats.of_extension(extension); }
+
+CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format, const ColumnChoice& columns) {
+  return curve_of(read_input(path), format, columns);
+}
+
+CurveFile read_curve_bytes(std::string bytes, const std::string& name, std::optional<CurveFormat> format,
+                           const ColumnChoice& columns) {
+  return curve_of(input_of(std::move(bytes), name), format, columns);
+}
+
+FileBytes curve_bytes(const std::string& name, const CurveFile& file, const std::vector<Vector3>& positions,
+                      std::optional<CurveFormat> format, const CurvePicture& picture) {
   require_all(file, positions);
   const std::optional<CurveFormat> own = file.format == CurveFormat::svg ? std::nullopt : std::optional(file.format);
-  const CurveFormat target = curve_formats.to_write(path, format, own);
+  const CurveFormat target = curve_formats.to_write(name, format, own);
   const CurveSource* source = file.source.get();
   if (source != nullptr && source->positions.size() != positions.size())
     throw Error(ErrorCode::invalid_argument,
@@ -93,16 +98,42 @@ std::vector<std::string> write_curve(const std::string& path, const CurveFile& f
                             source->file.name));
   const std::vector<std::uint8_t> moved =
       moved_nodes(source != nullptr ? source->positions : file.curve.positions(), positions);
-  std::vector<std::string> losses;
+  FileBytes made;
   if (target == CurveFormat::svg) {
-    write_file(path, draw_curve(file, positions, picture));
+    made.bytes = draw_curve(file, positions, picture);
   } else if (source != nullptr && target == file.format) {
     if (file.planar) require_plane(positions);
-    write_file(path, source->rewritten(positions, moved));
+    made.bytes = source->rewritten(positions, moved);
   } else {
-    write_file(path, converted(target, file, positions, losses));
+    made.bytes = converted(target, file, positions, made.losses);
   }
-  return losses;
+  return made;
+}
+
+FileBytes curve_bytes(const std::string& name, const PolygonCurve& curve, std::optional<CurveFormat> format,
+                      bool planar) {
+  CurveFile file;
+  file.format = curve_formats.to_write(name, format, std::nullopt);
+  file.planar = planar;
+  for (Index node = 0; node < curve.node_count(); ++node) {
+    if (!curve.position(node).allFinite())
+      throw Error(ErrorCode::invalid_argument, fmt::format("node {}: its position is not finite", node));
+  }
+  if (planar) require_plane(curve.positions());
+  file.curve = curve;
+  return curve_bytes(name, file, curve.positions(), file.format);
+}
+
+std::vector<std::string> write_curve(const std::string& path, const CurveFile& file,
+                                     const std::vector<Vector3>& positions, std::optional<CurveFormat> format,
+                                     const CurvePicture& picture) {
+  FileBytes made = curve_bytes(path, file, positions, format, picture);
+  write_file(path, made.bytes);
+  return std::move(made.losses);
+}
+
+void write_curve(const std::string& path, const PolygonCurve& curve, std::optional<CurveFormat> format, bool planar) {
+  write_file(path, curve_bytes(path, curve, format, planar).bytes);
 }
 
 std::string draw_curve(const CurveFile& file, const std::vector<Vector3>& positions, const CurvePicture& picture) {
@@ -114,17 +145,22 @@ std::string draw_curve(const CurveFile& file, const std::vector<Vector3>& positi
   return svg_picture(after, &behind, picture.points, part, title_of(file));
 }
 
-void write_curve(const std::string& path, const PolygonCurve& curve, std::optional<CurveFormat> format, bool planar) {
-  CurveFile file;
-  file.format = curve_formats.to_write(path, format, std::nullopt);
-  file.planar = planar;
-  for (Index node = 0; node < curve.node_count(); ++node) {
-    if (!curve.position(node).allFinite())
-      throw Error(ErrorCode::invalid_argument, fmt::format("node {}: its position is not finite", node));
+std::string fresh_curve(CurveFormat format, const FreshCurve& curve, std::vector<std::string>& losses) {
+  switch (format) {
+    case CurveFormat::obj:
+      return fresh_curve_obj(curve);
+    case CurveFormat::csv:
+      return fresh_csv(curve, losses);
+    case CurveFormat::dat:
+      return fresh_dat(curve, losses);
+    default:
+      return fresh_xyz(curve, losses);
   }
-  if (planar) require_plane(curve.positions());
-  file.curve = curve;
-  write_curve(path, file, curve.positions(), file.format);
+}
+
+std::size_t first_off_plane(std::span<const Vector3> positions) {
+  const auto found = std::find_if(positions.begin(), positions.end(), [](const Vector3& p) { return p.z() != 0; });
+  return static_cast<std::size_t>(found - positions.begin());
 }
 
 }  // namespace vspring

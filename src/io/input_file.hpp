@@ -18,6 +18,9 @@ struct InputFile {
   [[noreturn]] void refuse_line(std::size_t offset, std::string_view what) const;
 };
 
+/// Bytes in memory as a file of that name. Throws Error(unusable_file) where there are none.
+InputFile input_of(std::string bytes, const std::string& name);
+
 /// Reads a file, or standard input for "-". Throws Error(unusable_file) for what cannot be read, and for nothing in it.
 InputFile read_input(const std::string& path);
 

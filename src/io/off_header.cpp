@@ -1,10 +1,9 @@
-// The keyword and the counts of an OFF file.
-#include "io/off_header.hpp"
-
+// The keyword and the counts of an OFF file, and its words.
 #include <fmt/format.h>
 
 #include "base/message_text.hpp"
 #include "io/face_list.hpp"
+#include "io/off.hpp"
 
 namespace vspring {
 namespace {

@@ -1,5 +1,4 @@
-#include "io/ply_header.hpp"
-
+// What a PLY file says of its elements and their properties.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include "base/message_text.hpp"
 #include "io/face_list.hpp"
+#include "io/ply.hpp"
 #include "io/text_cursor.hpp"
 
 namespace vspring {

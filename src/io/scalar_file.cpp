@@ -7,9 +7,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "io/format_choice.hpp"
-#include "io/fresh_file.hpp"
-#include "io/text_rewriter.hpp"
+#include "io/formats.hpp"
+#include "io/rewriter.hpp"
+#include "io/surface_formats.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
 
@@ -129,17 +129,25 @@ std::string vtp(const PolygonCurve& curve, std::span<const NodeScalar> scalars) 
 
 std::optional<ScalarFormat> scalar_format(std::string_view extension) { return scalar_formats.of_extension(extension); }
 
-void write_scalars(const std::string& path, const PolygonMesh& mesh, std::span<const NodeScalar> scalars) {
-  const ScalarFormat format = scalar_formats.to_write(path, std::nullopt, std::nullopt);
+FileBytes scalar_bytes(const std::string& name, const PolygonMesh& mesh, std::span<const NodeScalar> scalars) {
+  const ScalarFormat format = scalar_formats.to_write(name, std::nullopt, std::nullopt);
   check(mesh.positions(), scalars);
-  write_file(path, format == ScalarFormat::vtp ? vtp(mesh, scalars) : fresh_ply(mesh, mesh.positions(), {}, scalars));
+  return {format == ScalarFormat::vtp ? vtp(mesh, scalars) : fresh_ply(mesh, mesh.positions(), {}, scalars)};
+}
+
+FileBytes scalar_bytes(const std::string& name, const PolygonCurve& curve, std::span<const NodeScalar> scalars) {
+  if (scalar_formats.to_write(name, std::nullopt, std::nullopt) == ScalarFormat::ply)
+    throw Error(ErrorCode::invalid_argument, name + ": PLY holds surfaces; write the numbers of a curve as .vtp");
+  check(curve.positions(), scalars);
+  return {vtp(curve, scalars)};
+}
+
+void write_scalars(const std::string& path, const PolygonMesh& mesh, std::span<const NodeScalar> scalars) {
+  write_file(path, scalar_bytes(path, mesh, scalars).bytes);
 }
 
 void write_scalars(const std::string& path, const PolygonCurve& curve, std::span<const NodeScalar> scalars) {
-  if (scalar_formats.to_write(path, std::nullopt, std::nullopt) == ScalarFormat::ply)
-    throw Error(ErrorCode::invalid_argument, path + ": PLY holds surfaces; write the numbers of a curve as .vtp");
-  check(curve.positions(), scalars);
-  write_file(path, vtp(curve, scalars));
+  write_file(path, scalar_bytes(path, curve, scalars).bytes);
 }
 
 }  // namespace vspring

@@ -4,12 +4,10 @@
 
 #include <array>
 
-#include "io/detect_format.hpp"
 #include "io/file_normals.hpp"
-#include "io/format_choice.hpp"
-#include "io/fresh_file.hpp"
-#include "io/moved_nodes.hpp"
-#include "io/surface_source.hpp"
+#include "io/formats.hpp"
+#include "io/rewriter.hpp"
+#include "io/surface_formats.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
 
@@ -36,18 +34,11 @@ std::string converted(SurfaceFormat format, const Rewrite& rewrite, std::vector<
     losses = surface.source->carried;
   else if (!surface.groups.empty())
     losses.emplace_back("groups");
-  return fresh_file(format, surface.mesh, rewrite.positions, normals, losses);
+  return fresh_surface(format, surface.mesh, rewrite.positions, normals, losses);
 }
 
-}  // namespace
-
-std::optional<SurfaceFormat> surface_format(std::string_view extension) {
-  return surface_formats.of_extension(extension);
-}
-
-SurfaceFile read_surface(const std::string& path, std::optional<SurfaceFormat> format) {
-  InputFile file = read_input(path);
-  const std::optional<SurfaceFormat> said = format ? format : surface_format(extension_of(path));
+SurfaceFile surface_of(InputFile file, std::optional<SurfaceFormat> format) {
+  const std::optional<SurfaceFormat> said = format ? format : surface_format(extension_of(file.name));
   const std::optional<SurfaceFormat> shown = detect_format(file.bytes);
   if (!said && !shown)
     file.refuse(
@@ -63,12 +54,26 @@ SurfaceFile read_surface(const std::string& path, std::optional<SurfaceFormat> f
   return surface;
 }
 
-std::vector<std::string> write_surface(const std::string& path, const SurfaceFile& surface,
-                                       const std::vector<Vector3>& positions, std::optional<SurfaceFormat> format) {
+}  // namespace
+
+std::optional<SurfaceFormat> surface_format(std::string_view extension) {
+  return surface_formats.of_extension(extension);
+}
+
+SurfaceFile read_surface(const std::string& path, std::optional<SurfaceFormat> format) {
+  return surface_of(read_input(path), format);
+}
+
+SurfaceFile read_surface_bytes(std::string bytes, const std::string& name, std::optional<SurfaceFormat> format) {
+  return surface_of(input_of(std::move(bytes), name), format);
+}
+
+FileBytes surface_bytes(const std::string& name, const SurfaceFile& surface, const std::vector<Vector3>& positions,
+                        std::optional<SurfaceFormat> format) {
   if (positions.size() != surface.mesh.positions().size())
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("{} positions given for {} nodes", positions.size(), surface.mesh.node_count()));
-  const SurfaceFormat target = surface_formats.to_write(path, format, surface.format);
+  const SurfaceFormat target = surface_formats.to_write(name, format, surface.format);
   const SurfaceSource* source = surface.source.get();
   if (source != nullptr &&
       (source->positions.size() != positions.size() || source->corner_count != surface.mesh.corners().size()))
@@ -77,23 +82,51 @@ std::vector<std::string> write_surface(const std::string& path, const SurfaceFil
                             source->file.name));
   Rewrite rewrite{
       surface, positions, moved_nodes(source != nullptr ? source->positions : surface.mesh.positions(), positions), {}};
+  FileBytes file;
   if (source != nullptr && target == surface.format) {
-    write_file(path, source->rewritten(rewrite));
-    return std::move(rewrite.remarks);
+    file.bytes = source->rewritten(rewrite);
+    file.losses = std::move(rewrite.remarks);
+  } else {
+    file.bytes = converted(target, rewrite, file.losses);
   }
-  std::vector<std::string> losses;
-  write_file(path, converted(target, rewrite, losses));
-  return losses;
+  return file;
 }
 
-void write_surface(const std::string& path, const PolygonMesh& mesh, std::optional<SurfaceFormat> format) {
-  const SurfaceFormat target = surface_formats.to_write(path, format, std::nullopt);
+FileBytes surface_bytes(const std::string& name, const PolygonMesh& mesh, std::optional<SurfaceFormat> format) {
+  const SurfaceFormat target = surface_formats.to_write(name, format, std::nullopt);
   for (Index node = 0; node < mesh.node_count(); ++node) {
     if (!mesh.position(node).allFinite())
       throw Error(ErrorCode::invalid_argument, fmt::format("node {}: its position is not finite", node));
   }
   std::vector<std::string> losses;
-  write_file(path, fresh_file(target, mesh, mesh.positions(), {}, losses));
+  return {fresh_surface(target, mesh, mesh.positions(), {}, losses)};
+}
+
+std::vector<std::string> write_surface(const std::string& path, const SurfaceFile& surface,
+                                       const std::vector<Vector3>& positions, std::optional<SurfaceFormat> format) {
+  FileBytes file = surface_bytes(path, surface, positions, format);
+  write_file(path, file.bytes);
+  return std::move(file.losses);
+}
+
+void write_surface(const std::string& path, const PolygonMesh& mesh, std::optional<SurfaceFormat> format) {
+  write_file(path, surface_bytes(path, mesh, format).bytes);
+}
+
+std::string fresh_surface(SurfaceFormat format, const PolygonMesh& mesh, std::span<const Vector3> positions,
+                          std::span<const Vector3> normals, std::vector<std::string>& losses) {
+  switch (format) {
+    case SurfaceFormat::obj:
+      return fresh_surface_obj(mesh, positions, normals);
+    case SurfaceFormat::off:
+      return fresh_off(mesh, positions, normals);
+    case SurfaceFormat::ply:
+      return fresh_ply(mesh, positions, normals, {});
+    case SurfaceFormat::stl:
+      break;
+  }
+  if (!normals.empty()) losses.emplace_back("normals of nodes");
+  return fresh_stl(mesh, positions, losses);
 }
 
 }  // namespace vspring

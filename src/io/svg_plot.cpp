@@ -1,11 +1,11 @@
-#include "io/svg_plot.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
+
+#include "io/svg.hpp"
 
 namespace vspring {
 namespace {

@@ -291,8 +291,8 @@ TEST(Region, ThePatchMeetsTheRestWithACommonTangentPlane) {
 
 TEST(Region, FixesEverythingOutsideAndNormalsWhereTheRimIsAtTheBoundary) {
   const PolygonMesh mesh = generate::plane({.columns = 10, .rows = 10, .faces = Faces::quads});
-  const auto restricted = [&](const std::string& specification, std::size_t size) {
-    const auto region = select_region(mesh.positions(), specification);
+  const auto restricted = [&](const SphereRegion& sphere, std::size_t size) {
+    const auto region = select_region(mesh.positions(), {sphere});
     EXPECT_EQ(region.size(), size);
     Constraints constraints(mesh.node_count());
     restrict_to_region(constraints, mesh, region);
@@ -304,8 +304,8 @@ TEST(Region, FixesEverythingOutsideAndNormalsWhereTheRimIsAtTheBoundary) {
     }
     return normals;
   };
-  EXPECT_EQ(restricted("sphere:0.5,0.5,0,0.25", 21), std::vector<Index>());
-  EXPECT_EQ(restricted("sphere:0.5,0,0,0.25", 13), (std::vector<Index>{2, 8}));
+  EXPECT_EQ(restricted({{0.5, 0.5, 0}, 0.25}, 21), std::vector<Index>());
+  EXPECT_EQ(restricted({{0.5, 0, 0}, 0.25}, 13), (std::vector<Index>{2, 8}));
 }
 
 TEST(Region, TheRimTakesItsNormalsFromBothSides) {

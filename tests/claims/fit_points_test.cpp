@@ -100,7 +100,7 @@ TEST(FitPoints, NodesWithoutPointsAreFairBetweenThoseThatHaveSome) {
 TEST(FitPoints, PointsNearestToWhatStaysPullAtNothing) {
   const PolygonMesh plane = generate::plane({.columns = 20, .rows = 20});
   Constraints held(plane.node_count());
-  const std::vector<Index> region = select_region(plane.positions(), "sphere:0.25,0.25,0,0.15");
+  const std::vector<Index> region = select_region(plane.positions(), {SphereRegion{{0.25, 0.25, 0}, 0.15}});
   restrict_to_region(held, plane, region);
   const ScatteredPoints points{.positions = {{0.9, 0.9, 0.1}}};
   const FitResult away = fit(plane, held, points, by_sweeps(1));

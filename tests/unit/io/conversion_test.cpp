@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/detect_format.hpp"
+#include "io/formats.hpp"
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <bit>
 
-#include "io/byte_order.hpp"
+#include "io/binary_numbers.hpp"
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 

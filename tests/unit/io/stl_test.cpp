@@ -1,6 +1,6 @@
 #include <array>
 
-#include "io/byte_order.hpp"
+#include "io/binary_numbers.hpp"
 #include "unit/io/scratch.hpp"
 #include "vspring/surface_file.hpp"
 

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "vspring/types.hpp"
+
+namespace vspring {
+
+/// Nodes by the names that a file gives them, ascending.
+using Groups = std::map<std::string, std::vector<Index>>;
+
+/// The nodes in and on a sphere, in units of the positions. With a negative radius there are none.
+struct SphereRegion {
+  Vector3 centre;
+  double radius;
+};
+
+/// The nodes in and on a box along the axes, by two opposite corners in units of the positions.
+struct BoxRegion {
+  Vector3 from;
+  Vector3 to;
+};
+
+/// The nodes of a group that the file names.
+struct GroupRegion {
+  std::string group;
+};
+
+/// Nodes by their numbers, in any order; those named again count once.
+struct NodeRegion {
+  std::vector<Index> nodes;
+};
+
+/// Which nodes may move, see restrict_to_region().
+struct Region {
+  std::variant<SphereRegion, BoxRegion, GroupRegion, NodeRegion> extent;
+  /// What messages call it, such as the specification that it was read from, see parse_region(); may be empty.
+  std::string name = {};
+};
+
+/// The nodes of a region, ascending. Throws Error(unusable_constraint), naming the region, where it has no node, for a
+/// group that there is not, and for a node out of range. Cost: linear.
+[[nodiscard]] std::vector<Index> select_region(const std::vector<Vector3>& positions, const Region& region,
+                                               const Groups& groups = {});
+
+}  // namespace vspring

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "vspring/error.hpp"
+
+namespace vspring {
+
+// Eigen's bit_cast: not every C++20 library has std::bit_cast, that of Emscripten among them.
+
+/// A number at an address that need not be aligned. swapped: its bytes are in the other order than this machine's.
+template <typename Number>
+Number load(const char* from, bool swapped) {
+  std::array<char, sizeof(Number)> bytes;
+  for (std::size_t k = 0; k < sizeof(Number); ++k) bytes[k] = from[swapped ? sizeof(Number) - 1 - k : k];
+  return Eigen::numext::bit_cast<Number>(bytes);
+}
+
+template <typename Number>
+void store(char* to, Number number, bool swapped) {
+  const auto bytes = Eigen::numext::bit_cast<std::array<char, sizeof(Number)>>(number);
+  for (std::size_t k = 0; k < sizeof(Number); ++k) to[k] = bytes[swapped ? sizeof(Number) - 1 - k : k];
+}
+
+/// Whether numbers in this order have to be swapped on this machine.
+constexpr bool swapped_here(std::endian order) { return order != std::endian::native; }
+
+/// Of numbers in little-endian order, which binary STL has and fresh files get.
+inline constexpr bool little_swapped = swapped_here(std::endian::little);
+
+/// Appends a number in little-endian order.
+template <typename Number>
+void append_bytes(std::string& bytes, Number number) {
+  std::array<char, sizeof(Number)> room;
+  store(room.data(), number, little_swapped);
+  bytes.append(room.data(), room.size());
+}
+
+/// A coordinate of a node in single precision. Throws Error(invalid_argument) for one that is beyond its range.
+inline float single(double value, std::size_t node) {
+  const auto narrow = static_cast<float>(value);
+  if (std::isfinite(value) && !std::isfinite(narrow))
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("node {}: {} does not fit single precision; write another format", node, value));
+  return narrow;
+}
+
+}  // namespace vspring

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/input_file.hpp"
+#include "vspring/curve_file.hpp"
+
+namespace vspring {
+
+/// The bytes of a file and, in the formats that derive from it, where its coordinates are.
+class CurveSource {
+ public:
+  CurveSource() = default;
+  virtual ~CurveSource() = default;
+  CurveSource(const CurveSource&) = delete;
+  CurveSource& operator=(const CurveSource&) = delete;
+
+  /// The bytes with the coordinates of moved nodes. Cost: linear.
+  [[nodiscard]] virtual std::string rewritten(const std::vector<Vector3>& places,
+                                              const std::vector<std::uint8_t>& moved) const = 0;
+
+  InputFile file;
+  std::vector<Vector3> positions;    ///< as the file gives them
+  std::vector<std::string> carried;  ///< what other formats are not given, one line each
+};
+
+/// What is carried where a file names its curve, which DAT can hold.
+inline constexpr const char* name_carried = "the name";
+
+/// Each reads the whole of a file that is said to be of its format. They throw Error(unusable_file), and
+/// Error(invalid_argument) for a choice of columns that is none.
+CurveFile read_obj_curve(InputFile file);
+CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice);
+CurveFile read_dat_curve(InputFile file);
+CurveFile read_xyz_curve(InputFile file, const ColumnChoice& choice);
+
+/// What a file of a curve is to be made from.
+struct FreshCurve {
+  const std::vector<PolygonCurve::Chain>& chains;
+  std::span<const Vector3> positions;
+  bool planar;  ///< two coordinates
+  std::string name;
+};
+
+/// A file of another format than SVG made from nothing but a curve. losses: what the format cannot hold is added.
+/// Throws Error(invalid_argument) for DAT of several chains or of a curve in space.
+std::string fresh_curve(CurveFormat format, const FreshCurve& curve, std::vector<std::string>& losses);
+
+/// The same of each format. Rows of numbers are separated by a comma in CSV, else by blanks.
+std::string fresh_curve_obj(const FreshCurve& curve);
+std::string fresh_csv(const FreshCurve& curve, std::vector<std::string>& losses);
+std::string fresh_dat(const FreshCurve& curve, std::vector<std::string>& losses);
+std::string fresh_xyz(const FreshCurve& curve, std::vector<std::string>& losses);
+
+/// The first node that does not lie in the plane z = 0; the number of nodes where there is none.
+std::size_t first_off_plane(std::span<const Vector3> positions);
+
+}  // namespace vspring

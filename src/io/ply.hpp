@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/input_file.hpp"
+#include "io/surface_formats.hpp"
+
+namespace vspring {
+
+enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+enum class PlyEncoding : std::uint8_t { text, little_endian, big_endian };
+
+/// Bytes in a binary file.
+constexpr std::size_t size_of(PlyType type) {
+  constexpr std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 4, 8};
+  return sizes[static_cast<std::size_t>(type)];
+}
+constexpr bool is_whole(PlyType type) { return type < PlyType::float32; }
+
+struct PlyProperty {
+  std::string name;
+  PlyType type = PlyType::float32;
+  std::optional<PlyType> count_type;  ///< of a list
+  std::size_t type_begin = 0;         ///< where the name of the type stands in the header
+  std::size_t type_end = 0;
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+
+  [[nodiscard]] bool has_lists() const;
+  /// Bytes of one, taking lists as empty. Text: a digit and a blank for each number.
+  [[nodiscard]] std::size_t least_size(PlyEncoding encoding) const;
+  /// Number of a property, or −1.
+  [[nodiscard]] int find(std::string_view property) const;
+};
+
+struct PlyHeader {
+  PlyEncoding encoding = PlyEncoding::text;
+  std::vector<PlyElement> elements;
+  bool comments = false;
+  std::size_t end = 0;  ///< where the data begins
+
+  /// Null where there is none.
+  [[nodiscard]] const PlyElement* find(std::string_view element) const;
+};
+
+/// Throws Error(unusable_file) naming the line.
+PlyHeader read_ply_header(const InputFile& file);
+
+/// The number of a property that is no list, or −1.
+int find_number(const PlyElement& element, std::string_view property);
+
+/// The element of the nodes. Throws Error(unusable_file) where there are none, more than can be, or no numbers x, y, z.
+const PlyElement& ply_nodes(const InputFile& file, const PlyHeader& header);
+
+class TextRewriter;
+struct NewNormals;
+
+/// A PLY file: its header and where its nodes are.
+class PlySource : public SurfaceSource {
+ public:
+  [[nodiscard]] std::string rewritten(Rewrite& rewrite) const override;
+
+  /// x y z nx ny nz: numbers of the properties of the node, −1 for none. Normals are all there or none.
+  std::array<int, 6> fields = {-1, -1, -1, -1, -1, -1};
+  [[nodiscard]] bool has_normals() const { return fields[3] >= 0; }
+  [[nodiscard]] const PlyElement& node_element() const { return *header.find("vertex"); }
+
+  PlyHeader header;
+  std::size_t first_row = 0;      ///< where the first node begins
+  std::vector<std::size_t> rows;  ///< where each begins; empty where all are of one length
+
+ private:
+  /// Where the fields of the row that begins here are: in text their columns, else their bytes from its beginning.
+  [[nodiscard]] std::array<int, 6> places_in(std::size_t row) const;
+  [[nodiscard]] bool any_whole(int first_field) const;
+  void widen_header(TextRewriter& out) const;
+  [[nodiscard]] std::string patched(const Rewrite& rewrite, const NewNormals& normals) const;
+  [[nodiscard]] std::string rebuilt(const Rewrite& rewrite, const NewNormals& normals) const;
+};
+
+}  // namespace vspring

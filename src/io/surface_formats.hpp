@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/input_file.hpp"
+#include "vspring/scalar_file.hpp"
+#include "vspring/surface_file.hpp"
+
+namespace vspring {
+
+/// What a file is to be written with.
+struct Rewrite {
+  const SurfaceFile& surface;
+  const std::vector<Vector3>& positions;
+  std::vector<std::uint8_t> moved;   ///< per node: its position is not the one that the file gave
+  std::vector<std::string> remarks;  ///< what could not be written as it was
+};
+
+/// The bytes of a file and, in the formats that derive from it, where its coordinates and normals are.
+class SurfaceSource {
+ public:
+  SurfaceSource() = default;
+  virtual ~SurfaceSource() = default;
+  SurfaceSource(const SurfaceSource&) = delete;
+  SurfaceSource& operator=(const SurfaceSource&) = delete;
+
+  /// The bytes with other positions, and with normals computed anew where nodes moved. Cost: linear.
+  [[nodiscard]] virtual std::string rewritten(Rewrite& rewrite) const = 0;
+
+  InputFile file;
+  std::vector<Vector3> positions;    ///< as the file gives them
+  std::size_t corner_count = 0;      ///< of the mesh
+  std::vector<std::string> carried;  ///< what other formats are not given, one line each
+};
+
+/// Each reads the whole of a file that is said to be of its format. They throw Error(unusable_file).
+SurfaceFile read_obj(InputFile file);
+SurfaceFile read_off(InputFile file);
+SurfaceFile read_ply(InputFile file);
+SurfaceFile read_stl(InputFile file);
+
+/// Whether the size of a file is what its number of facets asks for.
+bool is_binary_stl(std::string_view bytes);
+
+/// A file of a format made from nothing but a mesh. normals: one per node, or none. losses: what the format cannot hold
+/// is added.
+std::string fresh_surface(SurfaceFormat format, const PolygonMesh& mesh, std::span<const Vector3> positions,
+                          std::span<const Vector3> normals, std::vector<std::string>& losses);
+
+/// The same of each format. PLY is binary, little-endian, in double precision, with any more numbers at nodes; STL is
+/// binary, its faces cut into triangles from their first node.
+std::string fresh_surface_obj(const PolygonMesh& mesh, std::span<const Vector3> positions,
+                              std::span<const Vector3> normals);
+std::string fresh_off(const PolygonMesh& mesh, std::span<const Vector3> positions, std::span<const Vector3> normals);
+std::string fresh_ply(const PolygonMesh& mesh, std::span<const Vector3> positions, std::span<const Vector3> normals,
+                      std::span<const NodeScalar> scalars);
+std::string fresh_stl(const PolygonMesh& mesh, std::span<const Vector3> positions, std::vector<std::string>& losses);
+
+}  // namespace vspring

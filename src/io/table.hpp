@@ -1,0 +1,140 @@
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/curve_formats.hpp"
+#include "io/point_formats.hpp"
+#include "io/text_cursor.hpp"
+
+namespace vspring {
+
+/// A line of a file of rows.
+struct TableLine {
+  enum class Kind { blank, comment, row };
+
+  std::string_view text;  ///< without its end and the blanks there
+  std::size_t offset;
+  Kind kind;
+};
+
+/// The line that begins at an offset, and the offset behind it. A comment begins with #; a row of nothing but blanks
+/// and delimiters, as spreadsheets write it, is blank. Lines end with LF, CR LF, or CR where `line_end` says so.
+TableLine line_at(std::string_view bytes, std::size_t offset, char line_end);
+
+/// LF, or CR in files that have no LF.
+char line_end_of(std::string_view bytes);
+
+/// Calls use(line) for the lines of a file, without a byte order mark, until it returns false.
+template <typename Use>
+void walk_lines(std::string_view bytes, const Use& use) {
+  const char line_end = line_end_of(bytes);
+  for (std::size_t at = byte_order_mark_length(bytes); at < bytes.size();) {
+    if (!use(line_at(bytes, at, line_end))) return;
+    at = std::min(bytes.find(line_end, at), bytes.size() - 1) + 1;
+  }
+}
+
+/// All lines of a file, without a byte order mark.
+std::vector<TableLine> table_lines(std::string_view bytes);
+
+/// Cuts rows into cells.
+class CellCutter {
+ public:
+  /// delimiter: what stands between two cells; a blank stands for any run of blanks. quotes: a cell may stand in
+  /// quotes, and delimiters in them.
+  CellCutter(char delimiter, bool quotes) : delimiter_(delimiter), quotes_(quotes) {}
+
+  /// The cells of a row, without the blanks and quotes around them; valid until the next call.
+  const std::vector<std::string_view>& cut(std::string_view row);
+  [[nodiscard]] bool cuts_at_blanks() const { return delimiter_ == ' '; }
+
+ private:
+  [[nodiscard]] std::size_t cell_end(std::string_view row, std::size_t begin) const;
+  [[nodiscard]] bool is_delimiter(char c) const;
+
+  char delimiter_;
+  bool quotes_;
+  std::vector<std::string_view> cells_;
+};
+
+/// The number that a cell is, if it is one; "nan" and "inf" are.
+std::optional<double> number_of(std::string_view cell);
+
+/// Whether a cell is a number but for a comma in the place of its point.
+bool has_decimal_comma(std::string_view cell);
+
+/// A file of rows that give the position of one node each.
+class TableSource : public CurveSource {
+ public:
+  [[nodiscard]] std::string rewritten(const std::vector<Vector3>& places,
+                                      const std::vector<std::uint8_t>& moved) const override;
+
+  struct Row {
+    std::size_t offset;
+    Index node;  ///< two rows may give the same node
+  };
+  std::vector<Row> rows;  ///< ascending
+  CellCutter cutter = CellCutter(' ', false);
+  std::vector<std::size_t> columns = {0, 1};  ///< of x, y and, in space, z
+};
+
+/// The number in a column of a row. Throws Error(unusable_file) naming the line and what is missing or is no number;
+/// name: of the column.
+double number_in(const InputFile& file, const TableLine& line, std::span<const std::string_view> cells,
+                 std::size_t column, std::string_view name);
+
+/// Gathers the nodes of a table. Blank lines end chains.
+class TableReader {
+ public:
+  TableReader(const InputFile& file, CellCutter cutter, std::vector<std::size_t> columns);
+
+  /// Reads every row of the lines.
+  void read(std::span<const TableLine> lines);
+  /// The position that a row gives. Throws as number_in().
+  [[nodiscard]] Vector3 position_in(const TableLine& line);
+  /// Adds a node, or another row of the one before all others.
+  void add_node(const TableLine& line, const Vector3& position);
+  void add_row(const TableLine& line, Index node) { source_->rows.push_back({line.offset, node}); }
+  void carry(const char* what) { carried_.insert(what); }
+
+  [[nodiscard]] const std::vector<Vector3>& positions() const { return source_->positions; }
+  std::vector<PolygonCurve::Chain> chains;
+
+  /// Hands over what was read; file becomes the source's. Throws Error(unusable_file) where it is no curve.
+  CurveFile take(InputFile file, CurveFormat format);
+
+ private:
+  const InputFile& file_;
+  std::shared_ptr<TableSource> source_ = std::make_shared<TableSource>();
+  std::set<std::string> carried_;
+};
+
+/// Which columns of a table of points hold what.
+struct PointColumns {
+  std::vector<std::size_t> coordinates;
+  std::optional<std::size_t> weight = std::nullopt;
+  std::vector<std::size_t> normal = {};  ///< three or none
+};
+
+/// May refuse a row, by its cells.
+using RowCheck = std::function<void(const TableLine&, std::span<const std::string_view>)>;
+
+/// The points of the rows from the offset `behind` on. Throws as number_in(), and for a weight that is none.
+ScatteredPoints read_point_rows(const InputFile& file, CellCutter cutter, const PointColumns& columns,
+                                std::size_t behind, const RowCheck& check = {});
+
+/// Appends a row for each node along the chains, with a blank row between two chains.
+void append_rows(std::string& text, const FreshCurve& curve, char between);
+
+/// Adds what rows without node numbers do not tell.
+void name_losses_of_rows(const FreshCurve& curve, std::vector<std::string>& losses);
+
+}  // namespace vspring

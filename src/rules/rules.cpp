@@ -1,0 +1,357 @@
+#include "vspring/rules.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/message_text.hpp"
+#include "vspring/error.hpp"
+#include "vspring/topology.hpp"
+#include "vspring/weld.hpp"
+
+namespace vspring {
+
+namespace {
+
+using nlohmann::json;
+
+using Flags = std::vector<std::uint8_t>;
+using Directions = std::vector<Vector3>;
+
+/// What rules ask of a surface or a curve.
+struct RuledShape {
+  const std::vector<Vector3>& positions;
+  std::function<Flags()> boundary;
+  std::function<Flags()> non_manifold;
+  std::function<Directions(const std::vector<Index>&)> normals;
+  std::function<Directions(const std::vector<Index>&)> tangents;  ///< none for surfaces
+};
+
+Flags non_manifold_nodes(const PolygonMesh& mesh) {
+  Flags wrong(static_cast<std::size_t>(mesh.node_count()), 0);
+  for (const Defect& defect : check(mesh)) {
+    const bool edge = defect.kind == Defect::Kind::non_manifold_edge;
+    if (!edge && defect.kind != Defect::Kind::non_manifold_node) continue;
+    wrong[static_cast<std::size_t>(defect.node)] = 1;
+    if (edge) wrong[static_cast<std::size_t>(defect.other)] = 1;
+  }
+  return wrong;
+}
+
+/// Nodes where chains meet or cross.
+Flags non_manifold_nodes(const PolygonCurve& curve) {
+  Flags times(static_cast<std::size_t>(curve.node_count()), 0);
+  for (const auto& chain : curve.chains()) {
+    for (const Index node : chain.nodes) {
+      std::uint8_t& seen = times[static_cast<std::size_t>(node)];
+      seen = static_cast<std::uint8_t>(std::min(seen + 1, 2));
+    }
+  }
+  for (std::uint8_t& seen : times) seen = seen > 1 ? 1 : 0;
+  return times;
+}
+
+/// What nodes that are welded into one are told. Whoever is told nothing agrees.
+class Agreement {
+ public:
+  struct Told {
+    Index node = -1;  ///< the one that was told last, by its own number
+    int rule = 0;
+    bool named = false;  ///< and not only one of all, of the boundary or the like
+    Vector3 value = Vector3::Zero();
+  };
+
+  /// Notes what `told.node`, for which `first` stands, is told. Returns a node that was told something else and has a
+  /// say beside it, else −1.
+  Index differing(std::size_t node_count, Index first, const Told& told, const auto& same) {
+    told_.resize(node_count);
+    Told& last = told_[static_cast<std::size_t>(first)];
+    const bool has_say =
+        last.node >= 0 && last.node != told.node && (last.rule == told.rule || (last.named && told.named));
+    const Index other = has_say && !same(last.value, told.value) ? last.node : -1;
+    last = told;
+    return other;
+  }
+  void forget(Index first) {
+    if (!told_.empty()) told_[static_cast<std::size_t>(first)] = {};
+  }
+
+ private:
+  std::vector<Told> told_;  // by the node that stands for them
+};
+
+/// Applies the rules of one text. Every fault names the rule, counted from 1.
+class RuleReader {
+ public:
+  RuleReader(Constraints& constraints, const RuledShape& shape, const RuleInput& input)
+      : constraints_(constraints), shape_(shape), positions_(shape.positions), input_(input) {}
+
+  void read(const json& text) {
+    if (!text.is_object() || !text.contains("rules") || !text["rules"].is_array())
+      throw fault("write {\"rules\": [{\"nodes\": …, \"position\": …, \"normal\": …}, …]}");
+    require_keys(text, {"rules"});
+    for (const json& rule : text["rules"]) {
+      ++rule_;
+      apply(rule);
+    }
+  }
+
+ private:
+  [[nodiscard]] Error fault(const std::string& what) const {
+    return {ErrorCode::unusable_constraint, rule_ > 0 ? fmt::format("rule {}: {}", rule_, what) : "rules: " + what};
+  }
+
+  void require_keys(const json& object, std::initializer_list<const char*> known) const {
+    for (const auto& [key, value] : object.items()) {
+      if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+      std::string list;
+      for (const char* name : known) list += (list.empty() ? "" : ", ") + std::string(name);
+      throw fault(fmt::format("\"{}\" means nothing here; known: {}", in_one_line(key), list));
+    }
+  }
+
+  void apply(const json& rule) {
+    if (!rule.is_object())
+      throw fault(fmt::format("{} is no rule; write {{\"nodes\": …, \"position\": …}}", in_one_line(rule.dump())));
+    if (rule.contains("tangent") && !curve()) throw fault("\"tangent\" is for curves; a surface takes \"normal\"");
+    if (curve()) {
+      require_keys(rule, {"nodes", "position", "normal", "tangent"});
+    } else {
+      require_keys(rule, {"nodes", "position", "normal"});
+    }
+    if (!rule.contains("nodes")) throw fault("it names no \"nodes\"");
+    if (rule.size() < 2)
+      throw fault(curve() ? "it has none of \"position\", \"normal\" and \"tangent\""
+                          : "it has neither \"position\" nor \"normal\"");
+    const std::vector<Index> nodes = select(rule["nodes"]);
+    named_ = !rule["nodes"].is_string();
+    if (rule.contains("position")) apply_positions(nodes, rule["position"]);
+    if (rule.contains("normal")) apply_normals(nodes, rule["normal"]);
+    if (rule.contains("tangent")) apply_tangents(nodes, rule["tangent"]);
+  }
+
+  [[nodiscard]] bool curve() const { return shape_.tangents != nullptr; }
+  [[nodiscard]] Index node_count() const { return static_cast<Index>(positions_.size()); }
+
+  /// The node that stands for this one.
+  [[nodiscard]] Index first(Index node) const {
+    return input_.welded != nullptr ? input_.welded->representative[static_cast<std::size_t>(node)] : node;
+  }
+
+  /// Refuses what another node that is one with this one was told otherwise.
+  void agree(Agreement& agreement, Index node, const Vector3& value, const char* what, const auto& same) {
+    if (input_.welded == nullptr) return;
+    const Index other = agreement.differing(positions_.size(), first(node), {node, rule_, named_, value}, same);
+    if (other >= 0)
+      throw fault(
+          fmt::format("nodes {} and {} are welded into one and cannot have two {}s; give both the same, or only "
+                      "one of them, or weld within less",
+                      other, node, what));
+  }
+
+  void fix_position(Index node, const Vector3& position) {
+    agree(positions_told_, node, position, "position",
+          [&](const Vector3& a, const Vector3& b) { return (a - b).stableNorm() <= input_.welded->tolerance; });
+    constraints_.fix_position(first(node), position);
+  }
+
+  [[nodiscard]] std::vector<Index> nodes_where(const auto& holds) const {
+    std::vector<Index> nodes;
+    for (Index i = 0; i < node_count(); ++i) {
+      if (holds(i)) nodes.push_back(i);
+    }
+    return nodes;
+  }
+
+  [[nodiscard]] std::vector<Index> select(const json& selection) const {
+    if (selection == "all") return nodes_where([](Index) { return true; });
+    if (selection == "boundary" || selection == "interior") {
+      const Flags boundary = shape_.boundary();
+      const std::uint8_t wanted = selection == "boundary" ? 1 : 0;
+      return nodes_where([&](Index i) { return boundary[static_cast<std::size_t>(first(i))] == wanted; });
+    }
+    if (selection == "non-manifold") {
+      const Flags wrong = shape_.non_manifold();
+      return nodes_where([&](Index i) { return wrong[static_cast<std::size_t>(first(i))] != 0; });
+    }
+    if (selection.is_object() && selection.size() == 1 && selection.contains("group") && selection["group"].is_string())
+      return group(selection["group"].get<std::string>());
+    if (selection.is_object() && selection.size() == 1 && selection.contains("region") &&
+        selection["region"].is_string()) {
+      try {
+        return select_region(positions_, parse_region(selection["region"].get<std::string>()),
+                             input_.groups != nullptr ? *input_.groups : Groups());
+      } catch (const Error& error) {
+        throw Error(error.code(), fmt::format("rule {}: {}", rule_, error.what()));
+      }
+    }
+    if (selection.is_array()) return listed(selection);
+    throw fault(fmt::format(
+        "{} selects no nodes; write \"all\", \"boundary\", \"interior\", \"non-manifold\", {{\"group\": NAME}}, "
+        "{{\"region\": SPECIFICATION}} or a list of node numbers",
+        in_one_line(selection.dump())));
+  }
+
+  [[nodiscard]] std::vector<Index> group(const std::string& name) const {
+    if (input_.groups != nullptr) {
+      const auto found = input_.groups->find(name);
+      if (found != input_.groups->end()) return found->second;
+    }
+    throw fault(fmt::format("the shape has no group \"{}\"", in_one_line(name)));
+  }
+
+  [[nodiscard]] std::vector<Index> listed(const json& list) const {
+    std::vector<Index> nodes;
+    for (const json& entry : list) {
+      if (!entry.is_number_integer() || entry.get<std::int64_t>() < 0 || entry.get<std::int64_t>() >= node_count())
+        throw fault(
+            fmt::format("{} is not a node; nodes go from 0 to {}", in_one_line(entry.dump()), node_count() - 1));
+      nodes.push_back(entry.get<Index>());
+    }
+    std::vector<Index> sorted = nodes;
+    std::sort(sorted.begin(), sorted.end());
+    const auto repeated = std::adjacent_find(sorted.begin(), sorted.end());
+    if (repeated != sorted.end()) throw fault(fmt::format("node {} is named twice", *repeated));
+    return nodes;
+  }
+
+  [[nodiscard]] Vector3 vector(const json& value, const char* what) const {
+    const bool size_fits = value.size() == 3 || (curve() && value.size() == 2);
+    if (!value.is_array() || !size_fits ||
+        !std::all_of(value.begin(), value.end(), [](const json& x) { return x.is_number(); }))
+      throw fault(fmt::format("{} is no {}; write {}", in_one_line(value.dump()), what, numbers()));
+    return {value[0].get<double>(), value[1].get<double>(), value.size() == 3 ? value[2].get<double>() : 0};
+  }
+
+  [[nodiscard]] const char* numbers() const { return curve() ? "two or three numbers" : "three numbers"; }
+
+  /// One vector for all nodes, or a list of them, one per node.
+  [[nodiscard]] std::vector<Vector3> vectors(const json& value, std::size_t count, const char* what) const {
+    if (!value.is_array() || value.empty() || !value[0].is_array())
+      return std::vector<Vector3>(count, vector(value, what));
+    if (value.size() != count) throw fault(fmt::format("{} {}s are given for {} nodes", value.size(), what, count));
+    std::vector<Vector3> all;
+    for (const json& entry : value) all.push_back(vector(entry, what));
+    return all;
+  }
+
+  void apply_positions(const std::vector<Index>& nodes, const json& value) {
+    if (value == "free") {
+      for (const Index i : nodes) {
+        constraints_.free_position(first(i));
+        positions_told_.forget(first(i));
+      }
+    } else if (value == "fixed") {
+      for (const Index i : nodes) fix_position(i, positions_[static_cast<std::size_t>(first(i))]);
+    } else if (value.is_string()) {
+      throw fault(
+          fmt::format("{} is no position; write \"fixed\", \"free\" or {}", in_one_line(value.dump()), numbers()));
+    } else {
+      const auto positions = vectors(value, nodes.size(), "position");
+      for (std::size_t k = 0; k < nodes.size(); ++k) fix_position(nodes[k], positions[k]);
+    }
+  }
+
+  void apply_normals(const std::vector<Index>& nodes, const json& value) {
+    if (value == "free") {
+      for (const Index i : nodes) {
+        constraints_.free_normal(first(i));
+        normals_told_.forget(first(i));
+      }
+    } else if (value == "fixed") {
+      std::vector<Index> firsts = nodes;
+      for (Index& node : firsts) node = first(node);
+      fix_normals(nodes, shape_.normals(firsts), curve() ? no_normal : "no face gives it a normal");
+    } else if (value == "file") {
+      if (input_.normals == nullptr || input_.normals->empty()) throw fault("the file has no normals for \"file\"");
+      std::vector<Vector3> normals;
+      normals.reserve(nodes.size());
+      for (const Index i : nodes) normals.push_back((*input_.normals)[static_cast<std::size_t>(i)]);
+      fix_normals(nodes, normals, "the file gives it no normal");
+    } else if (value.is_string()) {
+      throw fault(fmt::format("{} is no normal; write \"fixed\", \"file\", \"free\" or {}", in_one_line(value.dump()),
+                              numbers()));
+    } else {
+      fix_normals(nodes, vectors(value, nodes.size(), "normal"), "a normal of zero has no direction");
+    }
+  }
+
+  void apply_tangents(const std::vector<Index>& nodes, const json& value) {
+    if (value == "free") {
+      for (const Index i : nodes) constraints_.free_tangent(i);
+      return;
+    }
+    if (value.is_string() && value != "fixed")
+      throw fault(
+          fmt::format("{} is no tangent; write \"fixed\", \"free\" or {}", in_one_line(value.dump()), numbers()));
+    const Directions tangents = value.is_string() ? shape_.tangents(nodes) : vectors(value, nodes.size(), "tangent");
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (tangents[k].isZero(0))
+        throw fault(
+            fmt::format("node {}: {}", nodes[k],
+                        value.is_string() ? "no edge gives it a tangent" : "a tangent of zero has no direction"));
+      constraints_.fix_tangent(nodes[k], tangents[k]);
+    }
+  }
+
+  void fix_normals(const std::vector<Index>& nodes, const std::vector<Vector3>& normals, const char* without) {
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (normals[k].isZero(0)) throw fault(fmt::format("node {}: {}", nodes[k], without));
+      const Vector3 unit = normals[k].stableNormalized();
+      agree(normals_told_, nodes[k], unit, "normal", [](const Vector3& a, const Vector3& b) {
+        return std::min((a - b).norm(), (a + b).norm()) <= same_direction;
+      });
+      constraints_.fix_normal(first(nodes[k]), normals[k]);
+    }
+  }
+
+  static constexpr double same_direction = 1e-6;  // radians
+
+  static constexpr const char* no_normal = "a straight run has no normal of its own; give its \"tangent\" instead";
+
+  Constraints& constraints_;
+  const RuledShape& shape_;
+  const std::vector<Vector3>& positions_;
+  const RuleInput& input_;
+  int rule_ = 0;
+  bool named_ = false;  ///< the rule names nodes, groups or a region
+  Agreement positions_told_;
+  Agreement normals_told_;
+};
+
+void apply(Constraints& constraints, const RuledShape& shape, std::string_view text, const RuleInput& input) {
+  json rules;
+  try {
+    rules = json::parse(text);
+  } catch (const json::exception& fault) {
+    throw Error(ErrorCode::unusable_constraint, fmt::format("rules: no JSON: {}", in_one_line(fault.what())));
+  }
+  Constraints changed = constraints;
+  RuleReader(changed, shape, input).read(rules);
+  constraints = std::move(changed);
+}
+
+}  // namespace
+
+void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view text, const RuleInput& input) {
+  const RuledShape shape{.positions = mesh.positions(),
+                         .boundary = [&] { return boundary_nodes(mesh); },
+                         .non_manifold = [&] { return non_manifold_nodes(mesh); },
+                         .normals = [&](const std::vector<Index>& nodes) { return estimate_normals(mesh, nodes); },
+                         .tangents = {}};
+  apply(constraints, shape, text, input);
+}
+
+void apply_rules(Constraints& constraints, const PolygonCurve& curve, std::string_view text, const RuleInput& input) {
+  const RuledShape shape{.positions = curve.positions(),
+                         .boundary = [&] { return boundary_nodes(curve); },
+                         .non_manifold = [&] { return non_manifold_nodes(curve); },
+                         .normals = [&](const std::vector<Index>& nodes) { return estimate_normals(curve, nodes); },
+                         .tangents = [&](const std::vector<Index>& nodes) { return estimate_tangents(curve, nodes); }};
+  apply(constraints, shape, text, input);
+}
+
+}  // namespace vspring

@@ -91,7 +91,7 @@ TEST(FitNoisyScan, NoiseIsTakenOffOnEveryKindOfFace) {
 }
 
 TEST(FitNoisyScan, ASmoothShapeIsFoundFromNoiseOfItsEdges) {
-  // In docs/fit.md, on a torus like this one, fits with a weight at every node left 0.17 of such noise.
+  // In docs/notes/fit.md, on a torus like this one, fits with a weight at every node left 0.17 of such noise.
   const PolygonMesh torus = generate::torus({.columns = 64, .rows = 48, .jitter = 0.2}, 1, minor_radius);
   const double deviation = 0.02;
   const PolygonMesh noisy = generate::add_noise(torus, std::sqrt(5.0) * deviation, 1);
@@ -101,7 +101,7 @@ TEST(FitNoisyScan, ASmoothShapeIsFoundFromNoiseOfItsEdges) {
 }
 
 TEST(FitNoisyScan, SharpEdgesStaySharp) {
-  // In docs/fit.md low passes, which round them off, leave half of such noise at their best.
+  // In docs/notes/fit.md low passes, which round them off, leave half of such noise at their best.
   const PolygonMesh block = generate::genus({.holes = 1, .cells = 8});
   const auto face = block.face(0);
   const double deviation = 0.25 * (block.position(face[0]) - block.position(face[1])).norm();

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "base/random.hpp"
+#include "support/fairness_of.hpp"
 #include "support/specimens.hpp"
 
 namespace {
@@ -71,8 +72,7 @@ struct Meridian {
     return {end[0] - inner_radius, end[1] - height, last};
   }
 
-  State shoot(bool clamped, const Vector3& unknown, std::vector<Vector3>* points,
-              std::vector<double>* conformals) const {
+  State shoot(bool clamped, const Vector3& unknown, std::vector<Vector3>* path, std::vector<double>* conformals) const {
     const auto slope = [&](const State& at) {
       const double around = std::sin(at[2]) / at[0];
       const double difference = at[3] - around;  // half that of the principal curvatures
@@ -86,8 +86,8 @@ struct Meridian {
     constexpr int steps = 4000;
     const double h = unknown[2] / steps;
     for (int k = 0;; ++k) {
-      if (points != nullptr) {
-        points->emplace_back(at[0], 0, at[1]);
+      if (path != nullptr) {
+        path->emplace_back(at[0], 0, at[1]);
         conformals->push_back(at[5]);
       }
       if (k == steps) return at;
@@ -315,7 +315,8 @@ int main(int argc, char** argv) {
         for (const Vector3& p : result.positions) profile.emplace_back(p.head<2>().norm(), 0, p.z());
         const Distance off = distance(profile, PolygonCurve(meridian.points));
         fmt::print("| {} | {} | {:.1e} | {:.1e} | {:.0f} | {}{} |\n", kind.name, start.node_count(), off.rms,
-                   off.greatest, result.report.after.greatest_turn, result.report.iterations,
+                   off.greatest, fairness_of(start, constraints, result.positions).after.greatest_turn,
+                   result.report.iterations,
                    result.report.outcome == Outcome::converged ? "" : fmt::format(", {}", name(result.report.outcome)));
         std::fflush(stdout);
       }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "regions.hpp"
+#include "support/fairness_of.hpp"
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 using namespace vspring;
 using namespace bench;
 
-void add_view(std::ofstream& views, const std::string& name, const PolygonMesh& mesh, const Region& region) {
+void add_view(std::ofstream& views, const std::string& name, const PolygonMesh& mesh, const RandomRegion& region) {
   const Index nodes[] = {region.seed};
   Vector3 normal = estimate_normals(mesh, nodes).front();
   if (normal.isZero(0)) normal = Vector3(0, 0, 1);
@@ -36,17 +37,18 @@ void run(const std::string& path, const std::filesystem::path& out, std::ofstrea
   const std::string stem = std::filesystem::path(path).stem();
   for (const double share : {0.06, 0.12}) {
     for (std::uint64_t run = 0; run < 3; ++run) {
-      const Region region = random_region(mesh, share * size, run + 1);
+      const RandomRegion region = random_region(mesh, share * size, run + 1);
       const std::string row = fmt::format("| {} | {:.0f} % | {} |", std::filesystem::path(path).filename().string(),
                                           100 * share, region.seed);
       try {
-        const FairResult result = fair(mesh, hold_all_but(region, mesh));
+        const Constraints held = hold_all_but(region, mesh);
+        const FairResult result = fair(mesh, held);
         const FairReport& report = result.report;
+        const auto [before, after] = support::fairness_of(mesh, held, result.positions);
         fmt::print("{} {} | {} | {} | {} | {:.3f} | {:.3g} → {:.3g} | {:.0f} → {:.0f} | {:.1f} → {:.1f} | {:.2f} % |\n",
                    row, report.moving_nodes, name(report.outcome), name(report.springs), report.iterations,
-                   report.seconds, report.before.vspring_energy, report.after.vspring_energy,
-                   report.before.greatest_turn, report.after.greatest_turn, report.before.rms_turn,
-                   report.after.rms_turn, 100 * report.greatest_move / size);
+                   report.seconds, before.vspring_energy, after.vspring_energy, before.greatest_turn,
+                   after.greatest_turn, before.rms_turn, after.rms_turn, 100 * report.greatest_move / size);
         if (!out.empty()) {
           const std::string name = fmt::format("{}-{:.0f}-{}", stem, 100 * share, run + 1);
           (void)write_surface(out / (name + "-before.ply"), mesh);

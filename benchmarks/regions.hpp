@@ -9,7 +9,7 @@
 
 namespace vspring::bench {
 
-struct Region {
+struct RandomRegion {
   Index seed;
   Vector3 centre;
   double radius;
@@ -17,10 +17,10 @@ struct Region {
 };
 
 /// All nodes within `radius` of one drawn at random.
-inline Region random_region(const PolygonMesh& mesh, double radius, std::uint64_t draw) {
+inline RandomRegion random_region(const PolygonMesh& mesh, double radius, std::uint64_t draw) {
   Random random(draw);
   const auto seed = static_cast<Index>(random.uniform() * mesh.node_count());
-  Region region{seed, mesh.position(seed), radius, {}};
+  RandomRegion region{seed, mesh.position(seed), radius, {}};
   for (Index i = 0; i < mesh.node_count(); ++i) {
     if ((mesh.position(i) - region.centre).norm() <= radius) region.nodes.push_back(i);
   }
@@ -28,7 +28,7 @@ inline Region random_region(const PolygonMesh& mesh, double radius, std::uint64_
 }
 
 /// Only the region moves; boundaries and spots that are no surface do not.
-inline Constraints hold_all_but(const Region& region, const PolygonMesh& mesh) {
+inline Constraints hold_all_but(const RandomRegion& region, const PolygonMesh& mesh) {
   Constraints constraints(mesh.node_count());
   fix_boundary_positions(constraints, mesh);
   apply_rules(constraints, mesh, R"({"rules": [{"nodes": "non-manifold", "position": "fixed"}]})");

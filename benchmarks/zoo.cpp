@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "regions.hpp"
+#include "support/fairness_of.hpp"
 #include "support/specimens.hpp"
 
 namespace {
@@ -84,6 +85,7 @@ void run(const Specimen& specimen, Tally& tally, Summary& summary) {
     summary.least_ratio = ratio;
     summary.at_least = specimen.name;
   }
+  const auto [before, after] = fairness_of(specimen.start, specimen.constraints, result.positions);
   std::string from_closed_form;
   if (specimen.distance) {
     double greatest = 0;
@@ -93,8 +95,7 @@ void run(const Specimen& specimen, Tally& tally, Summary& summary) {
   fmt::print("| {} | {} | {} | {} | {} | {} | {:.3f} | {:.1e} | {} | {} | {} | {:.3g} → {:.3g} |\n", specimen.name,
              report.moving_nodes, name(report.outcome), name(report.springs), report.iterations,
              report.levels.back().iterations, report.seconds, expected, error ? fmt::format("{:.1e}", *error) : "?",
-             error ? fmt::format("{:.2f}", ratio) : "", from_closed_form, report.before.vspring_energy,
-             report.after.vspring_energy);
+             error ? fmt::format("{:.2f}", ratio) : "", from_closed_form, before.vspring_energy, after.vspring_energy);
   std::fflush(stdout);
 }
 
@@ -103,7 +104,7 @@ void run_regions(const std::filesystem::path& path, Summary& summary) {
   if (mesh.face_count() == 0) return;  // a curve
   for (const double share : {0.06, 0.12}) {
     for (std::uint64_t draw = 1; draw <= 4; ++draw) {
-      const Region region = random_region(mesh, share * diagonal(mesh), draw);
+      const RandomRegion region = random_region(mesh, share * diagonal(mesh), draw);
       const std::string name = fmt::format("{}, {:.0f} %, node {}", path.filename().string(), 100 * share, region.seed);
       try {
         run({name, mesh, hold_all_but(region, mesh)}, summary.regions, summary);

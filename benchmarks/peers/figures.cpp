@@ -91,7 +91,7 @@ void compare_figures(const std::filesystem::path& drivers, const std::vector<std
   for (const std::string& path : meshes) {
     const PolygonMesh mesh = read_surface(path).mesh;
     for (const std::uint64_t run : {0, 1, 2}) {
-      const Region region = random_region(mesh, 0.12 * support::diagonal(mesh), run + 1);
+      const RandomRegion region = random_region(mesh, 0.12 * support::diagonal(mesh), run + 1);
       const std::string name =
           fmt::format("{}, about node {}", std::filesystem::path(path).filename().string(), region.seed);
       compare({name, cut_out(mesh, region.nodes), false}, drivers);

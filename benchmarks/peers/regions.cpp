@@ -91,7 +91,7 @@ struct Row {
 /// shapes: a folder that keeps the start and what each program makes of it, or empty.
 Row run(const std::string& name, const PolygonMesh& mesh, std::uint64_t draw, const std::filesystem::path& drivers,
         const std::filesystem::path& shapes) {
-  const Region region = random_region(mesh, region_radius * support::diagonal(mesh), draw);
+  const RandomRegion region = random_region(mesh, region_radius * support::diagonal(mesh), draw);
   const PolygonMesh patch = triangulated(cut_out(mesh, region.nodes));
   const std::vector<std::uint8_t> held = two_outer_rings(patch);
   Row row{name, region.seed, static_cast<Index>(std::count(held.begin(), held.end(), 0)), measure_surface(patch), {}};

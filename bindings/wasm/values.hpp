@@ -101,12 +101,9 @@ inline val outcome_of(const FairReport& report) {
   return result;
 }
 
-/// That, and what was measured.
+/// That, and how far nodes moved.
 inline val to_val(const FairReport& report) {
   val result = outcome_of(report);
-  result.set("energyBefore", report.before.vspring_energy);
-  result.set("energyAfter", report.after.vspring_energy);
-  result.set("greatestTurnAfter", report.after.greatest_turn);
   result.set("greatestMove", report.greatest_move);
   return result;
 }

@@ -7,7 +7,6 @@
 
 #include "vspring/constraints.hpp"
 #include "vspring/context.hpp"
-#include "vspring/fairness.hpp"
 #include "vspring/model.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
@@ -147,8 +146,6 @@ struct FairReport {
   double rms_move = 0;
   double seconds = 0;
   int threads = 1;
-  Fairness before;
-  Fairness after;
   /// With FairOptions::fair_boundary: the report of the boundary's own fairing.
   std::shared_ptr<const FairReport> boundary;
   std::vector<Warning> warnings;

@@ -3,12 +3,13 @@
 #include <vector>
 
 #include "vspring/constraints.hpp"
+#include "vspring/context.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
 namespace vspring {
 
-/// The figures of fairness that every report has. All are free of scale. Definitions of these and others:
+/// The shortest account of how fair a shape is. All figures are free of scale. Definitions of these and others:
 /// docs/fairness.md.
 struct Fairness {
   /// Σ over edges ((t_j − t_i)/ℓ)²: the springs' disagreement (Eq. 4) relative to the edge length ℓ.
@@ -21,7 +22,9 @@ struct Fairness {
 };
 
 /// Measures a surface. Pseudo-normals are Max's around the link, or the given ones where a constraint fixes them. Faces
-/// without area and edges without two faces are left out. Cost: linear.
+/// without area and edges without two faces are left out. With constraints only what lies at moving nodes is measured.
+/// The same bits on any number of threads; one where no context is given. Cost: linear.
+[[nodiscard]] Fairness measure(const PolygonMesh& mesh, const Constraints* constraints, const Context& context);
 [[nodiscard]] Fairness measure(const PolygonMesh& mesh, const Constraints* constraints = nullptr);
 
 /// Measures a curve, with the tangents of the circles through successive nodes, or the given ones where a constraint

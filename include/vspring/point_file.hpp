@@ -11,7 +11,7 @@ namespace vspring {
 /// Points that a shape is drawn to, in no order and without connectivity.
 struct ScatteredPoints {
   std::vector<Vector3> positions;
-  /// Each point's weight, 0 to 1e50; its k_j is this times FitOptions::weight. Empty: 1 for all. A point of weight 0 is
+  /// Each point's weight, 0 to 1e50; its k_j is this times Weight::k. Empty: 1 for all. A point of weight 0 is
   /// only measured.
   std::vector<double> weights = {};
   /// Which way the surface faces at each point: unit vectors, to 1 %; zero where that is not known. Empty: nowhere

@@ -154,6 +154,11 @@ Fairness measure(const PolygonMesh& mesh, const Constraints* constraints, Thread
   return FairnessMeter(mesh, constraints, team).measure(mesh.positions(), constraints);
 }
 
+Fairness measure(const PolygonMesh& mesh, const Constraints* constraints, const Context& context) {
+  ThreadTeam team(context.thread_count());
+  return measure(mesh, constraints, team);
+}
+
 Fairness measure(const PolygonMesh& mesh, const Constraints* constraints) {
   ThreadTeam alone(1);
   return measure(mesh, constraints, alone);

@@ -76,8 +76,6 @@ class Fitting {
     if constexpr (std::is_same_v<Subject, FitCurve>) go_gently();
     stay_sound();
 
-    report.fair.before = run_.subject.fairness(shape.positions());
-    report.fair.after = run_.subject.fairness(result.positions);
     report.before = summary(run_.subject.distances_before(), run_.counted);
     result.distances = run_.distances();
     report.after = summary(result.distances, run_.kept);

@@ -100,7 +100,7 @@ class DenseFit {
       dense_.curve.set_positions(found.positions);
       take_new_nodes(found, dense_.curve);
       const double share = tolerance_ > 0 ? figure(found) / tolerance_ : 0;
-      const double before = std::exchange(energy, found.report.fair.after.vspring_energy);
+      const double before = std::exchange(energy, measure(dense_.curve, &dense_.constraints).vspring_energy);
       const bool nearer = !(share > no_nearer_share * nearest_share);
       const bool is_better = share <= 1 && !(stalled && is_within());
       if (is_better || context_.cancelled()) {
@@ -151,10 +151,6 @@ class DenseFit {
     const double nodes_per_moving = static_cast<double>(fair.nodes) / std::max<Index>(fair.moving_nodes, 1);
     fair.greatest_move = moves.greatest;
     fair.rms_move = moves.rms * std::sqrt(nodes_per_moving);
-    PolygonCurve after = made_.curve;
-    after.set_positions(best_->positions);
-    fair.before = measure(made_.curve, &made_.constraints);
-    fair.after = measure(after, &made_.constraints);
     report.before = summary_of(point_distances(curve_.positions(), made_.curve, measuring_));
     const auto count = [&](double beyond) {
       const auto& all = best_->distances;

@@ -19,7 +19,7 @@
 
 namespace vspring {
 
-/// A fit to FitOptions::within or rms.
+/// A fit by Within or RootMeanSquare.
 template <typename Subject>
 class FitToTolerance {
  public:

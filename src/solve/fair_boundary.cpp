@@ -100,10 +100,6 @@ FairResult fair_boundary_first(const PolygonMesh& mesh, const Constraints& const
   FairReport& report = result.report;
   join(std::move(curve.report), report);
   account_for_moves(mesh, constraints, strength, result.positions, report);
-  ThreadTeam team(context.thread_count());
-  report.before = measure(mesh, &constraints, team);
-  bounded.set_positions(result.positions);
-  report.after = measure(bounded, &constraints, team);
   return result;
 }
 

@@ -31,7 +31,6 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
   report.threads = team.size();
   CurveNet gathered = gather_net(curve, constraints);
   count_nodes(gathered.net, constraints, report);
-  report.before = measure(curve, &constraints);
 
   const auto model = curve_model_for(gathered.net, options.curve, options.forces);
   const Distribution distribution = options.distribution.value_or(Distribution::even);
@@ -53,9 +52,6 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
 
   result.positions = scatter_positions(gathered.net, curve.positions(), constraints, options.strength);
   measure_moves(gathered.net, curve.positions(), result.positions, report);
-  PolygonCurve faired = curve;
-  faired.set_positions(result.positions);
-  report.after = measure(faired, &constraints);
   report.seconds = stopwatch.seconds();
   return result;
 }

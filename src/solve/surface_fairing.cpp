@@ -145,14 +145,12 @@ bool SurfaceFairing::fits_last(const Constraints& constraints) const {
 Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report,
                         const FairOptions& options) {
   part_ = active_submesh(*whole_, constraints);
-  meter_.reset();
   report.warnings = check_part(*whole_, part_, constraints);
   report.method = options.method.value_or(Method::equilibrium);
   ProgressReporter progress(context);
   progress.report("preparing", 0);
   report.threads = team_.size();
   const SolverCall call{options, team_, context, progress, report};
-  before_ = measure(mesh(), &held(constraints), team_);
   if (report.method == Method::equilibrium) {
     run_to_equilibrium(constraints, call);
     return {};
@@ -350,10 +348,6 @@ void SurfaceFairing::finish(const Net& net, const Constraints& constraints, Fair
   report.faces = whole_->face_count();
   result.positions = scatter_positions(net, whole_->positions(), constraints, options_.strength);
   measure_moves(net, whole_->positions(), result.positions, report);
-  report.before = before_;
-  if (!meter_) meter_.emplace(mesh(), &held(constraints), team_);
-  report.after = part_ ? meter_->measure(values_of(result.positions, part_->node), &part_->constraints)
-                       : meter_->measure(result.positions, &constraints);
 }
 
 }  // namespace vspring

@@ -9,7 +9,6 @@
 #include "constraints/active_submesh.hpp"
 #include "equilibrium/solver_call.hpp"
 #include "equilibrium/surface_hierarchy.hpp"
-#include "fairness/measure.hpp"
 #include "spring/model.hpp"
 #include "vspring/fair.hpp"
 
@@ -57,21 +56,13 @@ class SurfaceFairing {
   /// Says where faces cross each other that did not before. True where they do, and that is not wanted as found.
   bool crosses_itself(const Net& net, const Constraints& constraints, Context& context, FairReport& report);
   void finish(const Net& net, const Constraints& constraints, FairResult& result);
-  /// What is worked on: the part that moves, or the whole.
-  [[nodiscard]] const PolygonMesh& mesh() const { return part_ ? part_->mesh : *whole_; }
-  [[nodiscard]] const Constraints& held(const Constraints& constraints) const {
-    return part_ ? part_->constraints : constraints;
-  }
 
   const PolygonMesh* whole_;
   std::optional<ActiveSubmesh> part_;
   FairOptions options_;
   ThreadTeam team_;
   std::unique_ptr<const Model> model_;
-  Fairness before_;
   std::optional<ResultCheck> check_;
-  // Of what is worked on, from the first result on: while levels are made it would be in the way.
-  std::optional<FairnessMeter> meter_;
   std::optional<SurfaceHierarchy> hierarchy_;
   // Of the last shape, where that is an equilibrium to go on from.
   std::optional<Constraints> last_;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/curves.hpp"
+#include "support/fairness_of.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::fair_curve_hard_test {
@@ -32,25 +33,28 @@ void expect_sane(const std::vector<Vector3>& start, const Constraints& constrain
         for (Index i = 0; i < constraints.node_count(); ++i) {
           const Vector3& p = result.positions[static_cast<std::size_t>(i)];
           EXPECT_TRUE(p.allFinite());
-          if (constraints.position_fixed(i)) EXPECT_EQ(p, constraints.position(i));
+          if (constraints.position_fixed(i)) {
+            EXPECT_EQ(p, constraints.position(i));
+          }
           greatest_move = std::max(greatest_move, (p - start[static_cast<std::size_t>(i)]).stableNorm());
         }
         EXPECT_DOUBLE_EQ(report.greatest_move, greatest_move);
         const Fairness after = measure(PolygonCurve(result.positions, closed), &constraints);
         EXPECT_TRUE(std::isfinite(after.vspring_energy) && std::isfinite(after.greatest_turn));
-        EXPECT_EQ(report.after.vspring_energy, after.vspring_energy);
-        EXPECT_EQ(report.after.greatest_turn, after.greatest_turn);
         EXPECT_NE(report.outcome, Outcome::cancelled);
         if (method == Method::sweep) {
           EXPECT_LE(report.iterations, 100);
-          if (report.outcome == Outcome::iteration_limit) EXPECT_EQ(report.iterations, 100);
+          if (report.outcome == Outcome::iteration_limit) {
+            EXPECT_EQ(report.iterations, 100);
+          }
         }
         if (report.outcome != Outcome::converged) continue;
         if (method == Method::sweep)
           EXPECT_LT(report.residual, options.step_tolerance);
         else
           EXPECT_LE(report.expected_error.value_or(1), options.tolerance);
-        if (report.before.greatest_turn < 90) EXPECT_LE(after.greatest_turn, 90.01);
+        if (measure(PolygonCurve(start, closed), &constraints).greatest_turn >= 90) continue;
+        EXPECT_LE(after.greatest_turn, 90.01);
       }
     }
   }
@@ -278,9 +282,8 @@ TEST(FairCurveReport, TellsHowItWent) {
   EXPECT_GT(result.report.greatest_move, 0.1);
   EXPECT_EQ(result.report.residual, *result.report.expected_error);
   EXPECT_LT(*result.report.expected_error, FairOptions().tolerance);
-  EXPECT_EQ(result.report.before.vspring_energy, measure(PolygonCurve(start), &constraints).vspring_energy);
-  EXPECT_EQ(result.report.after.vspring_energy, measure(PolygonCurve(result.positions), &constraints).vspring_energy);
-  EXPECT_LT(result.report.after.vspring_energy, 0.1 * result.report.before.vspring_energy);
+  const auto [before, after] = fairness_of(PolygonCurve(start), constraints, result.positions);
+  EXPECT_LT(after.vspring_energy, 0.1 * before.vspring_energy);
 
   EXPECT_THROW((void)fair(PolygonCurve(start), constraints, {.tolerance = 0}), Error);
   EXPECT_THROW((void)fair(PolygonCurve(start), constraints, {.tolerance = std::nan("")}), Error);

@@ -292,7 +292,9 @@ TEST(FairingSession, HoldsNodesThatCannotMoveAndFollowsAllTheSame) {
     ASSERT_EQ(result.report.warnings.size(), 1U);
     EXPECT_EQ(result.report.warnings[0].text.substr(0, 33), "2 nodes cannot move and are held:");
     EXPECT_EQ(result.positions[static_cast<std::size_t>(face[0])], mesh.position(face[0]));
-    if (step > 0) EXPECT_EQ(result.report.levels.size(), 1U) << "no coarser level is needed";
+    if (step > 0) {
+      EXPECT_EQ(result.report.levels.size(), 1U) << "no coarser level is needed";
+    }
   }
 }
 

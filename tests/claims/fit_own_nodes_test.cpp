@@ -174,8 +174,8 @@ TEST(FitOwnNodes, ACurveThatIsSmoothedBeyondItsSharpestBendIsNotInflated) {
   options.criterion = SmoothingLength{0.2};
   const Constraints held = held_ends(curve.positions());
   const FitResult result = fit(curve, held, {.positions = curve.positions()}, options);
-  const auto height = [](const std::vector<Vector3>& nodes) {
-    const auto [low, high] = std::minmax_element(nodes.begin(), nodes.end(),
+  const auto height = [](const std::vector<Vector3>& positions) {
+    const auto [low, high] = std::minmax_element(positions.begin(), positions.end(),
                                                  [](const Vector3& a, const Vector3& b) { return a.y() < b.y(); });
     return high->y() - low->y();
   };

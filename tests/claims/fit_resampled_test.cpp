@@ -106,8 +106,8 @@ TEST(FitResampled, TheReportIsAboutTheNewNodes) {
   EXPECT_EQ(report.after.all.greatest, distance(table.positions(), curve_of(made)).greatest);
   EXPECT_EQ(report.before.all.greatest, distance(table.positions(), plain.curve).greatest);
   EXPECT_EQ(report.fair.greatest_move, distance(made.fit.positions, plain.curve).greatest);
-  EXPECT_LT(report.fair.after.vspring_energy, report.fair.before.vspring_energy);
-  EXPECT_EQ(report.fair.after.vspring_energy, measure(curve_of(made), &made.resampled.constraints).vspring_energy);
+  EXPECT_LT(measure(curve_of(made), &made.resampled.constraints).vspring_energy,
+            measure(plain.curve, &plain.constraints).vspring_energy);
 }
 
 TEST(FitResampled, WhatIsHeldStays) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/curves.hpp"
+#include "support/fairness_of.hpp"
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
@@ -161,6 +162,10 @@ struct NoisyWave {
   [[nodiscard]] FitResult fit(const FitOptions& options) const {
     return vspring::fit(curve, held, {.positions = nodes}, options);
   }
+  /// Root mean square, which is what even edges bend by.
+  [[nodiscard]] double turn(const FitResult& fitted) const {
+    return fairness_of(curve, held, fitted.positions).after.rms_turn;
+  }
 };
 
 /// A plane and 2,000 points in waves over it, with noise.
@@ -180,17 +185,22 @@ struct NoisyPlane {
   [[nodiscard]] FitResult fit(const FitOptions& options) const {
     return vspring::fit(plane, held_boundary(plane), points, options);
   }
+  /// Root mean square, which is what even edges bend by.
+  [[nodiscard]] double turn(const FitResult& fitted) const {
+    return fairness_of(plane, held_boundary(plane), fitted.positions).after.rms_turn;
+  }
 };
 
-/// The least root mean square turn, which is what even edges bend by, of 30 uniform weights within a distance.
-double best_of_weights(const std::function<FitResult(const FitOptions&)>& fit_with, double distance) {
+/// The least turn of 30 uniform weights within a distance.
+template <typename Specimen>
+double best_of_weights(const Specimen& specimen, double distance) {
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 30; ++k) {
     FitOptions options;
     options.criterion = Weight{std::pow(10, -8 + 0.3 * k)};
     options.fair.max_iterations = 60;
-    const FitResult result = fit_with(options);
-    if (result.report.after.all.greatest <= distance) best = std::min(best, result.report.fair.after.rms_turn);
+    const FitResult result = specimen.fit(options);
+    if (result.report.after.all.greatest <= distance) best = std::min(best, specimen.turn(result));
   }
   return best;
 }
@@ -205,15 +215,13 @@ TEST(FitWithin, EveryPointIsWithinAndNoUniformWeightBendsLess) {
     fitted.set_positions(result.positions);
     EXPECT_LE(distance(wave.nodes, fitted).greatest, tolerance);
     EXPECT_GT(distance(wave.nodes, fitted).greatest, 0.9 * tolerance);
-    EXPECT_LT(result.report.fair.after.rms_turn,
-              best_of_weights([&](const FitOptions& options) { return wave.fit(options); }, tolerance));
+    EXPECT_LT(wave.turn(result), best_of_weights(wave, tolerance));
   }
   const NoisyPlane plane;
   const FitResult result = plane.fit(within(0.01));
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   EXPECT_LE(distance(plane.points.positions, with_positions(plane.plane, result.positions)).greatest, 0.01);
-  EXPECT_LT(result.report.fair.after.rms_turn,
-            best_of_weights([&](const FitOptions& options) { return plane.fit(options); }, 0.01));
+  EXPECT_LT(plane.turn(result), best_of_weights(plane, 0.01));
 }
 
 TEST(FitWithin, NamesThePointsAtTheDistance) {
@@ -234,8 +242,7 @@ TEST(FitWithin, PullsHardWhereNoUniformWeightIsWithin) {
   const FitResult result = plane.fit(within(0.006));
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   EXPECT_LE(result.report.after.all.greatest, 0.006);
-  EXPECT_EQ(best_of_weights([&](const FitOptions& options) { return plane.fit(options); }, 0.006),
-            std::numeric_limits<double>::infinity());
+  EXPECT_EQ(best_of_weights(plane, 0.006), std::numeric_limits<double>::infinity());
 }
 
 TEST(FitWithin, AWideToleranceLeavesPlainFairing) {

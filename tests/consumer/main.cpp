@@ -32,10 +32,12 @@ int main() {
   for (const Index node : loops.front()) constraints.fix_normal(node, {0, 0, 1});
 
   const FairResult result = fair(hat, constraints);
+  PolygonMesh faired = hat;
+  faired.set_positions(result.positions);
+  const Fairness before = measure(hat);
+  const Fairness after = measure(faired);
   std::printf("%s: %s after %d iterations, greatest turn %.1f -> %.1f degrees\n", version(),
-              name(result.report.outcome), result.report.iterations, result.report.before.greatest_turn,
-              result.report.after.greatest_turn);
-  const bool good = result.report.outcome == Outcome::converged &&
-                    result.report.after.greatest_turn < result.report.before.greatest_turn;
+              name(result.report.outcome), result.report.iterations, before.greatest_turn, after.greatest_turn);
+  const bool good = result.report.outcome == Outcome::converged && after.greatest_turn < before.greatest_turn;
   return good ? 0 : 1;
 }

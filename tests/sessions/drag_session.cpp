@@ -78,9 +78,14 @@ int drag(char** arguments) {
   report["seconds"] = seconds;
   report["longest_call_seconds"] = longest;
   for (const Warning& warning : last.report.warnings) report["warnings"].push_back(warning.text);
-  report["energy"] = last.report.after.vspring_energy;
+  const auto energy_of = [&](const FairResult& result) {
+    PolygonMesh shape = file.mesh;
+    shape.set_positions(result.positions);
+    return measure(shape, &constraints).vspring_energy;
+  };
+  report["energy"] = energy_of(last);
   report["afresh"] = {{"outcome", name(afresh.report.outcome)},
-                      {"energy", afresh.report.after.vspring_energy},
+                      {"energy", energy_of(afresh)},
                       {"distance", largest_distance(last.positions, afresh.positions)},
                       {"seconds", afresh.report.seconds}};
   write_surface(arguments[4], file, last.positions);

@@ -94,10 +94,9 @@ TEST(HasUnwound, TellsAStraightenedCurveFromTheCurve) {
 TEST(HasUnwound, CountsSingleWindings) {
   // From one place to another, up at both, by two, three and four turns.
   const auto wound = [](double turns) {
-    Wound wound{.nodes = {}, .start = heading(pi / 2), .end = heading(pi / 2)};
-    for (const double at : places(Spacing::even, 240))
-      wound.nodes.emplace_back((1 + at) * heading(at * 2 * pi * turns));
-    return wound;
+    Wound made{.nodes = {}, .start = heading(pi / 2), .end = heading(pi / 2)};
+    for (const double at : places(Spacing::even, 240)) made.nodes.emplace_back((1 + at) * heading(at * 2 * pi * turns));
+    return made;
   };
   const Wound three = wound(3);
   const std::vector<Vector3> input = three.level().curve.net.positions;

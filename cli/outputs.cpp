@@ -124,6 +124,7 @@ void write_uninterrupted(const std::string& path, const std::string& bytes) {
 
 std::vector<std::string> written_without(const std::string& path, const std::vector<std::string>& losses) {
   std::vector<std::string> warnings;
+  warnings.reserve(losses.size());
   for (const std::string& lost : losses)
     warnings.push_back(fmt::format("{}: written without {}", output_name(path), lost));
   return warnings;

@@ -2,7 +2,7 @@
 // triangles and of quads, wide and narrow, on even, random and graded meshes, refined. Distances of all nodes' radii
 // and heights from the meridian of the surface of rotation that V-Spring stands for where a mesh looks alike in all
 // directions and everywhere: the Laplacian of its mean curvature vanishes; or of the one of least bending. Prints the
-// figures of docs/notes/edge-springs.md and docs/springs.md; `bench_mesh_independence 8000` stops at that many nodes,
+// figures of docs/notes/edge-springs.md and springs.md; `bench_mesh_independence 8000` stops at that many nodes,
 // `bench_mesh_independence 8000 edge` takes edge springs, `bench_mesh_independence 8000 bending` fairs by bending.
 
 #include <fmt/format.h>

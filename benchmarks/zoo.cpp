@@ -53,9 +53,8 @@ std::optional<double> error_by(const PolygonMesh& start, const Specimen& specime
 
 /// Whether nodes were spread evenly because the spacing of the start led nowhere.
 bool went_evenly(const FairReport& report) {
-  return std::any_of(report.warnings.begin(), report.warnings.end(), [](const std::string& warning) {
-    return warning.find("mean of their neighbours") != std::string::npos;
-  });
+  return std::any_of(report.warnings.begin(), report.warnings.end(),
+                     [](const Warning& warning) { return warning.code == WarningCode::other_distribution; });
 }
 
 /// By a run from the same start; where that ends at another equilibrium, by one from the result.

@@ -65,7 +65,7 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
   bar_.clear();
   FairReport report = faired.report;
   time_limit_.end(report);
-  std::ranges::transform(report.warnings, std::back_inserter(warnings), with_options);
+  for (const Warning& warning : report.warnings) warnings.push_back(with_options(warning.text));
   std::ranges::move(idle_in(made.facts, *arguments_, faired), std::back_inserter(warnings));
   {
     const UninterruptedWhileWriting guard;

@@ -13,6 +13,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Of the points that hold a shape.
+constexpr std::ptrdiff_t most_named = 1000;
+
 Json to_json(const PointDistances& distances) {
   return {{"greatest", distances.all.greatest},
           {"point", distances.all.node},
@@ -64,24 +67,25 @@ void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise) {
   if (arguments.automatic == "--noise") arguments.noise = noise.deviation;
 }
 
-void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, std::vector<std::string>& warnings) {
+void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, std::vector<Warning>& warnings) {
   const bool is_larger = (arguments.within && noise.deviation > *arguments.within / 2) ||
                          (arguments.rms && noise.deviation > *arguments.rms);
   if (!is_larger) return;
   warnings.push_back(
-      fmt::format("the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
-                  "{:.3g} in each coordinate; {} auto takes that off, --within auto allows for three times as much",
-                  noise.deviation, arguments.takes_noise ? "--noise" : "--rms"));
+      {WarningCode::noise_is_larger,
+       fmt::format("the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
+                   "{:.3g} in each coordinate; {} auto takes that off, --within auto allows for three times as much",
+                   noise.deviation, arguments.takes_noise ? "--noise" : "--rms")});
 }
 
 FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing) {
   FitOptions options;
   options.fair = fairing;
-  options.weight = arguments.weight.value_or(options.weight);
-  options.smoothing_length = arguments.smoothing_length;
-  options.within = arguments.within;
-  options.rms = arguments.rms;
-  options.noise = arguments.noise;
+  if (arguments.weight) options.criterion = Weight{*arguments.weight};
+  if (arguments.smoothing_length) options.criterion = SmoothingLength{*arguments.smoothing_length};
+  if (arguments.within) options.criterion = Within{*arguments.within};
+  if (arguments.rms) options.criterion = RootMeanSquare{*arguments.rms};
+  if (arguments.noise) options.criterion = Noise{*arguments.noise};
   options.outliers = arguments.outliers;
   return options;
 }
@@ -113,7 +117,10 @@ Json FitAccount::figures() const {
         {"count", report_.points},
         {"outliers", report_.outliers},
         {"outside", asks_for_distance() ? Json{{"count", report_.outside_points}, {"share", outside_share()}} : Json()},
-        {"active", report_.active_points},
+        {"active", report_.active_points.size()},
+        {"active_points", std::vector(report_.active_points.begin(),
+                                      report_.active_points.begin() +
+                                          std::min<std::ptrdiff_t>(std::ssize(report_.active_points), most_named))},
         {"pulling", report_.pulling_points},
         {"nodes_with_points", report_.pulled_nodes},
         {"most_on_a_node", report_.most_points},

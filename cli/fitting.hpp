@@ -67,7 +67,7 @@ class FitAccount {
 };
 
 /// Says where a tolerance that was not reached is smaller than the noise seems to be.
-void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, std::vector<std::string>& warnings);
+void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, std::vector<Warning>& warnings);
 
 struct FairedOrFitted {
   FairResult faired;

@@ -93,9 +93,10 @@ void TimeLimit::end(FairReport& report) {
   if (report.outcome != Outcome::cancelled) return;
   report.outcome = Outcome::work_limit;
   report.warnings.push_back(
-      fmt::format("the time limit of {} s has ended it: this is the best shape so far; allow more time, or let a "
-                  "smaller part move",
-                  *seconds_));
+      {WarningCode::time_limit,
+       fmt::format("the time limit of {} s has ended it: this is the best shape so far; allow more time, or let a "
+                   "smaller part move",
+                   *seconds_)});
 }
 
 }  // namespace vspring::cli

@@ -77,7 +77,12 @@ nlohmann::ordered_json to_json(const FairReport& report) {
         {"moving_nodes", report.boundary->moving_nodes},
         {"fairness", {{"before", to_json(report.boundary->before)}, {"after", to_json(report.boundary->after)}}}};
   }
-  json["warnings"] = report.warnings;
+  json["warnings"] = nlohmann::ordered_json::array();
+  json["warning_codes"] = nlohmann::ordered_json::array();
+  for (const Warning& warning : report.warnings) {
+    json["warnings"].push_back(warning.text);
+    json["warning_codes"].push_back(name(warning.code));
+  }
   json["history"] = report.history;
   json["node_iterations"] = report.work;
   json["node_iteration_limit"] = report.most_work > 0 ? nlohmann::ordered_json(report.most_work) : nullptr;
@@ -86,6 +91,7 @@ nlohmann::ordered_json to_json(const FairReport& report) {
     json["levels"].push_back({{"moving_nodes", level.moving_nodes},
                               {"iterations", level.iterations},
                               {"outcome", name(level.outcome)},
+                              {"strategy", level.strategy},
                               {"seconds", level.seconds}});
   return json;
 }

@@ -52,10 +52,10 @@ void solve(FuzzedDataProvider& data, const Shape& shape) {
   }
   FitOptions how;
   how.fair = options;
-  if (pull == 1) how.within = 0.1;
-  if (pull == 2) how.rms = 0.05;
-  if (pull == 3) how.smoothing_length = 0.5;
-  if (pull == 4 && std::is_same_v<Shape, PolygonMesh>) how.noise = 0.05;
+  if (pull == 1) how.criterion = Within{0.1};
+  if (pull == 2) how.criterion = RootMeanSquare{0.05};
+  if (pull == 3) how.criterion = SmoothingLength{0.5};
+  if (pull == 4 && std::is_same_v<Shape, PolygonMesh>) how.criterion = Noise{0.05};
   attempt([&] {
     const FitResult result = fit(shape, held, points, how, context);
     if (options.strength == 1) check(shape, held, result.report.fair, options.tolerance, result.positions);

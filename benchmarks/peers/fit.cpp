@@ -1,8 +1,8 @@
 // Noise taken off: smooth shapes, and every mesh of the folder that is named, get noise of 0.3 edges. They are fitted
 // to their own noisy nodes, which keep their distribution, at several smoothing lengths, boundaries and non-manifold
 // spots held, and smoothed by VTK's windowed sinc filter at many settings, of which the best counts. Prints the table
-// of docs/fit.md: root mean square distances between the result and the mesh without noise, of the nodes of either from
-// the other, the greater of both, in per cent of the mean edge; † where no equilibrium was found.
+// of docs/notes/fit.md: root mean square distances between the result and the mesh without noise, of the nodes of
+// either from the other, the greater of both, in per cent of the mean edge; † where no equilibrium was found.
 
 #include <fmt/format.h>
 
@@ -79,7 +79,7 @@ void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drive
   std::vector<Fitted> fitted;
   for (const double length : smoothing_lengths) {
     FitOptions options;
-    options.smoothing_length = length * edge;
+    options.criterion = SmoothingLength{length * edge};
     options.fair.distribution = Distribution::keep;
     const FitResult result = fit(noisy, held, {noisy.positions()}, options);
     fitted.push_back({distance_of(result.positions), result.report.fair.outcome == Outcome::converged});

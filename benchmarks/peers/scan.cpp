@@ -2,8 +2,8 @@
 // is taken off by fair with FitOptions::noise as estimated, or told the noise with rms of it or within three times as
 // much, or by the smoothing length that does, by VTK's windowed sinc, by Taubin's filter and by OpenMesh's smoother,
 // which are told nothing and of whose settings the best counts. Boundaries and non-manifold spots
-// stay. Prints the table of docs/fit.md: root mean square distances between result and true shape, of the nodes of
-// either from the other, the greater of both, in per cent of the median edge; the greatest turn; how far the noisy
+// stay. Prints the table of docs/notes/fit.md: root mean square distances between result and true shape, of the nodes
+// of either from the other, the greater of both, in per cent of the median edge; the greatest turn; how far the noisy
 // nodes are from the result, in noise; processor time on one thread, also in plain iterations of the same mesh.
 
 #include <fmt/format.h>
@@ -76,7 +76,7 @@ double length_for(const PolygonMesh& noisy, const Constraints& held, FitOptions 
   double best = edge;
   double nearest = std::numeric_limits<double>::infinity();
   for (const double length : {0.35, 0.5, 0.7, 1.0, 1.4, 2.0, 2.8}) {
-    options.smoothing_length = length * edge;
+    options.criterion = SmoothingLength{length * edge};
     const double rms = fit(noisy, held, {noisy.positions()}, options, context).report.after.all.rms;
     const double off = std::abs(std::log(rms / deviation));
     if (off > nearest) break;
@@ -108,20 +108,17 @@ void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drive
     context.threads = 1;
     FitOptions options;
     options.fair.distribution = Distribution::keep;
-    if (told == Told::nothing) options.noise = estimate_noise(noisy, context).deviation;
-    if (told == Told::rms) options.rms = level * edge;
-    if (told == Told::within) options.within = 3 * level * edge;
-    if (told == Told::length) options.smoothing_length = length_for(noisy, held, options, edge, level * edge, context);
+    if (told == Told::nothing) options.criterion = Noise{estimate_noise(noisy, context).deviation};
+    if (told == Told::rms) options.criterion = RootMeanSquare{level * edge};
+    if (told == Told::within) options.criterion = Within{3 * level * edge};
+    if (told == Told::length)
+      options.criterion = SmoothingLength{length_for(noisy, held, options, edge, level * edge, context)};
     double seconds = -processor_time();
     const FitResult fitted = fit(noisy, held, {noisy.positions()}, options, context);
     seconds += processor_time();
     const Result ours = look(fitted.positions);
     FitOptions plain = options;
-    plain.noise.reset();
-    plain.rms.reset();
-    plain.within.reset();
-    plain.smoothing_length.reset();
-    plain.weight = 0.1;
+    plain.criterion = Weight{0.1};
     plain.fair.method = Method::sweep;
     plain.fair.step_tolerance = 1e-12;
     plain.fair.max_iterations = iterations_timed;

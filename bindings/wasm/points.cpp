@@ -17,10 +17,18 @@ FitOptions options_of(const val& settings) {
     return value.as<double>();
   };
   FitOptions options;
-  options.weight = number("weight").value_or(options.weight);
-  options.smoothing_length = number("smoothingLength");
-  options.within = number("within");
-  options.rms = number("rms");
+  int given = 0;
+  const auto take = [&](const char* key, const auto& criterion_of) {
+    const std::optional<double> value = number(key);
+    if (!value) return;
+    options.criterion = criterion_of(*value);
+    if (++given > 1)
+      throw Error(ErrorCode::invalid_argument, "only one of weight, smoothingLength, within and rms can be given");
+  };
+  take("weight", [](double value) { return Weight{value}; });
+  take("smoothingLength", [](double value) { return SmoothingLength{value}; });
+  take("within", [](double value) { return Within{value}; });
+  take("rms", [](double value) { return RootMeanSquare{value}; });
   options.outliers = number("outliers").value_or(0);
   if (const val keep = settings["keep"]; keep.isTrue()) options.fair.distribution = Distribution::keep;
   return options;

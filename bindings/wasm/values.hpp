@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <exception>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -27,7 +28,8 @@ val array_of(const char* type, std::size_t count, const Number* numbers) {
 
 inline val positions_array(const std::vector<Vector3>& positions) {
   static_assert(sizeof(Vector3) == 3 * sizeof(double));
-  return array_of("Float64Array", 3 * positions.size(), positions.empty() ? nullptr : positions.front().data());
+  const std::span<const double> numbers = coordinates(positions);
+  return array_of("Float64Array", numbers.size(), numbers.data());
 }
 
 inline std::vector<Vector3> vectors_of(const val& array) {
@@ -93,7 +95,9 @@ inline val outcome_of(const FairReport& report) {
   result.set("threads", report.threads);
   result.set("expectedError", report.expected_error ? val(*report.expected_error) : val::null());
   result.set("movingNodes", report.moving_nodes);
-  result.set("warnings", list_of(report.warnings));
+  std::vector<std::string> warnings;
+  for (const Warning& warning : report.warnings) warnings.push_back(warning.text);
+  result.set("warnings", list_of(warnings));
   return result;
 }
 

@@ -8,6 +8,7 @@
 
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
+#include "vspring/warning.hpp"
 
 namespace vspring {
 
@@ -127,15 +128,15 @@ void restrict_to_region(Constraints& constraints, const PolygonCurve& curve, std
 /// holds, and for a boundary loop of which fewer than three nodes are fixed; Error(unusable_shape) where a face of a
 /// moving node has fewer than three nodes or a coordinate is not finite.
 ///
-/// Returns warnings, one line each: nodes that cannot move and are held (edges of more than two faces, faces in several
+/// Returns warnings: nodes that cannot move and are held (edges of more than two faces, faces in several
 /// fans, repeated nodes and faces); a closed surface held by so little that more than one sphere fits; boundary nodes
 /// that are free to be drawn in. Cost: linear.
-std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints);
+std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraints& constraints);
 
 /// The same for a curve. Throws Error(unusable_constraint) for free ends and for closed chains of which nothing is
 /// held; Error(unusable_shape) where a node that would have to move lies where chains meet, in a closed chain of fewer
 /// than three nodes, or at a coordinate that is not finite. Warns of closed chains held by so little that more than one
 /// circle fits. Cost: linear.
-std::vector<std::string> check_constraints(const PolygonCurve& curve, const Constraints& constraints);
+std::vector<Warning> check_constraints(const PolygonCurve& curve, const Constraints& constraints);
 
 }  // namespace vspring

@@ -11,6 +11,7 @@
 #include "vspring/model.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
+#include "vspring/warning.hpp"
 
 namespace vspring {
 
@@ -105,6 +106,10 @@ struct LevelReport {
   Index moving_nodes = 0;
   int iterations = 0;
   Outcome outcome = Outcome::converged;  ///< of the level's own test; `cancelled` where it was not reached
+  /// What it was part of: "in place", "coarse to fine", "flow", "spacing of the input", "windings of the input", "from
+  /// the input without its noise", "from the input", "from the input, with its spacing", "from the last shape" or
+  /// "V-cycle" (docs/solver.md).
+  const char* strategy = "";
   double seconds = 0;
 };
 
@@ -146,7 +151,7 @@ struct FairReport {
   Fairness after;
   /// With FairOptions::fair_boundary: the report of the boundary's own fairing.
   std::shared_ptr<const FairReport> boundary;
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
 };
 
 struct FairResult {

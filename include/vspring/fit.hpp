@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "vspring/distance.hpp"
@@ -11,47 +12,72 @@
 
 namespace vspring {
 
+/// The paper's k (Eq. 9), for points of weight 1: 0 to 1e50. Small ones smooth, large ones interpolate. On an evenly
+/// spaced curve with one point per node, waves of angular frequency ω keep 1/(1 + (λω)⁴) of their height, where k =
+/// (ℓ/λ)⁴/8 and ℓ is the length of the edges.
+struct Weight {
+  double k = 0.01;
+};
+
+/// A weight that means the same at every resolution: a length λ, in units of the input, more than 0. About ∫
+/// (curvature)² + λ⁻⁴ Σ (share of the point) (distance)² is least. Every point stands for an equal share of the length
+/// (area) that moves, times its own weight. Of dense points, waves of angular frequency ω keep 1/(1 + (λω)⁴) of their
+/// height. docs/fit.md says which k this is.
+struct SmoothingLength {
+  double length;
+};
+
+/// The shape of least bending from which no point lies further than this, in units of the input, more than 0. On curves
+/// in space: the shape of least V-Spring energy on the way there. On curves in a plane: the shape whose curvature
+/// changes least in proportion to itself, where that has fewer inflections or extremes of curvature (docs/curves.md).
+/// Method::equilibrium only. Surfaces whose own nodes are the points, with Distribution::keep, no method and no normals
+/// given, and noise of a sixth to a half of this and of a hundredth of the median edge or more: a third of this is
+/// taken off as noise, by the filters of Noise, and nodes that end further away go back (docs/fit.md).
+struct Within {
+  double distance;
+};
+
+/// The largest smoothing length for which the root mean square of the distances is not above this, in units of the
+/// input, more than 0. Method::equilibrium only. Surfaces whose own nodes are the points, with Distribution::keep and
+/// no normals given, take the filters of Noise instead, with this as its deviation; nodes that end further away, in the
+/// root mean square, go back towards where they came from. Where filters leave less than 0.7 of it, they are not used.
+struct RootMeanSquare {
+  double distance;
+};
+
+/// Surfaces whose own nodes are the points, with Distribution::keep: takes noise of this standard deviation in each
+/// coordinate off, in the units of the input, more than 0. No equilibrium, but filters, each where it is expected to be
+/// nearest to the true shape; nodes go along the surface, too, to where these put them. Where normals are given, an
+/// equilibrium next to that. See estimate_noise() and docs/fit.md. Cost: linear. Memory: about 2,500 bytes a node.
+struct Noise {
+  double deviation;
+};
+
+/// What a fit goes by.
+using FitCriterion = std::variant<Weight, SmoothingLength, Within, RootMeanSquare, Noise>;
+
 struct FitOptions {
+  FitCriterion criterion = Weight{};
   /// As for fair(). Where no method is given: equilibrium; where that finds none and max_iterations is not given, with
   /// a warning, on surfaces the shape of sweep, on curves the shape that came nearest or the smoothing spline of the
   /// points. Those do not count as converged. With fair_boundary, for a surface whose own nodes are the points, the
   /// boundary is fitted to its nodes first, as a curve, and the surface then holds it.
   FairOptions fair = {};
-  /// The paper's k (Eq. 9), for points of weight 1: 0 to 1e50. Small ones smooth, large ones interpolate. On an evenly
-  /// spaced curve with one point per node, waves of angular frequency ω keep 1/(1 + (λω)⁴) of their height, where k =
-  /// (ℓ/λ)⁴/8 and ℓ is the length of the edges.
-  double weight = 0.01;
-  // Of these four at most one may be given; it takes the place of `weight`.
-  /// A weight that means the same at every resolution: a length λ, in units of the input, more than 0. About ∫
-  /// (curvature)² + λ⁻⁴ Σ (share of the point) (distance)² is least. Every point stands for an equal share of the
-  /// length (area) that moves, times its own weight. Of dense points, waves of angular frequency ω keep 1/(1 + (λω)⁴)
-  /// of their height. docs/fit.md says which k this is.
-  std::optional<double> smoothing_length = std::nullopt;
-  /// The shape of least bending from which no point lies further than this, in units of the input, more than 0. On
-  /// curves in space: the shape of least V-Spring energy on the way there. On curves in a plane: the shape whose
-  /// curvature changes least in proportion to itself, where that has fewer inflections or extremes of curvature
-  /// (docs/curves.md). Method::equilibrium only. Surfaces whose own nodes are the points, with Distribution::keep, no
-  /// method and no normals given, and noise of a sixth to a half of this and of a hundredth of the median edge or more:
-  /// a third of this is taken off as noise, by the filters of `noise`, and nodes that end further away go back
-  /// (docs/fit.md).
-  std::optional<double> within = std::nullopt;
-  /// The largest smoothing length for which the root mean square of the distances is not above this, in units of the
-  /// input, more than 0. Method::equilibrium only. Surfaces whose own nodes are the points, with Distribution::keep and
-  /// no normals given, take the filters of `noise` instead, with this as its deviation; nodes that end further away, in
-  /// the root mean square, go back towards where they came from. Where filters leave less than 0.7 of it, they are not
-  /// used.
-  std::optional<double> rms = std::nullopt;
-  /// Surfaces whose own nodes are the points, with Distribution::keep: takes noise of this standard deviation in each
-  /// coordinate off, in the units of the input, more than 0. No equilibrium, but filters, each where it is expected to
-  /// be nearest to the true shape; nodes go along the surface, too, to where these put them. Where normals are given,
-  /// an equilibrium next to that. See estimate_noise() and docs/fit.md. Cost: linear. Memory: about 2,500 bytes a node.
-  std::optional<double> noise = std::nullopt;
   /// The share of the points, from 0 to less than 1, that is left out: those furthest from the shape. Shape and
   /// outliers are found in turns.
   double outliers = 0;
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
+
+  // The figure of each criterion, where that is the one given.
+  [[nodiscard]] std::optional<double> weight() const;
+  [[nodiscard]] std::optional<double> smoothing_length() const;
+  [[nodiscard]] std::optional<double> within() const;
+  [[nodiscard]] std::optional<double> rms() const;
+  [[nodiscard]] std::optional<double> noise() const;
+  /// Of within() and rms(), the one that is given.
+  [[nodiscard]] std::optional<double> tolerance() const;
 };
 
 /// Distances of points from a shape: from its polygons or edges, see distance().
@@ -75,8 +101,9 @@ struct FitReport {
   /// The one given or, for a tolerance, found. Empty for the paper's k, and where plain fairing or what
   /// filters of noise give is within the tolerance.
   std::optional<double> smoothing_length = std::nullopt;
-  Index active_points = 0;   ///< with `within`: those at that distance, to 1 %
-  Index outside_points = 0;  ///< with `within` or `rms`: those further away than that, of the points that count
+  /// With Within: the points at that distance, to 1 %, in order. They keep the shape from becoming fairer.
+  std::vector<Index> active_points;
+  Index outside_points = 0;  ///< with Within or RootMeanSquare: those further away than that, of the points that count
   PointDistances before;
   PointDistances after;
 };
@@ -110,8 +137,8 @@ struct FitResult {
 /// further in one iteration than options.fair.step_tolerance times the mean length of its edges; with small weights
 /// nodes then still have far to go, about a step over k.
 ///
-/// For options.within and rms the equilibrium is found some ten to a hundred times. If no shape of this mesh is within
-/// them, the nearest one found is returned, with a warning and an outcome that is not `converged`.
+/// For Within and RootMeanSquare the equilibrium is found some ten to a hundred times. If no shape of this mesh is
+/// within them, the nearest one found is returned, with a warning and an outcome that is not `converged`.
 ///
 /// The result has the same bits for every number of threads. Cancellation returns the shape so far with outcome
 /// `cancelled`. Arguments are unchanged.
@@ -140,16 +167,16 @@ struct ResampledFit {
 /// Puts new nodes, as resample() spaces them, on the fair curve that fits the nodes of `curve`. So a table with
 /// rounding or noise gets nodes that have none, between its own nodes too.
 ///
-/// With within, new nodes in a plane go to the curve within the tolerance whose curvature changes least in proportion
+/// With Within, new nodes in a plane go to the curve within the tolerance whose curvature changes least in proportion
 /// to itself (docs/curves.md). Where there is none that is not strained they go to the nearest, up to eight times as
 /// far.
 ///
-/// With rms or smoothing_length, and in space, a denser curve of up to eight nodes for each new one is fitted, and the
-/// new nodes are some of its nodes; so curvature changes gently between the points as well. Distances are those from
-/// the chords between new nodes, which lie below a curve that bulges over them. How far nodes moved is reported as
-/// their distance from the resampled curve.
+/// With RootMeanSquare or SmoothingLength, and in space, a denser curve of up to eight nodes for each new one is
+/// fitted, and the new nodes are some of its nodes; so curvature changes gently between the points as well. Distances
+/// are those from the chords between new nodes, which lie below a curve that bulges over them. How far nodes moved is
+/// reported as their distance from the resampled curve.
 ///
-/// With a weight, outliers, a strength or another method, for curves of more than 5,000 nodes, and where the chords of
+/// With Weight, outliers, a strength or another method, for curves of more than 5,000 nodes, and where the chords of
 /// the denser curve are not within a tolerance, the new nodes are fitted themselves, from where resample() puts them.
 /// If they are not within the tolerance either, the result is the nearest of all shapes tried whose curvature varies no
 /// more than that of the resampled curve, with outcome `stalled` and a warning.

@@ -23,6 +23,15 @@ class PolygonMesh {
   /// Cost: linear.
   PolygonMesh(std::vector<Vector3> positions, std::vector<Index> face_begin, std::vector<Index> corners);
 
+  /// The same from flat arrays, as other libraries and languages have them: x, y, z of each node in turn. Throws
+  /// Error(invalid_argument) unless these are three a node. Cost: one copy of each array.
+  [[nodiscard]] static PolygonMesh from_arrays(std::span<const double> coordinates, std::span<const Index> face_begin,
+                                               std::span<const Index> corners);
+  /// Where all faces have so many nodes, 3 in a mesh of triangles. Throws Error(invalid_argument), too, unless `sides`
+  /// is 1 or more and corners are so many a face.
+  [[nodiscard]] static PolygonMesh from_arrays(std::span<const double> coordinates, std::span<const Index> corners,
+                                               Index sides = 3);
+
   [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(positions_.size()); }
   [[nodiscard]] Index face_count() const noexcept { return static_cast<Index>(face_begin_.size()) - 1; }
 

@@ -29,4 +29,5 @@
 #include "vspring/topology.hpp"
 #include "vspring/types.hpp"
 #include "vspring/version.hpp"
+#include "vspring/warning.hpp"
 #include "vspring/weld.hpp"

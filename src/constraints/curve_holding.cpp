@@ -19,7 +19,7 @@ class CurveHolding {
   CurveHolding(const PolygonCurve& curve, const Constraints& constraints, std::span<const std::uint8_t> pulled)
       : curve_(curve), constraints_(constraints), pulled_(pulled) {}
 
-  std::vector<std::string> check() {
+  std::vector<Warning> check() {
     refuse_meetings();
     for (const auto& chain : curve_.chains()) {
       const auto moving = std::find_if(chain.nodes.begin(), chain.nodes.end(), [&](Index i) { return moves(i); });
@@ -101,25 +101,27 @@ class CurveHolding {
                       moving, chain.nodes.size()));
     if (data < data_for_a_circle)
       warnings_.push_back(
-          fmt::format("what holds the closed curve through node {} leaves a family of shapes, and the result is one of "
-                      "them; hold more nodes, or tangents, to choose",
-                      moving));
+          {WarningCode::family_of_shapes,
+           fmt::format(
+               "what holds the closed curve through node {} leaves a family of shapes, and the result is one of "
+               "them; hold more nodes, or tangents, to choose",
+               moving)});
   }
 
   const PolygonCurve& curve_;
   const Constraints& constraints_;
   std::span<const std::uint8_t> pulled_;
-  std::vector<std::string> warnings_;
+  std::vector<Warning> warnings_;
 };
 
 }  // namespace
 
-std::vector<std::string> check_constraints(const PolygonCurve& curve, const Constraints& constraints) {
+std::vector<Warning> check_constraints(const PolygonCurve& curve, const Constraints& constraints) {
   return check_constraints(curve, constraints, {});
 }
 
-std::vector<std::string> check_constraints(const PolygonCurve& curve, const Constraints& constraints,
-                                           std::span<const std::uint8_t> pulled) {
+std::vector<Warning> check_constraints(const PolygonCurve& curve, const Constraints& constraints,
+                                       std::span<const std::uint8_t> pulled) {
   if (constraints.node_count() != curve.node_count())
     throw Error(ErrorCode::invalid_argument, fmt::format("constraints are for {} nodes, the curve has {}",
                                                          constraints.node_count(), curve.node_count()));

@@ -101,7 +101,7 @@ class Holding {
                        [&](const auto& loop) { return moves(loop.front()) && find(loop.front()) == component; });
   }
 
-  void check_boundaries(std::vector<std::string>& warnings) {
+  void check_boundaries(std::vector<Warning>& warnings) {
     Index free_nodes = 0;
     Index first_free = -1;
     const auto loops = boundary_loops(mesh_);
@@ -123,13 +123,14 @@ class Holding {
     }
     if (free_nodes > 0)
       warnings.push_back(
-          fmt::format("{} boundary node{} free and will be drawn in, node {} first; fix the boundary to hold {}",
-                      free_nodes, free_nodes == 1 ? " is" : "s are", first_free, free_nodes == 1 ? "it" : "them"));
+          {WarningCode::free_boundary,
+           fmt::format("{} boundary node{} free and will be drawn in, node {} first; fix the boundary to hold {}",
+                       free_nodes, free_nodes == 1 ? " is" : "s are", first_free, free_nodes == 1 ? "it" : "them")});
   }
 
   /// Spheres and planes a|x|² + b·x + c = 0 are fair. If the positions and normals that hold a part without boundary
   /// leave more than one of them, they leave a family of shapes.
-  void warn_of_families(std::vector<std::string>& warnings) {
+  void warn_of_families(std::vector<Warning>& warnings) {
     using System = Eigen::Matrix<double, 5, 5>;
     const auto boundary = boundary_nodes(mesh_);
     Eigen::AlignedBox<double, 3> box;
@@ -190,9 +191,11 @@ class Holding {
     }
     if (loose > 0)
       warnings.push_back(
-          fmt::format("what holds the component of node {}{} leaves a family of shapes, and the result is one of them; "
-                      "hold more nodes, or normals, to choose",
-                      first, loose > 1 ? fmt::format(" and {} more", loose - 1) : ""));
+          {WarningCode::family_of_shapes,
+           fmt::format(
+               "what holds the component of node {}{} leaves a family of shapes, and the result is one of them; "
+               "hold more nodes, or normals, to choose",
+               first, loose > 1 ? fmt::format(" and {} more", loose - 1) : "")});
   }
 
  private:
@@ -273,19 +276,19 @@ class Holding {
 
 }  // namespace
 
-std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints) {
+std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraints& constraints) {
   const auto check = [&](const Constraints& held) { return check_constraints(mesh, held, {}); };
   return ImmovableNodesFixed(mesh).run(
-      constraints, check, [](std::vector<std::string> & warnings) -> auto& { return warnings; });
+      constraints, check, [](std::vector<Warning> & warnings) -> auto& { return warnings; });
 }
 
-std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints,
-                                           std::span<const std::uint8_t> pulled) {
+std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraints& constraints,
+                                       std::span<const std::uint8_t> pulled) {
   if (constraints.node_count() != mesh.node_count())
     throw Error(ErrorCode::invalid_argument, fmt::format("constraints for {} nodes given with a mesh of {}",
                                                          constraints.node_count(), mesh.node_count()));
   Holding holding(mesh, constraints, pulled);
-  std::vector<std::string> warnings;
+  std::vector<Warning> warnings;
   holding.refuse_defects();
   holding.refuse_unheld();
   holding.check_boundaries(warnings);

@@ -25,9 +25,9 @@ class ImmovableNodes : public Error {
 
 /// As the public ones, where scattered points hold a shape too. pulled: one entry per node, 1 where points are tied to
 /// it; empty: none. Throws ImmovableNodes where nodes would have to move that cannot.
-std::vector<std::string> check_constraints(const PolygonMesh& mesh, const Constraints& constraints,
-                                           std::span<const std::uint8_t> pulled);
-std::vector<std::string> check_constraints(const PolygonCurve& curve, const Constraints& constraints,
-                                           std::span<const std::uint8_t> pulled);
+std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraints& constraints,
+                                       std::span<const std::uint8_t> pulled);
+std::vector<Warning> check_constraints(const PolygonCurve& curve, const Constraints& constraints,
+                                       std::span<const std::uint8_t> pulled);
 
 }  // namespace vspring

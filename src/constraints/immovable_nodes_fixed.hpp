@@ -31,7 +31,7 @@ class ImmovableNodesFixed {
         auto result = use(constraints, work);
         const std::string text = warning(constraints);
         auto& list = warnings(result);
-        if (!text.empty()) list.insert(list.begin(), text);
+        if (!text.empty()) list.insert(list.begin(), {WarningCode::immovable_nodes, text});
         return result;
       } catch (const ImmovableNodes& found) {
         add(found);

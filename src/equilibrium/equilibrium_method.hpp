@@ -1,13 +1,11 @@
 #pragma once
 
-#include "base/progress.hpp"
-#include "base/threads.hpp"
 #include "checks/result_check.hpp"
 #include "equilibrium/hierarchy.hpp"
 #include "equilibrium/point_levels.hpp"
+#include "equilibrium/solver_call.hpp"
 #include "precondition/anderson.hpp"
 #include "spring/model.hpp"
-#include "vspring/fair.hpp"
 
 namespace vspring {
 
@@ -18,15 +16,13 @@ bool is_underconstrained(const Net& net);
 /// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the shape is
 /// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. check:
 /// where given, of the start, the result is no worse or said to be. points: of the levels, if any.
-void run_equilibrium(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
-                     Context& context, ProgressReporter& progress, FairReport& report, const ResultCheck* check,
+void run_equilibrium(Hierarchy& hierarchy, const Model& model, const SolverCall& call, const ResultCheck* check,
                      PointLevels* points = nullptr);
 
 /// The same from a shape that is near to its equilibrium, without a look at coarser levels, with a preconditioner of
-/// the shape itself. Ends short of it where the shape is not near enough.
+/// the shape itself. Ends short of it where the shape is not near enough. memory, take_last: as in EquilibriumTask.
 void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,
-                               const FairOptions& options, ThreadTeam& team, Context& context,
-                               ProgressReporter& progress, FairReport& report, PointLevels* points = nullptr,
-                               Anderson<float>* memory = nullptr, bool take_last = false);
+                               const SolverCall& call, PointLevels* points = nullptr, Anderson<float>* memory = nullptr,
+                               bool take_last = false);
 
 }  // namespace vspring

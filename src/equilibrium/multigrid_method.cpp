@@ -17,22 +17,21 @@ constexpr double coarsest_share = 1e-3;
 
 class Cycle {
  public:
-  Cycle(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
-        ProgressReporter& progress, FairReport& report, PointLevels* points)
+  Cycle(Hierarchy& hierarchy, const Model& model, const SolverCall& call, PointLevels* points)
       : hierarchy_(hierarchy),
         model_(model),
-        options_(options),
-        team_(team),
-        context_(context),
-        progress_(progress),
-        report_(report),
+        options_(call.options),
+        team_(call.team),
+        context_(call.context),
+        progress_(call.progress),
+        report_(call.report),
         points_(points) {}
 
   void run() {
     const std::size_t by_default = hierarchy_.count() - hierarchy_.first_of_use();
     hierarchy_.limit(options_.levels ? static_cast<std::size_t>(*options_.levels) : by_default);
     const std::size_t finest = hierarchy_.count() - 1;
-    report_.levels.assign(hierarchy_.count(), {.outcome = Outcome::cancelled});
+    report_.levels.assign(hierarchy_.count(), {.outcome = Outcome::cancelled, .strategy = "V-cycle"});
     for (std::size_t k = 0; k <= finest; ++k)
       report_.levels[k].moving_nodes = static_cast<Index>(hierarchy_.net(k).moving);
     for (std::size_t k = finest; k > 0; --k) {
@@ -52,7 +51,7 @@ class Cycle {
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
     }
-    if (lost_) report_.warnings.emplace_back(lost_warning);
+    if (lost_) report_.warnings.push_back({WarningCode::steps_grew, lost_warning});
     say_if_cut_short(limit);
   }
 
@@ -65,10 +64,12 @@ class Cycle {
       return level.outcome == Outcome::iteration_limit;
     });
     if (cut_short == coarser.end()) return;
-    report_.warnings.push_back(fmt::format(
-        "{} level, of {} moving nodes, ended at its limit of {} iterations: the shape may be far from its "
-        "equilibrium though its last steps are small; allow more iterations, or take the method equilibrium",
-        cut_short == coarser.begin() ? "the coarsest" : "a coarser", cut_short->moving_nodes, limit));
+    report_.warnings.push_back(
+        {WarningCode::level_cut_short,
+         fmt::format(
+             "{} level, of {} moving nodes, ended at its limit of {} iterations: the shape may be far from its "
+             "equilibrium though its last steps are small; allow more iterations, or take the method equilibrium",
+             cut_short == coarser.begin() ? "the coarsest" : "a coarser", cut_short->moving_nodes, limit)});
   }
 
   SweepResult iterate(std::size_t level, double step_tolerance, int max_iterations) {
@@ -105,9 +106,8 @@ class Cycle {
 
 }  // namespace
 
-void run_multigrid(Hierarchy& hierarchy, const Model& model, const FairOptions& options, ThreadTeam& team,
-                   Context& context, ProgressReporter& progress, FairReport& report, PointLevels* points) {
-  Cycle(hierarchy, model, options, team, context, progress, report, points).run();
+void run_multigrid(Hierarchy& hierarchy, const Model& model, const SolverCall& call, PointLevels* points) {
+  Cycle(hierarchy, model, call, points).run();
 }
 
 }  // namespace vspring

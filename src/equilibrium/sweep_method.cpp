@@ -63,25 +63,25 @@ SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& tas
   return result;
 }
 
-void run_sweeps(Net& net, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
-                ProgressReporter& progress, FairReport& report, std::function<void()> renew_ties) {
-  SweepTask task{.step_tolerance = options.step_tolerance,
-                 .max_iterations = options.max_iterations.value_or(SweepTask().max_iterations),
+void run_sweeps(Net& net, const Model& model, const SolverCall& call, std::function<void()> renew_ties) {
+  FairReport& report = call.report;
+  SweepTask task{.step_tolerance = call.options.step_tolerance,
+                 .max_iterations = call.options.max_iterations.value_or(SweepTask().max_iterations),
                  .renew_ties = std::move(renew_ties)};
   task.on_iteration = [&](double residual) {
     report.history.push_back(residual);
     const auto iterations = static_cast<int>(report.history.size());
-    progress.report("fairing",
-                    std::max(share_done(report.history.front(), residual, task.step_tolerance),
-                             static_cast<double>(iterations) / task.max_iterations),
-                    iterations, residual);
+    call.progress.report("fairing",
+                         std::max(share_done(report.history.front(), residual, task.step_tolerance),
+                                  static_cast<double>(iterations) / task.max_iterations),
+                         iterations, residual);
   };
-  const SweepResult result = sweep_until_still(net, model, task, team, context);
+  const SweepResult result = sweep_until_still(net, model, task, call.team, call.context);
   report.outcome = result.outcome;
   report.iterations = result.iterations;
   report.work += work_of_sweep * static_cast<double>(result.iterations) * static_cast<double>(net.moving);
   report.residual = result.residual;
-  if (result.lost) report.warnings.emplace_back(lost_warning);
+  if (result.lost) report.warnings.push_back({WarningCode::steps_grew, lost_warning});
 }
 
 }  // namespace vspring

@@ -2,8 +2,8 @@
 
 #include <functional>
 
-#include "base/progress.hpp"
 #include "base/threads.hpp"
+#include "equilibrium/solver_call.hpp"
 #include "spring/model.hpp"
 #include "vspring/fair.hpp"
 
@@ -44,7 +44,6 @@ inline constexpr const char* lost_warning =
 
 /// The plain iteration on the shape itself. Fills outcome, iterations, residual and history. renew_ties: as in
 /// SweepTask.
-void run_sweeps(Net& net, const Model& model, const FairOptions& options, ThreadTeam& team, Context& context,
-                ProgressReporter& progress, FairReport& report, std::function<void()> renew_ties = nullptr);
+void run_sweeps(Net& net, const Model& model, const SolverCall& call, std::function<void()> renew_ties = nullptr);
 
 }  // namespace vspring

@@ -49,8 +49,6 @@ constexpr double left_times = 10;
 // are such a balloon for certain.
 constexpr double balloon_move = 0.1;
 constexpr double balloon_times = 3;
-// Of a tolerance: a point that is further away holds the shape.
-constexpr double holds_from_share = 0.99;
 // An expected error, as a share of the size, from which a curve on its way to an equilibrium is no use.
 constexpr double curve_is_lost_at = 1e-2;
 
@@ -84,9 +82,10 @@ class Fitting {
     result.distances = run_.distances();
     report.after = summary(result.distances, run_.kept);
     report.outliers = report.points - report.after.all.count;
-    if (options_.noise) say_if_far_off();
+    if (options_.noise()) say_if_far_off();
     say_if_left_behind();
     report.outside_points = count_outside(result.distances);
+    if (options_.within()) report.active_points = active_points(result.distances, run_.kept, *options_.within());
     report.fair.seconds = stopwatch.seconds();
     return std::move(result);
   }
@@ -96,17 +95,19 @@ class Fitting {
   void say_if_far_off() {
     FairReport& report = run_.result.report.fair;
     const double distance = run_.result.report.after.all.rms;
-    if (report.outcome != Outcome::converged || !(distance > far_off * *options_.noise)) return;
+    if (report.outcome != Outcome::converged || !(distance > far_off * *options_.noise())) return;
     report.outcome = Outcome::stalled;
-    report.warnings.push_back(fmt::format(
-        "nodes were {:.2g} times the noise away from the shape in the root mean square: it could not follow "
-        "them everywhere; they may be too few for their features, or faces folded without noise",
-        distance / *options_.noise));
+    report.warnings.push_back(
+        {WarningCode::far_from_nodes,
+         fmt::format(
+             "nodes were {:.2g} times the noise away from the shape in the root mean square: it could not follow "
+             "them everywhere; they may be too few for their features, or faces folded without noise",
+             distance / *options_.noise())});
   }
 
   void say_if_left_behind() {
     FairReport& report = run_.result.report.fair;
-    if (report.outcome != Outcome::converged || options_.within || options_.rms || options_.noise) return;
+    if (report.outcome != Outcome::converged || options_.within() || options_.rms() || options_.noise()) return;
     const double before = run_.result.report.before.all.rms;
     const double after = run_.result.report.after.all.rms;
     Eigen::AlignedBox3d box;
@@ -114,14 +115,15 @@ class Fitting {
     // The nodes themselves are no further away than smoothing takes them.
     if (!(before > 0) || after < left_behind * box.diagonal().norm() || after < left_times * before) return;
     report.warnings.push_back(
-        fmt::format("points are {:.2g} times as far from the shape as before, in the root mean square: give them "
-                    "a greater weight, a shorter smoothing length, or a tolerance to stay within",
-                    after / before));
+        {WarningCode::points_left_behind,
+         fmt::format("points are {:.2g} times as far from the shape as before, in the root mean square: give them "
+                     "a greater weight, a shorter smoothing length, or a tolerance to stay within",
+                     after / before)});
   }
 
   /// In words, where nodes went far, and away from the points; empty where not.
   std::string balloon(const Net& before, const Net& now) {
-    if (options_.within || options_.rms || options_.noise) return {};
+    if (options_.tolerance() || options_.noise()) return {};
     double squares = 0;
     for (std::size_t i = 0; i < now.moving; ++i) squares += (now.positions[i] - before.positions[i]).squaredNorm();
     const double share = std::sqrt(squares / std::max<double>(1, static_cast<double>(now.moving))) / diagonal(before);
@@ -141,13 +143,13 @@ class Fitting {
     FitReport& report = run_.result.report;
     const bool is_found = report.fair.outcome == Outcome::converged || report.fair.outcome == Outcome::work_limit;
     const bool all_count = options_.outliers == 0 && run_.points.weights.empty();
-    if (!options_.within || !is_found || !report.smoothing_length || !all_count) return;
+    if (!options_.within() || !is_found || !report.smoothing_length || !all_count) return;
     const Constraints& constraints = run_.subject.constraints();
     PolygonCurve curve = run_.subject.shape();
     curve.set_positions(run_.result.positions);
     const CurveFigures before = measure_curve(curve, &constraints);
     if (before.inflections + before.curvature_extrema == 0) return;
-    auto gentle = gentle_curve(curve, constraints, run_.points.positions, *options_.within,
+    auto gentle = gentle_curve(curve, constraints, run_.points.positions, *options_.within(),
                                std::numeric_limits<std::size_t>::max(), run_.context);
     if (!gentle) return;
     curve.set_positions(*gentle);
@@ -157,13 +159,11 @@ class Fitting {
     if (has_more || !has_fewer) return;
     const std::vector<Vector3> own = std::exchange(run_.result.positions, std::move(*gentle));
     const std::vector<double> distances = run_.distances();
-    if (*std::max_element(distances.begin(), distances.end()) > *options_.within ||
+    if (*std::max_element(distances.begin(), distances.end()) > *options_.within() ||
         !InputAndFound(*this).fault.empty()) {
       run_.result.positions = own;
       return;
     }
-    const auto holds = [&](double distance) { return distance > holds_from_share * *options_.within; };
-    report.active_points = static_cast<Index>(std::count_if(distances.begin(), distances.end(), holds));
     // That was of the other shape.
     report.fair.expected_error.reset();
     auto gathered = run_.gather();
@@ -206,15 +206,16 @@ class Fitting {
     if (!as_found) run_.finish(shapes.input);
     if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
     report.warnings.push_back(
-        as_found ? "what was found is worse than the input: " + fault
-                 : fmt::format("what was found is worse than the input ({}): this is the input with its constraints; "
-                               "other weights or tolerances may do, or more that is held",
-                               fault));
+        {WarningCode::worse_than_input,
+         as_found ? "what was found is worse than the input: " + fault
+                  : fmt::format("what was found is worse than the input ({}): this is the input with its constraints; "
+                                "other weights or tolerances may do, or more that is held",
+                                fault)});
   }
 
   /// Fits and leaves out the points that are furthest away, in turns, until they stay the same.
   void leave_outliers_out(ProgressReporter& progress) {
-    const bool searches = options_.within || options_.rms;
+    const bool searches = options_.tolerance().has_value();
     // A tolerance means nothing as long as outliers count.
     bool smooth_first = searches;
     for (int turn = 0; turn < most_turns_of_outliers; ++turn) {
@@ -230,8 +231,8 @@ class Fitting {
       smooth_first = false;
     }
     if (smooth_first) fit(progress, false);
-    run_.result.report.fair.warnings.emplace_back(
-        "the outliers went on changing with the shape: the last ones are left out");
+    run_.result.report.fair.warnings.push_back(
+        {WarningCode::outliers_changed, "the outliers went on changing with the shape: the last ones are left out"});
   }
 
   /// smooth: by some edges, instead of to a tolerance.
@@ -251,7 +252,7 @@ class Fitting {
       if (points.nearest[j] >= 0 && has_weight(points.weights[j]))
         pulled[static_cast<std::size_t>(points.nearest[j])] = 1;
     }
-    const std::vector<std::string> warnings = run_.subject.check(pulled);
+    const std::vector<Warning> warnings = run_.subject.check(pulled);
     report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
     if (report.method == Method::sweep) {
       sweep(std::move(points), options_.fair, progress);
@@ -262,14 +263,14 @@ class Fitting {
       return;
     }
     if constexpr (std::is_same_v<Subject, FitSurface>) {
-      if (options_.noise) {
+      if (options_.noise()) {
         fit_without_noise(run_, std::move(points), progress);
         return;
       }
-      if (options_.rms && fit_to_rms_by_filters(run_, points, progress)) return;
-      if (options_.within && fit_within_by_filters(run_, points, smooth, progress)) return;
+      if (options_.rms() && fit_to_rms_by_filters(run_, points, progress)) return;
+      if (options_.within() && fit_within_by_filters(run_, points, smooth, progress)) return;
     }
-    if (options_.within || options_.rms) {
+    if (options_.tolerance()) {
       FitToTolerance<Subject>(run_).fit(std::move(points), progress, smooth);
       return;
     }
@@ -279,18 +280,18 @@ class Fitting {
     // Nobody asked for this method: the paper's iteration ends where points crumple a shape, too.
     std::optional<FitResult> nearest;
     if (has_targets) nearest = run_.result;
-    std::vector<std::string> said = std::move(report.warnings);
-    said.emplace_back(
-        "no equilibrium was found: this is the plain iteration's shape; the points may be too noisy for their weight "
-        "and for edges as short as these, or too little may be held: hold more nodes, let a smaller region move, or "
-        "keep the distribution of the nodes");
+    std::vector<Warning> said = std::move(report.warnings);
+    said.push_back(
+        {WarningCode::no_equilibrium,
+         "no equilibrium was found: this is the plain iteration's shape; the points may be too noisy for their weight "
+         "and for edges as short as these, or too little may be held: hold more nodes, let a smaller region move, or "
+         "keep the distribution of the nodes"});
     const double work = report.work;
     const double limit = report.most_work;
     const Index nodes = report.moving_nodes;
     run_.start_report(Method::sweep);
     FairOptions options = options_.fair;
-    if (!options_.smoothing_length)
-      options.step_tolerance = std::min(options.step_tolerance, step_share * options_.weight);
+    if (options_.weight()) options.step_tolerance = std::min(options.step_tolerance, step_share * *options_.weight());
     options.max_iterations = sweeps_of_last_resort(static_cast<std::size_t>(nodes));
     if (nearest) options.max_iterations = std::min(*options.max_iterations, most_sweeps_with_targets);
     points = run_.untied_points();
@@ -302,9 +303,10 @@ class Fitting {
     if (!nearest || report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
     // Nodes that stay about where they are do not crumple the shape.
     nearest->report.fair.warnings.push_back(
-        fmt::format("no equilibrium was found: this is the nearest shape, {}; noise may have folded faces: smooth by "
-                    "more or less, or only take its noise off",
-                    distance_from_equilibrium(nearest->report.fair)));
+        {WarningCode::no_equilibrium,
+         fmt::format("no equilibrium was found: this is the nearest shape, {}; noise may have folded faces: smooth by "
+                     "more or less, or only take its noise off",
+                     distance_from_equilibrium(nearest->report.fair))});
     run_.result = std::move(*nearest);
   }
 
@@ -334,17 +336,19 @@ class Fitting {
     if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled || !may_replace()) return;
     if (report.expected_error && *report.expected_error < curve_is_lost_at) {
       report.warnings.push_back(
-          fmt::format("no equilibrium was found: this is the nearest shape, {}; the points may be too noisy for their "
-                      "weight",
-                      distance_from_equilibrium(report)));
+          {WarningCode::no_equilibrium,
+           fmt::format("no equilibrium was found: this is the nearest shape, {}; the points may be too noisy for their "
+                       "weight",
+                       distance_from_equilibrium(report))});
       return;
     }
     shape.go_to_spline();
     report.expected_error.reset();
-    report.warnings.emplace_back(
-        "no equilibrium was found: this is the smoothing spline of the points; they may be too noisy for their weight "
-        "and for edges as short as these, or smooth away more than the shape's sharpest bends: try another weight or "
-        "smoothing length, or a tolerance");
+    report.warnings.push_back(
+        {WarningCode::no_equilibrium,
+         "no equilibrium was found: this is the smoothing spline of the points; they may be too noisy for their weight "
+         "and for edges as short as these, or smooth away more than the shape's sharpest bends: try another weight or "
+         "smoothing length, or a tolerance"});
   }
 
   void sweep(UntiedPoints points, FairOptions options, ProgressReporter& progress) {
@@ -357,19 +361,19 @@ class Fitting {
     points = {};
     std::function<void()> renew_ties;
     if (!net.points.empty()) renew_ties = [&] { (void)ties.renew(run_.team); };
-    run_sweeps(net, *model, options, run_.team, run_.context, progress, run_.result.report.fair, renew_ties);
+    run_sweeps(net, *model, {options, run_.team, run_.context, progress, run_.result.report.fair}, renew_ties);
     run_.finish(net);
   }
 
   std::shared_ptr<double> smoothing_in(const Net& net) {
-    if (!options_.smoothing_length) return nullptr;
-    run_.result.report.smoothing_length = options_.smoothing_length;
-    return std::make_shared<double>(*options_.smoothing_length * net.frame.scale());
+    if (!options_.smoothing_length()) return nullptr;
+    run_.result.report.smoothing_length = options_.smoothing_length();
+    return std::make_shared<double>(*options_.smoothing_length() * net.frame.scale());
   }
 
   [[nodiscard]] Index count_outside(const std::vector<double>& distances) const {
-    if (!options_.within && !options_.rms) return 0;
-    const double tolerance = options_.within ? *options_.within : *options_.rms;
+    if (!options_.tolerance()) return 0;
+    const double tolerance = *options_.tolerance();
     Index count = 0;
     for (std::size_t j = 0; j < distances.size(); ++j) count += run_.kept[j] != 0 && distances[j] > tolerance ? 1 : 0;
     return count;
@@ -409,7 +413,7 @@ FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const Sca
 
 FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {
-  if (options.noise)
+  if (options.noise())
     throw Error(
         ErrorCode::invalid_argument,
         "noise can be taken off surfaces only: of a curve ask for the root mean square of its points' distances");

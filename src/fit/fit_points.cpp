@@ -16,6 +16,8 @@ namespace vspring {
 namespace {
 
 constexpr double largest_weight = 1e50;
+// Of a distance: from there on a point is at it.
+constexpr double nearly_at = 0.99;
 
 bool is_weight(double weight) { return weight >= 0 && weight <= largest_weight; }
 
@@ -62,6 +64,16 @@ std::vector<std::uint8_t> without_furthest(std::span<const double> distances, do
   return kept;
 }
 
+std::vector<Index> active_points(std::span<const double> distances, std::span<const std::uint8_t> counted,
+                                 double distance) {
+  std::vector<Index> active;
+  for (std::size_t j = 0; j < distances.size(); ++j) {
+    if ((counted.empty() || counted[j] != 0) && distances[j] > nearly_at * distance)
+      active.push_back(static_cast<Index>(j));
+  }
+  return active;
+}
+
 PointDistances summary(std::span<const double> distances, std::span<const std::uint8_t> counted) {
   PointDistances result;
   Distance& all = result.all;
@@ -93,26 +105,52 @@ PointDistances summary(std::span<const double> distances, std::span<const std::u
   return result;
 }
 
+std::optional<double> FitOptions::weight() const {
+  const auto* weight = std::get_if<Weight>(&criterion);
+  return weight != nullptr ? std::optional(weight->k) : std::nullopt;
+}
+
+std::optional<double> FitOptions::smoothing_length() const {
+  const auto* smoothing = std::get_if<SmoothingLength>(&criterion);
+  return smoothing != nullptr ? std::optional(smoothing->length) : std::nullopt;
+}
+
+std::optional<double> FitOptions::within() const {
+  const auto* within = std::get_if<Within>(&criterion);
+  return within != nullptr ? std::optional(within->distance) : std::nullopt;
+}
+
+std::optional<double> FitOptions::rms() const {
+  const auto* rms = std::get_if<RootMeanSquare>(&criterion);
+  return rms != nullptr ? std::optional(rms->distance) : std::nullopt;
+}
+
+std::optional<double> FitOptions::noise() const {
+  const auto* noise = std::get_if<Noise>(&criterion);
+  return noise != nullptr ? std::optional(noise->deviation) : std::nullopt;
+}
+
+std::optional<double> FitOptions::tolerance() const { return within() ? within() : rms(); }
+
 void FitOptions::validate() const {
   fair.validate();
   const auto refuse = [](const std::string& message) { throw Error(ErrorCode::invalid_argument, message); };
-  if (!is_weight(weight)) refuse(fmt::format("weight must be from 0 to {:g}, not {}", largest_weight, weight));
+  if (weight() && !is_weight(*weight()))
+    refuse(fmt::format("weight must be from 0 to {:g}, not {}", largest_weight, *weight()));
   const auto check_length = [&](const char* option, const std::optional<double>& length) {
     if (length && !(*length > 0 && std::isfinite(*length)))
       refuse(fmt::format("{} must be more than 0, not {}", option, *length));
   };
-  check_length("smoothing length", smoothing_length);
-  check_length("within", within);
-  check_length("rms", rms);
-  check_length("noise", noise);
-  if ((smoothing_length ? 1 : 0) + (within ? 1 : 0) + (rms ? 1 : 0) + (noise ? 1 : 0) > 1)
-    refuse("only one of smoothing length, within, rms and noise can be given");
+  check_length("smoothing length", smoothing_length());
+  check_length("within", within());
+  check_length("rms", rms());
+  check_length("noise", noise());
   if (!(outliers >= 0 && outliers < 1)) refuse(fmt::format("outliers must be from 0 to less than 1, not {}", outliers));
-  if ((within || rms || noise) && fair.method.value_or(Method::equilibrium) != Method::equilibrium)
+  const bool is_amount = tolerance() || noise();
+  if (is_amount && fair.method.value_or(Method::equilibrium) != Method::equilibrium)
     refuse(fmt::format("points can be fitted to a tolerance by the method equilibrium only, not by {}",
                        name(*fair.method)));
-  if ((within || rms || noise) && fair.strength < 1)
-    refuse("points can be fitted to a tolerance at full strength only");
+  if (is_amount && fair.strength < 1) refuse("points can be fitted to a tolerance at full strength only");
 }
 
 }  // namespace vspring

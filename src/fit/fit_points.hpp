@@ -14,6 +14,11 @@ void check_points(const ScatteredPoints& points);
 /// One entry per point, 0 for the share of them that is furthest away, rounded down; of equals the first ones go.
 std::vector<std::uint8_t> without_furthest(std::span<const double> distances, double share);
 
+/// The numbers of the points that count at that distance from the shape, to 1 %. counted: 1 for these, else 0; without,
+/// all count.
+std::vector<Index> active_points(std::span<const double> distances, std::span<const std::uint8_t> counted,
+                                 double distance);
+
 /// What there is to say of the distances of the points that count, one or more: counted is 1 for these, else 0.
 PointDistances summary(std::span<const double> distances, std::span<const std::uint8_t> counted);
 

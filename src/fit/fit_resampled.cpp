@@ -48,7 +48,6 @@ constexpr double settles_at_share = 0.95;
 constexpr double hopeless_share = 1.5;
 // Of the least distance before: where it falls no more nothing is within the tolerance.
 constexpr double no_nearer_share = 0.98;
-constexpr double holds_from = 0.99;
 // Of the tolerance: where no gentle curve is within it, one is looked for up to so much further out, to so near.
 constexpr double most_times_tolerance = 8;
 constexpr double nearly = 1.05;
@@ -66,7 +65,7 @@ class DenseFit {
         made_(made),
         options_(options),
         context_(context),
-        tolerance_(options.within ? *options.within : options.rms.value_or(0)) {
+        tolerance_(options.tolerance().value_or(0)) {
     measuring_.threads = context.threads;
   }
 
@@ -74,12 +73,12 @@ class DenseFit {
   bool run() {
     if (curve_.node_count() > most_dense_nodes) return false;
     const bool is_too_large_a_table = curve_.node_count() > most_times * made_.curve.node_count();
-    if (is_too_large_a_table && !options_.within) return false;
+    if (is_too_large_a_table && !options_.within()) return false;
     FitResult own = fit(curve_, constraints_, {.positions = curve_.positions()}, options_, context_);
     if (own.report.fair.outcome == Outcome::worse_than_input) return false;
     PolygonCurve smooth = curve_;
     smooth.set_positions(std::move(own.positions));
-    if (options_.within && go_gently(own, smooth)) return true;
+    if (options_.within() && go_gently(own, smooth)) return true;
     if (is_too_large_a_table) return false;
     resample_to(smooth, 2);
     const Index times = times_needed();
@@ -92,8 +91,8 @@ class DenseFit {
     double energy = std::numeric_limits<double>::infinity();
     double nearest_share = energy;
     for (int k = 0; k < most_dense_fits; ++k) {
-      if (options_.within) options.within = aim * tolerance_;
-      if (options_.rms) options.rms = aim * tolerance_;
+      if (options_.within()) options.criterion = Within{aim * tolerance_};
+      if (options_.rms()) options.criterion = RootMeanSquare{aim * tolerance_};
       FitResult found = fit(dense_.curve, dense_.constraints, {.positions = raised_points()}, options, context_);
       const Outcome outcome = found.report.fair.outcome;
       const bool stalled = outcome == Outcome::stalled;
@@ -161,18 +160,20 @@ class DenseFit {
       const auto& all = best_->distances;
       return static_cast<Index>(std::count_if(all.begin(), all.end(), [&](double d) { return d > beyond; }));
     };
-    report.active_points = options_.within ? count(holds_from * tolerance_) : 0;
+    if (options_.within()) report.active_points = active_points(best_->distances, {}, tolerance_);
     report.outside_points = tolerance_ > 0 ? count(tolerance_) : 0;
     if (is_within() && fair.outcome == Outcome::stalled) {
       // The dense curve is a little further from points next to what is held than was aimed at, and says so last.
       fair.outcome = Outcome::work_limit;
-      fair.warnings.back() = "the shape is within the tolerance, but may not be the fairest";
+      fair.warnings.back() = {WarningCode::maybe_not_fairest,
+                              "the shape is within the tolerance, but may not be the fairest"};
     } else if (!is_within() && fair.outcome != Outcome::cancelled) {
       fair.outcome = Outcome::stalled;
-      fair.warnings.push_back(fmt::format(
-          "no shape of so many nodes was found within {:g}: this is a fair one that comes near; edges may be too long, "
-          "or points lie at what is held",
-          tolerance_));
+      fair.warnings.push_back(
+          {WarningCode::outside_tolerance, fmt::format("no shape of so many nodes was found within {:g}: this is a "
+                                                       "fair one that comes near; edges may be too long, "
+                                                       "or points lie at what is held",
+                                                       tolerance_)});
     }
     return std::move(*best_);
   }
@@ -242,7 +243,7 @@ class DenseFit {
 
   /// What is to be within the tolerance.
   [[nodiscard]] double figure(const FitResult& found) const {
-    return options_.within ? found.report.after.all.greatest : found.report.after.all.rms;
+    return options_.within() ? found.report.after.all.greatest : found.report.after.all.rms;
   }
 
   [[nodiscard]] double variation(const std::vector<Vector3>& nodes) const {
@@ -357,7 +358,7 @@ class DenseFit {
 
 /// Whether a weight of points means the same for more nodes, and nothing is said of how the solver is to go.
 bool may_fit_densely(const FitOptions& options) {
-  const bool means_the_same = options.within || options.rms || options.smoothing_length;
+  const bool means_the_same = options.tolerance() || options.smoothing_length();
   const bool by_equilibrium = options.fair.method.value_or(Method::equilibrium) == Method::equilibrium;
   return means_the_same && by_equilibrium && options.outliers == 0 && options.fair.strength == 1;
 }
@@ -381,7 +382,7 @@ ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constra
     made.fit = dense.take();
   } else {
     made.fit = fit_new_nodes();
-    const bool is_outside = (options.within || options.rms) && made.fit.report.fair.outcome == Outcome::stalled;
+    const bool is_outside = (options.within() || options.rms()) && made.fit.report.fair.outcome == Outcome::stalled;
     if (is_outside) made.fit = dense.take_nearest(std::move(made.fit));
   }
   made.fit.report.fair.seconds = stopwatch.seconds();

@@ -73,13 +73,13 @@ class FitRun {
   UntiedPoints untied_points() {
     std::vector<double> weights = points.weights;
     weights.resize(points.positions.size(), 1);
-    const double weight =
-        options.smoothing_length || options.within || options.rms || options.noise ? 1 : options.weight;
+    const double weight = options.weight().value_or(1);
     for (std::size_t j = 0; j < weights.size(); ++j) weights[j] *= kept[j] * weight;
     if (start_.nearest.empty()) find_start();
     if (start_.turned)
-      result.report.fair.warnings.emplace_back(
-          "normals of points are against the sense of the faces: they are all taken the other way round");
+      result.report.fair.warnings.push_back(
+          {WarningCode::normals_reversed,
+           "normals of points are against the sense of the faces: they are all taken the other way round"});
     const bool are_nodes = points_are_nodes();
     if (are_nodes) std::iota(start_.nearest.begin(), start_.nearest.end(), 0);
     return {points.positions, std::move(weights), start_.nearest, start_.normals, are_nodes};

@@ -51,7 +51,7 @@ FitSurface::FitSurface(const PolygonMesh& mesh, const Constraints& constraints, 
   if (part_ && part_->mesh.face_count() == 0) part_.reset();
 }
 
-std::vector<std::string> FitSurface::check(std::span<const std::uint8_t> pulled) const {
+std::vector<Warning> FitSurface::check(std::span<const std::uint8_t> pulled) const {
   return check_part(*whole_, part_, *constraints_, pulled);
 }
 
@@ -123,7 +123,7 @@ FitCurve::FitCurve(const PolygonCurve& curve, const Constraints& constraints, st
                    const Context& measuring, ThreadTeam& /*team*/)
     : curve_(&curve), constraints_(&constraints), points_(points), measuring_(&measuring) {}
 
-std::vector<std::string> FitCurve::check(std::span<const std::uint8_t> pulled) const {
+std::vector<Warning> FitCurve::check(std::span<const std::uint8_t> pulled) const {
   return check_constraints(*curve_, *constraints_, pulled);
 }
 

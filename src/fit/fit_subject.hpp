@@ -28,7 +28,7 @@ class FitSurface {
   [[nodiscard]] const PolygonMesh& shape() const { return *whole_; }
   [[nodiscard]] const Constraints& constraints() const { return *constraints_; }
   [[nodiscard]] Index faces() const { return whole_->face_count(); }
-  [[nodiscard]] std::vector<std::string> check(std::span<const std::uint8_t> pulled) const;
+  [[nodiscard]] std::vector<Warning> check(std::span<const std::uint8_t> pulled) const;
   [[nodiscard]] Net gather() const;
   [[nodiscard]] Fairness fairness(const std::vector<Vector3>& positions);
   /// Of the points. Held nodes must be where they are held.
@@ -62,7 +62,7 @@ class FitCurve {
   [[nodiscard]] const PolygonCurve& shape() const { return *curve_; }
   [[nodiscard]] const Constraints& constraints() const { return *constraints_; }
   [[nodiscard]] static Index faces() { return 0; }
-  [[nodiscard]] std::vector<std::string> check(std::span<const std::uint8_t> pulled) const;
+  [[nodiscard]] std::vector<Warning> check(std::span<const std::uint8_t> pulled) const;
   [[nodiscard]] CurveNet gather() const;
   [[nodiscard]] Fairness fairness(const std::vector<Vector3>& positions) const;
   [[nodiscard]] std::vector<double> distances(const std::vector<Vector3>& positions) const;

@@ -23,8 +23,7 @@ namespace vspring {
 template <typename Subject>
 class FitToTolerance {
  public:
-  explicit FitToTolerance(FitRun<Subject>& run)
-      : run_(run), tolerance_(run.options.within ? *run.options.within : *run.options.rms) {}
+  explicit FitToTolerance(FitRun<Subject>& run) : run_(run), tolerance_(*run.options.tolerance()) {}
 
   /// Then that is the fairest, and the result. in_few_steps: whole scans have no equilibrium, and take long to show it.
   bool plain_fairing_is_within(FairOptions options, bool in_few_steps) {
@@ -62,9 +61,8 @@ class FitToTolerance {
     // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
     const auto nodes = static_cast<double>(shape.net().moving);
     const double most_work = std::max(least_most_work, most_work_a_node * nodes);
-    const auto& lengths = shape.net().tangents.empty() && !shape.net().target_positions.empty()
-                              ? first_lengths_on_surfaces
-                              : first_lengths;
+    const auto& lengths =
+        !shape.net().is_curve() && !shape.net().target_positions.empty() ? first_lengths_on_surfaces : first_lengths;
     for (const double first : lengths) {
       *length = first * edge;
       shape.find(context, progress, report.fair);
@@ -109,7 +107,7 @@ class FitToTolerance {
     };
     task.energy = [&] { return run_.subject.fairness(run_.result.positions).vspring_energy; };
     ToleranceFitResult found =
-        run_.options.within ? fit_within(task, tolerance_ * scale) : smooth(task, tolerance_ * scale);
+        run_.options.within() ? fit_within(task, tolerance_ * scale) : smooth(task, tolerance_ * scale);
     // Tries that led nowhere tell nothing of the shape that is kept.
     found.settled = found.settled && last_error;
     if (found.settled) {
@@ -117,7 +115,6 @@ class FitToTolerance {
       report.fair.expected_error = last_error;
     }
     finish_with(found.length);
-    report.active_points = found.active;
     conclude(found);
   }
 
@@ -175,7 +172,7 @@ class FitToTolerance {
       squares += distances[j] * distances[j];
       count += run_.kept[j];
     }
-    return run_.options.within ? greatest : std::sqrt(squares / count);
+    return run_.options.within() ? greatest : std::sqrt(squares / count);
   }
 
   /// Whether the shape is that is handed out, by the points that count.
@@ -194,17 +191,21 @@ class FitToTolerance {
     const Outcome limit = fair.most_work > 0 ? Outcome::work_limit : Outcome::iteration_limit;
     fair.outcome = found.settled ? Outcome::converged : found.within ? limit : Outcome::stalled;
     if (!found.within && is_within())
-      fair.warnings.emplace_back(
-          "the shape is within the tolerance, but no equilibrium was found there: more that is held, or other "
-          "tolerances, "
-          "may do");
+      fair.warnings.push_back(
+          {WarningCode::no_equilibrium,
+           "the shape is within the tolerance, but no equilibrium was found there: more that is held, or other "
+           "tolerances, "
+           "may do"});
     else if (!found.within)
       fair.warnings.push_back(
-          fmt::format("no shape of this mesh was found within {:g}: this is the one that comes nearest; points may lie "
-                      "at what is held, or edges may be too long",
-                      tolerance_));
+          {WarningCode::outside_tolerance,
+           fmt::format(
+               "no shape of this mesh was found within {:g}: this is the one that comes nearest; points may lie "
+               "at what is held, or edges may be too long",
+               tolerance_)});
     else if (!found.settled)
-      fair.warnings.emplace_back("the shape is within the tolerance, but may not be the fairest that is");
+      fair.warnings.push_back(
+          {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest that is"});
   }
 
   FitRun<Subject>& run_;

@@ -35,7 +35,6 @@ constexpr double nearest_to_bound = 1e-3;
 // Of the tolerance: what the points are held between, so that those that pull at nothing, and what a step goes too far
 // by, do not keep a fairer shape out.
 constexpr double aimed_share_of_bounds = 0.995;
-constexpr double holding = 0.99;
 constexpr double greatest_rise = 1.1;
 // Shorter steps lead nowhere.
 constexpr double least_step = 0.005;
@@ -118,7 +117,6 @@ class InteriorFit {
     }
     let_go();
     net_.positions = best_;
-    result.active = active_;
     result.settled = result.settled && result.within;
     return result;
   }
@@ -230,11 +228,8 @@ class InteriorFit {
   void look(ToleranceFitResult& result) {
     const bool within = greatest_ <= 1;
     energy_ = within ? task_.energy() : 0;
-    if (within ? !(energy_ > greatest_rise * least_energy_) : !result.within && greatest_ < least_greatest_) {
+    if (within ? !(energy_ > greatest_rise * least_energy_) : !result.within && greatest_ < least_greatest_)
       best_ = net_.positions;
-      active_ = static_cast<Index>(
-          std::count_if(distances_.begin(), distances_.end(), [&](double d) { return d > holding * tolerance_; }));
-    }
     if (within) least_energy_ = std::min(least_energy_, energy_);
     least_greatest_ = std::min(least_greatest_, greatest_);
     result.within = result.within || within;
@@ -254,14 +249,13 @@ class InteriorFit {
   double energy_ = 0;
   double least_energy_ = std::numeric_limits<double>::infinity();
   double least_greatest_ = std::numeric_limits<double>::infinity();
-  Index active_ = 0;
 };
 
 }  // namespace
 
 std::optional<Sides> Sides::of(const Net& net) {
   Sides sides;
-  if (net.tangents.empty()) return sides;
+  if (!net.is_curve()) return sides;
   std::vector<Vector3> all = net.positions;
   all.insert(all.end(), net.points.positions.begin(), net.points.positions.end());
   const auto plane = plane_normal(all);
@@ -273,7 +267,7 @@ std::optional<Sides> Sides::of(const Net& net) {
 double Sides::side(const Net& net, std::size_t node, const Vector3& point) const {
   const Vector3 d = net.positions[node] - point;
   double side = d.dot(across(net, node));
-  if (net.tangents.empty()) return side;
+  if (!net.is_curve()) return side;
   double least = std::numeric_limits<double>::infinity();
   for (const Link link : net.rings.links(node)) {
     const Vector3 edge = net.positions[link.node()] - net.positions[node];
@@ -290,7 +284,7 @@ double Sides::side(const Net& net, std::size_t node, const Vector3& point) const
 }
 
 Vector3 Sides::across(const Net& net, std::size_t node) const {
-  return net.tangents.empty() ? net.normals[node] : Vector3(plane_.cross(net.tangents[node]));
+  return !net.is_curve() ? net.normals[node] : Vector3(plane_.cross(net.tangents[node]));
 }
 
 ToleranceFitResult hold_between(const ToleranceFitTask& task, const Sides& sides, double tolerance,

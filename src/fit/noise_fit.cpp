@@ -46,7 +46,6 @@ constexpr double least_noise_in_edges = 0.01;
 constexpr int rings_taken_back[] = {3, 3, 3, 3, 3, 3, 1, 1, 1, 0};
 // Of the tolerance.
 constexpr double taken_back_to = 0.999;
-constexpr double held_from = 0.99;
 
 /// Has a shape without noise keep the normals that are given: a fit to it that smooths no more than an edge. Nodes keep
 /// their places where there is no equilibrium.
@@ -176,7 +175,7 @@ void fit_without_noise(FitRun<FitSurface>& run, UntiedPoints points, ProgressRep
                 "noise can be taken off a surface whose own nodes are the points and keep their places only");
   progress.report("taking noise off", 0);
   NoisyNodes noisy(run, points);
-  const Net found = noisy.without(*run.options.noise);
+  const Net found = noisy.without(*run.options.noise());
   if (noisy.has_normals() && !run.context.cancelled())
     keep_normals(run, found, std::move(points), progress);
   else
@@ -188,7 +187,7 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   progress.report("taking noise off", 0);
   NoisyNodes noisy(run, points);
   if (noisy.has_normals()) return false;
-  const double tolerance = *run.options.rms;
+  const double tolerance = *run.options.rms();
   Net found = noisy.without(tolerance);
   const auto distance = [&] {
     run.finish_positions(found);
@@ -210,7 +209,7 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
 bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, bool only_smooth,
                            ProgressReporter& progress) {
   if (!points.are_nodes || run.options.fair.method) return false;
-  const double tolerance = *run.options.within;
+  const double tolerance = *run.options.within();
   const NoiseEstimate estimate = estimate_noise(run.subject.shape(), run.measuring);
   const double noise = estimate.deviation;
   if (noise < least_noise * tolerance || noise > most_noise * tolerance || estimate.edges < least_noise_in_edges)
@@ -231,13 +230,13 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   noisy.finish(found);
   if (only_smooth || run.context.cancelled()) return true;
   FitReport& report = run.result.report;
-  const auto holds = [&](double distance) { return distance > held_from * tolerance; };
-  report.active_points = static_cast<Index>(std::count_if(off.begin(), off.end(), holds));
   const double left = *std::max_element(off.begin(), off.end());
   if (left <= tolerance) return true;
   report.fair.outcome = Outcome::stalled;
-  report.fair.warnings.push_back(fmt::format(
-      "nodes that are held keep the shape {:g} away from where they were, and {:g} was asked for", left, tolerance));
+  report.fair.warnings.push_back(
+      {WarningCode::outside_tolerance,
+       fmt::format("nodes that are held keep the shape {:g} away from where they were, and {:g} was asked for", left,
+                   tolerance)});
   return true;
 }
 

@@ -22,7 +22,6 @@ constexpr int halvings_without_gain = 2;
 constexpr int most_trials = 60;
 // Aimed at less than the tolerance, so that what is left of a correction does not go beyond.
 constexpr double aimed_share = 0.995;
-constexpr double holding_share = 0.99;
 // Of the energy, in so many turns.
 constexpr double settled_share = 0.005;
 constexpr int turns_per_look = 15;
@@ -136,8 +135,6 @@ ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, T
     if (within ? energy < least_energy : !result.within && greatest < least_greatest) {
       best = net.positions;
       if (within) least_energy = energy;
-      const auto holds = [&](double distance) { return distance > holding_share * tolerance; };
-      result.active = static_cast<Index>(std::count_if(distances.begin(), distances.end(), holds));
     }
     least_greatest = std::min(least_greatest, greatest);
     result.within = result.within || within;

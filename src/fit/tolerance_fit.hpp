@@ -36,7 +36,6 @@ struct ToleranceFitResult {
   bool within = false;   ///< whether the shape that is left in the net is
   bool settled = false;  ///< whether it is the fairest, as far as the search can tell
   double length = 0;     ///< of the smoothing that was found
-  Index active = 0;      ///< points that hold the shape at the distance
 };
 
 /// By the largest smoothing length whose shape is within: tolerated(distances) is the figure that may be at most

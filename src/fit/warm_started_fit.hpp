@@ -101,7 +101,7 @@ class WarmStartedFit {
       levels_.tie(hierarchy_.count() - 1);
     }
     (void)start_from_points();
-    run_equilibrium(hierarchy_, *model_, options_, *team_, context, progress, report, nullptr,
+    run_equilibrium(hierarchy_, *model_, {options_, *team_, context, progress, report}, nullptr,
                     net().points.empty() ? nullptr : &levels_);
   }
 
@@ -117,7 +117,7 @@ class WarmStartedFit {
 
   /// By the paper's V-cycle.
   void cycle(Context& context, ProgressReporter& progress, FairReport& report) {
-    run_multigrid(hierarchy_, *model_, options_, *team_, context, progress, report,
+    run_multigrid(hierarchy_, *model_, {options_, *team_, context, progress, report},
                   net().points.empty() ? nullptr : &levels_);
   }
 
@@ -127,16 +127,15 @@ class WarmStartedFit {
     const std::size_t last = hierarchy_.count() - 1;
     levels_.tie(last);
     const std::vector<Vector3> start = net().positions;
-    run_equilibrium_from_near(hierarchy_, hierarchy_.preconditioner(last), *model_, options_, *team_, context, progress,
-                              report, &levels_);
+    const SolverCall call{options_, *team_, context, progress, report};
+    run_equilibrium_from_near(hierarchy_, hierarchy_.preconditioner(last), *model_, call, &levels_);
     if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
     // Where ties do not change nothing else leads further.
     if (net().points.are_nodes) return;
     net().positions = start;
     levels_.tie(last);
     if (start_from_points()) {
-      run_equilibrium_from_near(hierarchy_, hierarchy_.preconditioner(last), *model_, options_, *team_, context,
-                                progress, report, &levels_);
+      run_equilibrium_from_near(hierarchy_, hierarchy_.preconditioner(last), *model_, call, &levels_);
       if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
       net().positions = start;
       levels_.tie(last);

@@ -26,6 +26,33 @@ PolygonMesh::PolygonMesh(std::vector<Vector3> positions, std::vector<Index> face
   }
 }
 
+PolygonMesh PolygonMesh::from_arrays(std::span<const double> coordinates, std::span<const Index> face_begin,
+                                     std::span<const Index> corners) {
+  return {positions_of(coordinates), std::vector<Index>(face_begin.begin(), face_begin.end()),
+          std::vector<Index>(corners.begin(), corners.end())};
+}
+
+PolygonMesh PolygonMesh::from_arrays(std::span<const double> coordinates, std::span<const Index> corners, Index sides) {
+  if (sides < 1) throw Error(ErrorCode::invalid_argument, fmt::format("faces must have 1 node or more, not {}", sides));
+  if (corners.size() % static_cast<std::size_t>(sides) != 0)
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} corners are no whole number of faces with {} nodes", corners.size(), sides));
+  std::vector<Index> face_begin;
+  for (std::size_t c = 0; c <= corners.size(); c += static_cast<std::size_t>(sides))
+    face_begin.push_back(static_cast<Index>(c));
+  return from_arrays(coordinates, face_begin, corners);
+}
+
+std::vector<Vector3> positions_of(std::span<const double> coordinates) {
+  if (coordinates.size() % 3 != 0)
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} coordinates are no whole number of positions of three", coordinates.size()));
+  std::vector<Vector3> positions(coordinates.size() / 3);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    positions[i] = Vector3(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
+  return positions;
+}
+
 void PolygonMesh::set_positions(std::vector<Vector3> positions) {
   if (positions.size() != positions_.size())
     throw Error(ErrorCode::invalid_argument,

@@ -120,10 +120,9 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
   (void)check_constraints(mesh, task.of_surface, std::vector<std::uint8_t>(mesh.positions().size(), 1));
 
   FitOptions of_curve = options;
-  if (options.noise) {
+  if (options.noise()) {
     // Across a curve in space noise has two directions.
-    of_curve.rms = std::sqrt(2.0) * *options.noise;
-    of_curve.noise.reset();
+    of_curve.criterion = RootMeanSquare{std::sqrt(2.0) * *options.noise()};
   }
   ScatteredPoints on_curve;
   for (const auto& chain : task.curve.chains()) {

@@ -36,15 +36,16 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
   const auto model = curve_model_for(gathered.net, options.curve, options.forces);
   const Distribution distribution = options.distribution.value_or(Distribution::even);
   const ResultCheck check(gathered.net, *model, team);
+  const SolverCall call{options, team, context, progress, report};
   if (report.method == Method::sweep) {
     set_laplacian_weights(gathered.net, *model, distribution, team);
-    run_sweeps(gathered.net, *model, options, team, context, progress, report);
+    run_sweeps(gathered.net, *model, call);
   } else {
     CurveHierarchy hierarchy(curve_levels(std::move(gathered), distribution));
     if (report.method == Method::multigrid) {
-      run_multigrid(hierarchy, *model, options, team, context, progress, report);
+      run_multigrid(hierarchy, *model, call);
     } else {
-      run_equilibrium(hierarchy, *model, options, team, context, progress, report, &check);
+      run_equilibrium(hierarchy, *model, call, &check);
     }
     gathered = std::move(hierarchy).take();
   }

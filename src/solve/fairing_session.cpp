@@ -9,35 +9,98 @@ namespace vspring {
 
 namespace {
 
-/// Somebody waits: no other method is tried where this one finds nothing.
-FairOptions of_session(FairOptions options) {
-  if (!options.method) options.method = Method::equilibrium;
+FairOptions with_tolerance(FairOptions options, double tolerance) {
+  options.tolerance = tolerance;
+  options.validate();
   return options;
 }
 
 }  // namespace
 
-struct FairingSession::State {
-  State(PolygonMesh the_mesh, const FairOptions& the_options, int threads)
-      : mesh(std::move(the_mesh)), options(of_session(the_options)), fairing(mesh, options, threads), immovable(mesh) {}
+class FairingSession::Session {
+ public:
+  Session() = default;
+  virtual ~Session() = default;
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  virtual FairResult fair(const Constraints& constraints, Context& context) = 0;
+  virtual FairResult update(const Constraints& constraints, double tolerance, Context& context) = 0;
+  virtual std::optional<std::vector<Vector3>> predict(const Constraints& constraints, double tolerance) = 0;
+};
+
+class FairingSession::SurfaceSession final : public Session {
+ public:
+  SurfaceSession(PolygonMesh mesh, const FairOptions& options, int threads)
+      : mesh_(std::move(mesh)), options_(settled(options)), fairing_(mesh_, options_, threads), immovable_(mesh_) {}
+
+  FairResult fair(const Constraints& constraints, Context& context) override {
+    if (options_.fair_boundary) return vspring::fair(mesh_, constraints, options_, context);
+    return with_immovable_held(constraints,
+                               [&](const Constraints& held) { return fairing_.fair_again(held, context); });
+  }
+
+  FairResult update(const Constraints& constraints, double tolerance, Context& context) override {
+    const FairOptions options = with_tolerance(options_, tolerance);
+    if (options.fair_boundary) return vspring::fair(mesh_, constraints, options, context);
+    return with_immovable_held(constraints,
+                               [&](const Constraints& held) { return fairing_.fair_again(held, context, tolerance); });
+  }
+
+  std::optional<std::vector<Vector3>> predict(const Constraints& constraints, double tolerance) override {
+    if (with_tolerance(options_, tolerance).fair_boundary) return std::nullopt;
+    return immovable_.use(constraints, [&](const Constraints& held) { return fairing_.predict(held, tolerance); });
+  }
+
+ private:
+  /// Somebody waits: no other method is tried where this one finds nothing.
+  static FairOptions settled(FairOptions options) {
+    if (!options.method) options.method = Method::equilibrium;
+    return options;
+  }
 
   template <typename Fair>
   FairResult with_immovable_held(const Constraints& constraints, const Fair& fair) {
-    return immovable.run(
+    return immovable_.run(
         constraints, fair, [](FairResult & result) -> auto& { return result.report.warnings; });
   }
 
-  PolygonMesh mesh;
-  FairOptions options;
-  SurfaceFairing fairing;
-  ImmovableNodesFixed immovable;
+  PolygonMesh mesh_;
+  FairOptions options_;
+  SurfaceFairing fairing_;
+  ImmovableNodesFixed immovable_;
+};
+
+class FairingSession::CurveSession final : public Session {
+ public:
+  CurveSession(PolygonCurve curve, const FairOptions& options) : curve_(std::move(curve)), options_(options) {}
+
+  FairResult fair(const Constraints& constraints, Context& context) override {
+    return vspring::fair(curve_, constraints, options_, context);
+  }
+  FairResult update(const Constraints& constraints, double tolerance, Context& context) override {
+    return vspring::fair(curve_, constraints, with_tolerance(options_, tolerance), context);
+  }
+  std::optional<std::vector<Vector3>> predict(const Constraints& /*constraints*/, double tolerance) override {
+    (void)with_tolerance(options_, tolerance);
+    return std::nullopt;
+  }
+
+ private:
+  PolygonCurve curve_;
+  FairOptions options_;
 };
 
 FairingSession::FairingSession(PolygonMesh mesh, const FairOptions& options, int threads) {
   options.validate();
   Context context;
   context.threads = threads;
-  state_ = std::make_unique<State>(std::move(mesh), options, context.thread_count());
+  session_ = std::make_unique<SurfaceSession>(std::move(mesh), options, context.thread_count());
+}
+
+FairingSession::FairingSession(PolygonCurve curve, const FairOptions& options) {
+  options.validate();
+  session_ = std::make_unique<CurveSession>(std::move(curve), options);
 }
 
 FairingSession::~FairingSession() = default;
@@ -45,34 +108,20 @@ FairingSession::FairingSession(FairingSession&&) noexcept = default;
 FairingSession& FairingSession::operator=(FairingSession&&) noexcept = default;
 
 FairResult FairingSession::fair(const Constraints& constraints, Context& context) {
-  if (!state_->options.fair_boundary)
-    return state_->with_immovable_held(
-        constraints, [&](const Constraints& held) { return state_->fairing.fair_again(held, context); });
-  return vspring::fair(state_->mesh, constraints, state_->options, context);
-}
-
-FairResult FairingSession::update(const Constraints& constraints, double tolerance, Context& context) {
-  FairOptions options = state_->options;
-  options.tolerance = tolerance;
-  options.validate();
-  if (!options.fair_boundary)
-    return state_->with_immovable_held(
-        constraints, [&](const Constraints& held) { return state_->fairing.fair_again(held, context, tolerance); });
-  return vspring::fair(state_->mesh, constraints, options, context);
-}
-
-std::optional<std::vector<Vector3>> FairingSession::predict(const Constraints& constraints, double tolerance) {
-  FairOptions options = state_->options;
-  options.tolerance = tolerance;
-  options.validate();
-  if (options.fair_boundary) return std::nullopt;
-  return state_->immovable.use(constraints,
-                               [&](const Constraints& held) { return state_->fairing.predict(held, tolerance); });
+  return session_->fair(constraints, context);
 }
 
 FairResult FairingSession::fair(const Constraints& constraints) {
   Context context;
   return fair(constraints, context);
+}
+
+FairResult FairingSession::update(const Constraints& constraints, double tolerance, Context& context) {
+  return session_->update(constraints, tolerance, context);
+}
+
+std::optional<std::vector<Vector3>> FairingSession::predict(const Constraints& constraints, double tolerance) {
+  return session_->predict(constraints, tolerance);
 }
 
 }  // namespace vspring

@@ -13,14 +13,14 @@ Net gather_part(const PolygonMesh& whole, const std::optional<ActiveSubmesh>& pa
   return net;
 }
 
-std::vector<std::string> check_part(const PolygonMesh& whole, const std::optional<ActiveSubmesh>& part,
-                                    const Constraints& constraints, std::span<const std::uint8_t> pulled) {
+std::vector<Warning> check_part(const PolygonMesh& whole, const std::optional<ActiveSubmesh>& part,
+                                const Constraints& constraints, std::span<const std::uint8_t> pulled) {
   if (part) {
     std::vector<std::uint8_t> pulled_there;
     for (std::size_t k = 0; k < part->node.size() && !pulled.empty(); ++k)
       pulled_there.push_back(pulled[static_cast<std::size_t>(part->node[k])]);
     try {
-      std::vector<std::string> warnings = check_constraints(part->mesh, part->constraints, pulled_there);
+      std::vector<Warning> warnings = check_constraints(part->mesh, part->constraints, pulled_there);
       if (warnings.empty()) return warnings;
     } catch (const Error&) {
       return check_constraints(whole, constraints, pulled);

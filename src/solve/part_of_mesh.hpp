@@ -19,8 +19,8 @@ Net gather_part(const PolygonMesh& whole, const std::optional<ActiveSubmesh>& pa
                 bool for_spheres = false);
 
 /// As check_constraints() of the whole; in what the part costs where nothing is to be said.
-std::vector<std::string> check_part(const PolygonMesh& whole, const std::optional<ActiveSubmesh>& part,
-                                    const Constraints& constraints, std::span<const std::uint8_t> pulled = {});
+std::vector<Warning> check_part(const PolygonMesh& whole, const std::optional<ActiveSubmesh>& part,
+                                const Constraints& constraints, std::span<const std::uint8_t> pulled = {});
 
 /// The members of the part, in its order.
 template <typename Value>

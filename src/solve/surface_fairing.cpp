@@ -53,12 +53,6 @@ constexpr double work_of_a_try = 0.2;
 constexpr std::string_view ways_out =
     "hold more nodes, or normals, let a smaller region move, or only take its noise off";
 
-/// For springs that others take over from.
-FairOptions for_a_try(FairOptions options) {
-  options.as_found = true;
-  return options;
-}
-
 /// While somebody drags: what leads nowhere in so many iterations on each level is for later.
 FairOptions in_a_hurry(FairOptions options) {
   constexpr int enough = 40;
@@ -80,7 +74,7 @@ FairResult SurfaceFairing::fair_once(const Constraints& constraints, Context& co
   hierarchy_.reset();
   if (crosses_itself(net, constraints, context, result.report)) {
     net = gather_part(*whole_, part_, constraints);
-    result.report.warnings.back() +=
+    result.report.warnings.back().text +=
         ": this is the input with its constraints; hold more nodes, or let a smaller part move";
   }
   finish(net, constraints, result);
@@ -157,84 +151,97 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   ProgressReporter progress(context);
   progress.report("preparing", 0);
   report.threads = team_.size();
+  const SolverCall call{options, team_, context, progress, report};
   before_ = measure(mesh(), &held(constraints), team_);
   if (report.method == Method::equilibrium) {
-    run_to_equilibrium(constraints, context, progress, report, options);
+    run_to_equilibrium(constraints, call);
     return {};
   }
   Net net = gather_part(*whole_, part_, constraints);
   check_.emplace(net, *model_, team_);
   if (report.method == Method::multigrid) {
     hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
-    run_multigrid(*hierarchy_, *model_, options, team_, context, progress, report);
+    run_multigrid(*hierarchy_, *model_, call);
     warn_if_worse(*check_, hierarchy_->net(hierarchy_->count() - 1), report);
     return {};
   }
   set_laplacian_weights(net, *model_, options.distribution_taken(), team_);
-  run_sweeps(net, *model_, options, team_, context, progress, report);
+  run_sweeps(net, *model_, call);
   warn_if_worse(*check_, net, report);
   return net;
 }
 
-void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, Context& context, ProgressReporter& progress,
-                                        FairReport& report, const FairOptions& options) {
+void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const SolverCall& call) {
+  const FairOptions& options = call.options;
+  FairReport& report = call.report;
   const FairReport at_first = report;
-  find_equilibrium(options.fair_by, constraints, context, progress, report, options);
+  find_equilibrium(options.fair_by, constraints, call);
   if (options.springs == Springs::edge || options.fair_by == FairBy::curvature) return;
   if (report.springs == Springs::edge) {
-    report.warnings.emplace_back(
-        "least bending is for sphere springs, which would not see what is held here: these are edge springs");
+    report.warnings.push_back(
+        {WarningCode::other_springs,
+         "least bending is for sphere springs, which would not see what is held here: these are edge springs"});
     return;
   }
   if (is_final(report) || options.max_iterations || options.as_found) return;
-  FairReport by_curvature = at_first;
-  find_equilibrium(FairBy::curvature, constraints, context, progress, by_curvature, options);
-  by_curvature.iterations += report.iterations;
-  by_curvature.work += report.work;
-  by_curvature.most_work += report.most_work;
-  report = std::move(by_curvature);
-  report.warnings.emplace_back("no shape of least bending was found: this is fair by curvature");
+  const FairReport by_bending = std::exchange(report, at_first);
+  find_equilibrium(FairBy::curvature, constraints, call);
+  report.iterations += by_bending.iterations;
+  report.work += by_bending.work;
+  report.most_work += by_bending.most_work;
+  report.warnings.push_back(
+      {WarningCode::other_fairness, "no shape of least bending was found: this is fair by curvature"});
 }
 
-void SurfaceFairing::find_equilibrium(FairBy fair_by, const Constraints& constraints, Context& context,
-                                      ProgressReporter& progress, FairReport& report, const FairOptions& options) {
-  const FairReport at_first = report;
-  run_with(options.springs, fair_by, constraints, context, progress, report, options);
-  if (is_final(report) || options.method || options.max_iterations || options.as_found) return;
-  if (!options.distribution && try_evenly(fair_by, constraints, context, progress, at_first, report)) return;
-  if (report.fair_by == FairBy::curvature) try_sweeps(constraints, context, progress, report);
+void SurfaceFairing::find_equilibrium(FairBy fair_by, const Constraints& constraints, const SolverCall& call) {
+  const FairOptions& options = call.options;
+  const FairReport at_first = call.report;
+  find_with_springs(fair_by, constraints, call);
+  if (is_final(call.report) || options.method || options.max_iterations || options.as_found) return;
+  if (!options.distribution && try_evenly(fair_by, constraints, at_first, call)) return;
+  if (call.report.fair_by == FairBy::curvature) try_sweeps(constraints, call);
 }
 
-void SurfaceFairing::run_with(Springs springs, FairBy fair_by, const Constraints& constraints, Context& context,
-                              ProgressReporter& progress, FairReport& report, const FairOptions& options) {
-  Net net = gather_part(*whole_, part_, constraints, springs == Springs::sphere);
-  if (springs == Springs::sphere && !suits_sphere_springs(net))
-    return run_with(Springs::edge, fair_by, constraints, context, progress, report, options);
-  const bool by_bending = springs == Springs::sphere && fair_by == FairBy::bending;
-  if (by_bending) use_least_bending(net);
-  hierarchy_.reset();
-  check_.emplace(net, *model_, team_);
-  hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
-  // Whoever gives a number of iterations, or asks for what is found, gets that; edge springs come second else, and
-  // after least bending curvature does.
-  const bool is_try = springs == Springs::sphere && !options.max_iterations && !options.as_found;
-  FairReport one = report;
-  run_equilibrium(*hierarchy_, *model_, is_try ? for_a_try(options) : options, team_, context, progress, one, &*check_);
-  one.springs = springs;
-  one.fair_by = by_bending ? FairBy::bending : FairBy::curvature;
-  if (!is_try || by_bending || is_final(one)) {
-    report = std::move(one);
-    return;
+void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constraints, const SolverCall& call) {
+  const FairOptions& options = call.options;
+  FairReport& report = call.report;
+  bool spheres_have_none = false;
+  for (const Springs springs : {Springs::sphere, Springs::edge}) {
+    const bool is_sphere = springs == Springs::sphere;
+    if (is_sphere && options.springs == Springs::edge) continue;
+    Net net = gather_part(*whole_, part_, constraints, is_sphere);
+    if (is_sphere && !suits_sphere_springs(net)) continue;
+    const bool by_bending = is_sphere && fair_by == FairBy::bending;
+    if (by_bending) use_least_bending(net);
+    hierarchy_.reset();
+    check_.emplace(net, *model_, team_);
+    hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
+    // Whoever gives a number of iterations, or asks for what is found, gets that; edge springs come second else, and
+    // after least bending curvature does.
+    const bool is_try = is_sphere && !options.max_iterations && !options.as_found;
+    FairOptions taken = options;
+    if (is_try) taken.as_found = true;
+    FairReport one = report;
+    run_equilibrium(*hierarchy_, *model_, {taken, team_, call.context, call.progress, one}, &*check_);
+    one.springs = springs;
+    one.fair_by = by_bending ? FairBy::bending : FairBy::curvature;
+    if (!is_try || by_bending || is_final(one)) {
+      report = std::move(one);
+      break;
+    }
+    spheres_have_none = true;
+    report.iterations = one.iterations;
+    report.work = one.work;
   }
-  report.iterations = one.iterations;
-  report.work = one.work;
-  run_with(Springs::edge, fair_by, constraints, context, progress, report, options);
-  report.warnings.emplace_back("sphere springs have no equilibrium here: these are edge springs");
+  if (spheres_have_none)
+    report.warnings.push_back(
+        {WarningCode::other_springs, "sphere springs have no equilibrium here: these are edge springs"});
 }
 
-bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, Context& context,
-                                ProgressReporter& progress, const FairReport& at_first, FairReport& report) {
+bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first,
+                                const SolverCall& call) {
   const std::vector<Vector3> nearest = hierarchy_->net(hierarchy_->count() - 1).positions;
+  FairReport& report = call.report;
   FairOptions options = options_;
   options.distribution = Distribution::even;
   options.max_iterations = iterations_of_a_try;
@@ -244,13 +251,14 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
   const double beyond = std::max(0.0, report.work - (1 - work_of_a_try) * report.most_work);
   even.work = report.work - beyond;
   even.most_work = report.most_work;
-  run_with(options.springs, fair_by, constraints, context, progress, even, options);
+  find_with_springs(fair_by, constraints, {options, team_, call.context, call.progress, even});
   even.work += beyond;
   if (was_found(even)) {
     report = std::move(even);
     if (report.outcome == Outcome::cancelled) return true;
-    report.warnings.emplace_back(
-        "with the spacing of the input no equilibrium was found: nodes go to the mean of their neighbours");
+    report.warnings.push_back(
+        {WarningCode::other_distribution,
+         "with the spacing of the input no equilibrium was found: nodes go to the mean of their neighbours"});
     return true;
   }
   report.iterations = even.iterations;
@@ -265,14 +273,14 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
   return false;
 }
 
-void SurfaceFairing::try_sweeps(const Constraints& constraints, Context& context, ProgressReporter& progress,
-                                FairReport& report) {
+void SurfaceFairing::try_sweeps(const Constraints& constraints, const SolverCall& call) {
+  FairReport& report = call.report;
   Net net = gather_part(*whole_, part_, constraints);
   set_laplacian_weights(net, *model_, options_.distribution_taken(), team_);
   FairOptions options = options_;
   options.max_iterations = sweeps_of_last_resort(net.moving);
   FairReport of_sweeps;
-  run_sweeps(net, *model_, options, team_, context, progress, of_sweeps);
+  run_sweeps(net, *model_, {options, team_, call.context, call.progress, of_sweeps});
   report.work += of_sweeps.work;
   Net& nearest = hierarchy_->net(hierarchy_->count() - 1);
   update_directions(nearest, *model_, team_);
@@ -283,15 +291,19 @@ void SurfaceFairing::try_sweeps(const Constraints& constraints, Context& context
     if (!better) return;
     // In place of what was said of that.
     report.outcome = Outcome::stalled;
-    report.warnings.back() = fmt::format(
-        "no equilibrium was found that is no worse than the input: this is the plain iteration's shape, which is "
-        "fairer; {}",
-        ways_out);
+    report.warnings.back() = {
+        WarningCode::no_equilibrium,
+        fmt::format(
+            "no equilibrium was found that is no worse than the input: this is the plain iteration's shape, which is "
+            "fairer; {}",
+            ways_out)};
     return;
   }
-  report.warnings.push_back(fmt::format(
-      "no equilibrium was found (the nearest shape is {}): this is {}; {}", distance_from_equilibrium(report),
-      better ? "the plain iteration's shape, which is fairer" : "that shape", ways_out));
+  report.warnings.push_back(
+      {WarningCode::no_equilibrium,
+       fmt::format("no equilibrium was found (the nearest shape is {}): this is {}; {}",
+                   distance_from_equilibrium(report),
+                   better ? "the plain iteration's shape, which is fairer" : "that shape", ways_out)});
 }
 
 bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance,
@@ -306,8 +318,9 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std
   FairOptions options = options_;
   options.tolerance = tolerance.value_or(options_.tolerance);
   hierarchy_->update(constraints, *model_, options.tolerance * diagonal(net));
-  run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, options, team_, context, progress,
-                            report, nullptr, &hierarchy_->memory(), tolerance.has_value());
+  run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_,
+                            {options, team_, context, progress, report}, nullptr, &hierarchy_->memory(),
+                            tolerance.has_value());
   if (report.outcome == Outcome::cancelled) return true;
   if (report.outcome != Outcome::converged) return false;
   const std::string fault = check_->fault_of_places(net);
@@ -315,7 +328,7 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std
     // Who has dragged something too far sees it, and drags it back.
     if (!tolerance && !options_.as_found) return false;
     report.outcome = Outcome::worse_than_input;
-    report.warnings.push_back("this is worse than the input: " + fault);
+    report.warnings.push_back({WarningCode::worse_than_input, "this is worse than the input: " + fault});
   }
   hierarchy_->arrived();
   return true;
@@ -327,7 +340,7 @@ bool SurfaceFairing::crosses_itself(const Net& net, const Constraints& constrain
       *whole_, scatter_positions(net, whole_->positions(), constraints, options_.strength), context, team_);
   if (crossings.empty()) return false;
   report.outcome = Outcome::worse_than_input;
-  report.warnings.push_back("what was found is worse than the input: " + crossings);
+  report.warnings.push_back({WarningCode::worse_than_input, "what was found is worse than the input: " + crossings});
   return report.method == Method::equilibrium && !options_.as_found;
 }
 

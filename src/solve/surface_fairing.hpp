@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "base/progress.hpp"
 #include "base/threads.hpp"
 #include "checks/result_check.hpp"
 #include "constraints/active_submesh.hpp"
+#include "equilibrium/solver_call.hpp"
 #include "equilibrium/surface_hierarchy.hpp"
 #include "fairness/measure.hpp"
 #include "spring/model.hpp"
@@ -40,21 +40,18 @@ class SurfaceFairing {
   /// Leaves the shape in the net that it returns, or in hierarchy_.
   Net run(const Constraints& constraints, Context& context, FairReport& report, const FairOptions& options);
   /// The same by the method equilibrium. Where no shape of least bending is found that by curvature comes next.
-  void run_to_equilibrium(const Constraints& constraints, Context& context, ProgressReporter& progress,
-                          FairReport& report, const FairOptions& options);
+  void run_to_equilibrium(const Constraints& constraints, const SolverCall& call);
   /// The same, made fair by that; with other distributions and, by curvature, the plain iteration if need be.
-  void find_equilibrium(FairBy fair_by, const Constraints& constraints, Context& context, ProgressReporter& progress,
-                        FairReport& report, const FairOptions& options);
-  /// The same with such springs, or edge springs where these do not suit.
-  void run_with(Springs springs, FairBy fair_by, const Constraints& constraints, Context& context,
-                ProgressReporter& progress, FairReport& report, const FairOptions& options);
+  void find_equilibrium(FairBy fair_by, const Constraints& constraints, const SolverCall& call);
+  /// The same with sphere springs, where they are wanted and suit, and with edge springs where these have no
+  /// equilibrium. Iterations and work are added to those that the report has.
+  void find_with_springs(FairBy fair_by, const Constraints& constraints, const SolverCall& call);
   /// Where no equilibrium was found: one with another distribution may be. Else the nearest shape stays. at_first: the
   /// report before anything was tried.
-  bool try_evenly(FairBy fair_by, const Constraints& constraints, Context& context, ProgressReporter& progress,
-                  const FairReport& at_first, FairReport& report);
+  bool try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first, const SolverCall& call);
   /// Where no equilibrium was found and nobody asked for the method: the paper's iteration may lead somewhere. The
   /// fairer of both stays.
-  void try_sweeps(const Constraints& constraints, Context& context, ProgressReporter& progress, FairReport& report);
+  void try_sweeps(const Constraints& constraints, const SolverCall& call);
   /// From the last shape. False where that leads nowhere.
   bool go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance, FairReport& report);
   /// Says where faces cross each other that did not before. True where they do, and that is not wanted as found.

@@ -43,6 +43,7 @@ struct Net {
   Frame frame;
   double tiny = 0;  ///< see node_force()
 
+  [[nodiscard]] bool is_curve() const { return !tangents.empty(); }
   [[nodiscard]] bool normal_given(std::size_t i) const { return (given[i] & given_normal) != 0; }
   [[nodiscard]] bool tangent_given(std::size_t i) const { return (given[i] & given_tangent) != 0; }
   [[nodiscard]] std::span<const double> weights_of(std::size_t i) const {

@@ -15,8 +15,8 @@ namespace vspring::constraints_test {
 namespace {
 
 using namespace support;
-using support::refusal;
 using generate::Faces;
+using support::refusal;
 
 std::string refusal(const PolygonMesh& mesh, const Constraints& constraints, ErrorCode code) {
   return refusal([&] { (void)fair(mesh, constraints); }, code);
@@ -75,7 +75,7 @@ TEST(Constraints, AFreeBoundaryIsRefusedAndAPartlyFreeOneWarnedOf) {
   constraints.free_position(loops[0][3]);
   const auto warnings = fair(mesh, constraints).report.warnings;
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_TRUE(says(warnings[0], "1 boundary node is free")) << warnings[0];
+  EXPECT_TRUE(says(warnings[0].text, "1 boundary node is free")) << warnings[0].text;
   EXPECT_TRUE(fair(mesh, held_boundary(mesh)).report.warnings.empty());
 }
 
@@ -181,8 +181,9 @@ TEST(Constraints, NodesThatCannotMoveAreHeldAndBrokenPlacesRefusedWhereTheyWould
       EXPECT_EQ(result.report.outcome, Outcome::converged);
       EXPECT_EQ(result.positions[24], mesh.position(24));
       ASSERT_FALSE(result.report.warnings.empty());
-      EXPECT_TRUE(says(result.report.warnings[0], fmt::format("{} node", broken.held))) << result.report.warnings[0];
-      EXPECT_TRUE(says(result.report.warnings[0], broken.named)) << result.report.warnings[0];
+      EXPECT_TRUE(says(result.report.warnings[0].text, fmt::format("{} node", broken.held)))
+          << result.report.warnings[0].text;
+      EXPECT_TRUE(says(result.report.warnings[0].text, broken.named)) << result.report.warnings[0].text;
     }
     // Far from it, the same mesh is faired.
     Constraints elsewhere = held_boundary(mesh);

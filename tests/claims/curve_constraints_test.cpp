@@ -113,7 +113,7 @@ TEST(CurveConstraints, AFamilyOfCirclesIsWarnedOf) {
   Constraints constraints(20);
   hold(constraints, curve.positions(), 5);
   ASSERT_EQ(check_constraints(curve, constraints).size(), 1U);
-  EXPECT_TRUE(says(check_constraints(curve, constraints)[0], "node 0 leaves a family of shapes"));
+  EXPECT_TRUE(says(check_constraints(curve, constraints)[0].text, "node 0 leaves a family of shapes"));
   EXPECT_EQ(fair(curve, constraints).report.warnings, check_constraints(curve, constraints));
   hold(constraints, curve.positions(), 9);
   EXPECT_EQ(check_constraints(curve, constraints).size(), 1U);

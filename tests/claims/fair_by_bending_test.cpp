@@ -105,7 +105,7 @@ TEST(FairByBending, GivesWayToCurvatureWhereNothingIsFound) {
   const FairResult result = faired(FairBy::bending);
   EXPECT_EQ(result.report.fair_by, FairBy::curvature);
   ASSERT_FALSE(result.report.warnings.empty());
-  EXPECT_NE(result.report.warnings.back().find("least bending"), std::string::npos);
+  EXPECT_NE(result.report.warnings.back().text.find("least bending"), std::string::npos);
   EXPECT_EQ(result.positions, faired(FairBy::curvature).positions);
 }
 
@@ -124,7 +124,7 @@ TEST(FairByBending, IsForSphereSprings) {
   EXPECT_EQ(result.report.springs, Springs::edge);
   EXPECT_EQ(result.report.fair_by, FairBy::curvature);
   ASSERT_EQ(result.report.warnings.size(), 1U);
-  EXPECT_NE(result.report.warnings[0].find("least bending"), std::string::npos);
+  EXPECT_NE(result.report.warnings[0].text.find("least bending"), std::string::npos);
   EXPECT_TRUE(faired(Springs::sphere, FairBy::curvature).report.warnings.empty());
   const FairResult of_edges = faired(Springs::edge, FairBy::bending);
   EXPECT_EQ(of_edges.positions, result.positions);

@@ -48,7 +48,7 @@ TEST(FairCrossings, AreNeverHandedOutAsConverged) {
     EXPECT_EQ(result.report.outcome, Outcome::worse_than_input);
     EXPECT_EQ(result.positions, mesh.positions()) << "the input";
     ASSERT_FALSE(result.report.warnings.empty());
-    EXPECT_NE(result.report.warnings.back().find("cross each other"), std::string::npos);
+    EXPECT_NE(result.report.warnings.back().text.find("cross each other"), std::string::npos);
 
     FairOptions options;
     options.as_found = true;

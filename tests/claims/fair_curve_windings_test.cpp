@@ -163,8 +163,8 @@ TEST(FairCurveWindings, AHelixWithoutAFairCurveOfAsManyTurnsSaysSo) {
   const FairResult result = fair(PolygonCurve(nodes), helix.constraints);
   EXPECT_EQ(result.report.outcome, Outcome::worse_than_input);
   ASSERT_FALSE(result.report.warnings.empty());
-  EXPECT_NE(result.report.warnings.back().find("as does every fair curve with these ends"), std::string::npos);
-  EXPECT_NE(result.report.warnings.back().find("hold a node in each winding"), std::string::npos);
+  EXPECT_NE(result.report.warnings.back().text.find("as does every fair curve with these ends"), std::string::npos);
+  EXPECT_NE(result.report.warnings.back().text.find("hold a node in each winding"), std::string::npos);
   EXPECT_NEAR(around_the_axis(result.positions), 4 * 2 * pi, 1e-6);
 }
 

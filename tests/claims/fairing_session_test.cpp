@@ -290,7 +290,7 @@ TEST(FairingSession, HoldsNodesThatCannotMoveAndFollowsAllTheSame) {
     const FairResult result = session.fair(constraints);
     EXPECT_EQ(result.report.outcome, Outcome::converged);
     ASSERT_EQ(result.report.warnings.size(), 1U);
-    EXPECT_EQ(result.report.warnings[0].substr(0, 33), "2 nodes cannot move and are held:");
+    EXPECT_EQ(result.report.warnings[0].text.substr(0, 33), "2 nodes cannot move and are held:");
     EXPECT_EQ(result.positions[static_cast<std::size_t>(face[0])], mesh.position(face[0]));
     if (step > 0) EXPECT_EQ(result.report.levels.size(), 1U) << "no coarser level is needed";
   }
@@ -362,6 +362,23 @@ TEST(FairingSession, ThreadsGiveTheSameBits) {
     shapes.push_back(std::move(shape));
   }
   EXPECT_EQ(shapes[0], shapes[1]);
+}
+
+TEST(FairingSession, FairsCurvesAsTheyAreFairedAlone) {
+  const std::vector<Vector3> nodes = {{0, 0, 0}, {1, 0.3, 0}, {2, -0.2, 0}, {3, 0.4, 0}, {4, 0, 0}};
+  const PolygonCurve curve(nodes);
+  Constraints held(curve.node_count());
+  held.fix_position(0, nodes[0]);
+  held.fix_position(4, nodes[4]);
+  FairingSession session(curve, to(1e-8));
+  for (const double height : {0.2, 0.5}) {
+    held.fix_position(2, {2, height, 0});
+    EXPECT_EQ(session.fair(held).positions, fair(curve, held, to(1e-8)).positions);
+    Context context;
+    EXPECT_EQ(session.update(held, 1e-3, context).positions, fair(curve, held, to(1e-3)).positions);
+    EXPECT_FALSE(session.predict(held, 1e-3).has_value());
+    EXPECT_THROW((void)session.update(held, 0, context), Error);
+  }
 }
 
 }  // namespace

@@ -45,10 +45,10 @@ TEST(FitNoisyScan, NoFoldIsLeftWhateverIsAskedFor) {
   const double before = rms_from_torus(noisy.positions());
   ASSERT_GT(greatest_turn(noisy, noisy.positions()), 120);
   FitOptions ways[4];
-  ways[0].within = 0.15;
-  ways[1].rms = before;
-  ways[2].smoothing_length = 0.2;
-  ways[3].weight = 0.03;
+  ways[0].criterion = Within{0.15};
+  ways[1].criterion = RootMeanSquare{before};
+  ways[2].criterion = SmoothingLength{0.2};
+  ways[3].criterion = Weight{0.03};
   for (FitOptions& options : ways) {
     SCOPED_TRACE(&options - ways);
     options.fair.distribution = Distribution::keep;
@@ -62,7 +62,7 @@ TEST(FitNoisyScan, NoFoldIsLeftWhateverIsAskedFor) {
 FitOptions without_noise(double deviation) {
   FitOptions options;
   options.fair.distribution = Distribution::keep;
-  options.noise = deviation;
+  options.criterion = Noise{deviation};
   return options;
 }
 
@@ -91,7 +91,7 @@ TEST(FitNoisyScan, NoiseIsTakenOffOnEveryKindOfFace) {
 }
 
 TEST(FitNoisyScan, ASmoothShapeIsFoundFromNoiseOfItsEdges) {
-  // In docs/fit.md, on a torus like this one, fits with a weight at every node left 0.17 of such noise.
+  // In docs/notes/fit.md, on a torus like this one, fits with a weight at every node left 0.17 of such noise.
   const PolygonMesh torus = generate::torus({.columns = 64, .rows = 48, .jitter = 0.2}, 1, minor_radius);
   const double deviation = 0.02;
   const PolygonMesh noisy = generate::add_noise(torus, std::sqrt(5.0) * deviation, 1);
@@ -101,7 +101,7 @@ TEST(FitNoisyScan, ASmoothShapeIsFoundFromNoiseOfItsEdges) {
 }
 
 TEST(FitNoisyScan, SharpEdgesStaySharp) {
-  // In docs/fit.md low passes, which round them off, leave half of such noise at their best.
+  // In docs/notes/fit.md low passes, which round them off, leave half of such noise at their best.
   const PolygonMesh block = generate::genus({.holes = 1, .cells = 8});
   const auto face = block.face(0);
   const double deviation = 0.25 * (block.position(face[0]) - block.position(face[1])).norm();
@@ -149,7 +149,7 @@ TEST(FitNoisyScan, WhatIsMoreThanNoiseStays) {
   FitOptions alike;
   // With other distributions that is an equilibrium.
   alike.fair.distribution = Distribution::smooth;
-  alike.rms = kept.report.after.all.rms;
+  alike.criterion = RootMeanSquare{kept.report.after.all.rms};
   const FitResult smoothed = fit(noisy, held, points, alike);
   const auto off = [&](const std::vector<Vector3>& places) { return distance(places, exact_bump); };
   EXPECT_LT(off(kept.positions).greatest, 0.7 * off(smoothed.positions).greatest);
@@ -167,11 +167,11 @@ TEST(FitNoisyScan, ARootMeanSquareIsKeptAndTakesTheNoiseOff) {
     SCOPED_TRACE(share);
     FitOptions options;
     options.fair.distribution = Distribution::keep;
-    options.rms = share * before;
+    options.criterion = RootMeanSquare{share * before};
     const FitResult result = fit_to_itself(noisy, options);
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
-    EXPECT_LE(result.report.after.all.rms, *options.rms);
-    EXPECT_GT(result.report.after.all.rms, 0.7 * *options.rms);
+    EXPECT_LE(result.report.after.all.rms, *options.rms());
+    EXPECT_GT(result.report.after.all.rms, 0.7 * *options.rms());
     EXPECT_LT(distance(result.positions, torus).rms, 0.35 * before);
   }
 }
@@ -180,7 +180,7 @@ TEST(FitNoisyScan, ARootMeanSquareIsKeptAndTakesTheNoiseOff) {
 FitOptions within(double tolerance) {
   FitOptions options;
   options.fair.distribution = Distribution::keep;
-  options.within = tolerance;
+  options.criterion = Within{tolerance};
   return options;
 }
 
@@ -201,7 +201,7 @@ TEST(FitNoisyScan, WithinThreeTimesTheNoiseTheNoiseIsOffAndNoNodeIsFurtherAway) 
   ASSERT_GT(free.report.after.all.greatest, 1.05 * 3 * deviation) << "else nothing is taken back";
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   EXPECT_LE(result.report.after.all.greatest, 3 * deviation);
-  EXPECT_GT(result.report.active_points, 0);
+  EXPECT_FALSE(result.report.active_points.empty());
   EXPECT_EQ(result.report.outside_points, 0);
   EXPECT_LT(greatest_turn(noisy, result.positions), greatest_turn(torus, torus.positions()) + 10);
   EXPECT_LT(rms_from_torus(result.positions), 0.25 * rms_from_torus(noisy.positions()));

@@ -103,7 +103,7 @@ struct ThinWall {
 };
 
 FitOptions weight(double k, std::optional<Method> method = std::nullopt) {
-  FitOptions options{.weight = k};
+  FitOptions options{.criterion = Weight{k}};
   options.fair.method = method;
   return options;
 }
@@ -130,7 +130,7 @@ TEST(FitNormals, HoldOnAllLevelsAndForTolerances) {
   const ThinWall wall(40);
   EXPECT_LT(wall.error(wall.fit(wall.points, weight(0.01))), 0.004);
   FitOptions options;
-  options.smoothing_length = 0.05;
+  options.criterion = SmoothingLength{0.05};
   EXPECT_LT(wall.error(wall.fit(wall.points, options)), 0.004);
 }
 

@@ -22,7 +22,7 @@ constexpr double pi = std::numbers::pi;
 FitResult fit_within(const PolygonCurve& curve, const Constraints& held, double tolerance) {
   FitOptions options;
   options.fair.distribution = Distribution::keep;
-  options.within = tolerance;
+  options.criterion = Within{tolerance};
   return fit(curve, held, {.positions = curve.positions()}, options);
 }
 
@@ -171,7 +171,7 @@ TEST(FitOwnNodes, ACurveThatIsSmoothedBeyondItsSharpestBendIsNotInflated) {
   const PolygonCurve curve(nodes);
   FitOptions options;
   options.fair.distribution = Distribution::keep;
-  options.smoothing_length = 0.2;
+  options.criterion = SmoothingLength{0.2};
   const Constraints held = held_ends(curve.positions());
   const FitResult result = fit(curve, held, {.positions = curve.positions()}, options);
   const auto height = [](const std::vector<Vector3>& nodes) {
@@ -197,11 +197,11 @@ TEST(FitOwnNodes, NewNodesByTheCosineAreFreeOfNoiseTooWithinATolerance) {
       resample(table, Constraints(table.node_count()), {.nodes = 120, .by = ResamplingBy::cosine});
   FitOptions options;
   options.fair.distribution = Distribution::keep;
-  options.within = 0.00036;
+  options.criterion = Within{0.00036};
   const Constraints held = held_ends(resampled.curve.positions());
   const FitResult result = fit(resampled.curve, held, {.positions = nodes}, options);
-  EXPECT_LE(result.report.after.all.greatest, *options.within);
-  EXPECT_GT(result.report.after.all.greatest, 0.9 * *options.within);
+  EXPECT_LE(result.report.after.all.greatest, *options.within());
+  EXPECT_GT(result.report.after.all.greatest, 0.9 * *options.within());
   const CurveFigures before = measure_curve(resampled.curve);
   const CurveFigures after = measure_curve(PolygonCurve(result.positions));
   EXPECT_GT(before.inflections, 10);

@@ -65,7 +65,7 @@ TEST(FitPoints, SaysWhereTheyAreLeftBehindAndMakesNoBalloon) {
   const auto says = [](const FitResult& result, const std::string& words) {
     const auto& warnings = result.report.fair.warnings;
     return std::any_of(warnings.begin(), warnings.end(),
-                       [&](const std::string& warning) { return warning.find(words) != std::string::npos; });
+                       [&](const Warning& warning) { return warning.text.find(words) != std::string::npos; });
   };
   const FitResult near = fitted(1);
   EXPECT_EQ(near.report.fair.outcome, Outcome::converged);
@@ -190,10 +190,10 @@ TEST(FitPoints, RefusalsNameThePoint) {
   EXPECT_NE(refusal(points, by_sweeps(-1)).find("weight"), std::string::npos);
   FitOptions options;
   options.fair.method = Method::multigrid;
-  options.within = 0.01;
+  options.criterion = Within{0.01};
   EXPECT_NE(refusal(points, options).find("multigrid"), std::string::npos);
   options = {};
-  options.noise = 0.01;
+  options.criterion = Noise{0.01};
   EXPECT_NE(refusal(points, options).find("surfaces only"), std::string::npos);
 }
 

@@ -82,7 +82,7 @@ TEST(Fit, WithoutWeightItIsPlainFairingToTheBit) {
   EXPECT_EQ(fit(start.flat, start.held, on_the_sphere(100), options).positions, plain.positions);
   ScatteredPoints unweighted = on_the_sphere(100);
   unweighted.weights.assign(100, 0);
-  options.weight = 1;
+  options.criterion = Weight{1};
   const FitResult result = fit(start.flat, start.held, unweighted, options);
   EXPECT_EQ(result.positions, plain.positions);
   EXPECT_EQ(result.report.pulling_points, 0);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -21,7 +22,7 @@ constexpr double pi = std::numbers::pi;
 
 FitOptions smoothing(double length, double tolerance = 1e-8) {
   FitOptions options;
-  options.smoothing_length = length;
+  options.criterion = SmoothingLength{length};
   options.fair.method = Method::equilibrium;
   options.fair.tolerance = tolerance;
   return options;
@@ -29,13 +30,13 @@ FitOptions smoothing(double length, double tolerance = 1e-8) {
 
 FitOptions within(double distance) {
   FitOptions options;
-  options.within = distance;
+  options.criterion = Within{distance};
   return options;
 }
 
 FitOptions with_rms(double distance) {
   FitOptions options;
-  options.rms = distance;
+  options.criterion = RootMeanSquare{distance};
   return options;
 }
 
@@ -95,8 +96,7 @@ TEST(FitSmoothingLength, IsThePapersWeightWhereEveryNodeHasOnePoint) {
   const PolygonCurve curve(nodes);
   const std::vector<Vector3> inner(nodes.begin() + 1, nodes.end() - 1);
   FitOptions by_weight = smoothing(1);
-  by_weight.smoothing_length = {};
-  by_weight.weight = std::pow(0.02 / 0.05, 4) / 8;
+  by_weight.criterion = Weight{std::pow(0.02 / 0.05, 4) / 8};
   const FitResult weighted = fit(curve, held_ends(nodes), {.positions = inner}, by_weight);
   const FitResult smoothed = fit(curve, held_ends(nodes), {.positions = inner}, smoothing(0.05));
   EXPECT_LT(greatest_distance(weighted.positions, smoothed.positions), 3e-6);
@@ -187,7 +187,7 @@ double best_of_weights(const std::function<FitResult(const FitOptions&)>& fit_wi
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 30; ++k) {
     FitOptions options;
-    options.weight = std::pow(10, -8 + 0.3 * k);
+    options.criterion = Weight{std::pow(10, -8 + 0.3 * k)};
     options.fair.max_iterations = 60;
     const FitResult result = fit_with(options);
     if (result.report.after.all.greatest <= distance) best = std::min(best, result.report.fair.after.rms_turn);
@@ -214,6 +214,18 @@ TEST(FitWithin, EveryPointIsWithinAndNoUniformWeightBendsLess) {
   EXPECT_LE(distance(plane.points.positions, with_positions(plane.plane, result.positions)).greatest, 0.01);
   EXPECT_LT(result.report.fair.after.rms_turn,
             best_of_weights([&](const FitOptions& options) { return plane.fit(options); }, 0.01));
+}
+
+TEST(FitWithin, NamesThePointsAtTheDistance) {
+  const NoisyWave wave(60);
+  for (const double tolerance : {0.01, 0.003}) {
+    const FitResult result = wave.fit(within(tolerance));
+    const std::vector<Index>& active = result.report.active_points;
+    EXPECT_GE(active.size(), 2U);
+    for (std::size_t j = 0; j < wave.nodes.size(); ++j)
+      EXPECT_EQ(std::count(active.begin(), active.end(), static_cast<Index>(j)),
+                result.distances[j] > 0.99 * tolerance ? 1 : 0);
+  }
 }
 
 TEST(FitWithin, PullsHardWhereNoUniformWeightIsWithin) {
@@ -255,7 +267,7 @@ TEST(FitWithin, SaysWhereNoShapeIs) {
     const FitResult result = fit(wave.curve, wave.held, points, options);
     EXPECT_EQ(result.report.fair.outcome, Outcome::stalled);
     ASSERT_FALSE(result.report.fair.warnings.empty());
-    EXPECT_NE(result.report.fair.warnings.back().find("no shape of this mesh"), std::string::npos);
+    EXPECT_EQ(result.report.fair.warnings.back().code, WarningCode::outside_tolerance);
     for (const Vector3& p : result.positions) EXPECT_TRUE(p.allFinite());
   }
 }
@@ -351,13 +363,15 @@ TEST(FitTolerances, RefuseWhatCannotBeMeant) {
     }
     return "";
   };
-  EXPECT_NE(refusal([](FitOptions& o) { o.smoothing_length = 0; }).find("smoothing length"), std::string::npos);
-  EXPECT_NE(refusal([](FitOptions& o) { o.within = -1; }).find("within"), std::string::npos);
-  EXPECT_NE(refusal([](FitOptions& o) { o.rms = std::nan(""); }).find("rms"), std::string::npos);
-  EXPECT_NE(refusal([](FitOptions& o) { o.rms = o.within = 1; }).find("only one"), std::string::npos);
+  EXPECT_NE(refusal([](FitOptions& o) { o.criterion = SmoothingLength{0}; }).find("smoothing length"),
+            std::string::npos);
+  EXPECT_NE(refusal([](FitOptions& o) { o.criterion = Within{-1}; }).find("within"), std::string::npos);
+  EXPECT_NE(refusal([](FitOptions& o) { o.criterion = RootMeanSquare{std::nan("")}; }).find("rms"), std::string::npos);
+  EXPECT_NE(refusal([](FitOptions& o) { o.criterion = Noise{0}; }).find("noise"), std::string::npos);
+  EXPECT_NE(refusal([](FitOptions& o) { o.criterion = Weight{-1}; }).find("weight"), std::string::npos);
   EXPECT_NE(refusal([](FitOptions& o) { o.outliers = 1; }).find("outliers"), std::string::npos);
   EXPECT_NE(refusal([](FitOptions& o) {
-              o.within = 1;
+              o.criterion = Within{1};
               o.fair.method = Method::sweep;
             }).find("sweep"),
             std::string::npos);

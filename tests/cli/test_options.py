@@ -117,6 +117,8 @@ class Outcomes(Case):
         self.assertEqual([level["outcome"] for level in report["levels"]], ["iteration-limit", "converged", "converged"])
         self.assertEqual((done.returncode, report["outcome"]), (0, "converged"))
         self.assertEqual(len(report["warnings"]), 1)
+        self.assertEqual(report["warning_codes"], ["level-cut-short"])
+        self.assertEqual({level["strategy"] for level in report["levels"]}, {"V-cycle"})
         self.assertRegex(report["warnings"][0], r"the coarsest level, of \d+ moving nodes, ended at its limit of 8 iterations.*"
                                                 r"allow more iterations \(--max-iterations\)")
 

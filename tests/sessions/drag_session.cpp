@@ -77,7 +77,7 @@ int drag(char** arguments) {
   report["node_iterations"] = work;
   report["seconds"] = seconds;
   report["longest_call_seconds"] = longest;
-  report["warnings"] = last.report.warnings;
+  for (const Warning& warning : last.report.warnings) report["warnings"].push_back(warning.text);
   report["energy"] = last.report.after.vspring_energy;
   report["afresh"] = {{"outcome", name(afresh.report.outcome)},
                       {"energy", afresh.report.after.vspring_energy},

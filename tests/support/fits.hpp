@@ -14,7 +14,7 @@ namespace vspring::support {
 
 inline FitOptions to_equilibrium(double weight, double tolerance = 1e-5) {
   FitOptions options;
-  options.weight = weight;
+  options.criterion = Weight{weight};
   options.fair.method = Method::equilibrium;
   options.fair.tolerance = tolerance;
   return options;
@@ -22,7 +22,7 @@ inline FitOptions to_equilibrium(double weight, double tolerance = 1e-5) {
 
 inline FitOptions by_sweeps(double weight, double step_tolerance = 1e-8, int iterations = 20000) {
   FitOptions options;
-  options.weight = weight;
+  options.criterion = Weight{weight};
   options.fair.method = Method::sweep;
   options.fair.step_tolerance = step_tolerance;
   options.fair.max_iterations = iterations;

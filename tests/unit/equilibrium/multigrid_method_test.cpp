@@ -13,9 +13,8 @@ namespace {
 using namespace support;
 
 bool warns_of_a_level(const FairReport& report) {
-  return std::ranges::any_of(report.warnings, [](const std::string& warning) {
-    return warning.find("the coarsest level") != std::string::npos &&
-           warning.find("allow more iterations") != std::string::npos;
+  return std::ranges::any_of(report.warnings, [](const Warning& warning) {
+    return warning.code == WarningCode::level_cut_short && warning.text.find("the coarsest level") != std::string::npos;
   });
 }
 

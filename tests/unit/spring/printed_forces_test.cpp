@@ -55,7 +55,7 @@ TEST(PrintedForces, AreEquation8WithNormalsThatTurnAtARightAngle) {
 TEST(PrintedForces, DoInFullWhatPointsAskFor) {
   const PolygonMesh flat = generate::plane({.columns = 2, .rows = 2});
   const auto height = [&](Forces forces) {
-    FitOptions options{.weight = 0.5};
+    FitOptions options{.criterion = Weight{0.5}};
     options.fair.method = Method::sweep;
     options.fair.max_iterations = 1;
     options.fair.forces = forces;

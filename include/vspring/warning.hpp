@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace vspring {
+
+/// What a warning is about.
+enum class WarningCode : std::uint8_t {
+  immovable_nodes,     ///< nodes that cannot move are held: at edges of more than two faces, where several fans meet
+  free_boundary,       ///< boundary nodes are free and are drawn in
+  family_of_shapes,    ///< what holds the shape leaves more than one sphere, plane or circle
+  other_springs,       ///< edge springs took the place of sphere springs
+  other_fairness,      ///< no shape of least bending was found: this one is fair by curvature
+  other_distribution,  ///< nodes went to the mean of their neighbours
+  no_equilibrium,      ///< none was found; the text says what the shape is
+  worse_than_input,    ///< what was found is; the text says how, and what is returned
+  steps_grew,          ///< the paper's iteration did not come to rest
+  level_cut_short,     ///< a coarser level of a V-cycle ended at its limit of iterations
+  outside_tolerance,   ///< no shape within the tolerance was found: this one is the nearest
+  maybe_not_fairest,   ///< the shape is within the tolerance, but may not be the fairest
+  noise_is_larger,     ///< the nodes' noise seems to be larger than the tolerance allows for
+  far_from_nodes,      ///< taking noise off moved nodes further than noise explains
+  points_left_behind,  ///< points are much further from the shape than before
+  outliers_changed,    ///< which points are outliers went on changing
+  normals_reversed,    ///< normals of points are against the faces, and were taken the other way round
+  time_limit           ///< the command line's; the shape is the best so far
+};
+
+/// "immovable-nodes", "free-boundary", "family-of-shapes" and so on.
+[[nodiscard]] const char* name(WarningCode code) noexcept;
+
+struct Warning {
+  WarningCode code;
+  std::string text;  ///< for people, one line: what it is, where, and what to do
+
+  bool operator==(const Warning&) const = default;
+};
+
+}  // namespace vspring

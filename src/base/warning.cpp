@@ -1,0 +1,47 @@
+#include "vspring/warning.hpp"
+
+namespace vspring {
+
+const char* name(WarningCode code) noexcept {
+  switch (code) {
+    case WarningCode::immovable_nodes:
+      return "immovable-nodes";
+    case WarningCode::free_boundary:
+      return "free-boundary";
+    case WarningCode::family_of_shapes:
+      return "family-of-shapes";
+    case WarningCode::other_springs:
+      return "other-springs";
+    case WarningCode::other_fairness:
+      return "other-fairness";
+    case WarningCode::other_distribution:
+      return "other-distribution";
+    case WarningCode::no_equilibrium:
+      return "no-equilibrium";
+    case WarningCode::worse_than_input:
+      return "worse-than-input";
+    case WarningCode::steps_grew:
+      return "steps-grew";
+    case WarningCode::level_cut_short:
+      return "level-cut-short";
+    case WarningCode::outside_tolerance:
+      return "outside-tolerance";
+    case WarningCode::maybe_not_fairest:
+      return "maybe-not-fairest";
+    case WarningCode::noise_is_larger:
+      return "noise-is-larger";
+    case WarningCode::far_from_nodes:
+      return "far-from-nodes";
+    case WarningCode::points_left_behind:
+      return "points-left-behind";
+    case WarningCode::outliers_changed:
+      return "outliers-changed";
+    case WarningCode::normals_reversed:
+      return "normals-reversed";
+    case WarningCode::time_limit:
+      return "time-limit";
+  }
+  return "";
+}
+
+}  // namespace vspring

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "checks/spring_energy.hpp"
+#include "equilibrium/equilibrium.hpp"
+#include "equilibrium/hierarchy.hpp"
+#include "equilibrium/point_levels.hpp"
+#include "equilibrium/pseudo_transient.hpp"
+#include "equilibrium/solver_call.hpp"
+#include "precondition/anderson.hpp"
+#include "spring/model.hpp"
+
+namespace vspring {
+
+/// Takes single levels of a hierarchy towards their equilibrium, and accounts for it in the report: outcome,
+/// iterations, work, levels, residual, expected error and history.
+class Relaxation {
+ public:
+  /// points: of the levels, if any. Sets the most work of the report.
+  Relaxation(Hierarchy& hierarchy, const Model& model, const SolverCall& call, PointLevels* points);
+
+  /// From the shape as it is, by corrections (go_to_equilibrium()).
+  void relax(std::size_t level, int max_iterations) { relax(level, max_iterations, hierarchy_.preconditioner(level)); }
+  void relax(std::size_t level, int max_iterations, Preconditioner& preconditioner);
+  /// The shape itself, along the flow (follow_flow()).
+  void relax_along_flow(int max_iterations, FlowStart start);
+
+  /// For all that follows: of an earlier run of much the same equations, and whether the last step is taken, too, where
+  /// the shape is found to be near enough.
+  void remember(Anderson<float>* memory, bool take_last) {
+    memory_ = memory;
+    take_last_ = take_last;
+  }
+  /// What levels in the report are said to be part of.
+  void set_strategy(const char* name) { strategy_ = name; }
+
+  /// A shape, and what is known of it.
+  struct Reached {
+    std::vector<Vector3> positions;
+    Outcome outcome;
+    double residual;
+  };
+  Reached reached(std::size_t level) {
+    return {hierarchy_.net(level).positions, call_.report.outcome, call_.report.residual};
+  }
+  void go_back(std::size_t level, const Reached& reached);
+  void tie_points(std::size_t level) {
+    if (points_) points_->tie(level);
+  }
+
+  /// Updates directions.
+  SpringEnergy energy_of(Net& net);
+  /// Whether a small level of a surface is folded: coarse ones may fold a shape where it has no need to.
+  bool has_crease(std::size_t level);
+  /// Whether the shape that was reached is too far from an equilibrium to be of use.
+  [[nodiscard]] bool lost() const;
+  /// Whether no equilibrium was reached, and nobody has cancelled.
+  [[nodiscard]] bool unfinished() const;
+  /// Whether another iteration on that net would be too much.
+  [[nodiscard]] bool out_of_work(const Net& net) const;
+
+  [[nodiscard]] std::size_t last() const { return hierarchy_.count() - 1; }
+  Net& shape() { return hierarchy_.net(last()); }
+  /// The diagonal of the box around the shape at the start, in its coordinates.
+  [[nodiscard]] double size() const { return size_; }
+
+ protected:
+  Hierarchy& hierarchy_;
+  const Model& model_;
+  PointLevels* points_;
+
+ private:
+  void relax(std::size_t level, int max_iterations,
+             const std::function<EquilibriumResult(const EquilibriumTask&)>& method);
+
+  SolverCall call_;
+  double size_;
+  Anderson<float>* memory_ = nullptr;
+  bool take_last_ = false;
+  const char* strategy_ = "";
+};
+
+}  // namespace vspring

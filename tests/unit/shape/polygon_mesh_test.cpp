@@ -1,0 +1,50 @@
+// Meshes from flat arrays, and their coordinates as one.
+
+#include "vspring/polygon_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "support/refusal.hpp"
+
+namespace vspring {
+namespace {
+
+using support::refusal;
+using support::says;
+
+const std::vector<double> square = {0, 0, 0, 1, 0, 0, 1, 1, 0.5, 0, 1, 0};
+
+TEST(PolygonMesh, ComesFromFlatArraysOfQuadsAndOfTriangles) {
+  const PolygonMesh quad = PolygonMesh::from_arrays(square, std::vector<Index>{0, 4}, std::vector<Index>{0, 1, 2, 3});
+  EXPECT_EQ(quad.node_count(), 4);
+  EXPECT_EQ(quad.position(2), Vector3(1, 1, 0.5));
+  EXPECT_EQ(quad.face(0).size(), 4U);
+  const PolygonMesh triangles = PolygonMesh::from_arrays(square, std::vector<Index>{0, 1, 2, 0, 2, 3});
+  EXPECT_EQ(triangles.face_count(), 2);
+  EXPECT_EQ(triangles.face(1)[2], 3);
+  EXPECT_EQ(PolygonMesh::from_arrays({}, {}).face_count(), 0);
+}
+
+TEST(PolygonMesh, GivesItsCoordinatesWhereTheyLie) {
+  const PolygonMesh quad = PolygonMesh::from_arrays(square, std::vector<Index>{0, 1, 2, 3}, 4);
+  const std::span<const double> flat = coordinates(quad.positions());
+  EXPECT_EQ(std::vector<double>(flat.begin(), flat.end()), square);
+  EXPECT_EQ(flat.data(), quad.positions().front().data());
+  EXPECT_TRUE(coordinates({}).empty());
+}
+
+TEST(PolygonMesh, RefusesArraysThatDoNotFit) {
+  const auto from = [](const std::vector<double>& numbers, const std::vector<Index>& corners, Index sides,
+                       ErrorCode code) {
+    return refusal([&] { (void)PolygonMesh::from_arrays(numbers, corners, sides); }, code);
+  };
+  EXPECT_TRUE(says(from({0, 0, 0, 1}, {}, 3, ErrorCode::invalid_argument), "4 coordinates"));
+  EXPECT_TRUE(says(from(square, {0, 1, 2, 0}, 3, ErrorCode::invalid_argument), "4 corners"));
+  EXPECT_TRUE(says(from(square, {}, 0, ErrorCode::invalid_argument), "1 node or more"));
+  EXPECT_TRUE(says(from(square, {0, 1, 4}, 3, ErrorCode::unusable_shape), "face 0: node 4"));
+}
+
+}  // namespace
+}  // namespace vspring

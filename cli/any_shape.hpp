@@ -3,8 +3,9 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
-#include <vector>
 
 #include "vspring/constraints.hpp"
 #include "vspring/curve_file.hpp"
@@ -39,7 +40,11 @@ inline const std::map<std::string, AnyFormat> any_formats = {
     {"obj", SurfaceFormat::obj}, {"off", SurfaceFormat::off}, {"ply", SurfaceFormat::ply}, {"stl", SurfaceFormat::stl},
     {"csv", CurveFormat::csv},   {"dat", CurveFormat::dat},   {"xyz", CurveFormat::xyz}};
 
-inline const PolygonMesh& shape_of(const SurfaceFile& file) { return file.mesh; }
-inline const PolygonCurve& shape_of(const CurveFile& file) { return file.curve; }
+inline PolygonMesh& shape_of(SurfaceFile& file) { return file.mesh; }
+inline PolygonCurve& shape_of(CurveFile& file) { return file.curve; }
+
+/// The shape of a kind of file.
+template <typename File>
+using ShapeOf = std::remove_reference_t<decltype(shape_of(std::declval<File&>()))>;
 
 }  // namespace vspring::cli

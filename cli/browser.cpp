@@ -13,16 +13,34 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
-#include "find_program.hpp"
 #include "vspring/error.hpp"
 #include "vspring/output_file.hpp"
 
 namespace vspring::cli {
 
 namespace {
+
+/// The first of these programs that PATH has, with its folder.
+std::optional<std::string> find_program(std::initializer_list<const char*> names) {
+  const char* paths = std::getenv("PATH");
+  if (paths == nullptr) return std::nullopt;
+  for (const char* name : names) {
+    for (std::string_view rest = paths; !rest.empty();) {
+      const std::size_t end = rest.find(':');
+      const std::string program = std::string(rest.substr(0, end)) + "/" + name;
+      if (access(program.c_str(), X_OK) == 0) return program;
+      rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+    }
+  }
+  return std::nullopt;
+}
 
 [[noreturn]] void fail(const std::string& browser, const std::string& what) {
   throw Error(ErrorCode::unusable_file, fmt::format("{}, which draws the picture: {}", browser, what));
@@ -125,6 +143,30 @@ std::string loaded_document(const std::string& browser, const std::string& page,
                      "--disable-background-networking", "--disable-crash-reporter", "--force-device-scale-factor=1",
                      "--user-data-dir=" + folder.inside("profile"), "--dump-dom", "file://" + path});
   return child.read_all(context);
+}
+
+bool open_in_browser(std::string address) {
+  std::optional<std::string> program = find_program({"xdg-open", "open"});
+  if (!program) return false;
+  posix_spawn_file_actions_t files;
+  posix_spawn_file_actions_init(&files);
+  for (const int stream : {0, 1, 2}) posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
+  // The browser is not ended by the Ctrl-C that ends this program, and takes signals as usual.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  sigset_t signals;
+  sigemptyset(&signals);
+  posix_spawnattr_setsigmask(&attributes, &signals);
+  sigaddset(&signals, SIGPIPE);
+  posix_spawnattr_setsigdefault(&attributes, &signals);
+  std::array<char*, 3> words = {program->data(), address.data(), nullptr};
+  pid_t process = 0;
+  const int fault = posix_spawn(&process, program->c_str(), &files, &attributes, words.data(), environ);
+  posix_spawn_file_actions_destroy(&files);
+  posix_spawnattr_destroy(&attributes);
+  return fault == 0;
 }
 
 }  // namespace vspring::cli

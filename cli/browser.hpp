@@ -17,4 +17,7 @@ namespace vspring::cli {
 /// When cancelled, the browser is ended and what is returned is of no use.
 [[nodiscard]] std::string loaded_document(const std::string& browser, const std::string& page, const Context& context);
 
+/// Has the desktop open an address. False where it has no program for that.
+[[nodiscard]] bool open_in_browser(std::string address);
+
 }  // namespace vspring::cli

@@ -9,8 +9,32 @@
 
 namespace vspring::cli {
 
-std::vector<DuplicateEnd> close_chains(PolygonCurve& curve) {
-  std::vector<DuplicateEnd> repeats;
+namespace {
+
+std::string note_of_repeats(const PolygonCurve& curve) {
+  constexpr std::size_t fewest = 4;
+  const auto repeats = [&](const PolygonCurve::Chain& chain) {
+    return !chain.closed && chain.nodes.size() >= fewest && chain.nodes.front() != chain.nodes.back() &&
+           curve.position(chain.nodes.front()) == curve.position(chain.nodes.back());
+  };
+  const auto& chains = curve.chains();
+  const auto first = std::find_if(chains.begin(), chains.end(), repeats);
+  if (first == chains.end()) return {};
+  const auto others = std::count_if(first + 1, chains.end(), repeats);
+  return fmt::format(
+      "note: node {} is where node {} is{}, and the curve stays open there: with a corner, as at the trailing edge of "
+      "an "
+      "aerofoil, that is right; --closed makes the two one node of a smooth closed curve\n",
+      first->nodes.back(), first->nodes.front(), others > 0 ? fmt::format(" (and so in {} more chains)", others) : "");
+}
+
+}  // namespace
+
+ClosedChains::ClosedChains(PolygonCurve& curve, bool closed) {
+  if (!closed) {
+    note_ = note_of_repeats(curve);
+    return;
+  }
   std::vector<PolygonCurve::Chain> chains = curve.chains();
   for (auto& chain : chains) {
     if (chain.closed || chain.nodes.size() < 2) continue;
@@ -18,14 +42,13 @@ std::vector<DuplicateEnd> close_chains(PolygonCurve& curve) {
     chain.closed = true;
     if (curve.position(repeat.node) != curve.position(repeat.of)) continue;
     chain.nodes.pop_back();
-    if (repeat.node != repeat.of) repeats.push_back(repeat);
+    if (repeat.node != repeat.of) repeats_.push_back(repeat);
   }
   curve = PolygonCurve(curve.positions(), std::move(chains));
-  return repeats;
 }
 
-void hold_repeated(Constraints& constraints, const std::vector<DuplicateEnd>& repeats) {
-  for (const auto& [node, of] : repeats) {
+void ClosedChains::hold(Constraints& constraints) const {
+  for (const auto& [node, of] : repeats_) {
     if (constraints.position_fixed(node)) {
       if (constraints.position_fixed(of) && constraints.position(of) != constraints.position(node))
         throw Error(ErrorCode::unusable_constraint,
@@ -44,21 +67,9 @@ void hold_repeated(Constraints& constraints, const std::vector<DuplicateEnd>& re
   }
 }
 
-std::string note_of_repeats(const PolygonCurve& curve) {
-  constexpr std::size_t fewest = 4;
-  const auto repeats = [&](const PolygonCurve::Chain& chain) {
-    return !chain.closed && chain.nodes.size() >= fewest && chain.nodes.front() != chain.nodes.back() &&
-           curve.position(chain.nodes.front()) == curve.position(chain.nodes.back());
-  };
-  const auto& chains = curve.chains();
-  const auto first = std::find_if(chains.begin(), chains.end(), repeats);
-  if (first == chains.end()) return {};
-  const auto others = std::count_if(first + 1, chains.end(), repeats);
-  return fmt::format(
-      "note: node {} is where node {} is{}, and the curve stays open there: with a corner, as at the trailing edge of "
-      "an "
-      "aerofoil, that is right; --closed makes the two one node of a smooth closed curve\n",
-      first->nodes.back(), first->nodes.front(), others > 0 ? fmt::format(" (and so in {} more chains)", others) : "");
+void ClosedChains::follow(std::vector<Vector3>& positions) const {
+  for (const auto& [node, of] : repeats_)
+    positions[static_cast<std::size_t>(node)] = positions[static_cast<std::size_t>(of)];
 }
 
 }  // namespace vspring::cli

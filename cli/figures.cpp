@@ -1,17 +1,46 @@
 #include "figures.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <string>
+#include <string_view>
 
 namespace vspring::cli {
 
-std::vector<Figure> figures_of(MeasuredShape<PolygonMesh>& mesh, const Constraints* constraints, bool shown,
+namespace {
+
+std::string value_of(const Figure& figure) {
+  return figure.whole ? fmt::format("{:.0f}", figure.value) : fmt::format("{:.4g}", figure.value);
+}
+
+std::string value_of(const std::vector<Figure>& figures, std::string_view key) {
+  const auto found = std::find_if(figures.begin(), figures.end(), [&](const Figure& f) { return f.key == key; });
+  return found == figures.end() ? std::string() : value_of(*found);
+}
+
+/// Terminals count characters, not bytes.
+std::size_t width_of(std::string_view text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+std::string spaces(std::size_t width, std::string_view text) {
+  return std::string(width - std::min(width, width_of(text)), ' ');
+}
+
+std::string to_left(std::string_view text, std::size_t width) { return std::string(text) + spaces(width, text); }
+std::string to_right(std::string_view text, std::size_t width) { return spaces(width, text) + std::string(text); }
+
+}  // namespace
+
+std::vector<Figure> figures_of(const MeasuredShape<PolygonMesh>& mesh, const Constraints* constraints, bool shown,
                                const Context& context) {
   if (!shown) return list_figures(measure_surface(mesh.shape(), constraints, context));
   return list_figures(measure_surface(mesh.shape(), constraints, mesh.curvatures(context), context));
 }
 
-std::vector<Figure> figures_of(MeasuredShape<PolygonCurve>& curve, const Constraints* constraints, bool /*shown*/,
+std::vector<Figure> figures_of(const MeasuredShape<PolygonCurve>& curve, const Constraints* constraints, bool /*shown*/,
                                const Context& /*context*/) {
   return list_figures(measure_curve(curve.shape(), constraints));
 }
@@ -32,6 +61,37 @@ nlohmann::ordered_json definitions_of(const std::vector<Figure>& figures) {
   for (const Figure& figure : figures)
     json[std::string(figure.key)] = {{"name", figure.name}, {"unit", figure.unit}, {"definition", figure.definition}};
   return json;
+}
+
+std::string figure_table(const std::vector<FigureColumn>& columns, const Terminal& terminal) {
+  const std::vector<Figure>& rows = columns.front().figures;
+  std::size_t names = 0;
+  std::size_t units = 0;
+  for (const Figure& row : rows) {
+    names = std::max(names, width_of(row.name));
+    units = std::max(units, width_of(row.unit));
+  }
+  std::vector<std::size_t> widths;
+  widths.reserve(columns.size());
+  for (const FigureColumn& column : columns) {
+    std::size_t& width = widths.emplace_back(width_of(column.title));
+    for (const Figure& figure : column.figures) width = std::max(width, width_of(value_of(figure)));
+  }
+
+  std::string text;
+  if (columns.size() > 1) {
+    text += std::string(names, ' ');
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      text += "  " + terminal.bold(to_right(columns[c].title, widths[c]));
+    text += "\n";
+  }
+  for (const Figure& row : rows) {
+    text += terminal.bold(to_left(row.name, names));
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      text += "  " + to_right(value_of(columns[c].figures, row.key), widths[c]);
+    text += fmt::format(" {}  {}\n", to_left(row.unit, units), row.definition);
+  }
+  return text;
 }
 
 }  // namespace vspring::cli

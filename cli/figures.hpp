@@ -1,22 +1,71 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
-#include "measured_shape.hpp"
+#include "terminal.hpp"
+#include "vspring/context.hpp"
+#include "vspring/curvature.hpp"
 #include "vspring/figures.hpp"
 
 namespace vspring::cli {
 
+/// A shape with its curvatures at nodes: computed when they are asked for first, once for all that show them. The shape
+/// must outlive it. Once cancelled, curvatures are of no use.
+template <typename Shape>
+class MeasuredShape {
+ public:
+  explicit MeasuredShape(const Shape& shape) : shape_(&shape) {}
+
+  [[nodiscard]] const Shape& shape() const noexcept { return *shape_; }
+  [[nodiscard]] const auto& curvatures(const Context& context) const {
+    if (!curvatures_) curvatures_ = curvatures_of(*shape_, context);
+    return *curvatures_;
+  }
+
+ private:
+  static auto curvatures_of(const PolygonMesh& mesh, const Context& context) {
+    return vspring::curvatures(mesh, context);
+  }
+  static auto curvatures_of(const PolygonCurve& curve, const Context& /*context*/) {
+    return vspring::curvatures(curve);
+  }
+
+  const Shape* shape_;
+  mutable std::optional<decltype(curvatures_of(std::declval<const Shape&>(), std::declval<const Context&>()))>
+      curvatures_;
+};
+
+/// Figures of a shape under its title: a column of a table.
+struct FigureColumn {
+  std::string title;
+  std::vector<Figure> figures;
+};
+
+/// The same with the shape, as pages and pictures show it. The shape must outlive it.
+template <typename Shape>
+struct ShownShape : FigureColumn {
+  MeasuredShape<Shape> measured;
+
+  [[nodiscard]] const Shape& shape() const noexcept { return measured.shape(); }
+};
+
 /// What measure_surface() or measure_curve() measure, as a list. shown: something shows the curvatures of all nodes
 /// anyway; else only those are computed that are measured. The figures have the same bits either way.
-[[nodiscard]] std::vector<Figure> figures_of(MeasuredShape<PolygonMesh>& mesh, const Constraints* constraints,
+[[nodiscard]] std::vector<Figure> figures_of(const MeasuredShape<PolygonMesh>& mesh, const Constraints* constraints,
                                              bool shown, const Context& context);
-[[nodiscard]] std::vector<Figure> figures_of(MeasuredShape<PolygonCurve>& curve, const Constraints* constraints,
+[[nodiscard]] std::vector<Figure> figures_of(const MeasuredShape<PolygonCurve>& curve, const Constraints* constraints,
                                              bool shown, const Context& context);
 
 /// Values by their keys, and by the same keys name, unit and definition of each.
 [[nodiscard]] nlohmann::ordered_json values_of(const std::vector<Figure>& figures);
 [[nodiscard]] nlohmann::ordered_json definitions_of(const std::vector<Figure>& figures);
+
+/// Figures for people, a line each: name, a value for every column, unit, definition. The first column says which
+/// figures there are; others stay empty where they lack one.
+[[nodiscard]] std::string figure_table(const std::vector<FigureColumn>& columns, const Terminal& terminal);
 
 }  // namespace vspring::cli

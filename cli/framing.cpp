@@ -1,5 +1,6 @@
 #include "framing.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -139,6 +140,27 @@ Eigen::Matrix3d seen_from(const Vector3& direction, const Vector3& up) {
 }
 
 Eigen::Matrix3d default_view() { return seen_from(Vector3(1, -2, 1.5), Vector3::UnitZ()); }
+
+Plane plane_of(const std::vector<Vector3>& points) {
+  constexpr double flat = 1e-9;  // of the side of the box, more than rounding and less than anyone sees
+  Plane plane;
+  const bool level = std::all_of(points.begin(), points.end(),
+                                 [&](const Vector3& p) { return std::abs(p.z() - points.front().z()) <= flat; });
+  if (level) return plane;
+  Vector3 centre = Vector3::Zero();
+  for (const Vector3& p : points) centre += p / static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vector3& p : points) spread += (p - centre) * (p - centre).transpose();
+  const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
+  Vector3 across = axes.col(2);
+  Vector3 up = axes.col(1);
+  if (across.sum() < 0) across = -across;
+  if (up.sum() < 0) up = -up;
+  plane.rows << across.transpose(), up.transpose(), across.cross(up).transpose();
+  plane.planar = std::all_of(points.begin(), points.end(),
+                             [&](const Vector3& p) { return std::abs((p - centre).dot(axes.col(0))) <= flat; });
+  return plane;
+}
 
 Framing framing_of(const PolygonMesh& mesh, std::span<const Vector3> before, std::span<const Vector3> after,
                    const std::optional<Eigen::Matrix3d>& view) {

@@ -17,6 +17,15 @@ namespace vspring::cli {
 /// The rows are the directions to the right, up and towards the eye: from above and in front, z upwards.
 [[nodiscard]] Eigen::Matrix3d default_view();
 
+/// From where a curve is seen: along the normal of its best plane, which is that of x and y for what lies there.
+struct Plane {
+  Eigen::Matrix3d rows = Eigen::Matrix3d::Identity();
+  bool planar = true;
+};
+
+/// points: in a box of side 1. Cost: linear.
+[[nodiscard]] Plane plane_of(const std::vector<Vector3>& points);
+
 /// A part of what is shown, with some of its surroundings.
 struct ShownPart {
   Vector3 middle;

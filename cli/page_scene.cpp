@@ -1,14 +1,12 @@
 #include "page_scene.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "framing.hpp"
 #include "page_bytes.hpp"
+#include "page_frame.hpp"
 #include "scalars.hpp"
 #include "vspring/curvature.hpp"
 #include "vspring/distance.hpp"
@@ -18,55 +16,14 @@ namespace vspring::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Box = Eigen::AlignedBox<double, 3>;
-
-/// Takes the box around all shapes to one of side 1. Halves keep coordinates near the end of their range from
-/// overflowing.
-class Frame {
- public:
-  void add(const PolygonMesh& mesh) {
-    for (Index f = 0; f < mesh.face_count(); ++f) add(mesh.positions(), mesh.face(f));
-  }
-  void add(const PolygonCurve& curve) {
-    for (const PolygonCurve::Chain& chain : curve.chains()) add(curve.positions(), chain.nodes);
-  }
-
-  [[nodiscard]] double half_side() const {
-    const double side = box_.isEmpty() ? 0 : box_.sizes().maxCoeff();
-    return side > 0 ? side : 1;
-  }
-  [[nodiscard]] double side() const { return 2 * std::min(half_side(), std::numeric_limits<double>::max() / 2); }
-  [[nodiscard]] double diagonal() const { return box_.isEmpty() ? 0 : (box_.sizes() / half_side()).norm(); }
-
-  /// Nodes that no face or chain has may lie anywhere; they are not seen.
-  [[nodiscard]] std::vector<Vector3> inside(const std::vector<Vector3>& positions) const {
-    std::vector<Vector3> points(positions.size(), Vector3::Zero());
-    if (box_.isEmpty()) return points;
-    const Vector3 centre = box_.center();
-    for (std::size_t n = 0; n < positions.size(); ++n) {
-      if (positions[n].allFinite()) points[n] = (positions[n] / 2 - centre) / half_side();
-    }
-    return points;
-  }
-
- private:
-  void add(const std::vector<Vector3>& positions, std::span<const Index> nodes) {
-    for (const Index node : nodes) {
-      const Vector3& position = positions[static_cast<std::size_t>(node)];
-      if (position.allFinite()) box_.extend(position / 2);
-    }
-  }
-
-  Box box_;
-};
 
 /// Key, texts, and the values of every shape, null where one lacks the figure.
 template <typename Shape>
-Json figures_of(std::span<const PageShape<Shape>> shapes) {
+Json figures_of(std::span<const ShownShape<Shape>> shapes) {
   Json rows = Json::array();
   for (const Figure& figure : shapes.front().figures) {
     Json values = Json::array();
-    for (const PageShape<Shape>& shape : shapes) {
+    for (const ShownShape<Shape>& shape : shapes) {
       const auto found = std::find_if(shape.figures.begin(), shape.figures.end(),
                                       [&](const Figure& other) { return other.key == figure.key; });
       values.push_back(found == shape.figures.end() ? Json() : Json(found->value));
@@ -82,11 +39,11 @@ Json figures_of(std::span<const PageShape<Shape>> shapes) {
 }
 
 template <typename Shape>
-Json frame_of(std::span<const PageShape<Shape>> shapes, const PageRoles& roles, const Frame& frame) {
+Json frame_of(std::span<const ShownShape<Shape>> shapes, const PageRoles& roles, const Frame& frame) {
   Json json;
   json["figures"] = figures_of(shapes);
   json["columns"] = Json::array();
-  for (const PageShape<Shape>& shape : shapes) json["columns"].push_back(shape.title);
+  for (const ShownShape<Shape>& shape : shapes) json["columns"].push_back(shape.title);
   json["leading"] = roles.leading;
   json["reference"] = roles.reference ? Json(*roles.reference) : Json();
   json["unit"] = frame.side();
@@ -137,7 +94,7 @@ std::vector<bool> seen_nodes(const PolygonMesh& mesh) {
   return seen;
 }
 
-Json shape_of(MeasuredShape<PolygonMesh>& measured, const Frame& frame, double diagonal, const Context& context) {
+Json shape_of(const MeasuredShape<PolygonMesh>& measured, const Frame& frame, double diagonal, const Context& context) {
   const PolygonMesh& mesh = measured.shape();
   const std::size_t length = common_length(mesh);
   const std::vector<bool> seen = seen_nodes(mesh);
@@ -175,8 +132,8 @@ Json shape_of(MeasuredShape<PolygonMesh>& measured, const Frame& frame, double d
 
 /// Gives both shapes, of the same faces, their distances from each other at nodes, each from the nearest place on the
 /// other: nodes slide along a shape, which is no deviation. Negative where the node goes to the back of `before`.
-void add_deviations(Json& after_json, Json& before_json, const PolygonMesh& after, MeasuredShape<PolygonMesh>& before,
-                    double side, const Context& context) {
+void add_deviations(Json& after_json, Json& before_json, const PolygonMesh& after,
+                    const MeasuredShape<PolygonMesh>& before, double side, const Context& context) {
   const std::vector<NodeCurvature>& bent = before.curvatures(context);
   const auto& from = before.shape().positions();
   const auto& to = after.positions();
@@ -219,36 +176,9 @@ Json shape_of(const PolygonCurve& curve, const Frame& frame) {
           {"closed", std::move(closed)}};
 }
 
-/// From where a curve is seen: along the normal of its best plane, which is that of x and y for what lies there.
-struct Plane {
-  Eigen::Matrix3d rows = Eigen::Matrix3d::Identity();
-  bool planar = true;
-};
-
-Plane plane_of(const std::vector<Vector3>& points) {
-  constexpr double flat = 1e-9;  // of the side of the box, more than rounding and less than anyone sees
-  Plane plane;
-  const bool level = std::all_of(points.begin(), points.end(),
-                                 [&](const Vector3& p) { return std::abs(p.z() - points.front().z()) <= flat; });
-  if (level) return plane;
-  Vector3 centre = Vector3::Zero();
-  for (const Vector3& p : points) centre += p / static_cast<double>(points.size());
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const Vector3& p : points) spread += (p - centre) * (p - centre).transpose();
-  const Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
-  Vector3 across = axes.col(2);
-  Vector3 up = axes.col(1);
-  if (across.sum() < 0) across = -across;
-  if (up.sum() < 0) up = -up;
-  plane.rows << across.transpose(), up.transpose(), across.cross(up).transpose();
-  plane.planar = std::all_of(points.begin(), points.end(),
-                             [&](const Vector3& p) { return std::abs((p - centre).dot(axes.col(0))) <= flat; });
-  return plane;
-}
-
 }  // namespace
 
-Json scene_of(std::span<const PageShape<PolygonMesh>> shapes, const PageRoles& roles, const Context& context) {
+Json scene_of(std::span<const ShownShape<PolygonMesh>> shapes, const PageRoles& roles, const Context& context) {
   Frame frame;
   for (const auto& shape : shapes) frame.add(shape.shape());
   Json json = frame_of(shapes, roles, frame);
@@ -269,18 +199,18 @@ Json scene_of(std::span<const PageShape<PolygonMesh>> shapes, const PageRoles& r
     Frame own;
     own.add(shape.shape());
     Json& entry =
-        json["shapes"].emplace_back(shape_of(*shape.measured, frame, own.diagonal() * own.half_side() * 2, context));
+        json["shapes"].emplace_back(shape_of(shape.measured, frame, own.diagonal() * own.half_side() * 2, context));
     entry["title"] = shape.title;
     // What a shape has in common with the first need not be said twice.
     if (json["shapes"].size() > 1 && entry["runs"] == json["shapes"][0]["runs"]) entry["runs"] = nullptr;
   }
   if (alike && roles.reference && roles.deviation && !context.cancelled())
     add_deviations(json["shapes"][leading_place], json["shapes"][reference_place], leading,
-                   *shapes[reference_place].measured, frame.side(), context);
+                   shapes[reference_place].measured, frame.side(), context);
   return json;
 }
 
-Json scene_of(std::span<const PageShape<PolygonCurve>> shapes, const PageRoles& roles, const Context& /*context*/) {
+Json scene_of(std::span<const ShownShape<PolygonCurve>> shapes, const PageRoles& roles, const Context& /*context*/) {
   Frame frame;
   for (const auto& shape : shapes) frame.add(shape.shape());
   Json json = frame_of(shapes, roles, frame);

@@ -3,24 +3,12 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
-#include "measured_shape.hpp"
+#include "figures.hpp"
 #include "vspring/context.hpp"
 #include "vspring/figures.hpp"
 
 namespace vspring::cli {
-
-/// A shape as a page shows it, with its column of the table. The shape must outlive it.
-template <typename Shape>
-struct PageShape {
-  std::string title;
-  MeasuredShape<Shape>* measured;
-  std::vector<Figure> figures;
-
-  [[nodiscard]] const Shape& shape() const noexcept { return measured->shape(); }
-};
 
 /// What of the shapes is seen first, and from which of them deviations are measured.
 struct PageRoles {
@@ -34,9 +22,9 @@ struct PageRoles {
 /// The shapes as page/data.js reads them. All are moved and scaled together into a box of side 1 about the origin;
 /// faces and chains leave out what has no finite coordinates. Where they look: see framing.hpp. Once cancelled, what
 /// they return is of no use.
-[[nodiscard]] nlohmann::ordered_json scene_of(std::span<const PageShape<PolygonMesh>> shapes, const PageRoles& roles,
+[[nodiscard]] nlohmann::ordered_json scene_of(std::span<const ShownShape<PolygonMesh>> shapes, const PageRoles& roles,
                                               const Context& context);
-[[nodiscard]] nlohmann::ordered_json scene_of(std::span<const PageShape<PolygonCurve>> shapes, const PageRoles& roles,
+[[nodiscard]] nlohmann::ordered_json scene_of(std::span<const ShownShape<PolygonCurve>> shapes, const PageRoles& roles,
                                               const Context& context);
 
 }  // namespace vspring::cli

@@ -10,7 +10,7 @@
 #include "browser.hpp"
 #include "html_page.hpp"
 #include "page_bytes.hpp"
-#include "stream_names.hpp"
+#include "terminal.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring::cli {

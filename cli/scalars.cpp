@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "stream_names.hpp"
+#include "terminal.hpp"
 #include "vspring/curvature.hpp"
 #include "vspring/distance.hpp"
 #include "vspring/error.hpp"
@@ -40,7 +40,7 @@ bool same_faces(const PolygonMesh& mesh, const PolygonMesh& other) {
          mesh.corners() == other.corners();
 }
 
-std::vector<NodeScalar> scalars_of(MeasuredShape<PolygonMesh>& measured, MeasuredShape<PolygonMesh>* before,
+std::vector<NodeScalar> scalars_of(const MeasuredShape<PolygonMesh>& measured, const MeasuredShape<PolygonMesh>* before,
                                    const Context& context) {
   const PolygonMesh& mesh = measured.shape();
   std::vector<NodeScalar> scalars = {
@@ -59,8 +59,8 @@ std::vector<NodeScalar> scalars_of(MeasuredShape<PolygonMesh>& measured, Measure
   return scalars;
 }
 
-std::vector<NodeScalar> scalars_of(MeasuredShape<PolygonCurve>& measured, MeasuredShape<PolygonCurve>* before,
-                                   const Context& context) {
+std::vector<NodeScalar> scalars_of(const MeasuredShape<PolygonCurve>& measured,
+                                   const MeasuredShape<PolygonCurve>* before, const Context& context) {
   const PolygonCurve& curve = measured.shape();
   std::vector<NodeScalar> scalars = {{"curvature", measured.curvatures(context)}};
   NodeScalar& arc = scalars.emplace_back(

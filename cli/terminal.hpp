@@ -1,8 +1,11 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "vspring/context.hpp"
 
 namespace vspring::cli {
 
@@ -33,6 +36,29 @@ class Terminal {
   int descriptor_;
   bool interactive_;
   bool coloured_;
+};
+
+// What messages call a file.
+[[nodiscard]] inline std::string input_name(const std::string& path) { return path == "-" ? "standard input" : path; }
+[[nodiscard]] inline std::string output_name(const std::string& path) { return path == "-" ? "standard output" : path; }
+
+/// A line on a terminal that shows how far a call has come and how long it will take; nothing for short calls and
+/// elsewhere.
+class ProgressBar {
+ public:
+  explicit ProgressBar(const Terminal& terminal) : terminal_(&terminal) {}
+  ~ProgressBar() { clear(); }
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  void show(const Progress& progress);
+  /// Takes the line away; what is shown next is another call.
+  void clear();
+
+ private:
+  const Terminal* terminal_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  bool shown_ = false;
 };
 
 }  // namespace vspring::cli

@@ -8,7 +8,13 @@ class App;
 
 namespace vspring::cli {
 
-/// Adds `vspring fair`. The chosen command leaves what is to be run in `run`, which returns the exit status.
+// Each adds its command to the program. The one that is given leaves what is to be run in `run`, which returns the exit
+// status.
 void add_fair_command(CLI::App& app, std::function<int()>& run);
+void add_curve_command(CLI::App& app, std::function<int()>& run);
+void add_fit_command(CLI::App& app, std::function<int()>& run);
+void add_edit_command(CLI::App& app, std::function<int()>& run);
+void add_generate_command(CLI::App& app, std::function<int()>& run);
+void add_measure_command(CLI::App& app, std::function<int()>& run);
 
 }  // namespace vspring::cli

@@ -1,7 +1,3 @@
-#include "commands/curve_command.hpp"
-
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
@@ -9,16 +5,15 @@
 #include <string>
 
 #include "closed_chains.hpp"
-#include "commands/choice.hpp"
-#include "commands/fairing_options.hpp"
-#include "commands/given_options.hpp"
-#include "commands/numbers.hpp"
-#include "commands/picture_options.hpp"
-#include "commands/pull_options.hpp"
+#include "commands/commands.hpp"
+#include "commands/option_kinds.hpp"
+#include "commands/shared_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "framing.hpp"
-#include "stream_names.hpp"
+#include "holding.hpp"
+#include "outputs.hpp"
+#include "terminal.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::cli {
@@ -33,62 +28,60 @@ struct CurveArguments : FairingArguments {
   PullArguments pull;
 };
 
+/// New nodes between those that are held, in place of the file's, drawn to these where that is asked for, and faired.
+FairedOrFitted resample_and_fair(const CurveArguments& arguments, CurveFile& file, Constraints& constraints,
+                                 Context& context) {
+  std::optional<FitResult> fitted;
+  Resampled resampled = [&] {
+    if (!asks_to_fit(arguments.pull)) return resample(file.curve, constraints, arguments.resampling);
+    ResampledFit made = fit_resampled(file.curve, constraints, arguments.resampling,
+                                      fit_options(arguments.pull, arguments.options), context);
+    fitted = std::move(made.fit);
+    return std::move(made.resampled);
+  }();
+  file.curve = std::move(resampled.curve);
+  constraints = std::move(resampled.constraints);
+  // What the file carried belongs to nodes that are no longer there.
+  file.source = nullptr;
+  file.groups.clear();
+  if (fitted) return account_for(std::move(*fitted), file.curve, arguments, arguments.pull, context);
+  return {fair(file.curve, constraints, arguments.options, context), std::nullopt};
+}
+
 int run_curve(CurveArguments arguments) {
   settle_options(arguments, asks_to_fit(arguments.pull));
   check_outputs(arguments);
   refuse_views(arguments, true);
   Fairing fairing(arguments);
+
   CurveFile file = read_curve(arguments.input, arguments.format, arguments.columns);
-  std::vector<std::string> warnings = file.warnings;
-  const std::string note = arguments.closed ? std::string() : note_of_repeats(file.curve);
-  const std::vector<DuplicateEnd> repeats = arguments.closed ? close_chains(file.curve) : std::vector<DuplicateEnd>{};
+  const ClosedChains closed(file.curve, arguments.closed);
   const PolygonCurve before = file.curve;
   settle_by_noise(arguments.pull, before, fairing.context());
-  Constraints constraints = make_constraints(arguments, file.curve, {.groups = &file.groups});
-  hold_repeated(constraints, repeats);
+  Constraints constraints = make_constraints(arguments, before, {.groups = &file.groups});
+  closed.hold(constraints);
 
   const bool resamples = arguments.resampling.nodes || arguments.resampling.spacing;
-  std::optional<FitResult> fitted;
-  if (resamples) {
-    Resampled resampled = [&] {
-      if (!asks_to_fit(arguments.pull)) return resample(before, constraints, arguments.resampling);
-      ResampledFit made = fit_resampled(before, constraints, arguments.resampling,
-                                        fit_options(arguments.pull, arguments.options), fairing.context());
-      fitted = std::move(made.fit);
-      return std::move(made.resampled);
-    }();
-    file.curve = std::move(resampled.curve);
-    constraints = std::move(resampled.constraints);
-    // What the file carried belongs to nodes that are no longer there.
-    file.source = nullptr;
-    file.groups.clear();
-  }
-  FairedOrFitted done = fitted
-                            ? account_for(std::move(*fitted), file.curve, arguments, arguments.pull, fairing.context())
-                            : fair_or_fit(file.curve, constraints, {.positions = before.positions()}, arguments,
-                                          arguments.pull, fairing.context());
-  FairResult& result = done.faired;
-  if (file.source) {
-    for (const DuplicateEnd& repeat : repeats)
-      result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
-  }
-  const auto write = [&] {
-    std::vector<std::string> lost_warnings;
-    for (const std::string& lost : write_curve(arguments.output, file, result.positions, arguments.format))
-      lost_warnings.push_back(fmt::format("{}: written without {}", output_name(arguments.output), lost));
-    return lost_warnings;
-  };
+  FairedOrFitted done = resamples ? resample_and_fair(arguments, file, constraints, fairing.context())
+                                  : fair_or_fit(before, constraints, {.positions = before.positions()}, arguments,
+                                                arguments.pull, fairing.context());
+  std::vector<Vector3>& positions = done.faired.positions;
+  if (!resamples) closed.follow(positions);
   PolygonCurve after = file.curve;
-  after.set_positions(result.positions);
-  const auto draw = [&] {
-    return draw_curve(file, result.positions, {.before = &before, .points = {}, .part = moved_part(before, after)});
+  after.set_positions(positions);
+
+  const auto write = [&] {
+    return written_without(arguments.output, write_curve(arguments.output, file, positions, arguments.format));
   };
-  return fairing.finish<PolygonCurve>({file.curve, after, constraints, result.report}, before.positions(),
-                                      std::move(warnings),
-                                      {.shape = write,
+  const auto draw = [&] {
+    return draw_curve(file, positions, {.before = &before, .points = {}, .part = moved_part(before, after)});
+  };
+  return fairing.finish<PolygonCurve>({file.curve, after, constraints, done.faired.report}, before.positions(),
+                                      file.warnings,
+                                      {.write = write,
                                        .picture = draw,
                                        .figures = done.figures(),
-                                       .lines = done.lines() + note,
+                                       .lines = done.lines() + closed.note(),
                                        .facts = {.resamples = resamples}});
 }
 
@@ -97,8 +90,6 @@ const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::o
                                                           {"dat", CurveFormat::dat},
                                                           {"xyz", CurveFormat::xyz},
                                                           {"svg", CurveFormat::svg}};
-const std::map<std::string, Method> curve_methods = {
-    {"equilibrium", Method::equilibrium}, {"multigrid", Method::multigrid}, {"sweep", Method::sweep}};
 const std::map<std::string, NormalPlane> normal_planes = {{"full", NormalPlane::full},
                                                           {"principal", NormalPlane::principal}};
 
@@ -137,7 +128,7 @@ void add_node_options(CLI::App& command, CurveArguments& arguments) {
 void add_curve_method(CLI::App& command, CurveArguments& arguments, const FairingWords& words) {
   FairOptions& options = arguments.options;
   add_choice(
-      command, "--method", options.method, curve_methods,
+      command, "--method", options.method, methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium)")
       ->group(fairing_group);
@@ -184,10 +175,7 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
       "  vspring curve aerofoil.dat -o fair.dat --constraints held.json --resample 200 --picture fair.svg\n\n"
       "Exit status: 0 converged; 1 wrong use; 2 unusable input or output; 3 written, but not converged; 130 "
       "interrupted.");
-  command.callback([arguments, &run, &command] {
-    arguments->given = given_options(command);
-    run = [arguments] { return run_curve(*arguments); };
-  });
+  when_given(command, arguments, run, run_curve);
 }
 
 }  // namespace vspring::cli

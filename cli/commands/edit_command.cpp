@@ -1,27 +1,22 @@
-#include "commands/edit_command.hpp"
-
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <cerrno>
-#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
 #include <new>
-#include <optional>
 #include <string>
 #include <system_error>
 
-#include "commands/numbers.hpp"
+#include "browser.hpp"
+#include "commands/commands.hpp"
+#include "commands/option_kinds.hpp"
 #include "editor_server.hpp"
 #include "exit_status.hpp"
-#include "find_program.hpp"
+#include "interruption.hpp"
 #include "terminal.hpp"
 #include "vspring/curve_file.hpp"
 #include "vspring/error.hpp"
@@ -76,53 +71,6 @@ void check_input(const std::string& path) {
   throw Error(ErrorCode::unusable_file, fmt::format("{}: cannot be read: {}; check its name and permissions", path,
                                                     readable ? "not a regular file" : std::strerror(errno)));
 }
-
-/// Has the desktop open an address. False where it has no program for that.
-bool open_in_browser(std::string address) {
-  std::optional<std::string> program = find_program({"xdg-open", "open"});
-  if (!program) return false;
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  for (const int stream : {0, 1, 2}) posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
-  // The browser is not ended by the Ctrl-C that ends this program, and takes signals as usual.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  posix_spawnattr_setpgroup(&attributes, 0);
-  sigset_t signals;
-  sigemptyset(&signals);
-  posix_spawnattr_setsigmask(&attributes, &signals);
-  sigaddset(&signals, SIGPIPE);
-  posix_spawnattr_setsigdefault(&attributes, &signals);
-  std::array<char*, 3> words = {program->data(), address.data(), nullptr};
-  pid_t process = 0;
-  const int fault = posix_spawn(&process, program->c_str(), &files, &attributes, words.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  posix_spawnattr_destroy(&attributes);
-  return fault == 0;
-}
-
-/// While it lives, Ctrl-C and SIGTERM reach nobody but wait().
-class AwaitedSignals {
- public:
-  AwaitedSignals() {
-    sigemptyset(&signals_);
-    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals_, signal);
-    pthread_sigmask(SIG_BLOCK, &signals_, &before_);
-  }
-  ~AwaitedSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  AwaitedSignals(const AwaitedSignals&) = delete;
-  AwaitedSignals& operator=(const AwaitedSignals&) = delete;
-
-  void wait() const {
-    int signal = 0;
-    sigwait(&signals_, &signal);
-  }
-
- private:
-  sigset_t signals_{};
-  sigset_t before_{};
-};
 
 int run_edit(const EditArguments& arguments) {
   // A request that takes too much memory fails alone.

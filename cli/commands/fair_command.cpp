@@ -1,7 +1,3 @@
-#include "commands/fair_command.hpp"
-
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <map>
@@ -9,16 +5,15 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "commands/choice.hpp"
-#include "commands/fairing_options.hpp"
-#include "commands/given_options.hpp"
-#include "commands/picture_options.hpp"
-#include "commands/pull_options.hpp"
+#include "commands/commands.hpp"
+#include "commands/option_kinds.hpp"
+#include "commands/shared_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
-#include "stream_names.hpp"
+#include "holding.hpp"
+#include "outputs.hpp"
+#include "terminal.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
 
@@ -51,6 +46,7 @@ int run_fair(FairArguments arguments) {
   check_outputs(arguments);
   refuse_views(arguments, false);
   Fairing fairing(arguments);
+
   const SurfaceFile file = read_surface(arguments.input, arguments.format);
   if (file.mesh.face_count() == 0)
     throw Error(
@@ -60,28 +56,27 @@ int run_fair(FairArguments arguments) {
   const PolygonMesh& mesh = welding.shape(file);
   settle_by_noise(arguments.pull, mesh, fairing.context());
   const Constraints constraints = make_constraints(arguments, mesh, welding.rules(file));
+
   const FairedOrFitted done =
       fair_or_fit(mesh, constraints, {.positions = mesh.positions(), .weights = welding.weights()}, arguments,
                   arguments.pull, fairing.context());
-  const FairResult& result = done.faired;
-  const auto write = [&] {
-    std::vector<std::string> warnings;
-    for (const std::string& lost :
-         write_surface(arguments.output, file, welding.positions(result.positions), arguments.format))
-      warnings.push_back(fmt::format("{}: written without {}", output_name(arguments.output), lost));
-    return warnings;
-  };
+  const FairReport& report = done.faired.report;
   PolygonMesh after = mesh;
-  after.set_positions(result.positions);
+  after.set_positions(done.faired.positions);
+
+  const auto write = [&] {
+    return written_without(arguments.output, write_surface(arguments.output, file,
+                                                           welding.positions(done.faired.positions), arguments.format));
+  };
   auto figures = done.figures();
   figures.update(welding.figures());
   return fairing.finish<PolygonMesh>(
-      {mesh, after, constraints, result.report}, mesh.positions(), welding.with_warnings(file.warnings),
-      {.shape = write,
+      {mesh, after, constraints, report}, mesh.positions(), welding.with_warnings(file.warnings),
+      {.write = write,
        .picture = {},
        .welding = &welding,
        .figures = std::move(figures),
-       .lines = welding.lines() + done.lines() + note_of_lost_features(arguments, mesh, result.report),
+       .lines = welding.lines() + done.lines() + note_of_lost_features(arguments, mesh, report),
        .facts = {.own_nodes_pull = done.account.has_value()}});
 }
 
@@ -91,13 +86,11 @@ const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNorm
                                                              {"average", PseudoNormals::average},
                                                              {"area", PseudoNormals::area},
                                                              {"angle", PseudoNormals::angle}};
-const std::map<std::string, Method> surface_methods = {
-    {"equilibrium", Method::equilibrium}, {"multigrid", Method::multigrid}, {"sweep", Method::sweep}};
 
 void add_surface_method(CLI::App& command, FairArguments& arguments, const FairingWords& words) {
   FairOptions& options = arguments.options;
   add_choice(
-      command, "--method", options.method, surface_methods,
+      command, "--method", options.method, methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium; where it finds none, sweep)")
       ->group(fairing_group);
@@ -157,10 +150,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
       "  vspring fair scan.ply -o fair.ply --region sphere:0.1,0.2,0.05,0.03 --report report.json\n\n"
       "Exit status: 0 converged; 1 wrong use; 2 unusable input or output; 3 written, but not converged; 130 "
       "interrupted.");
-  command.callback([arguments, &run, &command] {
-    arguments->given = given_options(command);
-    run = [arguments] { return run_fair(*arguments); };
-  });
+  when_given(command, arguments, run, run_fair);
 }
 
 }  // namespace vspring::cli

@@ -1,5 +1,3 @@
-#include "commands/fairing_options.hpp"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,8 +5,8 @@
 #include <map>
 #include <sstream>
 
-#include "commands/choice.hpp"
-#include "commands/numbers.hpp"
+#include "commands/option_kinds.hpp"
+#include "commands/shared_options.hpp"
 #include "fairing_arguments.hpp"
 
 namespace vspring::cli {

@@ -1,12 +1,7 @@
-#include "commands/fit_command.hpp"
-
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,16 +12,15 @@
 
 #include "any_shape.hpp"
 #include "closed_chains.hpp"
-#include "commands/choice.hpp"
-#include "commands/fairing_options.hpp"
-#include "commands/given_options.hpp"
-#include "commands/numbers.hpp"
-#include "commands/picture_options.hpp"
-#include "commands/pull_options.hpp"
+#include "commands/commands.hpp"
+#include "commands/option_kinds.hpp"
+#include "commands/shared_options.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "framing.hpp"
-#include "stream_names.hpp"
+#include "holding.hpp"
+#include "outputs.hpp"
+#include "terminal.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
 
@@ -45,11 +39,6 @@ struct FitArguments : FairingArguments {
   bool closed = false;
 };
 
-std::vector<DuplicateEnd> close_fitted(SurfaceFile& /*file*/) { return {}; }
-std::vector<DuplicateEnd> close_fitted(CurveFile& file) { return close_chains(file.curve); }
-std::string note_of_fitted(const SurfaceFile& /*file*/) { return {}; }
-std::string note_of_fitted(const CurveFile& file) { return note_of_repeats(file.curve); }
-
 std::vector<std::string> write(const FitArguments& arguments, const SurfaceFile& file,
                                const std::vector<Vector3>& positions) {
   return write_surface(arguments.output, file, positions, format_as<SurfaceFormat>(arguments.format));
@@ -61,13 +50,12 @@ std::vector<std::string> write(const FitArguments& arguments, const CurveFile& f
 
 using Positions = std::vector<Vector3>;
 
-std::string picture_of_fit(const SurfaceFile& /*file*/, const Positions& /*positions*/, const Positions& /*points*/) {
+std::string picture_of_fit(const SurfaceFile& /*file*/, const PolygonMesh& /*after*/, const Positions& /*points*/) {
   return {};
 }
-std::string picture_of_fit(const CurveFile& file, const Positions& positions, const Positions& points) {
-  PolygonCurve after = file.curve;
-  after.set_positions(positions);
-  return draw_curve(file, positions, {.before = &file.curve, .points = points, .part = moved_part(file.curve, after)});
+std::string picture_of_fit(const CurveFile& file, const PolygonCurve& after, const Positions& points) {
+  return draw_curve(file, after.positions(),
+                    {.before = &file.curve, .points = points, .part = moved_part(file.curve, after)});
 }
 
 /// The columns of POINTS; none where it is no table.
@@ -76,63 +64,63 @@ ColumnChoice columns_of_points(const FitArguments& arguments) {
   return may_be_point_table(arguments.points) ? arguments.columns : ColumnChoice{};
 }
 
+FitOptions options_of(const FitArguments& arguments) {
+  FairOptions options = arguments.options;
+  // The last steps of a fit are about k times their distance.
+  const double weight = arguments.pull.weight.value_or(0);
+  if (!arguments.step_tolerance && weight > 0) options.step_tolerance = std::min(options.step_tolerance, weight / 10);
+  return fit_options(arguments.pull, options);
+}
+
 template <typename File>
 int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
-  using Shape = std::remove_cvref_t<decltype(shape_of(file))>;
+  using Shape = ShapeOf<File>;
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
-  const std::vector<DuplicateEnd> repeats = arguments.closed ? close_fitted(file) : std::vector<DuplicateEnd>{};
-  const std::string note = arguments.closed ? std::string() : note_of_fitted(file);
+  const ClosedChains closed(shape_of(file), arguments.closed);
   const Welding welding(file, arguments);
   const Shape& shape = welding.shape(file);
   Constraints constraints = make_constraints(arguments, shape, welding.rules(file));
-  hold_repeated(constraints, repeats);
-  FairOptions fairing_options = arguments.options;
-  // The last steps of a fit are about k times their distance.
-  const double weight = arguments.pull.weight.value_or(0);
-  if (!arguments.step_tolerance && weight > 0)
-    fairing_options.step_tolerance = std::min(fairing_options.step_tolerance, weight / 10);
+  closed.hold(constraints);
   ScatteredPoints points = read_points(arguments.points, columns_of_points(arguments));
-  std::vector<std::string> read_warnings = file.warnings;
-  std::ranges::copy(points.warnings, std::back_inserter(read_warnings));
+  std::vector<std::string> warnings = file.warnings;
+  std::ranges::copy(points.warnings, std::back_inserter(warnings));
   const bool points_face = !points.normals.empty();
   if (arguments.ignore_normals) points.normals.clear();
-  FitResult result = fit(shape, constraints, points, fit_options(arguments.pull, fairing_options), fairing.context());
+
+  FitResult result = fit(shape, constraints, points, options_of(arguments), fairing.context());
   const FitAccount account(result.report, arguments.pull, arguments.points, points);
   const PolygonMesh cloud(std::move(points.positions), {0}, {});
-  for (const DuplicateEnd& repeat : repeats)
-    result.positions[static_cast<std::size_t>(repeat.node)] = result.positions[static_cast<std::size_t>(repeat.of)];
-  const auto write_shape = [&] {
-    std::vector<std::string> warnings;
-    for (const std::string& lost : write(arguments, file, welding.positions(result.positions)))
-      warnings.push_back(fmt::format("{}: written without {}", output_name(arguments.output), lost));
-    if (!arguments.deviation.empty())
-      write_scalars(arguments.deviation, cloud, std::vector<NodeScalar>{{"deviation", result.distances}});
-    return warnings;
-  };
+  closed.follow(result.positions);
   Shape after = shape;
   after.set_positions(result.positions);
+  const std::vector<Vector3> nodes = welding.positions(result.positions);
+
+  const auto write_shape = [&] {
+    std::vector<std::string> lost = written_without(arguments.output, write(arguments, file, nodes));
+    if (!arguments.deviation.empty())
+      write_scalars(arguments.deviation, cloud, std::vector<NodeScalar>{{"deviation", result.distances}});
+    return lost;
+  };
   const auto point_deviation = [&]() -> std::vector<NodeScalar> {
-    const std::vector<Vector3> nodes = welding.positions(result.positions);
     return {{"point_deviation",
              welding.greatest(node_deviations(nodes, cloud.positions(), result.distances, fairing.context()))}};
   };
   auto figures = account.figures();
   figures.update(welding.figures());
   return fairing.finish<Shape>({shape, after, constraints, result.report.fair}, shape.positions(),
-                               welding.with_warnings(std::move(read_warnings)),
-                               {.shape = write_shape,
-                                .picture = [&] { return picture_of_fit(file, result.positions, cloud.positions()); },
+                               welding.with_warnings(std::move(warnings)),
+                               {.write = write_shape,
+                                .picture = [&] { return picture_of_fit(file, after, cloud.positions()); },
                                 .points = cloud.positions(),
                                 .scalars = point_deviation,
                                 .welding = &welding,
                                 .figures = std::move(figures),
-                                .lines = welding.lines() + account.lines() + note,
+                                .lines = welding.lines() + account.lines() + closed.note(),
                                 .facts = {.points_face = points_face}});
 }
 
-int run_fit(FitArguments arguments) {
-  settle_options(arguments, false);
-  check_outputs(arguments, {{"--points", arguments.points}});
+/// Throws Error(invalid_argument) for options that do not go together.
+void check_options(const FitArguments& arguments) {
   if (!arguments.deviation.empty() &&
       scalar_format(std::filesystem::path(arguments.deviation).extension().string()) != ScalarFormat::ply)
     throw Error(ErrorCode::invalid_argument,
@@ -147,13 +135,16 @@ int run_fit(FitArguments arguments) {
   if (!arguments.columns.empty() && !may_be_table(arguments.input, arguments.format, arguments.curve) &&
       (!arguments.point_columns.empty() || !may_be_point_table(arguments.points)))
     throw Error(ErrorCode::invalid_argument, "--columns: neither shape nor points are CSV or XYZ; leave it out");
+}
+
+int run_fit(FitArguments arguments) {
+  settle_options(arguments, false);
+  check_outputs(arguments, {{"--points", arguments.points}});
+  check_options(arguments);
   Fairing fairing(arguments);
   return std::visit([&](auto&& file) { return fit_file(arguments, std::forward<decltype(file)>(file), fairing); },
                     read_shape(arguments.input, arguments.format, arguments.curve, arguments.columns));
 }
-
-const std::map<std::string, Method> fit_methods = {
-    {"equilibrium", Method::equilibrium}, {"multigrid", Method::multigrid}, {"sweep", Method::sweep}};
 
 void add_fit_options(CLI::App& command, FitArguments& arguments) {
   command
@@ -168,7 +159,7 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
                    "that faces the same way)");
   add_pull_options(command, arguments.pull, "How points pull: one of", true);
   add_choice(
-      command, "--method", arguments.options.method, fit_methods,
+      command, "--method", arguments.options.method, methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium; where it finds none, on surfaces sweep)")
       ->group(fairing_group);
@@ -220,10 +211,7 @@ void add_fit_command(CLI::App& app, std::function<int()>& run) {
       "  vspring fit mesh.obj --points scan.ply -o fitted.obj --weight 0.01 --report report.json\n\n"
       "Exit status: 0 converged; 1 wrong use; 2 unusable input or output; 3 written, but not converged; 130 "
       "interrupted.");
-  command.callback([arguments, &run, &command] {
-    arguments->given = given_options(command);
-    run = [arguments] { return run_fit(*arguments); };
-  });
+  when_given(command, arguments, run, run_fit);
 }
 
 }  // namespace vspring::cli

@@ -1,5 +1,3 @@
-#include "commands/generate_command.hpp"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -10,13 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "commands/choice.hpp"
-#include "commands/given_options.hpp"
-#include "commands/numbers.hpp"
+#include "commands/commands.hpp"
+#include "commands/option_kinds.hpp"
 #include "commands/shapes.hpp"
 #include "exit_status.hpp"
 #include "idle_options.hpp"
-#include "signals.hpp"
+#include "interruption.hpp"
 #include "terminal.hpp"
 #include "vspring/generate.hpp"
 #include "vspring/topology.hpp"

@@ -14,12 +14,7 @@
 #include <vector>
 
 #include "advice.hpp"
-#include "commands/curve_command.hpp"
-#include "commands/edit_command.hpp"
-#include "commands/fair_command.hpp"
-#include "commands/fit_command.hpp"
-#include "commands/generate_command.hpp"
-#include "commands/measure_command.hpp"
+#include "commands/commands.hpp"
 #include "exit_status.hpp"
 #include "terminal.hpp"
 #include "vspring/error.hpp"

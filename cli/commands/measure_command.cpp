@@ -1,5 +1,3 @@
-#include "commands/measure_command.hpp"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,30 +6,30 @@
 #include <filesystem>
 #include <initializer_list>
 #include <iterator>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include "any_shape.hpp"
 #include "closed_chains.hpp"
-#include "commands/choice.hpp"
-#include "commands/fairing_options.hpp"
-#include "commands/given_options.hpp"
-#include "commands/picture_options.hpp"
+#include "commands/commands.hpp"
+#include "commands/option_kinds.hpp"
+#include "commands/shared_options.hpp"
 #include "exit_status.hpp"
-#include "fairing.hpp"
 #include "figures.hpp"
-#include "fitting.hpp"
 #include "framing.hpp"
-#include "html_page.hpp"
+#include "holding.hpp"
 #include "idle_options.hpp"
-#include "measure_table.hpp"
-#include "page_scene.hpp"
+#include "interruption.hpp"
+#include "measuring.hpp"
+#include "outputs.hpp"
 #include "scalars.hpp"
-#include "signals.hpp"
-#include "stream_names.hpp"
+#include "terminal.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
 
@@ -47,225 +45,133 @@ struct MeasureArguments : FairingArguments {
   bool closed = false;
 };
 
-using Json = nlohmann::ordered_json;
+/// A file with what it is welded to.
+template <typename File>
+struct WeldedFile {
+  File file;
+  Welding welding;
 
-Json counts_of(const PolygonMesh& mesh) { return {{"nodes", mesh.node_count()}, {"faces", mesh.face_count()}}; }
-Json counts_of(const PolygonCurve& curve) { return {{"nodes", curve.node_count()}, {"chains", curve.chains().size()}}; }
-
-void close_measured(SurfaceFile& /*file*/) {}
-void close_measured(CurveFile& file) { (void)close_chains(file.curve); }
-
-void write_whole(const std::string& path, const std::string& bytes) {
-  const UninterruptedWhileWriting guard;
-  write_file(path, bytes);
-}
-
-/// Whether any option of what holds the shape was given.
-bool is_constrained(const MeasureArguments& arguments) {
-  return std::ranges::any_of(std::initializer_list<const char*>{"--fix", "--fix-normals", "--constraints", "--region"},
-                             [&](const char* option) { return arguments.given.contains(option); });
-}
-
-/// How far two shapes lie apart.
-struct Apart {
-  std::optional<Distance> nodes;  ///< where there are as many
-  Distance to_other;
-  Distance from_other;
+  WeldedFile(File read, const MeasureArguments& arguments) : file(std::move(read)), welding(file, arguments) {}
+  [[nodiscard]] const auto& shape() const { return welding.shape(file); }
 };
 
-Json to_json(const Distance& distance) {
-  return {{"greatest", distance.greatest}, {"rms", distance.rms}, {"node", distance.node}};
+/// The shape, and behind it the one that it is compared with, if there is one.
+template <typename File>
+using WeldedFiles = std::vector<WeldedFile<File>>;
+
+/// Throws where deviations are to be shown and there is nothing that they could be from, node by node.
+void refuse_deviation(const WeldedFiles<SurfaceFile>& files) {
+  if (files.size() == 1)
+    throw Error(ErrorCode::invalid_argument, "--picture-style deviation: from what? give --compare");
+  if (!same_faces(files[0].shape(), files[1].shape()))
+    throw Error(ErrorCode::unusable_shape,
+                "--picture-style deviation: the two shapes have not the same faces; leave it out, or see --scalars");
+}
+void refuse_deviation(const WeldedFiles<CurveFile>& /*files*/) {}
+
+/// What holds the shapes, where any option says something of that.
+template <typename File>
+std::optional<Constraints> held_in(const MeasureArguments& arguments, const WeldedFiles<File>& files) {
+  const std::initializer_list<const char*> options = {"--fix", "--fix-normals", "--constraints", "--region"};
+  if (std::ranges::none_of(options, [&](const char* option) { return arguments.given.contains(option); })) return {};
+  // "As in the input" is as in the shape before, where it is given.
+  const bool before = files.size() > 1 && files[1].shape().node_count() == files[0].shape().node_count();
+  const WeldedFile<File>& input = files[before ? 1 : 0];
+  return make_constraints(arguments, input.shape(), input.welding.rules(input.file));
 }
 
-std::string distance_line(const std::string& name, const Distance& distance, const std::string& definition) {
-  return fmt::format("{}  greatest {:.4g} at node {}, rms {:.4g} units  {}\n", name, distance.greatest, distance.node,
-                     distance.rms, definition);
-}
-
-std::string distance_lines(const Apart& apart, const Terminal& terminal) {
-  std::string text;
-  if (apart.nodes) text += distance_line(terminal.bold("node by node   "), *apart.nodes, "between the same nodes");
-  text += distance_line(terminal.bold("to the other   "), apart.to_other, "from the nodes of the first to the second");
-  text +=
-      distance_line(terminal.bold("from the other "), apart.from_other, "from the nodes of the second to the first");
-  return text;
-}
-
-/// With the noise that a shape seems to have, which is nobody's measure of fairness.
-template <typename Shape>
-std::vector<Figure> with_noise(std::vector<Figure> figures, const Shape& shape, const Context& context) {
-  const NoiseEstimate noise = noise_of(shape, context);
-  figures.push_back({"noise", "noise", "units", "as estimated, standard deviation in each coordinate; see --noise auto",
-                     noise.deviation, false});
-  figures.push_back({"noise_in_edges", "noise in edges", "", "the same in median edges", noise.edges, false});
-  return figures;
-}
-
-/// The file's name; both with their folders where they have the same.
-std::vector<std::string> titles(const std::string& first, const std::string& second) {
+/// The names of the files; both with their folders where they have the same.
+std::vector<std::string> titles(const MeasureArguments& arguments) {
+  const std::string first = input_name(arguments.input);
+  if (arguments.compare.empty()) return {first};
+  const std::string second = input_name(arguments.compare);
   const std::string a = std::filesystem::path(first).filename().string();
   const std::string b = std::filesystem::path(second).filename().string();
   return a == b ? std::vector{first, second} : std::vector{a, b};
 }
 
-/// What is measured of a file.
 template <typename File>
-struct Measured {
-  File file;
-  Welding welding;
-
-  Measured(File read, const MeasureArguments& arguments) : file(std::move(read)), welding(file, arguments) {}
-  [[nodiscard]] const auto& shape() const { return welding.shape(file); }
-};
-
-template <typename File>
-Constraints constraints_for(const MeasureArguments& arguments, const Measured<File>& file,
-                            const Measured<File>* other) {
-  // "As in the input" is as in the shape before, where it is given.
-  const bool before = other != nullptr && other->shape().node_count() == file.shape().node_count();
-  const Measured<File>& input = before ? *other : file;
-  return make_constraints(arguments, input.shape(), input.welding.rules(input.file));
+std::vector<std::string> warnings_of(const MeasureArguments& arguments, const WeldedFiles<File>& files,
+                                     const std::optional<Constraints>& held) {
+  std::vector<std::string> warnings;
+  for (const WeldedFile<File>& file : files)
+    std::ranges::move(file.welding.with_warnings(file.file.warnings), std::back_inserter(warnings));
+  RunFacts facts;
+  look_at(facts, arguments);
+  look_at(facts, files[0].shape(), held.value_or(Constraints(files[0].shape().node_count())));
+  std::ranges::move(idle_options(facts), std::back_inserter(warnings));
+  return warnings;
 }
 
-std::string picture_of_measured(const MeasureArguments& arguments, const Measured<SurfaceFile>& /*file*/,
-                                const Measured<SurfaceFile>* /*other*/, const Json& scene, const Context& context) {
-  return surface_picture(arguments.picture, "vspring: " + input_name(arguments.input), scene, context);
-}
-
-std::string picture_of_measured(const MeasureArguments& arguments, const Measured<CurveFile>& file,
-                                const Measured<CurveFile>* other, const Json& /*scene*/, const Context& context) {
+std::string picture_of(const WeldedFiles<SurfaceFile>& /*files*/) { return {}; }
+std::string picture_of(const WeldedFiles<CurveFile>& files) {
+  const CurveFile& file = files[0].file;
   CurvePicture picture;
-  if (other != nullptr)
-    picture = {.before = &other->shape(), .points = {}, .part = moved_part(other->shape(), file.shape())};
-  return curve_picture(arguments.picture, draw_curve(file.file, file.shape().positions(), picture), context);
-}
-
-/// Page, picture and scalars, as far as they are asked for. False where Ctrl-C prevented one.
-template <typename File, typename Shape>
-bool write_views(const MeasureArguments& arguments, const Measured<File>& file, const Measured<File>* other,
-                 std::vector<MeasuredShape<Shape>>& measured, const std::vector<FigureColumn>& columns,
-                 const Json& report, Context& context) {
-  const CancelOnSignal cancelling(context);
-  Json scene;
-  if (!arguments.html.empty() || (std::is_same_v<File, SurfaceFile> && !arguments.picture.path.empty())) {
-    std::vector<PageShape<Shape>> shapes;
-    for (std::size_t k = 0; k < measured.size(); ++k)
-      shapes.push_back({columns[k].title, &measured[k], columns[k].figures});
-    const PageRoles roles = {.leading = 0,
-                             .reference = other != nullptr ? std::optional(1) : std::nullopt,
-                             .deviation = !arguments.html.empty() || arguments.picture.shows("deviation"),
-                             .view = arguments.picture.view};
-    scene = scene_of(std::span<const PageShape<Shape>>(shapes), roles, context);
+  if (files.size() > 1) {
+    const PolygonCurve& before = files[1].shape();
+    picture = {.before = &before, .points = {}, .part = moved_part(before, file.curve)};
   }
-  const auto write = [&](const std::string& path, const auto& bytes_of) {
-    if (path.empty() || context.cancelled()) return;
-    const std::string bytes = bytes_of();
-    if (!context.cancelled()) write_whole(path, bytes);
-  };
-  write(arguments.html, [&] { return html_page("vspring: " + input_name(arguments.input), report, scene); });
-  write(arguments.picture.path, [&] { return picture_of_measured(arguments, file, other, scene, context); });
-  if (arguments.scalars.empty() || context.cancelled()) return !context.cancelled();
-  const std::vector<NodeScalar> scalars = scalars_of(measured[0], other != nullptr ? &measured[1] : nullptr, context);
-  if (context.cancelled()) return false;
-  const UninterruptedWhileWriting guard;
-  file.welding.write_scalars(arguments.scalars, file.shape(), scalars);
-  return true;
+  return draw_curve(file, file.curve.positions(), picture);
 }
-
-/// Throws where deviations are to be shown and there is nothing that they could be from, node by node.
-void refuse_deviation(const PolygonMesh& mesh, const PolygonMesh* other) {
-  if (other == nullptr)
-    throw Error(ErrorCode::invalid_argument, "--picture-style deviation: from what? give --compare");
-  if (!same_faces(mesh, *other))
-    throw Error(ErrorCode::unusable_shape,
-                "--picture-style deviation: the two shapes have not the same faces; leave it out, or see --scalars");
-}
-void refuse_deviation(const PolygonCurve& /*curve*/, const PolygonCurve* /*other*/) {}
 
 template <typename File>
-int measure_file(const MeasureArguments& arguments, File first, std::optional<File> second_file) {
+int measure_files(const MeasureArguments& arguments, std::vector<File> read) {
+  using Shape = ShapeOf<File>;
   const auto begin = std::chrono::steady_clock::now();
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
   std::string note;
-  if constexpr (std::is_same_v<File, CurveFile>) note = arguments.closed ? "" : note_of_repeats(first.curve);
-  if (arguments.closed) {
-    close_measured(first);
-    if (second_file) close_measured(*second_file);
+  WeldedFiles<File> files;
+  for (File& file : read) {
+    const ClosedChains closed(shape_of(file), arguments.closed);
+    if (files.empty()) note = closed.note();
+    files.emplace_back(std::move(file), arguments);
   }
-  const Measured<File> file(std::move(first), arguments);
-  std::optional<Measured<File>> other;
-  if (second_file) other.emplace(std::move(*second_file), arguments);
-  if (arguments.picture.shows("deviation")) refuse_deviation(file.shape(), other ? &other->shape() : nullptr);
+  if (arguments.picture.shows("deviation")) refuse_deviation(files);
+
   Context context;
   context.threads = arguments.threads;
-  std::optional<Constraints> constraints;
-  if (is_constrained(arguments)) constraints = constraints_for(arguments, file, other ? &*other : nullptr);
-  const auto held = [&](const Measured<File>& measured) {
-    const bool fits = constraints && constraints->node_count() == measured.shape().node_count();
-    return fits ? &*constraints : nullptr;
-  };
-
-  const bool shown = arguments.shows_shapes();
-  std::vector measured = {MeasuredShape(file.shape())};
-  if (other) measured.emplace_back(other->shape());
-  std::vector<FigureColumn> columns;
-  columns.push_back({input_name(arguments.input),
-                     with_noise(figures_of(measured[0], held(file), shown, context), file.shape(), context)});
-  std::optional<Apart> apart;
-  std::vector<std::string> warnings = file.welding.with_warnings(file.file.warnings);
-  if (other) {
-    const auto& shape = file.shape();
-    const auto& second = other->shape();
-    const auto names = titles(input_name(arguments.input), input_name(arguments.compare));
-    columns.front().title = names[0];
-    columns.push_back({names[1], with_noise(figures_of(measured[1], held(*other), shown, context), second, context)});
-    apart.emplace();
-    if (shape.node_count() == second.node_count()) apart->nodes = node_distance(second.positions(), shape.positions());
-    apart->to_other = distance(shape.positions(), second, context);
-    apart->from_other = distance(second.positions(), shape, context);
-    const std::vector<std::string> of_other = other->welding.with_warnings(other->file.warnings);
-    warnings.insert(warnings.end(), of_other.begin(), of_other.end());
+  const std::optional<Constraints> held = held_in(arguments, files);
+  const std::vector<std::string> names = titles(arguments);
+  std::vector<ShownShape<Shape>> shapes;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    ShownShape<Shape>& shape = shapes.emplace_back(ShownShape<Shape>{{names[k], {}}, MeasuredShape(files[k].shape())});
+    shape.figures = figures_with_noise(shape.measured, held, arguments.shows_shapes(), context);
   }
-  RunFacts facts;
-  look_at(facts, arguments);
-  look_at(facts, file.shape(), constraints.value_or(Constraints(file.shape().node_count())));
-  std::ranges::move(idle_options(facts), std::back_inserter(warnings));
+  std::optional<Apart> apart;
+  if (files.size() > 1) apart = distances_between(files[0].shape(), files[1].shape(), context);
+  const std::vector<std::string> warnings = warnings_of(arguments, files, held);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
 
-  Json json;
+  nlohmann::ordered_json json;
   if (!arguments.report.empty() || !arguments.html.empty()) {
-    json = {{"shape", arguments.input}, {"kind", std::is_same_v<File, SurfaceFile> ? "surface" : "curve"}};
-    json.update(counts_of(file.shape()));
-    json["figures"] = values_of(columns.front().figures);
-    if (other) {
-      json["compared_with"] = counts_of(other->shape());
-      json["compared_with"]["shape"] = arguments.compare;
-      json["compared_with"]["figures"] = values_of(columns.back().figures);
-      json["distance"] = {{"nodes", apart->nodes ? to_json(*apart->nodes) : Json()},
-                          {"to_other", to_json(apart->to_other)},
-                          {"from_other", to_json(apart->from_other)}};
-    }
-    json["definitions"] = definitions_of(columns.front().figures);
-    json.update(file.welding.figures());
+    json = report_of<Shape>({arguments.input, arguments.compare}, shapes, apart);
+    json.update(files[0].welding.figures());
     json["warnings"] = warnings;
     json["seconds"] = seconds.count();
     json["threads"] = context.thread_count();
     json["version"] = version();
-    if (!arguments.report.empty()) write_whole(arguments.report, json.dump(2) + "\n");
   }
-  if (!write_views(arguments, file, other ? &*other : nullptr, measured, columns, json, context))
-    return exit_interrupted;
+  if (!arguments.report.empty()) write_uninterrupted(arguments.report, json.dump(2) + "\n");
+  {
+    const CancelOnSignal cancelling(context);
+    const Shown<Shape> shown = {.shapes = shapes,
+                                .reference = apart ? std::optional(1) : std::nullopt,
+                                .picture = [&] { return picture_of(files); },
+                                .welding = &files[0].welding};
+    if (!write_views(arguments, shown, json, context).empty() || context.cancelled()) return exit_interrupted;
+  }
   Terminal(2, arguments.colour).warn(warnings);
   if (arguments.quiet) return exit_converged;
   // What people read goes to standard output unless the report itself goes there.
   const Terminal messages(arguments.report == "-" || arguments.html == "-" ? 2 : 1, arguments.colour);
-  const std::string text =
-      figure_table(columns, messages) + (apart ? "\n" + distance_lines(*apart, messages) : std::string()) + note;
-  if (!messages.write(text)) throw Error(ErrorCode::unusable_file, "standard output: takes no more");
+  const std::vector<FigureColumn> columns(shapes.begin(), shapes.end());
+  const std::string distances = apart ? "\n" + distance_lines(*apart, messages) : std::string();
+  if (!messages.write(figure_table(columns, messages) + distances + note))
+    throw Error(ErrorCode::unusable_file, "standard output: takes no more");
   return exit_converged;
 }
 
-int run_measure(const MeasureArguments& arguments) {
+int run_measure(MeasureArguments arguments) {
   check_outputs(arguments, {{"--compare", arguments.compare}});
   if (!arguments.columns.empty() && !may_be_table(arguments.input, arguments.format, arguments.curve) &&
       (arguments.compare.empty() || !may_be_table(arguments.compare, std::nullopt, false)))
@@ -279,9 +185,10 @@ int run_measure(const MeasureArguments& arguments) {
                                                       input_name(arguments.compare), input_name(arguments.input)));
   return std::visit(
       [&]<typename File>(File& file) {
-        std::optional<File> second;
-        if (other) second = std::move(std::get<File>(*other));
-        return measure_file<File>(arguments, std::move(file), std::move(second));
+        std::vector<File> files;
+        files.push_back(std::move(file));
+        if (other) files.push_back(std::move(std::get<File>(*other)));
+        return measure_files(arguments, std::move(files));
       },
       shape);
 }
@@ -326,10 +233,7 @@ void add_measure_command(CLI::App& app, std::function<int()>& run) {
       "Example: what became of a scan\n"
       "  vspring measure fair.ply --compare scan.ply --report report.json\n\n"
       "Exit status: 0 measured; 1 wrong use; 2 unusable input or output.");
-  command.callback([arguments, &run, &command] {
-    arguments->given = given_options(command);
-    run = [arguments] { return run_measure(*arguments); };
-  });
+  when_given(command, arguments, run, run_measure);
 }
 
 }  // namespace vspring::cli

@@ -1,10 +1,16 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <map>
-#include <string>
+#include <fmt/format.h>
 
-#include "vspring/surface_file.hpp"
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <type_traits>
 
 namespace vspring::cli {
 
@@ -26,8 +32,78 @@ CLI::Option* add_choice(CLI::App& command, const std::string& flag, Target& targ
       ->type_name(words);
 }
 
-/// Values of --format.
-inline const std::map<std::string, SurfaceFormat> surface_formats = {
-    {"obj", SurfaceFormat::obj}, {"off", SurfaceFormat::off}, {"ply", SurfaceFormat::ply}, {"stl", SurfaceFormat::stl}};
+/// What options for numbers may be; refused in words, where those of CLI11 print the largest number there is.
+inline CLI::Validator positive_number() {
+  return {[](const std::string& given) -> std::string {
+            double number = 0;
+            if (CLI::detail::lexical_cast(given, number) && number > 0 && std::isfinite(number)) return {};
+            return "a number greater than 0 is needed, not " + given;
+          },
+          "POSITIVE"};
+}
+
+inline CLI::Validator non_negative_number() {
+  return {[](const std::string& given) -> std::string {
+            double number = 0;
+            if (CLI::detail::lexical_cast(given, number) && number >= 0 && std::isfinite(number)) return {};
+            return "a number of 0 or more is needed, not " + given;
+          },
+          "NONNEGATIVE"};
+}
+
+inline CLI::Validator number_between(double least, double most) {
+  return {[least, most](const std::string& given) -> std::string {
+            double number = 0;
+            if (CLI::detail::lexical_cast(given, number) && number >= least && number <= most) return {};
+            return fmt::format("a number from {} to {} is needed, not {}", least, most, given);
+          },
+          fmt::format("{} to {}", least, most)};
+}
+
+inline CLI::Validator whole_number(int least, int most = std::numeric_limits<int>::max()) {
+  return {[least, most](const std::string& given) -> std::string {
+            int number = 0;
+            if (CLI::detail::lexical_cast(given, number) && number >= least && number <= most) return {};
+            return fmt::format("a whole number from {} to {} is needed, not {}", least, most, given);
+          },
+          most < std::numeric_limits<int>::max() ? fmt::format("{} to {}", least, most) : "WHOLE"};
+}
+
+/// Of this type; what is needed besides is asked elsewhere.
+template <typename Number>
+CLI::Validator any_number() {
+  return {[](const std::string& given) -> std::string {
+            Number number = 0;
+            // Of what is without a sign, CLI11 takes -1 for the largest there is.
+            const bool may_be = std::is_signed_v<Number> || !given.starts_with('-');
+            if (may_be && CLI::detail::lexical_cast(given, number) && std::isfinite(static_cast<double>(number)))
+              return {};
+            return fmt::format("a {} is needed, not {}",
+                               std::is_floating_point_v<Number> ? "number"
+                               : std::is_signed_v<Number>       ? "whole number"
+                                                                : "whole number of 0 or more",
+                               given);
+          },
+          ""};
+}
+
+/// Options that were given, by their long names; once a command is parsed.
+inline std::set<std::string> given_options(const CLI::App& command) {
+  std::set<std::string> given;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() > 0) given.insert(option->get_name());
+  }
+  return given;
+}
+
+/// Runs a command that fairs or measures, with the options that were given. `run` must outlive it.
+template <typename Arguments>
+void when_given(CLI::App& command, const std::shared_ptr<Arguments>& arguments, std::function<int()>& run,
+                int (*run_command)(Arguments)) {
+  command.callback([arguments, &run, &command, run_command] {
+    arguments->given = given_options(command);
+    run = [arguments, run_command] { return run_command(*arguments); };
+  });
+}
 
 }  // namespace vspring::cli

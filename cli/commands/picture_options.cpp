@@ -1,5 +1,3 @@
-#include "commands/picture_options.hpp"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -8,7 +6,8 @@
 #include <map>
 #include <sstream>
 
-#include "commands/numbers.hpp"
+#include "commands/option_kinds.hpp"
+#include "commands/shared_options.hpp"
 #include "framing.hpp"
 #include "picture.hpp"
 

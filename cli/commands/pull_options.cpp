@@ -1,11 +1,10 @@
-#include "commands/pull_options.hpp"
-
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <optional>
 #include <string>
 
-#include "commands/numbers.hpp"
+#include "commands/option_kinds.hpp"
+#include "commands/shared_options.hpp"
 #include "fitting.hpp"
 
 namespace vspring::cli {

@@ -4,8 +4,7 @@
 
 #include <memory>
 
-#include "commands/choice.hpp"
-#include "commands/numbers.hpp"
+#include "commands/option_kinds.hpp"
 #include "vspring/generate.hpp"
 
 namespace vspring::cli {

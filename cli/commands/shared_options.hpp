@@ -1,7 +1,11 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
+
+#include "vspring/fair.hpp"
+#include "vspring/surface_file.hpp"
 
 namespace CLI {
 class App;
@@ -10,6 +14,8 @@ class App;
 namespace vspring::cli {
 
 struct FairingArguments;
+struct PictureArguments;
+struct PullArguments;
 
 /// How help texts call things.
 struct FairingWords {
@@ -31,11 +37,23 @@ void add_columns(CLI::App& command, const std::string& flag, std::vector<std::st
                  const std::string& whose);
 void add_run_options(CLI::App& command, FairingArguments& arguments);
 
+/// How points pull. heading: of the options in the help text. for_surfaces: also what curves cannot have.
+void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading, bool for_surfaces);
+/// --picture and --picture-size, and with `surfaces` --picture-style and --view.
+void add_picture_options(CLI::App& command, PictureArguments& arguments, bool surfaces);
+
 inline const std::string columns_of_curves =
     "CSV and XYZ: the columns of x, y and, in space, z, by number from 1 or, in CSV, by the names in the header "
     "(default: those that the header names x, y, z, with units or without; else two or three of numbers)";
+inline const std::string pull_of_own_nodes = "How the nodes of the input pull as points: none or one of";
 inline const std::string holding_group = "What holds the shape";
 inline const std::string fairing_group = "How it is faired";
 inline const std::string run_group = "The run";
+
+/// Values of --method and, of surfaces, of --format.
+inline const std::map<std::string, Method> methods = {
+    {"equilibrium", Method::equilibrium}, {"multigrid", Method::multigrid}, {"sweep", Method::sweep}};
+inline const std::map<std::string, SurfaceFormat> surface_formats = {
+    {"obj", SurfaceFormat::obj}, {"off", SurfaceFormat::off}, {"ply", SurfaceFormat::ply}, {"stl", SurfaceFormat::stl}};
 
 }  // namespace vspring::cli

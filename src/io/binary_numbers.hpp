@@ -6,8 +6,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <string>
 
 #include "vspring/error.hpp"

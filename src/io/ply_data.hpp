@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "base/message_text.hpp"
 #include "io/binary_numbers.hpp"
 #include "io/ply.hpp"

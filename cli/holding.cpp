@@ -1,0 +1,85 @@
+#include "holding.hpp"
+
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "vspring/error.hpp"
+#include "vspring/topology.hpp"
+#include "vspring/weld.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+std::string read_text(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  if (!file.is_open() || file.bad()) throw Error(ErrorCode::unusable_file, path + ": cannot be read");
+  return text;
+}
+
+void fix_boundary_directions(Constraints& constraints, const PolygonMesh& mesh) {
+  fix_boundary_normals(constraints, mesh);
+}
+
+void fix_boundary_directions(Constraints& constraints, const PolygonCurve& curve) {
+  fix_boundary_tangents(constraints, curve);
+}
+
+/// A boundary that is faired goes on smoothly outside the region.
+void restrict_boundary(Constraints& constraints, const PolygonMesh& mesh, const std::vector<Index>& region,
+                       const FairingArguments& arguments) {
+  if (arguments.options.fair_boundary) restrict_to_region(constraints, boundary_curve(mesh), region);
+}
+
+/// With the nodes that are one with some of the region, and those that belong to no face any more, which stay anyway.
+std::vector<Index> whole_region(const std::vector<Index>& region, const Welded& welded) {
+  const auto first = [&](std::size_t node) { return static_cast<std::size_t>(welded.representative[node]); };
+  std::vector<std::uint8_t> inside(welded.representative.size(), 0);
+  for (const Index node : region) inside[first(static_cast<std::size_t>(node))] = 1;
+  std::vector<Index> whole;
+  for (std::size_t node = 0; node < inside.size(); ++node) {
+    if (inside[first(node)] != 0 || first(node) != node) whole.push_back(static_cast<Index>(node));
+  }
+  return whole;
+}
+
+void restrict_boundary(Constraints& /*constraints*/, const PolygonCurve& /*curve*/,
+                       const std::vector<Index>& /*region*/, const FairingArguments& /*arguments*/) {}
+
+template <typename Shape>
+Constraints constraints_of(const FairingArguments& arguments, const Shape& shape, const RuleInput& input) {
+  Constraints constraints(shape.node_count());
+  if (arguments.fix == Hold::boundary && !arguments.options.fair_boundary) fix_boundary_positions(constraints, shape);
+  if (arguments.fix_directions == Hold::boundary) fix_boundary_directions(constraints, shape);
+  if (!arguments.rules.empty()) {
+    try {
+      apply_rules(constraints, shape, read_text(arguments.rules), input);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::unusable_constraint) throw;
+      throw Error(error.code(), arguments.rules + ": " + error.what());
+    }
+  }
+  if (!arguments.region.empty()) {
+    auto region = select_region(shape.positions(), parse_region(arguments.region), *input.groups);
+    if (input.welded != nullptr) region = whole_region(region, *input.welded);
+    restrict_boundary(constraints, shape, region, arguments);
+    restrict_to_region(constraints, shape, region);
+  }
+  return constraints;
+}
+
+}  // namespace
+
+Constraints make_constraints(const FairingArguments& arguments, const PolygonMesh& mesh, const RuleInput& input) {
+  return constraints_of(arguments, mesh, input);
+}
+
+Constraints make_constraints(const FairingArguments& arguments, const PolygonCurve& curve, const RuleInput& input) {
+  return constraints_of(arguments, curve, input);
+}
+
+}  // namespace vspring::cli

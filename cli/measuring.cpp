@@ -1,0 +1,83 @@
+#include "measuring.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "fitting.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json counts_of(const PolygonMesh& mesh) { return {{"nodes", mesh.node_count()}, {"faces", mesh.face_count()}}; }
+Json counts_of(const PolygonCurve& curve) { return {{"nodes", curve.node_count()}, {"chains", curve.chains().size()}}; }
+
+Json to_json(const Distance& distance) {
+  return {{"greatest", distance.greatest}, {"rms", distance.rms}, {"node", distance.node}};
+}
+
+std::string distance_line(const std::string& name, const Distance& distance, const std::string& definition) {
+  return fmt::format("{}  greatest {:.4g} at node {}, rms {:.4g} units  {}\n", name, distance.greatest, distance.node,
+                     distance.rms, definition);
+}
+
+Json to_json(const Apart& apart) {
+  return {{"nodes", apart.nodes ? to_json(*apart.nodes) : Json()},
+          {"to_other", to_json(apart.to_other)},
+          {"from_other", to_json(apart.from_other)}};
+}
+
+}  // namespace
+
+template <typename Shape>
+std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape, const std::optional<Constraints>& held,
+                                       bool shown, const Context& context) {
+  const bool fits = held && held->node_count() == shape.shape().node_count();
+  std::vector<Figure> figures = figures_of(shape, fits ? &*held : nullptr, shown, context);
+  // Noise is nobody's measure of fairness, so it is none of those figures.
+  const NoiseEstimate noise = noise_of(shape.shape(), context);
+  figures.push_back({"noise", "noise", "units", "as estimated, standard deviation in each coordinate; see --noise auto",
+                     noise.deviation, false});
+  figures.push_back({"noise_in_edges", "noise in edges", "", "the same in median edges", noise.edges, false});
+  return figures;
+}
+
+template <typename Shape>
+Json report_of(const std::array<std::string, 2>& names, std::span<const ShownShape<Shape>> shapes,
+               const std::optional<Apart>& apart) {
+  Json json = {{"shape", names[0]}, {"kind", std::is_same_v<Shape, PolygonMesh> ? "surface" : "curve"}};
+  json.update(counts_of(shapes[0].shape()));
+  json["figures"] = values_of(shapes[0].figures);
+  if (apart) {
+    json["compared_with"] = counts_of(shapes[1].shape());
+    json["compared_with"]["shape"] = names[1];
+    json["compared_with"]["figures"] = values_of(shapes[1].figures);
+    json["distance"] = to_json(*apart);
+  }
+  json["definitions"] = definitions_of(shapes[0].figures);
+  return json;
+}
+
+std::string distance_lines(const Apart& apart, const Terminal& terminal) {
+  std::string text;
+  if (apart.nodes) text += distance_line(terminal.bold("node by node   "), *apart.nodes, "between the same nodes");
+  text += distance_line(terminal.bold("to the other   "), apart.to_other, "from the nodes of the first to the second");
+  text +=
+      distance_line(terminal.bold("from the other "), apart.from_other, "from the nodes of the second to the first");
+  return text;
+}
+
+template std::vector<Figure> figures_with_noise(const MeasuredShape<PolygonMesh>&, const std::optional<Constraints>&,
+                                                bool, const Context&);
+template std::vector<Figure> figures_with_noise(const MeasuredShape<PolygonCurve>&, const std::optional<Constraints>&,
+                                                bool, const Context&);
+template nlohmann::ordered_json report_of(const std::array<std::string, 2>&, std::span<const ShownShape<PolygonMesh>>,
+                                          const std::optional<Apart>&);
+template nlohmann::ordered_json report_of(const std::array<std::string, 2>&, std::span<const ShownShape<PolygonCurve>>,
+                                          const std::optional<Apart>&);
+
+}  // namespace vspring::cli

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "figures.hpp"
+#include "terminal.hpp"
+#include "vspring/constraints.hpp"
+#include "vspring/context.hpp"
+#include "vspring/distance.hpp"
+
+namespace vspring::cli {
+
+/// How far two shapes lie apart.
+struct Apart {
+  std::optional<Distance> nodes;  ///< where there are as many
+  Distance to_other;
+  Distance from_other;
+};
+
+/// From the nodes of the first to the second, and back.
+template <typename Shape>
+Apart distances_between(const Shape& first, const Shape& second, const Context& context) {
+  Apart apart;
+  if (first.node_count() == second.node_count()) apart.nodes = node_distance(second.positions(), first.positions());
+  apart.to_other = distance(first.positions(), second, context);
+  apart.from_other = distance(second.positions(), first, context);
+  return apart;
+}
+
+/// What measure_surface() or measure_curve() measure, and the noise that the shape seems to have. held: may be of
+/// another shape, and is then left out of account. shown: see figures_of().
+template <typename Shape>
+[[nodiscard]] std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape,
+                                                     const std::optional<Constraints>& held, bool shown,
+                                                     const Context& context);
+
+/// What the report says of a shape, and of another one and how far they lie apart. names: of their files.
+template <typename Shape>
+[[nodiscard]] nlohmann::ordered_json report_of(const std::array<std::string, 2>& names,
+                                               std::span<const ShownShape<Shape>> shapes,
+                                               const std::optional<Apart>& apart);
+
+/// The distances for people, in lines.
+[[nodiscard]] std::string distance_lines(const Apart& apart, const Terminal& terminal);
+
+}  // namespace vspring::cli

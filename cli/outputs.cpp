@@ -1,0 +1,143 @@
+#include "outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "html_page.hpp"
+#include "interruption.hpp"
+#include "page_scene.hpp"
+#include "picture.hpp"
+#include "scalars.hpp"
+#include "terminal.hpp"
+#include "vspring/error.hpp"
+#include "vspring/output_file.hpp"
+
+namespace vspring::cli {
+
+namespace {
+
+/// The scene that the page and the picture of a surface show; nothing where neither is asked for.
+template <typename Shape>
+nlohmann::ordered_json shown_scene(const FairingArguments& arguments, const Shown<Shape>& shown,
+                                   const Context& context) {
+  constexpr bool surface = std::is_same_v<Shape, PolygonMesh>;
+  const bool drawn = surface && !arguments.picture.path.empty();
+  if (context.cancelled() || (arguments.html.empty() && !drawn)) return {};
+  const PageRoles roles = {.leading = shown.leading,
+                           .reference = shown.reference,
+                           .deviation = !arguments.html.empty() || arguments.picture.shows("deviation"),
+                           .view = arguments.picture.view,
+                           .points = shown.points};
+  return scene_of(shown.shapes, roles, context);
+}
+
+/// False where the context was cancelled, and nothing is written.
+template <typename Shape>
+bool write_shown_scalars(const std::string& path, const Shown<Shape>& shown, const Context& context) {
+  if (context.cancelled()) return false;
+  const auto& leading = shown.shapes[static_cast<std::size_t>(shown.leading)].measured;
+  const auto* const before =
+      shown.reference ? &shown.shapes[static_cast<std::size_t>(*shown.reference)].measured : nullptr;
+  std::vector<NodeScalar> scalars = scalars_of(leading, before, context);
+  if (shown.scalars) std::ranges::move(shown.scalars(), std::back_inserter(scalars));
+  if (context.cancelled()) return false;
+  const UninterruptedWhileWriting guard;
+  if (shown.welding != nullptr)
+    shown.welding->write_scalars(path, leading.shape(), std::move(scalars));
+  else
+    write_scalars(path, leading.shape(), scalars);
+  return true;
+}
+
+template <typename Shape>
+std::string write_shown(const FairingArguments& arguments, const Shown<Shape>& shown,
+                        const nlohmann::ordered_json& report, const Context& context) {
+  const std::string title = "vspring: " + input_name(arguments.input);
+  const PictureArguments& picture = arguments.picture;
+  const nlohmann::ordered_json scene = shown_scene(arguments, shown, context);
+  // What an interrupted call made is of no use.
+  const auto write = [&](const std::string& path, const auto& bytes_of) {
+    if (path.empty()) return true;
+    if (context.cancelled()) return false;
+    const std::string bytes = bytes_of();
+    if (context.cancelled()) return false;
+    write_uninterrupted(path, bytes);
+    return true;
+  };
+  const auto drawn = [&] {
+    if constexpr (std::is_same_v<Shape, PolygonMesh>)
+      return surface_picture(picture, title, scene, context);
+    else
+      return curve_picture(picture, shown.picture(), context);
+  };
+  if (!write(arguments.html, [&] { return html_page(title, report, scene); })) return arguments.html;
+  if (!write(picture.path, drawn)) return picture.path;
+  if (arguments.scalars.empty() || write_shown_scalars(arguments.scalars, shown, context)) return {};
+  return arguments.scalars;
+}
+
+}  // namespace
+
+void check_outputs(const FairingArguments& arguments, const std::vector<std::pair<std::string, std::string>>& others) {
+  std::vector<std::pair<std::string, std::string>> taken = others;
+  taken.insert(taken.end(), {{"--output", arguments.output},
+                             {"--report", arguments.report},
+                             {"--constraints", arguments.rules},
+                             {"--region", arguments.region}});
+  const std::pair<std::string, std::string> views[] = {{"--scalars", arguments.scalars},
+                                                       {"--picture", arguments.picture.path},
+                                                       {"--html", arguments.html},
+                                                       {"--deviation", arguments.deviation}};
+  for (const auto& view : views) {
+    const std::string& path = view.second;
+    if (path.empty()) continue;
+    const auto refuse = [&](const std::string& other) {
+      throw Error(ErrorCode::invalid_argument,
+                  fmt::format("{}: {} is {} already; give it a file of its own", view.first, output_name(path), other));
+    };
+    // Of standard streams, only two outputs are one.
+    if (path == arguments.input && path != "-") refuse("the input");
+    for (const auto& [option, file] : taken) {
+      if (path == file) refuse(option);
+    }
+    taken.push_back(view);
+    check_writable(path);
+  }
+  for (const std::string& path : {arguments.output, arguments.report}) {
+    if (!path.empty()) check_writable(path);
+  }
+}
+
+void refuse_views(const FairingArguments& arguments, bool curve) {
+  refuse_picture(arguments.picture, curve);
+  refuse_scalars(arguments.scalars, curve);
+}
+
+void write_uninterrupted(const std::string& path, const std::string& bytes) {
+  const UninterruptedWhileWriting guard;
+  write_file(path, bytes);
+}
+
+std::vector<std::string> written_without(const std::string& path, const std::vector<std::string>& losses) {
+  std::vector<std::string> warnings;
+  warnings.reserve(losses.size());
+  for (const std::string& lost : losses)
+    warnings.push_back(fmt::format("{}: written without {}", output_name(path), lost));
+  return warnings;
+}
+
+std::string write_views(const FairingArguments& arguments, const Shown<PolygonMesh>& shown,
+                        const nlohmann::ordered_json& report, const Context& context) {
+  return write_shown(arguments, shown, report, context);
+}
+
+std::string write_views(const FairingArguments& arguments, const Shown<PolygonCurve>& shown,
+                        const nlohmann::ordered_json& report, const Context& context) {
+  return write_shown(arguments, shown, report, context);
+}
+
+}  // namespace vspring::cli

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <iterator>
+#include <type_traits>
 
 #include "advice.hpp"
 #include "exit_status.hpp"
@@ -71,11 +72,20 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
     const UninterruptedWhileWriting guard;
     std::ranges::move(made.write(), std::back_inserter(warnings));
   }
+  BeforeAndAfter fairness;
+  const bool is_reported = !arguments_->report.empty() || !arguments_->html.empty();
+  if (is_reported || !arguments_->quiet)
+    fairness = fairness_of(faired.before, faired.after, faired.constraints, context_);
   nlohmann::ordered_json json;
   std::array<ShownShape<Shape>, 2> shapes = {
       {{{"before", {}}, MeasuredShape(faired.before)}, {{"after", {}}, MeasuredShape(faired.after)}}};
-  if (!arguments_->report.empty() || !arguments_->html.empty()) {
+  if (is_reported) {
     json = to_json(report);
+    json["fairness"] = to_json(fairness);
+    if constexpr (std::is_same_v<Shape, PolygonMesh>) {
+      if (report.boundary)
+        json["boundary"]["fairness"] = to_json(fairness_of_boundary(faired.before, faired.after, faired.constraints));
+    }
     json["warnings"] = warnings;
     json["input"] = arguments_->input;
     json["output"] = arguments_->output;
@@ -83,9 +93,9 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
     if (!context_.cancelled()) measure(shapes, faired.constraints);
     if (!context_.cancelled()) {
       // Not assigned as a list: clang 14 does not destroy what such an assignment replaces.
-      nlohmann::ordered_json fairness = {{"before", values_of(shapes[0].figures)},
-                                         {"after", values_of(shapes[1].figures)}};
-      json["fairness"].swap(fairness);
+      nlohmann::ordered_json figures = {{"before", values_of(shapes[0].figures)},
+                                        {"after", values_of(shapes[1].figures)}};
+      json["fairness"].swap(figures);
     }
   }
   if (!arguments_->report.empty()) write_uninterrupted(arguments_->report, json.dump(2) + "\n");
@@ -100,7 +110,7 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
   if (!missing.empty()) warnings.push_back(output_name(missing) + ": not written, as the run was interrupted");
   errors_.warn(warnings);
   if (!arguments_->quiet &&
-      !messages_.write(summary(report, diagonal_of(input), arguments_->options, messages_) + made.lines))
+      !messages_.write(summary(report, fairness, diagonal_of(input), arguments_->options, messages_) + made.lines))
     throw Error(ErrorCode::unusable_file, "standard output: takes no more; the shape is written nonetheless");
   return context_.cancelled() ? exit_interrupted : exit_status(report.outcome);
 }

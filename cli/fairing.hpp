@@ -57,8 +57,8 @@ class Fairing {
   };
 
   /// Writes the files, says what happened, and returns the exit status. input: the nodes that were read. A run that was
-  /// interrupted gets no page, no picture and no scalars, and its report only the figures that fair() measures: of a
-  /// large shape the others take long.
+  /// interrupted gets no page, no picture and no scalars, and its report only the figures of measure(): of a large
+  /// shape the others take long.
   template <typename Shape>
   int finish(const Faired<Shape>& faired, const std::vector<Vector3>& input, std::vector<std::string> warnings,
              const Made& made);

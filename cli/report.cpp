@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "vspring/topology.hpp"
 #include "vspring/version.hpp"
 
 namespace vspring::cli {
@@ -45,6 +46,23 @@ std::string outcome_line(const FairReport& report, const FairOptions& options, c
 
 }  // namespace
 
+BeforeAndAfter fairness_of(const PolygonMesh& before, const PolygonMesh& after, const Constraints& constraints,
+                           const Context& context) {
+  return {measure(before, &constraints, context), measure(after, &constraints, context)};
+}
+
+BeforeAndAfter fairness_of(const PolygonCurve& before, const PolygonCurve& after, const Constraints& constraints,
+                           const Context& /*context*/) {
+  return {measure(before, &constraints), measure(after, &constraints)};
+}
+
+BeforeAndAfter fairness_of_boundary(const PolygonMesh& before, const PolygonMesh& after,
+                                    const Constraints& constraints) {
+  Constraints of_curve = constraints;
+  for (Index i = 0; i < of_curve.node_count(); ++i) of_curve.free_normal(i);
+  return {measure(boundary_curve(before), &of_curve), measure(boundary_curve(after), &of_curve)};
+}
+
 nlohmann::ordered_json to_json(const FairReport& report) {
   nlohmann::ordered_json json;
   json["outcome"] = name(report.outcome);
@@ -68,14 +86,11 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   json["peak_memory_bytes"] = peak_memory_bytes();
   json["threads"] = report.threads;
   json["version"] = version();
-  json["fairness"] = {{"before", to_json(report.before)}, {"after", to_json(report.after)}};
   if (report.boundary) {
-    json["boundary"] = {
-        {"outcome", name(report.boundary->outcome)},
-        {"iterations", report.boundary->iterations},
-        {"expected_error", error_of(*report.boundary)},
-        {"moving_nodes", report.boundary->moving_nodes},
-        {"fairness", {{"before", to_json(report.boundary->before)}, {"after", to_json(report.boundary->after)}}}};
+    json["boundary"] = {{"outcome", name(report.boundary->outcome)},
+                        {"iterations", report.boundary->iterations},
+                        {"expected_error", error_of(*report.boundary)},
+                        {"moving_nodes", report.boundary->moving_nodes}};
   }
   json["warnings"] = nlohmann::ordered_json::array();
   json["warning_codes"] = nlohmann::ordered_json::array();
@@ -96,7 +111,13 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   return json;
 }
 
-std::string summary(const FairReport& report, double diagonal, const FairOptions& options, const Terminal& terminal) {
+nlohmann::ordered_json to_json(const BeforeAndAfter& fairness) {
+  return {{"before", to_json(fairness.before)}, {"after", to_json(fairness.after)}};
+}
+
+std::string summary(const FairReport& report, const BeforeAndAfter& fairness, double diagonal,
+                    const FairOptions& options, const Terminal& terminal) {
+  const auto& [before, after] = fairness;
   std::string text = outcome_line(report, options, terminal);
   if (report.iterations > 0) text += fmt::format(" after {} iterations", report.iterations);
   text += fmt::format(", {:.2f} s", report.seconds);
@@ -110,9 +131,9 @@ std::string summary(const FairReport& report, double diagonal, const FairOptions
       fmt::format("{} of {} nodes moved, by up to {:.4g} ({:.2g} % of the size), root mean square {:.4g} ({:.2g} %)\n",
                   report.moving_nodes, report.nodes, report.greatest_move, report.greatest_move * share,
                   report.rms_move, report.rms_move * share);
-  text += fmt::format("V-Spring energy  {:.4g} → {:.4g}\n", report.before.vspring_energy, report.after.vspring_energy);
-  text += fmt::format("greatest turn    {:.1f}° → {:.1f}°\n", report.before.greatest_turn, report.after.greatest_turn);
-  text += fmt::format("rms turn         {:.2f}° → {:.2f}°\n", report.before.rms_turn, report.after.rms_turn);
+  text += fmt::format("V-Spring energy  {:.4g} → {:.4g}\n", before.vspring_energy, after.vspring_energy);
+  text += fmt::format("greatest turn    {:.1f}° → {:.1f}°\n", before.greatest_turn, after.greatest_turn);
+  text += fmt::format("rms turn         {:.2f}° → {:.2f}°\n", before.rms_turn, after.rms_turn);
   return text;
 }
 

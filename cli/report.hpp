@@ -5,16 +5,38 @@
 #include <vector>
 
 #include "terminal.hpp"
+#include "vspring/constraints.hpp"
+#include "vspring/context.hpp"
 #include "vspring/fair.hpp"
+#include "vspring/fairness.hpp"
+#include "vspring/polygon_curve.hpp"
+#include "vspring/polygon_mesh.hpp"
 
 namespace vspring::cli {
 
-/// The report of a run for scripts, with the keys that docs/command-line.md promises.
+/// How fair a shape was, and is.
+struct BeforeAndAfter {
+  Fairness before;
+  Fairness after;
+};
+
+/// Where it moves under these constraints.
+[[nodiscard]] BeforeAndAfter fairness_of(const PolygonMesh& before, const PolygonMesh& after,
+                                         const Constraints& constraints, const Context& context);
+[[nodiscard]] BeforeAndAfter fairness_of(const PolygonCurve& before, const PolygonCurve& after,
+                                         const Constraints& constraints, const Context& context);
+
+/// Of the boundary of a surface, which was faired by itself under the positions and tangents given.
+[[nodiscard]] BeforeAndAfter fairness_of_boundary(const PolygonMesh& before, const PolygonMesh& after,
+                                                  const Constraints& constraints);
+
+/// The report of a run for scripts, with the keys that docs/command-line.md promises, but for figures of fairness.
 [[nodiscard]] nlohmann::ordered_json to_json(const FairReport& report);
+[[nodiscard]] nlohmann::ordered_json to_json(const BeforeAndAfter& fairness);
 
 /// What a person wants to know of a run, some lines. diagonal: of the box around the shape, for moves relative to it.
 /// options: that it was given.
-[[nodiscard]] std::string summary(const FairReport& report, double diagonal, const FairOptions& options,
-                                  const Terminal& terminal);
+[[nodiscard]] std::string summary(const FairReport& report, const BeforeAndAfter& fairness, double diagonal,
+                                  const FairOptions& options, const Terminal& terminal);
 
 }  // namespace vspring::cli

@@ -12,6 +12,7 @@
 
 #include "checks/curve_crossings.hpp"
 #include "checks/spring_energy.hpp"
+#include "shape/direction.hpp"
 #include "spring/near_nodes.hpp"
 #include "spring/spacing.hpp"
 
@@ -38,8 +39,6 @@ constexpr double risen_energy_if_bent = 1.3;
 constexpr double risen_bending = 1.3;
 // Of the same without noise, of which an input may have more than the bending that a shape should not have.
 constexpr double risen_smooth_bending = 2.5;
-// Of the product of two vectors, what tells of an angle beyond 90° in spite of rounding.
-constexpr double beyond_right = -1e-6;
 // Of mean edges: shorter ones, and faces of less than the square of that, are as good as nothing.
 constexpr double collapsed_size = 1e-4;
 // Of products of lengths in those of a link: what few nodes tell nothing of is nothing.

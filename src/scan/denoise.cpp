@@ -11,6 +11,7 @@
 #include "base/random.hpp"
 #include "scan/flat_faces.hpp"
 #include "scan/low_pass.hpp"
+#include "shape/direction.hpp"
 
 namespace vspring {
 
@@ -46,8 +47,6 @@ constexpr int steps_of_unknown = 20;
 
 // Edges that turn by more than 115° are folds: those of blocks turn by about 90°.
 constexpr double folded = -0.42;
-// Those of which more make a result worse than its input turn by more than 90°, but for rounding.
-constexpr double turned_back = -1e-6;
 constexpr int most_rounds = 20;
 constexpr int steps_of_round = 3;
 // In standard deviations of the noise, which is what noise folds nodes by.
@@ -89,9 +88,9 @@ std::vector<std::uint8_t> nodes_at_folds(const ScanMesh& mesh, const Places& pla
 /// Where more edges turn back than did in the noisy nodes, as inside lips and ears that lie close, nodes at those that
 /// did not go back to where they were.
 void take_back_new_folds(const ScanMesh& mesh, Places& places, const Places& noisy, ThreadTeam& team) {
-  const auto before = turned_pairs(mesh, noisy, turned_back, team);
+  const auto before = turned_pairs(mesh, noisy, beyond_right, team);
   for (int round = 0; round < most_rounds; ++round) {
-    const auto now = turned_pairs(mesh, places, turned_back, team);
+    const auto now = turned_pairs(mesh, places, beyond_right, team);
     if (now.size() <= before.size()) return;
     for (const auto& pair : now) {
       if (std::binary_search(before.begin(), before.end(), pair)) continue;

@@ -61,8 +61,7 @@ void measure_points(int count, int threads) {
 
   Context context;
   context.threads = threads;
-  FitOptions options;
-  options.criterion = SmoothingLength{smoothing_length};
+  const FitOptions options{.criterion = SmoothingLength{smoothing_length}};
   const double fairing = memory_of([&] { (void)fair(flat, held, options.fair, context); });
   FitReport report;
   const double fitting = memory_of([&] { report = fit(flat, held, points, options, context).report; });

@@ -31,6 +31,9 @@ enum class WarningCode : std::uint8_t {
 [[nodiscard]] const char* name(WarningCode code) noexcept;
 
 struct Warning {
+  // Not inline: g++ 12 then warns of memory of long texts that nobody touches.
+  Warning(WarningCode about, std::string words);
+
   WarningCode code;
   std::string text;  ///< for people, one line: what it is, where, and what to do
 

@@ -1,6 +1,10 @@
 #include "vspring/warning.hpp"
 
+#include <utility>
+
 namespace vspring {
+
+Warning::Warning(WarningCode about, std::string words) : code(about), text(std::move(words)) {}
 
 const char* name(WarningCode code) noexcept {
   switch (code) {

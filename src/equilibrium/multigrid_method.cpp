@@ -51,7 +51,7 @@ class Cycle {
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
     }
-    if (lost_) report_.warnings.push_back({WarningCode::steps_grew, lost_warning});
+    if (lost_) warn_of_growing_steps(report_);
     say_if_cut_short(limit);
   }
 

@@ -63,6 +63,13 @@ SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& tas
   return result;
 }
 
+void warn_of_growing_steps(FairReport& report) {
+  report.warnings.push_back(
+      {WarningCode::steps_grew,
+       "the steps grew again, so the shape has no equilibrium that the iteration can reach: the one with the smallest "
+       "steps is kept; hold more nodes, or normals, or let a smaller region move"});
+}
+
 void run_sweeps(Net& net, const Model& model, const SolverCall& call, std::function<void()> renew_ties) {
   FairReport& report = call.report;
   SweepTask task{.step_tolerance = call.options.step_tolerance,
@@ -81,7 +88,7 @@ void run_sweeps(Net& net, const Model& model, const SolverCall& call, std::funct
   report.iterations = result.iterations;
   report.work += work_of_sweep * static_cast<double>(result.iterations) * static_cast<double>(net.moving);
   report.residual = result.residual;
-  if (result.lost) report.warnings.push_back({WarningCode::steps_grew, lost_warning});
+  if (result.lost) warn_of_growing_steps(report);
 }
 
 }  // namespace vspring

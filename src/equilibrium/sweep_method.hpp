@@ -37,10 +37,8 @@ struct SweepResult {
 /// The paper's plain iteration (Fig. 3) until the termination condition of §4.6 holds.
 SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& task, ThreadTeam& team, Context& context);
 
-/// A warning for people where the steps grew again.
-inline constexpr const char* lost_warning =
-    "the steps grew again, so the shape has no equilibrium that the iteration can reach: the one with the smallest "
-    "steps is kept; hold more nodes, or normals, or let a smaller region move";
+/// Warns that the steps grew again.
+void warn_of_growing_steps(FairReport& report);
 
 /// The plain iteration on the shape itself. Fills outcome, iterations, residual and history. renew_ties: as in
 /// SweepTask.

@@ -26,11 +26,12 @@ for (const shared of [true, false]) {
   });
 }
 
+// Of so many nodes that a busy page has time for two clicks before the solution ends.
 for (const shared of [true, false]) {
   test(`a file that waits for its shape is given up or written, after a solution was given up; memory is ${shared ? '' : 'not '}shared`, async () => {
     const session = await Session.start({ shared });
     try {
-      const input = session.generated('patch.obj', 'annulus', '--nodes', '40000', '--noise', '0.01');
+      const input = session.generated('patch.obj', 'annulus', '--nodes', '100000', '--noise', '0.01');
       const { page, faults } = await session.open('?file=files/patch.obj');
       const [cancel, save, alert] = [page.getByRole('button', { name: 'Cancel' }), page.getByRole('button', { name: 'Save as' }), page.getByRole('alert')];
       let files = 0;
@@ -67,7 +68,7 @@ for (const shared of [true, false]) {
 test('after a solution is given up without shared memory, what is changed and saved is right', async () => {
   const session = await Session.start({ shared: false });
   try {
-    const input = session.generated('patch.obj', 'annulus', '--nodes', '40000', '--noise', '0.01');
+    const input = session.generated('patch.obj', 'annulus', '--nodes', '100000', '--noise', '0.01');
     const { page, faults } = await session.open('?file=files/patch.obj');
     await solving(page);
     await page.getByRole('button', { name: 'Cancel' }).click();

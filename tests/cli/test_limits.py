@@ -88,7 +88,7 @@ class Limits(Case):
                                                          "--max-iterations", "100000000")),
                                        ("curve", curve, ("--method", "sweep", "--step-tolerance", "1e-30", "--max-iterations", "100000000"))):
             out = self.folder / ("out" + path.suffix)
-            result = run(command, path, "-o", out, "--quiet", "--time-limit", "0.3", "--report", report, *options)
+            result = run(command, path, "-o", out, "--quiet", "--time-limit", "3", "--report", report, *options)
             self.assertEqual(result.returncode, 3, result.stderr)
             self.assertEqual(json.loads(report.read_text())["outcome"], "work-limit", command)
             self.assertIn("--time-limit", result.stderr.decode())

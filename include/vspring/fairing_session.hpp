@@ -25,7 +25,7 @@ class FairingSession {
   FairingSession& operator=(const FairingSession&) = delete;
 
   /// Fairs under the constraints as they are now. The result is that of vspring::fair() within the expected error, not
-  /// to the bit; report.before is that of the shape as it was given.
+  /// to the bit.
   ///
   /// If the last call found an equilibrium, and the constraints hold the same nodes as then, at other positions or with
   /// other normals, the call starts from the last shape and costs a few iterations. If the constraints go on moving as
@@ -38,7 +38,7 @@ class FairingSession {
   [[nodiscard]] FairResult fair(const Constraints& constraints);
 
   /// Fairs for a picture during a drag, to `tolerance` in place of the options' (the same share of the diagonal).
-  /// Of surfaces nothing is measured: `before`, `after`, moves and counts of what is held are left out of the report.
+  /// Of surfaces nothing is measured: moves and counts of what is held are left out of the report.
   ///
   /// If it cannot start from the last shape, it makes at most 40 iterations on each level. A shape worse than the input
   /// is returned with Outcome::worse_than_input; fair() then looks for a better one. Cost: one or two iterations while

@@ -105,7 +105,7 @@ class Fitting {
 
   void say_if_left_behind() {
     FairReport& report = run_.result.report.fair;
-    if (report.outcome != Outcome::converged || options_.within() || options_.rms() || options_.noise()) return;
+    if (report.outcome != Outcome::converged || options_.tolerance() || options_.noise()) return;
     const double before = run_.result.report.before.all.rms;
     const double after = run_.result.report.after.all.rms;
     Eigen::AlignedBox3d box;

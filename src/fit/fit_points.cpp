@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <string>
+#include <variant>
 
 #include "io/point_formats.hpp"
 #include "vspring/error.hpp"
@@ -20,6 +22,13 @@ constexpr double largest_weight = 1e50;
 constexpr double nearly_at = 0.99;
 
 bool is_weight(double weight) { return weight >= 0 && weight <= largest_weight; }
+
+/// Nothing where another criterion is given.
+template <typename Criterion>
+std::optional<double> figure_of(const FitCriterion& criterion, double Criterion::*figure) {
+  if (const auto* const given = std::get_if<Criterion>(&criterion)) return given->*figure;
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -105,30 +114,11 @@ PointDistances summary(std::span<const double> distances, std::span<const std::u
   return result;
 }
 
-std::optional<double> FitOptions::weight() const {
-  const auto* weight = std::get_if<Weight>(&criterion);
-  return weight != nullptr ? std::optional(weight->k) : std::nullopt;
-}
-
-std::optional<double> FitOptions::smoothing_length() const {
-  const auto* smoothing = std::get_if<SmoothingLength>(&criterion);
-  return smoothing != nullptr ? std::optional(smoothing->length) : std::nullopt;
-}
-
-std::optional<double> FitOptions::within() const {
-  const auto* within = std::get_if<Within>(&criterion);
-  return within != nullptr ? std::optional(within->distance) : std::nullopt;
-}
-
-std::optional<double> FitOptions::rms() const {
-  const auto* rms = std::get_if<RootMeanSquare>(&criterion);
-  return rms != nullptr ? std::optional(rms->distance) : std::nullopt;
-}
-
-std::optional<double> FitOptions::noise() const {
-  const auto* noise = std::get_if<Noise>(&criterion);
-  return noise != nullptr ? std::optional(noise->deviation) : std::nullopt;
-}
+std::optional<double> FitOptions::weight() const { return figure_of(criterion, &Weight::k); }
+std::optional<double> FitOptions::smoothing_length() const { return figure_of(criterion, &SmoothingLength::length); }
+std::optional<double> FitOptions::within() const { return figure_of(criterion, &Within::distance); }
+std::optional<double> FitOptions::rms() const { return figure_of(criterion, &RootMeanSquare::distance); }
+std::optional<double> FitOptions::noise() const { return figure_of(criterion, &Noise::deviation); }
 
 std::optional<double> FitOptions::tolerance() const { return within() ? within() : rms(); }
 

@@ -6,9 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "base/threads.hpp"
 #include "constraints/holding.hpp"
-#include "fairness/measure.hpp"
 #include "vspring/error.hpp"
 #include "vspring/topology.hpp"
 

@@ -25,8 +25,8 @@ class SurfaceFairing {
 
   /// The same, and remembers the shape and how it was found. Where the constraints hold the same nodes as the time
   /// before and an equilibrium was found then, it starts from there, with what it has.
-  /// tolerance: in place of the options' one, where somebody drags: the report is to have no figures of the shape, and
-  /// a shape that is worse than the mesh is said to be, but no other is looked for.
+  /// tolerance: in place of the options' one, where somebody drags: the report is to have no moves and counts, and a
+  /// shape that is worse than the mesh is said to be, but no other is looked for.
   FairResult fair_again(const Constraints& constraints, Context& context, std::optional<double> tolerance = {});
 
   /// About where fair_again() would lead from the last shape, which stays as it is. None where there is none to go

@@ -42,6 +42,7 @@ TEST(FairingSession, FollowsWhatIsDragged) {
     FairingSession session(one.mesh, options);
     const FairResult first = session.fair(one.constraints);
     ASSERT_EQ(first.report.outcome, Outcome::converged);
+    EXPECT_STREQ(first.report.levels.back().strategy, "coarse to fine");
     EXPECT_EQ(first.positions, fair(one.mesh, one.constraints, options).positions);
     const double size = diagonal(one.mesh);
     for (int step = 0; step < 4; ++step) {
@@ -50,6 +51,7 @@ TEST(FairingSession, FollowsWhatIsDragged) {
       const FairResult anew = fair(one.mesh, one.constraints, options);
       EXPECT_EQ(followed.report.outcome, Outcome::converged);
       EXPECT_EQ(followed.report.levels.size(), 1U) << "no coarser level is needed";
+      EXPECT_STREQ(followed.report.levels.back().strategy, "from the last shape");
       EXPECT_LT(followed.report.iterations, 12);
       const double error = *followed.report.expected_error + *anew.report.expected_error;
       EXPECT_LT(greatest_distance(followed.positions, anew.positions), 3 * error * size);

@@ -72,13 +72,17 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
     const UninterruptedWhileWriting guard;
     std::ranges::move(made.write(), std::back_inserter(warnings));
   }
-  BeforeAndAfter fairness;
   const bool is_reported = !arguments_->report.empty() || !arguments_->html.empty();
-  if (is_reported || !arguments_->quiet)
-    fairness = fairness_of(faired.before, faired.after, faired.constraints, context_);
-  nlohmann::ordered_json json;
   std::array<ShownShape<Shape>, 2> shapes = {
       {{{"before", {}}, MeasuredShape(faired.before)}, {{"after", {}}, MeasuredShape(faired.after)}}};
+  if (is_reported && !context_.cancelled()) measure(shapes, faired.constraints);
+  const bool is_measured = is_reported && !context_.cancelled();
+  BeforeAndAfter fairness;
+  if (is_measured)
+    fairness = fairness_of(shapes[0].figures, shapes[1].figures);
+  else if (is_reported || !arguments_->quiet)
+    fairness = fairness_of(faired.before, faired.after, faired.constraints, context_);
+  nlohmann::ordered_json json;
   if (is_reported) {
     json = to_json(report);
     json["fairness"] = to_json(fairness);
@@ -90,8 +94,7 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
     json["input"] = arguments_->input;
     json["output"] = arguments_->output;
     json.update(made.figures);
-    if (!context_.cancelled()) measure(shapes, faired.constraints);
-    if (!context_.cancelled()) {
+    if (is_measured) {
       // Not assigned as a list: clang 14 does not destroy what such an assignment replaces.
       nlohmann::ordered_json figures = {{"before", values_of(shapes[0].figures)},
                                         {"after", values_of(shapes[1].figures)}};

@@ -17,6 +17,16 @@ nlohmann::ordered_json to_json(const Fairness& fairness) {
           {"rms_turn", fairness.rms_turn}};
 }
 
+Fairness fairness_in(const std::vector<Figure>& figures) {
+  Fairness fairness;
+  for (const Figure& figure : figures) {
+    if (figure.key == "vspring_energy") fairness.vspring_energy = figure.value;
+    if (figure.key == "greatest_turn") fairness.greatest_turn = figure.value;
+    if (figure.key == "rms_turn") fairness.rms_turn = figure.value;
+  }
+  return fairness;
+}
+
 /// The step of the plain iteration says nothing about the distance from the final place.
 nlohmann::ordered_json error_of(const FairReport& report) {
   if (!report.expected_error) return nullptr;
@@ -54,6 +64,10 @@ BeforeAndAfter fairness_of(const PolygonMesh& before, const PolygonMesh& after, 
 BeforeAndAfter fairness_of(const PolygonCurve& before, const PolygonCurve& after, const Constraints& constraints,
                            const Context& /*context*/) {
   return {measure(before, &constraints), measure(after, &constraints)};
+}
+
+BeforeAndAfter fairness_of(const std::vector<Figure>& before, const std::vector<Figure>& after) {
+  return {fairness_in(before), fairness_in(after)};
 }
 
 BeforeAndAfter fairness_of_boundary(const PolygonMesh& before, const PolygonMesh& after,

@@ -9,6 +9,7 @@
 #include "vspring/context.hpp"
 #include "vspring/fair.hpp"
 #include "vspring/fairness.hpp"
+#include "vspring/figures.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
@@ -25,6 +26,9 @@ struct BeforeAndAfter {
                                          const Constraints& constraints, const Context& context);
 [[nodiscard]] BeforeAndAfter fairness_of(const PolygonCurve& before, const PolygonCurve& after,
                                          const Constraints& constraints, const Context& context);
+
+/// Of figures that were measured.
+[[nodiscard]] BeforeAndAfter fairness_of(const std::vector<Figure>& before, const std::vector<Figure>& after);
 
 /// Of the boundary of a surface, which was faired by itself under the positions and tangents given.
 [[nodiscard]] BeforeAndAfter fairness_of_boundary(const PolygonMesh& before, const PolygonMesh& after,

@@ -60,7 +60,7 @@ double greatest_distance(const Surface& surface, const Net& net) {
 }
 
 /// Puts the nodes that the coarse level lacks at the mean of what `value` gives of their parents, beside `base`.
-void place_by_mean(const SurfaceLevel& coarse, Net& net, const std::vector<Vector3>& base) {
+void place_by_mean(const Level& coarse, Net& net, const std::vector<Vector3>& base) {
   std::vector<Vector3> value(net.positions.size(), Vector3::Zero());
   for (const std::uint32_t i : coarse.finer) value[i] = net.positions[i] - base[i];
   for (std::size_t g = coarse.removals.size(); g-- > 0;) {
@@ -92,17 +92,17 @@ int main() {
       }
       const auto model = surface_model(PseudoNormals::link);
       auto levels = surface_levels(gather_net(mesh, constraints), *model, Distribution::even, team);
-      SurfaceLevel& fine = levels[levels.size() - 1];
-      SurfaceLevel& coarse = levels[levels.size() - 2];
+      Level& fine = levels[levels.size() - 1];
+      Level& coarse = levels[levels.size() - 2];
       const Net exact = fine.net;
       update_directions(coarse.net, *model, team);
-      prolong(coarse, fine, team);
+      prolong_surface(coarse, fine, team);
       errors[0].push_back(greatest_distance(surface, fine.net));
       fine.net = exact;
       const Vector3 origin = -exact.frame.to_local(Vector3::Zero()) / exact.frame.scale();
       for (std::size_t k = 0; k < coarse.net.positions.size(); ++k)
         coarse.net.normals[k] = surface.normal(coarse.net.positions[k] / exact.frame.scale() + origin).normalized();
-      prolong(coarse, fine, team);
+      prolong_surface(coarse, fine, team);
       errors[3].push_back(greatest_distance(surface, fine.net));
       fine.net = exact;
       place_by_mean(coarse, fine.net, std::vector<Vector3>(exact.positions.size(), Vector3::Zero()));

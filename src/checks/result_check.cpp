@@ -126,7 +126,7 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
                         bool with_bending, std::span<const std::uint8_t> dragged = {}) {
   const double tiny = collapsed_size * edge;
   const auto is_dragged = [&](std::size_t node) { return !dragged.empty() && dragged[node] != 0; };
-  if (net.is_curve()) {
+  if (net.is_curve) {
     ShapeDefects defects;
     for (std::size_t i = 0; i < net.computed; ++i) {
       const auto links = net.rings.links(i);
@@ -196,7 +196,7 @@ ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team) : mod
   for (const Vector3& position : start.points.positions) box_.extend(position);
   has_directions_ = std::any_of(start.given.begin(), start.given.end(), [](std::uint8_t given) { return given != 0; });
   has_points_ = !start.points.positions.empty();
-  is_surface_ = !start.is_curve();
+  is_surface_ = !start.is_curve;
   edge_ = mean_edge(start);
   const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
   defects_ = defects_of(start, input, edge_, team, start.input.empty() && looks_at_bending());
@@ -204,7 +204,7 @@ ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team) : mod
   if (looks_at_crossings(start)) input_ = input;
   if (looks_at_bending()) {
     bending_ = start.input.empty() ? defects_.bending : defects_of(start, start.positions, edge_, team, true).bending;
-    if (start.input.empty() && !start.is_curve()) smooth_bending_ = bending_without_noise(start);
+    if (start.input.empty() && !start.is_curve) smooth_bending_ = bending_without_noise(start);
   }
   const bool was_prepared = !start.curvatures.empty();
   model.prepare(start);
@@ -232,7 +232,7 @@ bool ResultCheck::looks_at_bending() const {
   return !has_directions_ && !has_points_ && (!is_surface_ || defects_.collapsed == 0);
 }
 
-bool ResultCheck::looks_at_crossings(const Net& net) const { return !has_directions_ && net.is_curve(); }
+bool ResultCheck::looks_at_crossings(const Net& net) const { return !has_directions_ && net.is_curve; }
 
 double ResultCheck::bending_without_noise(const Net& net) const {
   return defects_of(net, rest_positions(net, *team_), edge_, *team_, true).bending;
@@ -267,7 +267,7 @@ std::string ResultCheck::more_of(const ShapeDefects& defects, bool of_surface) c
 std::string ResultCheck::fault_of_places(const Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
-  return more_of(defects_of(now, now.positions, edge_, *team_, false, dragged(now)), !now.is_curve());
+  return more_of(defects_of(now, now.positions, edge_, *team_, false, dragged(now)), !now.is_curve);
 }
 
 std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const {
@@ -293,7 +293,7 @@ std::string ResultCheck::fault(Net& now) const {
   if (!misplaced_node.empty()) return misplaced_node;
   const std::vector<std::uint8_t> dragged_nodes = dragged(now);
   const ShapeDefects defects = defects_of(now, now.positions, edge_, *team_, looks_at_bending(), dragged_nodes);
-  std::string more = more_of(defects, !now.is_curve());
+  std::string more = more_of(defects, !now.is_curve);
   if (!more.empty()) return more;
   if (has_directions_) return has_points_ ? std::string() : disagreement_with_directions(now, dragged_nodes);
   if (looks_at_crossings(now) && dragged_nodes.empty()) {
@@ -304,7 +304,7 @@ std::string ResultCheck::fault(Net& now) const {
   if (has_points_) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
   const bool is_bent_more = defects.bending > risen_bending * bending_ + unseen;
-  if (!now.is_curve()) {
+  if (!now.is_curve) {
     if (is_bent_more) return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", defects.bending, bending_);
     const double smooth = smooth_bending_ ? bending_without_noise(now) : 0;
     if (smooth > risen_smooth_bending * smooth_bending_.value_or(0) + unseen)

@@ -10,7 +10,7 @@ namespace vspring {
 
 SpringEnergy spring_energy(const Net& net) {
   SpringEnergy energy;
-  if (net.is_curve()) {
+  if (net.is_curve) {
     for_each_curve_spring(net, [&](const Vector3& spring, const Vector3& d) {
       energy.sum += spring.squaredNorm() / (d.squaredNorm() + net.tiny);
     });

@@ -229,7 +229,7 @@ class EquilibriumSearch : private Relaxation {
       if (!this->fault(check).empty()) continue;
       if (report_.outcome == Outcome::converged) return;
       // A curve that is far from an equilibrium has left the input for nothing.
-      if (net.is_curve() && lost()) continue;
+      if (net.is_curve && lost()) continue;
       const double energy = energy_of(net).sum;
       if (energy >= least_energy) continue;
       least_energy = energy;
@@ -237,7 +237,7 @@ class EquilibriumSearch : private Relaxation {
     }
     const bool cancelled = report_.outcome == Outcome::cancelled;
     const bool is_input_smoothed =
-        !cancelled && !best && input_is_better && net.is_curve() && smooth_a_little(start_smooth, check, least_energy);
+        !cancelled && !best && input_is_better && net.is_curve && smooth_a_little(start_smooth, check, least_energy);
     if (is_input_smoothed) best = Reached{net.positions, found.outcome, found.residual};
     go_back(last(), best ? *best : input_is_better ? Reached{input_, found.outcome, found.residual} : found);
     report_.outcome = cancelled ? Outcome::cancelled : Outcome::worse_than_input;
@@ -267,7 +267,7 @@ class EquilibriumSearch : private Relaxation {
 
   bool may_follow_flow() {
     const Net& net = shape();
-    return came_from_coarse_ && unfinished() && !points_ && !options_.max_iterations && !net.is_curve() &&
+    return came_from_coarse_ && unfinished() && !points_ && !options_.max_iterations && !net.is_curve &&
            !net.spheres.on() && !is_underconstrained(net);
   }
 

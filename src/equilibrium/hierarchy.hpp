@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
+#include <iterator>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "levels/level.hpp"
 #include "precondition/preconditioner.hpp"
-#include "spring/net.hpp"
 
 namespace vspring {
 
@@ -13,13 +16,18 @@ namespace vspring {
 /// is number 0, the shape itself the last.
 class Hierarchy {
  public:
-  Hierarchy() = default;
+  explicit Hierarchy(std::vector<Level> levels)
+      : levels_(std::make_move_iterator(levels.begin()), std::make_move_iterator(levels.end())) {}
   virtual ~Hierarchy() = default;
   Hierarchy(const Hierarchy&) = delete;
   Hierarchy& operator=(const Hierarchy&) = delete;
 
-  [[nodiscard]] virtual std::size_t count() const = 0;
-  virtual Net& net(std::size_t level) = 0;
+  [[nodiscard]] std::size_t count() const { return levels_.size(); }
+  Net& net(std::size_t level) { return levels_[level].net; }
+  /// The shape itself.
+  Net& finest() { return levels_.back().net; }
+  [[nodiscard]] const Net& finest() const { return levels_.back().net; }
+  Net take() && { return std::move(levels_.back().net); }
   /// Moving nodes without which a level does not tell shapes apart: more than one passes for fair.
   [[nodiscard]] virtual std::size_t fewest_nodes() const = 0;
   /// The coarsest level that has as many; the shape itself where none has.
@@ -29,17 +37,19 @@ class Hierarchy {
     return level;
   }
   /// Leaves out the coarsest levels until `levels` are left.
-  virtual void limit(std::size_t levels) = 0;
+  void limit(std::size_t levels) {
+    if (levels < count()) levels_.erase(levels_.begin(), levels_.end() - static_cast<std::ptrdiff_t>(levels));
+  }
 
   /// Hands the shape of a level down to the next coarser one.
-  virtual void restrict_from(std::size_t level) = 0;
+  void restrict_from(std::size_t level) { restrict_shape(levels_[level], levels_[level - 1]); }
   /// Hands the shape of a level up to the next finer one. Needs directions on it.
   virtual void prolong_from(std::size_t level) = 0;
 
   /// Hands the start down to all levels without its noise, and makes it fit to start from on the coarsest.
   virtual void start() = 0;
   /// Other shares (§4.4) for the shape itself.
-  virtual void set_laplacian_weights(std::vector<double> shares) = 0;
+  virtual void set_laplacian_weights(std::vector<double> shares) { finest().laplacian_weights = std::move(shares); }
   /// The start of last resort on the level that is worked on first, which forgets the shape.
   virtual void start_from_membrane(std::size_t level) = 0;
   /// Whether the shape itself winds less often than at `input`, the positions of its nodes.
@@ -48,6 +58,10 @@ class Hierarchy {
   virtual bool wind() { return false; }
   /// For that level, made anew; used up before the next one is asked for.
   virtual Preconditioner& preconditioner(std::size_t level) = 0;
+
+ protected:
+  // Nets stay where they are when coarser levels are dropped: ties of points refer to them.
+  std::deque<Level> levels_;
 };
 
 }  // namespace vspring

@@ -11,7 +11,7 @@ constexpr double shortest_share = 0.25;
 /// linear.
 double squared_change(const Net& net, const Vector3& difference, std::size_t i) {
   const double all = difference.squaredNorm();
-  if (net.is_curve()) return all;
+  if (net.is_curve) return all;
   const double across = difference.dot(net.normals[i]);
   return std::max(across * across, stretch_share * stretch_share * all);
 }

@@ -106,7 +106,7 @@ SpringEnergy Relaxation::energy_of(Net& net) {
 
 bool Relaxation::has_crease(std::size_t level) {
   Net& net = hierarchy_.net(level);
-  return net.moving <= few && !net.is_curve() && call_.report.outcome != Outcome::cancelled &&
+  return net.moving <= few && !net.is_curve && call_.report.outcome != Outcome::cancelled &&
          energy_of(net).least_cosine < sharpest_turn;
 }
 

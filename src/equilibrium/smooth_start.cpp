@@ -23,10 +23,9 @@ struct Bending {
   std::vector<Vector3> targets;
 };
 
-Bending bending_of(const CurveNet& curve) {
-  const Net& net = curve.net;
+Bending bending_of(const Net& net) {
   Bending bending;
-  for (const MovingRun& moving_run : curve.moving_runs) {
+  for (const MovingRun& moving_run : net.moving_runs) {
     for_each_bending_row(net, moving_run, [&](const CurveBendingRow& row) {
       Vector3 target = Vector3::Zero();
       for (const auto& [place, entry] : row.entries) {
@@ -52,10 +51,9 @@ Bending bending_of(const CurveNet& curve) {
 
 }  // namespace
 
-void start_smooth(CurveNet& curve, const std::vector<double>& pull) {
-  Net& net = curve.net;
+void start_smooth(Net& net, const std::vector<double>& pull) {
   const auto count = static_cast<Eigen::Index>(net.moving);
-  const Bending bending = bending_of(curve);
+  const Bending bending = bending_of(net);
   Matrix rows(static_cast<Eigen::Index>(bending.targets.size()), count);
   rows.setFromTriplets(bending.entries.begin(), bending.entries.end());
   Eigen::MatrixX3d targets(rows.rows(), 3);

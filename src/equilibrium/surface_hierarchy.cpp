@@ -36,10 +36,6 @@ double greatest_length(std::span<const Vector3> vectors) {
 
 }  // namespace
 
-void SurfaceHierarchy::limit(std::size_t levels) {
-  if (levels < levels_.size()) levels_.erase(levels_.begin(), levels_.end() - static_cast<std::ptrdiff_t>(levels));
-}
-
 Preconditioner& SurfaceHierarchy::preconditioner(std::size_t level) {
   make_systems(level);
   return preconditioner_.emplace(system_levels_, *spreading_, *rigid_modes_, *team_);
@@ -58,7 +54,7 @@ void SurfaceHierarchy::make_systems(std::size_t level) {
   spreading_.reset();
   system_levels_ = {.net = &levels_[level].net};
   for (std::size_t k = level; k > 0 && levels_[k].net.moving > few_enough_to_factor; --k) {
-    SurfaceLevel& coarse = levels_[k - 1];
+    Level& coarse = levels_[k - 1];
     restrict_shape(levels_[k], coarse);
     system_levels_.interpolations.push_back(interpolation(levels_[k].net, coarse.net, coarse.finer, *team_));
   }
@@ -69,7 +65,7 @@ void SurfaceHierarchy::make_systems(std::size_t level) {
 void SurfaceHierarchy::start() {
   for (std::size_t k = levels_.size(); k-- > 1;) {
     const Net& fine = levels_[k].net;
-    SurfaceLevel& coarse = levels_[k - 1];
+    Level& coarse = levels_[k - 1];
     for (std::size_t i = 0; i < coarse.net.moving; ++i) {
       const std::size_t at = coarse.finer[i];
       coarse.net.positions[i] =
@@ -86,13 +82,13 @@ void SurfaceHierarchy::start_from_membrane(std::size_t level) {
 }
 
 void SurfaceHierarchy::prolong_from(std::size_t level) {
-  prolong(levels_[level], levels_[level + 1], *team_);
+  prolong_surface(levels_[level], levels_[level + 1], *team_);
   systems_of_.reset();
   spread_along(level + 1);
 }
 
 std::vector<Vector3> SurfaceHierarchy::step_of_held(const Constraints& constraints) const {
-  const Net& net = levels_.back().net;
+  const Net& net = finest();
   std::vector<Vector3> step(net.positions.size() - net.moving, Vector3::Zero());
   for (std::size_t k = 0; k < step.size(); ++k) {
     const Index node = net.node[net.moving + k];
@@ -110,7 +106,7 @@ std::vector<Vector3> SurfaceHierarchy::step_of_held(const Constraints& constrain
 
 std::vector<Vector3> SurfaceHierarchy::ways_with(const std::vector<Vector3>& held_step, const Model& model,
                                                  double tolerance) {
-  const Net& net = levels_.back().net;
+  const Net& net = finest();
   std::vector<Vector3> rest = held_step;
   std::vector<Vector3> ways(net.moving, Vector3::Zero());
   predictor_.predict(rest, ways);
@@ -126,12 +122,12 @@ std::vector<Vector3> SurfaceHierarchy::ways_with(const std::vector<Vector3>& hel
 
 std::vector<Vector3> SurfaceHierarchy::predict(const Constraints& constraints, const Model& model, double tolerance) {
   std::vector<Vector3> places = ways_with(step_of_held(constraints), model, tolerance);
-  for (std::size_t i = 0; i < places.size(); ++i) places[i] += levels_.back().net.positions[i];
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] += finest().positions[i];
   return places;
 }
 
 void SurfaceHierarchy::update(const Constraints& constraints, const Model& model, double tolerance) {
-  Net& net = levels_.back().net;
+  Net& net = finest();
   began_ = net.positions;
   normals_began_ = net.normals;
   held_step_ = step_of_held(constraints);
@@ -149,15 +145,15 @@ void SurfaceHierarchy::update(const Constraints& constraints, const Model& model
 
 void SurfaceHierarchy::arrived() {
   if (held_step_.empty()) return;
-  const Net& net = levels_.back().net;
+  const Net& net = finest();
   std::vector<Eigen::Vector3f> way(net.moving);
   for (std::size_t i = 0; i < net.moving; ++i) way[i] = (net.positions[i] - began_[i]).cast<float>();
   predictor_.remember(std::move(held_step_), std::move(way));
 }
 
 void SurfaceHierarchy::go_back() {
-  levels_.back().net.positions = began_;
-  levels_.back().net.normals = normals_began_;
+  finest().positions = began_;
+  finest().normals = normals_began_;
 }
 
 void SurfaceHierarchy::spread_along(std::size_t level) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <deque>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -21,21 +19,16 @@ namespace vspring {
 /// The levels of a surface (§4.7).
 class SurfaceHierarchy final : public Hierarchy {
  public:
-  SurfaceHierarchy(std::vector<SurfaceLevel> levels, ThreadTeam& team)
-      : levels_(std::make_move_iterator(levels.begin()), std::make_move_iterator(levels.end())), team_(&team) {}
+  SurfaceHierarchy(std::vector<Level> levels, ThreadTeam& team) : Hierarchy(std::move(levels)), team_(&team) {}
 
-  [[nodiscard]] std::size_t count() const override { return levels_.size(); }
-  Net& net(std::size_t level) override { return levels_[level].net; }
   [[nodiscard]] std::size_t fewest_nodes() const override { return 60; }
-  void limit(std::size_t levels) override;
-  void restrict_from(std::size_t level) override { restrict_shape(levels_[level], levels_[level - 1]); }
   /// Nodes go along the shape that was handed up to where the finer level wants them.
   void prolong_from(std::size_t level) override;
   /// Noise is not a shape: coarser levels start from rest_positions(); with an even distribution, nodes take half of
   /// their neighbours' mean place with them to each coarser level.
   void start() override;
   void set_laplacian_weights(std::vector<double> shares) override {
-    levels_.back().net.laplacian_weights = std::move(shares);
+    Hierarchy::set_laplacian_weights(std::move(shares));
     systems_of_.reset();
   }
   /// All nodes at the mean of their neighbours.
@@ -60,8 +53,6 @@ class SurfaceHierarchy final : public Hierarchy {
   /// Of the iteration on the shape itself, from one update() to the next.
   Anderson<float>& memory() { return *memory_; }
 
-  Net take() && { return std::move(levels_.back().net); }
-
  private:
   /// Moves the nodes of a level along their surface to where the regularisation (§4.4) wants them.
   void spread_along(std::size_t level);
@@ -73,8 +64,6 @@ class SurfaceHierarchy final : public Hierarchy {
   /// Makes the systems of a level ready: hands its shape down as far as they need it.
   void make_systems(std::size_t level);
 
-  // Nets stay where they are when coarser levels are dropped: ties of points refer to them.
-  std::deque<SurfaceLevel> levels_;
   std::optional<std::size_t> systems_of_;  ///< the level that these are for
   SystemLevels system_levels_;
   std::optional<TangentialRigidModes> rigid_modes_;

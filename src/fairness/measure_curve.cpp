@@ -41,7 +41,7 @@ PolygonCurve finite_part(const PolygonCurve& curve) {
 
 Fairness measure(const PolygonCurve& whole_curve, const Constraints* constraints) {
   const PolygonCurve curve = finite_part(whole_curve);
-  Net net = gather_net(curve, at_present(curve, constraints)).net;
+  Net net = gather_net(curve, at_present(curve, constraints));
   ThreadTeam alone(1);
   update_directions(net, *curve_model({}), alone);
   double energy = 0;

@@ -164,14 +164,13 @@ class Fitting {
     }
     // That was of the other shape.
     report.fair.expected_error.reset();
-    auto gathered = run_.gather();
-    measure_moves(net_of(gathered), run_.subject.shape().positions(), run_.result.positions, report.fair);
+    measure_moves(run_.gather(), run_.subject.shape().positions(), run_.result.positions, report.fair);
   }
 
   /// The input with its constraints, the shape that was found, and what is worse about it, in words.
   struct InputAndFound {
     explicit InputAndFound(Fitting& fitting)
-        : gathered(fitting.run_.gather()), input(net_of(gathered)), model(model_of(gathered, fitting.options_.fair)) {
+        : input(fitting.run_.gather()), model(model_of(input, fitting.options_.fair)) {
       auto& run = fitting.run_;
       for (const Vector3& point : run.points.positions) input.points.positions.push_back(input.frame.to_local(point));
       check.emplace(input, *model, run.team);
@@ -184,8 +183,7 @@ class Fitting {
       if (fault.empty()) fault = fitting.balloon(input, found);
     }
 
-    decltype(std::declval<FitRun<Subject>&>().gather()) gathered;
-    Net& input;
+    Net input;
     std::unique_ptr<const Model> model;
     std::optional<ResultCheck> check;
     Net found;
@@ -310,9 +308,9 @@ class Fitting {
 
   /// By equilibrium or multigrid. Returns whether nodes are drawn to places of their own.
   bool run_on_levels(UntiedPoints points, ProgressReporter& progress) {
-    auto gathered = run_.gather_start();
-    const auto smoothing = smoothing_in(net_of(gathered));
-    WarmStartedFit shape(std::move(gathered), options_.fair, std::move(points), smoothing, run_.team);
+    Net net = run_.gather_start();
+    const auto smoothing = smoothing_in(net);
+    WarmStartedFit shape(std::move(net), options_.fair, std::move(points), smoothing, run_.team);
     FairReport& report = run_.result.report.fair;
     if (report.method == Method::multigrid)
       shape.cycle(run_.context, progress, report);
@@ -329,7 +327,7 @@ class Fitting {
   }
 
   /// Where a curve has no equilibrium with its points: a shape that is neither is knotted sooner than near to one.
-  void take_spline_if_lost(WarmStartedFit<CurveNet>& shape) {
+  void take_spline_if_lost(WarmStartedFit& shape) {
     FairReport& report = run_.result.report.fair;
     if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled || !may_replace()) return;
     if (report.expected_error && *report.expected_error < curve_is_lost_at) {
@@ -350,10 +348,9 @@ class Fitting {
   }
 
   void sweep(UntiedPoints points, FairOptions options, ProgressReporter& progress) {
-    auto gathered = run_.gather_start();
-    Net& net = net_of(gathered);
-    const auto model = model_of(gathered, options);
-    set_laplacian_weights(net, *model, distribution_of(gathered, options), run_.team);
+    Net net = run_.gather_start();
+    const auto model = model_of(net, options);
+    set_laplacian_weights(net, *model, distribution_of(net, options), run_.team);
     const auto smoothing = smoothing_in(net);
     PointTies ties = tie_points(net, *model, points, smoothing, run_.team);
     points = {};

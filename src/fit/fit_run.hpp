@@ -49,24 +49,23 @@ class FitRun {
     result.report.points = static_cast<Index>(std::count(counted.begin(), counted.end(), 1));
   }
 
-  auto gather() {
-    auto gathered = subject.gather();
-    count_nodes(net_of(gathered), subject.constraints(), result.report.fair);
-    return gathered;
+  Net gather() {
+    Net net = subject.gather();
+    count_nodes(net, subject.constraints(), result.report.fair);
+    return net;
   }
 
   /// With the places that nodes keep.
-  auto gather_start() {
-    auto gathered = gather();
-    Net& net = net_of(gathered);
-    if (options.fair.distribution != Distribution::keep) return gathered;
+  Net gather_start() {
+    Net net = gather();
+    if (options.fair.distribution != Distribution::keep) return net;
     if constexpr (std::is_same_v<Subject, FitCurve>)
-      smooth_noise(gathered);
+      smooth_noise(net);
     else
-      unfold(gathered, subject.shape(), context, team);
+      unfold(net, subject.shape(), context, team);
     // Else the nodes slide along a shape that noise has crumpled until it comes apart.
     net.target_positions.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
-    return gathered;
+    return net;
   }
 
   /// The points that count, and the nodes that are nearest to them at the start.

@@ -127,7 +127,7 @@ std::vector<Warning> FitCurve::check(std::span<const std::uint8_t> pulled) const
   return check_constraints(*curve_, *constraints_, pulled);
 }
 
-CurveNet FitCurve::gather() const { return gather_net(*curve_, *constraints_); }
+Net FitCurve::gather() const { return gather_net(*curve_, *constraints_); }
 
 PolygonCurve FitCurve::with(const std::vector<Vector3>& positions) const {
   PolygonCurve curve = *curve_;

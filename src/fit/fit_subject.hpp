@@ -63,7 +63,7 @@ class FitCurve {
   [[nodiscard]] const Constraints& constraints() const { return *constraints_; }
   [[nodiscard]] static Index faces() { return 0; }
   [[nodiscard]] std::vector<Warning> check(std::span<const std::uint8_t> pulled) const;
-  [[nodiscard]] CurveNet gather() const;
+  [[nodiscard]] Net gather() const;
   [[nodiscard]] Fairness fairness(const std::vector<Vector3>& positions) const;
   [[nodiscard]] std::vector<double> distances(const std::vector<Vector3>& positions) const;
   [[nodiscard]] std::vector<double> distances_before() const;

@@ -51,18 +51,18 @@ class FitToTolerance {
     if (!only_smooth && plain_fairing_is_within(run_.options.fair, points.are_nodes)) return;
     FitReport& report = run_.result.report;
     Context& context = run_.context;
-    auto gathered = run_.gather_start();
-    const double scale = net_of(gathered).frame.scale();
-    const double edge = mean_edge(net_of(gathered));
+    Net net = run_.gather_start();
+    const double scale = net.frame.scale();
+    const double edge = mean_edge(net);
     const auto length = std::make_shared<double>(edge);
     FairOptions options = run_.options.fair;
-    options.tolerance = std::min(options.tolerance, precision * tolerance_ * scale / diagonal(net_of(gathered)));
-    WarmStartedFit shape(std::move(gathered), options, std::move(points), length, run_.team);
+    options.tolerance = std::min(options.tolerance, precision * tolerance_ * scale / diagonal(net));
+    WarmStartedFit shape(std::move(net), options, std::move(points), length, run_.team);
     // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
     const auto nodes = static_cast<double>(shape.net().moving);
     const double most_work = std::max(least_most_work, most_work_a_node * nodes);
     const auto& lengths =
-        !shape.net().is_curve() && !shape.net().target_positions.empty() ? first_lengths_on_surfaces : first_lengths;
+        !shape.net().is_curve && !shape.net().target_positions.empty() ? first_lengths_on_surfaces : first_lengths;
     for (const double first : lengths) {
       *length = first * edge;
       shape.find(context, progress, report.fair);

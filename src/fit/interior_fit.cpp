@@ -255,7 +255,7 @@ class InteriorFit {
 
 std::optional<Sides> Sides::of(const Net& net) {
   Sides sides;
-  if (!net.is_curve()) return sides;
+  if (!net.is_curve) return sides;
   std::vector<Vector3> all = net.positions;
   all.insert(all.end(), net.points.positions.begin(), net.points.positions.end());
   const auto plane = plane_normal(all);
@@ -267,7 +267,7 @@ std::optional<Sides> Sides::of(const Net& net) {
 double Sides::side(const Net& net, std::size_t node, const Vector3& point) const {
   const Vector3 d = net.positions[node] - point;
   double side = d.dot(across(net, node));
-  if (!net.is_curve()) return side;
+  if (!net.is_curve) return side;
   double least = std::numeric_limits<double>::infinity();
   for (const Link link : net.rings.links(node)) {
     const Vector3 edge = net.positions[link.node()] - net.positions[node];
@@ -284,7 +284,7 @@ double Sides::side(const Net& net, std::size_t node, const Vector3& point) const
 }
 
 Vector3 Sides::across(const Net& net, std::size_t node) const {
-  return !net.is_curve() ? net.normals[node] : Vector3(plane_.cross(net.tangents[node]));
+  return !net.is_curve ? net.normals[node] : Vector3(plane_.cross(net.tangents[node]));
 }
 
 ToleranceFitResult hold_between(const ToleranceFitTask& task, const Sides& sides, double tolerance,

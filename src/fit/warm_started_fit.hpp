@@ -4,49 +4,22 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "base/progress.hpp"
 #include "base/threads.hpp"
-#include "equilibrium/curve_hierarchy.hpp"
 #include "equilibrium/equilibrium_method.hpp"
 #include "equilibrium/multigrid_method.hpp"
+#include "equilibrium/of_net.hpp"
 #include "equilibrium/point_levels.hpp"
 #include "equilibrium/smooth_start.hpp"
-#include "equilibrium/surface_hierarchy.hpp"
 #include "equilibrium/sweep_method.hpp"
-#include "levels/curve_levels.hpp"
-#include "levels/surface_levels.hpp"
 #include "points/point_factors.hpp"
 #include "points/point_ties.hpp"
 #include "spring/model.hpp"
 
 namespace vspring {
-
-// What is said in other words of surfaces and of curves.
-inline Net& net_of(Net& net) { return net; }
-inline Net& net_of(CurveNet& curve) { return curve.net; }
-inline auto model_of(const Net& /*net*/, const FairOptions& options) {
-  return surface_model(options.pseudo_normals, options.forces);
-}
-inline auto model_of(const CurveNet& curve, const FairOptions& options) {
-  return curve_model_for(curve.net, options.curve, options.forces);
-}
-inline Distribution distribution_of(const Net& /*net*/, const FairOptions& options) {
-  return options.distribution_taken();
-}
-inline Distribution distribution_of(const CurveNet& /*curve*/, const FairOptions& options) {
-  return options.distribution.value_or(Distribution::even);
-}
-inline SurfaceHierarchy hierarchy_of(Net net, const Model& model, Distribution distribution, ThreadTeam& team) {
-  return {surface_levels(std::move(net), model, distribution, team), team};
-}
-inline CurveHierarchy hierarchy_of(CurveNet curve, const Model& /*model*/, Distribution distribution,
-                                   ThreadTeam& /*team*/) {
-  return CurveHierarchy(curve_levels(std::move(curve), distribution));
-}
 
 /// Scattered points as they come, and the nodes of the shape that are nearest to them. Freed when they are tied.
 struct UntiedPoints {
@@ -75,22 +48,21 @@ inline PointTies tie_points(Net& net, const Model& model, const UntiedPoints& po
 }
 
 /// A shape at the equilibrium with points that pull at it, which is found once from its start, and then again and again
-/// from the last one. Gathered: a Net or CurveNet.
-template <typename Gathered>
+/// from the last one.
 class WarmStartedFit {
  public:
   /// smoothing: as for tie_points().
-  WarmStartedFit(Gathered gathered, const FairOptions& options, UntiedPoints points,
-                 std::shared_ptr<const double> smoothing, ThreadTeam& team)
+  WarmStartedFit(Net net, const FairOptions& options, UntiedPoints points, std::shared_ptr<const double> smoothing,
+                 ThreadTeam& team)
       : options_(options),
         team_(&team),
-        model_(model_of(gathered, options)),
-        distribution_(distribution_of(gathered, options)),
-        hierarchy_(hierarchy_of(std::move(gathered), *model_, distribution_, team)),
-        ties_(tie_points(net(), *model_, points, smoothing, team)),
-        levels_(hierarchy_, ties_, std::move(smoothing), *model_, team) {}
+        model_(model_of(net, options)),
+        distribution_(distribution_of(net, options)),
+        hierarchy_(hierarchy_of(std::move(net), *model_, distribution_, team)),
+        ties_(tie_points(hierarchy_->finest(), *model_, points, smoothing, team)),
+        levels_(*hierarchy_, ties_, std::move(smoothing), *model_, team) {}
 
-  Net& net() { return hierarchy_.net(hierarchy_.count() - 1); }
+  Net& net() { return hierarchy_->finest(); }
 
   /// From its start.
   void find(Context& context, ProgressReporter& progress, FairReport& report) {
@@ -98,10 +70,10 @@ class WarmStartedFit {
       start_ = net().positions;
     } else {
       net().positions = start_;
-      levels_.tie(hierarchy_.count() - 1);
+      levels_.tie(hierarchy_->count() - 1);
     }
     (void)start_from_points();
-    run_equilibrium(hierarchy_, *model_, {options_, *team_, context, progress, report}, nullptr,
+    run_equilibrium(*hierarchy_, *model_, {options_, *team_, context, progress, report}, nullptr,
                     net().points.empty() ? nullptr : &levels_);
   }
 
@@ -109,7 +81,7 @@ class WarmStartedFit {
   void go_to_spline() {
     net().positions = start_;
     for (int turn = 0; turn < turns_of_spline; ++turn) {
-      levels_.tie(hierarchy_.count() - 1);
+      levels_.tie(hierarchy_->count() - 1);
       smooth_to_points();
     }
     update_directions(net(), *model_, *team_);
@@ -117,25 +89,25 @@ class WarmStartedFit {
 
   /// By the paper's V-cycle.
   void cycle(Context& context, ProgressReporter& progress, FairReport& report) {
-    run_multigrid(hierarchy_, *model_, {options_, *team_, context, progress, report},
+    run_multigrid(*hierarchy_, *model_, {options_, *team_, context, progress, report},
                   net().points.empty() ? nullptr : &levels_);
   }
 
   /// From the last shape, where points or what they pull by have changed a little. Where the solver of the equilibrium
   /// finds nothing there, it goes on from the start if that may be far off (or_find), else by plain iterations.
   void update(Context& context, ProgressReporter& progress, FairReport& report, bool or_find) {
-    const std::size_t last = hierarchy_.count() - 1;
+    const std::size_t last = hierarchy_->count() - 1;
     levels_.tie(last);
     const std::vector<Vector3> start = net().positions;
     const SolverCall call{options_, *team_, context, progress, report};
-    run_equilibrium_from_near(hierarchy_, hierarchy_.preconditioner(last), *model_, call, &levels_);
+    run_equilibrium_from_near(*hierarchy_, hierarchy_->preconditioner(last), *model_, call, &levels_);
     if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
     // Where ties do not change nothing else leads further.
     if (net().points.are_nodes) return;
     net().positions = start;
     levels_.tie(last);
     if (start_from_points()) {
-      run_equilibrium_from_near(hierarchy_, hierarchy_.preconditioner(last), *model_, call, &levels_);
+      run_equilibrium_from_near(*hierarchy_, hierarchy_->preconditioner(last), *model_, call, &levels_);
       if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
       net().positions = start;
       levels_.tie(last);
@@ -160,10 +132,9 @@ class WarmStartedFit {
   /// A start for curves whose nodes keep their place: a smoothing spline, as noise that is as long as edges are leads
   /// nowhere. False where that does not apply.
   bool start_from_points() {
-    if constexpr (!std::is_same_v<Gathered, CurveNet>) return false;
-    if (net().target_positions.empty() || net().points.empty()) return false;
+    if (!net().is_curve || net().target_positions.empty() || net().points.empty()) return false;
     smooth_to_points();
-    levels_.tie(hierarchy_.count() - 1);
+    levels_.tie(hierarchy_->count() - 1);
     return true;
   }
 
@@ -174,7 +145,7 @@ class WarmStartedFit {
     model_->find_forces(net(), {0, net().moving}, forces);
     std::vector<double> pull(net().moving);
     for (std::size_t i = 0; i < pull.size(); ++i) pull[i] = forces[i].stiffness;
-    if constexpr (std::is_same_v<Gathered, CurveNet>) start_smooth(hierarchy_.finest(), pull);
+    start_smooth(net(), pull);
   }
 
   // The last steps of a plain iteration are about k times their distance.
@@ -187,8 +158,7 @@ class WarmStartedFit {
   ThreadTeam* team_;
   std::unique_ptr<const Model> model_;
   Distribution distribution_;
-  decltype(hierarchy_of(std::declval<Gathered>(), std::declval<const Model&>(), Distribution::even,
-                        std::declval<ThreadTeam&>())) hierarchy_;
+  std::unique_ptr<Hierarchy> hierarchy_;
   PointTies ties_;
   PointLevels levels_;
   std::vector<Vector3> start_;  ///< empty before find()

@@ -5,6 +5,7 @@
 
 #include "base/threads.hpp"
 #include "shape/cubic.hpp"
+#include "spring/curve_net.hpp"
 #include "spring/spacing.hpp"
 
 namespace vspring {
@@ -13,7 +14,7 @@ namespace {
 
 // Edges between two anchors below which no node is left out: enough for a full turn or two.
 constexpr std::size_t enough_edges = 48;
-// An edge is aimed at no less than this share of the mean edge of its strand; with Distribution::keep, of this.
+// An edge is aimed at no less than this share of the mean edge of its run; with Distribution::keep, of this.
 constexpr double least_share = 0.01;
 constexpr double least_share_kept = 1e-6;
 // Turns of up to about 60° tell the shape; sharper ones are noise, and too far from linear to start with.
@@ -24,8 +25,7 @@ constexpr int most_rounds = 100;
 bool is_anchor(const Net& net, std::size_t node) { return node >= net.moving || net.given[node] != 0; }
 
 /// A quarter of each neighbour and half of itself for every node that is no anchor.
-std::vector<Vector3> averaged(const CurveNet& curve) {
-  const Net& net = curve.net;
+std::vector<Vector3> averaged(const Net& net) {
   std::vector<Vector3> positions = net.positions;
   for (std::size_t i = 0; i < net.moving; ++i) {
     const auto links = net.rings.links(i);
@@ -35,12 +35,12 @@ std::vector<Vector3> averaged(const CurveNet& curve) {
   return positions;
 }
 
-std::vector<std::vector<double>> places_along(const CurveNet& curve, Distribution distribution) {
-  std::vector<std::vector<double>> along;
+/// Sets where nodes lie along their runs.
+void set_places_along(Net& net, Distribution distribution) {
   ThreadTeam alone(1);
   const std::vector<Vector3> nodes_at =
-      distribution == Distribution::smooth ? rest_positions(curve.net, alone) : curve.net.positions;
-  for (const MovingRun& moving_run : curve.moving_runs) {
+      distribution == Distribution::smooth ? rest_positions(net, alone) : net.positions;
+  for (MovingRun& moving_run : net.moving_runs) {
     const std::size_t count = moving_run.nodes.size();
     const std::size_t edges = moving_run.closed ? count : count - 1;
     std::vector<double> lengths(edges, 1);
@@ -48,27 +48,25 @@ std::vector<std::vector<double>> places_along(const CurveNet& curve, Distributio
       double mean = 0;
       for (std::size_t k = 0; k < edges; ++k) {
         const Vector3 d = nodes_at[moving_run.nodes[(k + 1) % count]] - nodes_at[moving_run.nodes[k]];
-        lengths[k] = std::sqrt(d.dot(d) + curve.net.tiny);
+        lengths[k] = std::sqrt(d.dot(d) + net.tiny);
         mean += lengths[k] / static_cast<double>(edges);
       }
       const double least = distribution == Distribution::keep ? least_share_kept : least_share;
       for (double& length : lengths) length = std::max(length, least * mean);
     }
-    std::vector<double> at(1, 0);
+    std::vector<double>& at = moving_run.along;
+    at.assign(1, 0);
     at.reserve(edges + 1);
     for (const double length : lengths) at.push_back(at.back() + length);
-    along.push_back(std::move(at));
   }
-  return along;
 }
 
-/// Shares that make the lengths of edges go by the places along the strands.
-void set_laplacian_weights(CurveLevel& level) {
-  Net& net = level.curve.net;
+/// Shares that make the lengths of edges go by the places along the runs.
+void set_laplacian_weights(Net& net) {
   net.laplacian_weights.assign(net.rings.link_count(), 0);
-  for (std::size_t s = 0; s < level.curve.moving_runs.size(); ++s) {
-    const auto& nodes = level.curve.moving_runs[s].nodes;
-    const auto& at = level.along[s];
+  for (const MovingRun& moving_run : net.moving_runs) {
+    const auto& nodes = moving_run.nodes;
+    const auto& at = moving_run.along;
     for (std::size_t k = 1; k < nodes.size() && k + 1 < at.size(); ++k) {
       if (nodes[k] >= net.moving) continue;
       const std::size_t first = net.rings.begin(nodes[k]);
@@ -78,7 +76,7 @@ void set_laplacian_weights(CurveLevel& level) {
   }
 }
 
-/// The places of a strand that the next coarser level keeps.
+/// The places of a run that the next coarser level keeps.
 std::vector<std::uint32_t> kept_places(const MovingRun& moving_run, const Net& net) {
   const std::size_t count = moving_run.nodes.size();
   const auto anchor = [&](std::size_t k) { return k == count || is_anchor(net, moving_run.nodes[k]); };
@@ -96,20 +94,20 @@ std::vector<std::uint32_t> kept_places(const MovingRun& moving_run, const Net& n
 }
 
 /// The net of the places kept; nodes keep their order.
-CurveLevel coarser(const CurveLevel& fine, std::vector<std::vector<std::uint32_t>> kept) {
-  const Net& from = fine.curve.net;
+Level coarser(const Net& from, const std::vector<std::vector<std::uint32_t>>& kept) {
   constexpr auto left_out = static_cast<std::uint32_t>(-1);
-  CurveLevel level;
-  Net& net = level.curve.net;
+  Level level;
+  Net& net = level.net;
   // Local numbers keep their order, so moving nodes still come first, then held ones with rings.
   std::vector<std::uint32_t> number(from.positions.size(), left_out);
   for (std::size_t s = 0; s < kept.size(); ++s) {
-    for (const std::uint32_t k : kept[s]) number[fine.curve.moving_runs[s].nodes[k]] = 0;
+    for (const std::uint32_t k : kept[s]) number[from.moving_runs[s].nodes[k]] = 0;
   }
-  const std::vector<Vector3> positions = averaged(fine.curve);
+  const std::vector<Vector3> positions = averaged(from);
   for (std::size_t i = 0; i < number.size(); ++i) {
     if (number[i] == left_out) continue;
     number[i] = static_cast<std::uint32_t>(net.node.size());
+    level.finer.push_back(static_cast<std::uint32_t>(i));
     net.node.push_back(from.node[i]);
     net.positions.push_back(positions[i]);
     net.normals.push_back(from.normals[i]);
@@ -118,49 +116,47 @@ CurveLevel coarser(const CurveLevel& fine, std::vector<std::vector<std::uint32_t
     if (i < from.moving) net.moving = net.node.size();
     if (i < from.computed) net.computed = net.node.size();
   }
+  net.is_curve = true;
   net.frame = from.frame;
   net.tiny = from.tiny;
   for (std::size_t s = 0; s < kept.size(); ++s) {
-    const MovingRun& moving_run = fine.curve.moving_runs[s];
-    MovingRun& coarse = level.curve.moving_runs.emplace_back();
+    const MovingRun& moving_run = from.moving_runs[s];
+    MovingRun& coarse = net.moving_runs.emplace_back();
     coarse.closed = moving_run.closed;
-    std::vector<double>& at = level.along.emplace_back();
     for (const std::uint32_t k : kept[s]) {
       coarse.nodes.push_back(number[moving_run.nodes[k]]);
-      at.push_back(fine.along[s][k]);
+      coarse.along.push_back(moving_run.along[k]);
     }
-    if (moving_run.closed) at.push_back(fine.along[s].back());
+    if (moving_run.closed) coarse.along.push_back(moving_run.along.back());
   }
-  add_rings(net, level.curve.moving_runs);
-  level.finer = std::move(kept);
-  set_laplacian_weights(level);
+  add_rings(net);
+  set_laplacian_weights(net);
   return level;
 }
 
 }  // namespace
 
-std::vector<CurveLevel> curve_levels(CurveNet curve, Distribution distribution) {
-  std::vector<CurveLevel> levels(1);
-  levels[0].along = places_along(curve, distribution);
-  levels[0].curve = std::move(curve);
-  if (distribution != Distribution::even) set_laplacian_weights(levels[0]);
+std::vector<Level> curve_levels(Net net, Distribution distribution) {
+  set_places_along(net, distribution);
+  if (distribution != Distribution::even) set_laplacian_weights(net);
+  std::vector<Level> levels(1);
+  levels[0].net = std::move(net);
   for (;;) {
-    const CurveLevel& fine = levels.back();
+    const Net& fine = levels.back().net;
     std::vector<std::vector<std::uint32_t>> kept;
     bool smaller = false;
-    for (const MovingRun& moving_run : fine.curve.moving_runs) {
-      kept.push_back(kept_places(moving_run, fine.curve.net));
+    for (const MovingRun& moving_run : fine.moving_runs) {
+      kept.push_back(kept_places(moving_run, fine));
       smaller = smaller || kept.back().size() < moving_run.nodes.size();
     }
     if (!smaller) break;
-    levels.push_back(coarser(fine, std::move(kept)));
+    levels.push_back(coarser(fine, kept));
   }
   std::reverse(levels.begin(), levels.end());
   return levels;
 }
 
-void untangle(CurveLevel& level) {
-  Net& net = level.curve.net;
+void untangle(Net& net) {
   const auto sharp = [&](std::size_t i) {
     const auto links = net.rings.links(i);
     if (is_anchor(net, i) || links.size() < 2) return false;
@@ -172,15 +168,13 @@ void untangle(CurveLevel& level) {
     bool tangled = false;
     for (std::size_t i = 0; i < net.moving && !tangled; ++i) tangled = sharp(i);
     if (!tangled) return;
-    net.positions = averaged(level.curve);
+    net.positions = averaged(net);
   }
 }
 
-void start_from_chords(CurveLevel& level) {
-  Net& net = level.curve.net;
-  for (std::size_t s = 0; s < level.curve.moving_runs.size(); ++s) {
-    const MovingRun& moving_run = level.curve.moving_runs[s];
-    const auto& at = level.along[s];
+void start_from_chords(Net& net) {
+  for (const MovingRun& moving_run : net.moving_runs) {
+    const auto& at = moving_run.along;
     const std::size_t count = moving_run.nodes.size();
     std::vector<std::size_t> anchors;
     for (std::size_t k = 0; k < count; ++k) {
@@ -204,31 +198,22 @@ void start_from_chords(CurveLevel& level) {
   }
 }
 
-void restrict_shape(const CurveLevel& fine, CurveLevel& coarse) {
-  Net& to = coarse.curve.net;
-  for (std::size_t s = 0; s < coarse.curve.moving_runs.size(); ++s) {
-    const auto& nodes = coarse.curve.moving_runs[s].nodes;
+void prolong_curve(const Level& coarse, Level& fine) {
+  const Net& from = coarse.net;
+  Net& to = fine.net;
+  for (std::size_t i = 0; i < from.moving; ++i) to.positions[coarse.finer[i]] = from.positions[i];
+  for (std::size_t s = 0; s < from.moving_runs.size(); ++s) {
+    const auto& nodes = from.moving_runs[s].nodes;
+    const auto& fine_nodes = to.moving_runs[s].nodes;
+    const auto& at = to.moving_runs[s].along;
+    std::size_t end = 0;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (nodes[k] < to.moving)
-        to.positions[nodes[k]] = fine.curve.net.positions[fine.curve.moving_runs[s].nodes[coarse.finer[s][k]]];
-    }
-  }
-}
-
-void prolong(const CurveLevel& coarse, CurveLevel& fine) {
-  const Net& from = coarse.curve.net;
-  Net& to = fine.curve.net;
-  for (std::size_t s = 0; s < coarse.curve.moving_runs.size(); ++s) {
-    const auto& nodes = coarse.curve.moving_runs[s].nodes;
-    const auto& fine_nodes = fine.curve.moving_runs[s].nodes;
-    const auto& places = coarse.finer[s];
-    const auto& at = fine.along[s];
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (nodes[k] < from.moving) to.positions[fine_nodes[places[k]]] = from.positions[nodes[k]];
-      const std::size_t begin = places[k];
-      const std::size_t end = k + 1 < nodes.size() ? places[k + 1] : fine_nodes.size();
-      if (end - begin < 2) continue;
+      const std::size_t begin = end;
       const std::size_t next = nodes[(k + 1) % nodes.size()];
+      do {
+        ++end;
+      } while (end < fine_nodes.size() && fine_nodes[end] != coarse.finer[next]);
+      if (end - begin < 2) continue;
       const Vector3& start = from.positions[nodes[k]];
       const Vector3 chord = from.positions[next] - start;
       for (std::size_t place = begin + 1; place < end; ++place) {

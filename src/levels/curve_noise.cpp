@@ -20,8 +20,7 @@ constexpr int most_averages = 30;
 
 }  // namespace
 
-void smooth_noise(CurveNet& curve) {
-  Net& net = curve.net;
+void smooth_noise(Net& net) {
   const auto stays = [&](std::size_t i) {
     return i >= net.moving || net.given[i] != 0 || net.rings.links(i).size() < 2;
   };

@@ -72,7 +72,7 @@ Net coarse_net(const Net& fine, const Selection& selection, const Triangulation&
 
 }  // namespace
 
-std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distribution distribution, ThreadTeam& team) {
+std::vector<Level> surface_levels(Net net, const Model& model, Distribution distribution, ThreadTeam& team) {
   // Coarser levels do not keep a distribution: that of a coarse one may ask for faces that turn over.
   std::vector<Vector3> places;
   if (distribution == Distribution::smooth && !tells_spacing(net, team)) distribution = Distribution::even;
@@ -82,7 +82,7 @@ std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distributi
   } else {
     set_laplacian_weights(net, model, distribution, team);
   }
-  std::vector<SurfaceLevel> levels(1);
+  std::vector<Level> levels(1);
   levels[0].net = std::move(net);
   if (levels[0].net.moving <= few_enough) return levels;
   Triangulation triangulation(triangulated_patch(levels[0].net), team);
@@ -97,7 +97,7 @@ std::vector<SurfaceLevel> surface_levels(Net net, const Model& model, Distributi
     const bool smaller = static_cast<double>(selection.nodes.size()) <= worthwhile * static_cast<double>(kept.size());
     if (!smaller || selection.moving < too_few) break;
     triangulation = Triangulation(triangulation, selection.nodes, selection.number, team);
-    SurfaceLevel level{coarse_net(fine, selection, triangulation), std::move(selection.nodes), std::move(removals), {}};
+    Level level{coarse_net(fine, selection, triangulation), std::move(selection.nodes), std::move(removals), {}};
     if (!places.empty()) {
       std::vector<Vector3> kept_places(level.finer.size());
       for (std::size_t k = 0; k < kept_places.size(); ++k) kept_places[k] = places[level.finer[k]];

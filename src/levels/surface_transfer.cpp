@@ -53,15 +53,7 @@ void relax(Net& net, std::vector<Place>& places, ThreadTeam& team) {
 
 }  // namespace
 
-void restrict_shape(const SurfaceLevel& fine, SurfaceLevel& coarse) {
-  for (std::size_t k = 0; k < coarse.finer.size(); ++k) {
-    const std::size_t i = coarse.finer[k];
-    if (k < coarse.net.moving) coarse.net.positions[k] = fine.net.positions[i];
-    coarse.net.normals[k] = fine.net.normals[i];
-  }
-}
-
-void prolong(const SurfaceLevel& coarse, SurfaceLevel& fine, ThreadTeam& team) {
+void prolong_surface(const Level& coarse, Level& fine, ThreadTeam& team) {
   const Net& from = coarse.net;
   Net& to = fine.net;
   parallel_ranges(team, coarse.finer.size(), light_nodes_per_task, [&](std::size_t begin, std::size_t end) {

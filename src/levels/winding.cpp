@@ -83,7 +83,7 @@ double rms_distance(const std::vector<Vector3>& here, const std::vector<Vector3>
   return std::sqrt(squares / static_cast<double>(here.size()));
 }
 
-/// A piece of a strand as the turns at its nodes, those at its ends from and to the given tangents, and the lengths of
+/// A piece of a run as the turns at its nodes, those at its ends from and to the given tangents, and the lengths of
 /// its edges.
 class Piece {
  public:
@@ -322,13 +322,11 @@ class Piece {
   std::vector<Eigen::Index> free_ = {0, 1, 2, 3, 4};  ///< which of the unknowns there are
 };
 
-/// Calls look(strand, from, to) for each piece of a curve between two held nodes with given tangents that has nodes in
+/// Calls look(run, from, to) for each piece of a curve between two held nodes with given tangents that has nodes in
 /// between; stops where it says false.
 template <typename Look>
-bool for_each_piece(const CurveLevel& level, const Look& look) {
-  const Net& net = level.curve.net;
-  for (std::size_t s = 0; s < level.curve.moving_runs.size(); ++s) {
-    const MovingRun& moving_run = level.curve.moving_runs[s];
+bool for_each_piece(const Net& net, const Look& look) {
+  for (const MovingRun& moving_run : net.moving_runs) {
     const std::size_t count = moving_run.nodes.size();
     std::size_t from = 0;
     const auto is_held = [&](std::size_t k) {
@@ -338,27 +336,26 @@ bool for_each_piece(const CurveLevel& level, const Look& look) {
     for (std::size_t to = 1; to < (moving_run.closed ? count + 1 : count); ++to) {
       const std::size_t node = moving_run.nodes[to % count];
       if (node < net.moving && net.given[node] == 0) continue;
-      if (is_held(from) && is_held(to) && to > from + 2 && !look(s, from, to)) return false;
+      if (is_held(from) && is_held(to) && to > from + 2 && !look(moving_run, from, to)) return false;
       from = to;
     }
   }
   return true;
 }
 
-/// Places from to to of a strand, every stride-th of them, where `positions` has the nodes.
-Piece piece_of(const CurveLevel& level, std::span<const Vector3> positions, std::size_t s, std::size_t from,
+/// Places from to to of a run, every stride-th of them, where `positions` has the nodes.
+Piece piece_of(const Net& net, std::span<const Vector3> positions, const MovingRun& moving_run, std::size_t from,
                std::size_t to, std::size_t stride) {
-  const Net& net = level.curve.net;
-  const auto& nodes = level.curve.moving_runs[s].nodes;
+  const auto& nodes = moving_run.nodes;
   const std::size_t end = nodes[to % nodes.size()];
   std::vector<Vector3> places;
   std::vector<double> at;
   for (std::size_t k = from; k < to; k += stride) {
     places.push_back(positions[nodes[k]]);
-    at.push_back(level.along[s][k]);
+    at.push_back(moving_run.along[k]);
   }
   places.push_back(positions[end]);
-  at.push_back(level.along[s][to]);
+  at.push_back(moving_run.along[to]);
   return {std::move(places), net.tangents[nodes[from]], net.tangents[end], at};
 }
 
@@ -366,26 +363,25 @@ std::size_t stride_for(std::size_t from, std::size_t to, std::size_t nodes) { re
 
 }  // namespace
 
-bool lost_winding(const CurveLevel& level, std::span<const Vector3> input) {
-  return !for_each_piece(level, [&](std::size_t s, std::size_t from, std::size_t to) {
+bool lost_winding(const Net& net, std::span<const Vector3> input) {
+  return !for_each_piece(net, [&](const MovingRun& moving_run, std::size_t from, std::size_t to) {
     const std::size_t stride = stride_for(from, to, enough_to_count);
-    const Piece before = piece_of(level, input, s, from, to, stride);
-    return !before.winds() || !before.unwinds_to(piece_of(level, level.curve.net.positions, s, from, to, stride));
+    const Piece before = piece_of(net, input, moving_run, from, to, stride);
+    return !before.winds() || !before.unwinds_to(piece_of(net, net.positions, moving_run, from, to, stride));
   });
 }
 
-bool wind(CurveLevel& level) {
-  Net& net = level.curve.net;
+bool wind(Net& net) {
   std::vector<Vector3> positions = net.positions;
   bool winds = false;
-  const bool all = for_each_piece(level, [&](std::size_t s, std::size_t from, std::size_t to) {
-    const Piece coarse = piece_of(level, net.positions, s, from, to, stride_for(from, to, enough_nodes));
+  const bool all = for_each_piece(net, [&](const MovingRun& moving_run, std::size_t from, std::size_t to) {
+    const Piece coarse = piece_of(net, net.positions, moving_run, from, to, stride_for(from, to, enough_nodes));
     if (!coarse.winds()) return true;
     const auto turns = coarse.nearest();
-    Piece piece = piece_of(level, net.positions, s, from, to, 1);
+    Piece piece = piece_of(net, net.positions, moving_run, from, to, 1);
     if (!turns || !piece.bend(*turns)) return false;
     winds = true;
-    const auto& nodes = level.curve.moving_runs[s].nodes;
+    const auto& nodes = moving_run.nodes;
     for (std::size_t k = from + 1; k < to; ++k) positions[nodes[k]] = piece.places()[k - from];
     return true;
   });

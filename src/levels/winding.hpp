@@ -2,7 +2,7 @@
 
 #include <span>
 
-#include "levels/curve_levels.hpp"
+#include "spring/net.hpp"
 
 namespace vspring {
 
@@ -11,7 +11,7 @@ namespace vspring {
 /// kink, the sum of its turns about their axes and its bending. input: the positions of the nodes. Pieces that turn by
 /// less than half a turn do not count, in space those of less than five eighths, nor those that turn by over 100° at a
 /// node. Cost: linear.
-bool lost_winding(const CurveLevel& level, std::span<const Vector3> input);
+bool lost_winding(const Net& net, std::span<const Vector3> input);
 
 /// A start that keeps the windings of a curve: such pieces become the curve whose turns, carried along without spin,
 /// are linear in its length, as those of a fair curve are, that ends as they do and comes nearest to them; in the
@@ -19,6 +19,6 @@ bool lost_winding(const CurveLevel& level, std::span<const Vector3> input);
 /// Methods Appl. Sci. 38, 2015, for those with less than one). False, and the curve as it was, where there is no such
 /// piece or no such curve was found. Cost: linear, and up to some 10 ms
 /// for a piece in the plane, 100 ms in space.
-bool wind(CurveLevel& level);
+bool wind(Net& net);
 
 }  // namespace vspring

@@ -76,7 +76,7 @@ double length_at(const Net& net, std::size_t i) {
 
 }  // namespace
 
-double pull_power(const Net& net) { return !net.is_curve() ? 2 : 3; }
+double pull_power(const Net& net) { return !net.is_curve ? 2 : 3; }
 
 PointFactors pull_by_sums() {
   return [](Net& net) {
@@ -94,7 +94,7 @@ PointFactors pull_by_edges(std::shared_ptr<const double> length) {
 
 PointFactors pull_by_smoothing(std::shared_ptr<const double> length, std::size_t points) {
   return [length = std::move(length), points](Net& net) {
-    const bool surface = !net.is_curve();
+    const bool surface = !net.is_curve;
     double size = 0;
     double tied = 0;
     for (std::size_t i = 0; i < net.moving; ++i) {

@@ -11,11 +11,11 @@
 
 namespace vspring {
 
-/// A row of what a strand bends by: a curvature as a sum over places of the strand, times the root of half the length
+/// A row of what a run bends by: a curvature as a sum over places of the run, times the root of half the length
 /// that it stands for.
 struct CurveBendingRow {
-  std::span<const std::pair<std::size_t, double>> entries;  ///< places of the strand and what their nodes count
-  bool across_seam;  ///< whether it joins the end of a closed strand to its start
+  std::span<const std::pair<std::size_t, double>> entries;  ///< places of the run and what their nodes count
+  bool across_seam;                                         ///< whether it joins the end of a closed run to its start
   /// The place with a given direction, beside which the edge between both entries should lie along it.
   std::optional<std::size_t> given;
 };
@@ -38,7 +38,7 @@ void for_each_bending_row(const Net& net, const MovingRun& moving_run, const Row
     const std::size_t after = (k + 1) % count;
     const double length_before = has_before ? edge(before, k) : 0;
     const double length_after = has_after ? edge(k, after) : 0;
-    // The first place of a closed strand comes after its last.
+    // The first place of a closed run comes after its last.
     const bool before_seam = has_after && after == 0 && nodes[0] < net.moving;
     if (net.given[i] != 0) {
       if (has_before) {

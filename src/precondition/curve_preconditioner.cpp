@@ -16,7 +16,7 @@ constexpr double greatest_change_of_weights = 1.3;
 }  // namespace
 
 bool CurvePreconditioner::free(const MovingRun& moving_run) const {
-  return moving_run.closed && moving_run.nodes.front() < curve_->net.moving;
+  return moving_run.closed && moving_run.nodes.front() < net_->moving;
 }
 
 bool CurvePreconditioner::refresh(const Model& model) {
@@ -26,17 +26,17 @@ bool CurvePreconditioner::refresh(const Model& model) {
     const double change = weight_[i] / built_weight_[i];
     fits = change < greatest_change_of_weights && change * greatest_change_of_weights > 1;
   }
-  const bool pulled_otherwise = stiffness_.renew(curve_->net, model, alone_);
+  const bool pulled_otherwise = stiffness_.renew(*net_, model, alone_);
   if (fits && !pulled_otherwise) return false;
   built_weight_ = weight_;
   runs_.clear();
-  for (const MovingRun& moving_run : curve_->moving_runs) build_bending(moving_run);
+  for (const MovingRun& moving_run : net_->moving_runs) build_bending(moving_run);
   build_spreading();
   return true;
 }
 
 void CurvePreconditioner::weigh() {
-  const Net& net = curve_->net;
+  const Net& net = *net_;
   weight_.resize(net.moving);
   for (std::size_t i = 0; i < net.moving; ++i) {
     weight_[i] = 0;
@@ -49,7 +49,7 @@ void CurvePreconditioner::weigh() {
 }
 
 void CurvePreconditioner::build_bending(const MovingRun& moving_run) {
-  const Net& net = curve_->net;
+  const Net& net = *net_;
   const auto& nodes = moving_run.nodes;
   const std::size_t count = nodes.size();
   const auto moves = [&](std::size_t place) { return nodes[place] < net.moving; };
@@ -67,7 +67,7 @@ void CurvePreconditioner::build_bending(const MovingRun& moving_run) {
   if (!stiffness_.values().empty()) {
     for (std::size_t i = 0; i < size; ++i) pull[i] = weight_[begin + i] * stiffness_.values()[begin + i];
   }
-  // Without rows across the seam next to nothing may hold a free strand: these are taken out again.
+  // Without rows across the seam next to nothing may hold a free run: these are taken out again.
   std::vector<BandedQr::Entry> crutches;
   if (free(moving_run)) {
     for (const std::size_t column : {std::size_t{0}, size / 2})
@@ -104,14 +104,14 @@ void CurvePreconditioner::build_bending(const MovingRun& moving_run) {
 }
 
 void CurvePreconditioner::build_spreading() {
-  const Net& net = curve_->net;
+  const Net& net = *net_;
   below_.assign(net.moving, 0);
   above_.assign(net.moving, 0);
   pivot_.assign(net.moving, 1);
   slides_.assign(net.moving, 1);
   // Homes draw each node by itself.
   if (!net.target_positions.empty()) return;
-  for (const MovingRun& moving_run : curve_->moving_runs) {
+  for (const MovingRun& moving_run : net_->moving_runs) {
     if (free(moving_run)) slides_[moving_run.nodes.front()] = 0;
   }
   for (std::size_t i = 0; i < net.moving; ++i) {
@@ -130,9 +130,9 @@ void CurvePreconditioner::build_spreading() {
 }
 
 void CurvePreconditioner::carry_frames() {
-  const Net& net = curve_->net;
+  const Net& net = *net_;
   axis_.assign(net.positions.size(), Vector3::Zero());
-  for (const MovingRun& moving_run : curve_->moving_runs) {
+  for (const MovingRun& moving_run : net_->moving_runs) {
     Vector3 axis = Vector3::Zero();
     std::size_t before = 0;
     for (const std::uint32_t i : moving_run.nodes) {
@@ -153,7 +153,7 @@ void CurvePreconditioner::carry_frames() {
 }
 
 void CurvePreconditioner::close_frames(const MovingRun& moving_run) {
-  const Net& net = curve_->net;
+  const Net& net = *net_;
   const std::size_t first = moving_run.nodes.front();
   const std::size_t last = moving_run.nodes.back();
   const Vector3& tangent = net.tangents[first];
@@ -170,7 +170,7 @@ void CurvePreconditioner::close_frames(const MovingRun& moving_run) {
 }
 
 void CurvePreconditioner::correct(const Model& model, double /*enough*/, std::vector<Vector3>& correction) {
-  const Net& net = curve_->net;
+  const Net& net = *net_;
   forces_.resize(net.moving);
   model.find_forces(net, {0, net.moving}, forces_);
   carry_frames();

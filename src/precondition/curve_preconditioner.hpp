@@ -6,7 +6,7 @@
 #include "linear/banded_qr.hpp"
 #include "precondition/point_stiffness.hpp"
 #include "precondition/preconditioner.hpp"
-#include "spring/curve_net.hpp"
+#include "spring/net.hpp"
 
 namespace vspring {
 
@@ -18,7 +18,7 @@ namespace vspring {
 /// itself: its first node stays, and what the others do evens out the edges beside it too.
 class CurvePreconditioner final : public Preconditioner {
  public:
-  explicit CurvePreconditioner(const CurveNet& curve) : curve_(&curve) {}
+  explicit CurvePreconditioner(const Net& net) : net_(&net) {}
 
   bool refresh(const Model& model) override;
   /// Hardly more than the rest.
@@ -26,24 +26,24 @@ class CurvePreconditioner final : public Preconditioner {
   void correct(const Model& model, double enough, std::vector<Vector3>& correction) override;
 
  private:
-  /// The moving nodes of one strand: a run of local numbers.
+  /// The moving nodes of one run.
   struct Run {
     std::size_t begin;
     BandedQr bending;
   };
   void weigh();
   void build_bending(const MovingRun& moving_run);
-  /// A closed strand without a held node.
+  /// A closed run without a held node.
   [[nodiscard]] bool free(const MovingRun& moving_run) const;
   void build_spreading();
   void carry_frames();
-  /// Spreads over a free strand the turn by which its frames miss each other once around.
+  /// Spreads over a free run the turn by which its frames miss each other once around.
   void close_frames(const MovingRun& moving_run);
-  const CurveNet* curve_;
+  const Net* net_;
   ThreadTeam alone_{1};
   PointStiffness stiffness_;
   std::vector<Run> runs_;
-  /// 2 W of every moving node by the lengths that its edges have now: then the forces along a strand are differences of
+  /// 2 W of every moving node by the lengths that its edges have now: then the forces along a run are differences of
   /// what passes between neighbours, and what is rough in them leaves no trace in long waves.
   std::vector<double> weight_;
   std::vector<double> built_weight_;  // and by those when all was built

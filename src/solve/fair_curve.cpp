@@ -1,5 +1,6 @@
 // Curves (§4.8).
 
+#include <memory>
 #include <utility>
 
 #include "base/progress.hpp"
@@ -7,11 +8,10 @@
 #include "base/threads.hpp"
 #include "checks/result_check.hpp"
 #include "equilibrium/account.hpp"
-#include "equilibrium/curve_hierarchy.hpp"
 #include "equilibrium/equilibrium_method.hpp"
-#include "equilibrium/multigrid_method.hpp"
-#include "equilibrium/sweep_method.hpp"
-#include "levels/curve_levels.hpp"
+#include "equilibrium/of_net.hpp"
+#include "solve/papers_method.hpp"
+#include "spring/curve_net.hpp"
 #include "vspring/fair.hpp"
 
 namespace vspring {
@@ -29,29 +29,23 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
   progress.report("preparing", 0);
   ThreadTeam team(context.thread_count());
   report.threads = team.size();
-  CurveNet gathered = gather_net(curve, constraints);
-  count_nodes(gathered.net, constraints, report);
+  Net net = gather_net(curve, constraints);
+  count_nodes(net, constraints, report);
 
-  const auto model = curve_model_for(gathered.net, options.curve, options.forces);
-  const Distribution distribution = options.distribution.value_or(Distribution::even);
-  const ResultCheck check(gathered.net, *model, team);
+  const auto model = model_of(net, options);
+  const ResultCheck check(net, *model, team);
   const SolverCall call{options, team, context, progress, report};
-  if (report.method == Method::sweep) {
-    set_laplacian_weights(gathered.net, *model, distribution, team);
-    run_sweeps(gathered.net, *model, call);
+  if (report.method == Method::equilibrium) {
+    const Distribution distribution = distribution_of(net, options);
+    const std::unique_ptr<Hierarchy> hierarchy = hierarchy_of(std::move(net), *model, distribution, team);
+    run_equilibrium(*hierarchy, *model, call, &check);
+    net = std::move(*hierarchy).take();
   } else {
-    CurveHierarchy hierarchy(curve_levels(std::move(gathered), distribution));
-    if (report.method == Method::multigrid) {
-      run_multigrid(hierarchy, *model, call);
-    } else {
-      run_equilibrium(hierarchy, *model, call, &check);
-    }
-    gathered = std::move(hierarchy).take();
+    net = run_papers_method(std::move(net), *model, check, call);
   }
-  if (report.method != Method::equilibrium) warn_if_worse(check, gathered.net, report);
 
-  result.positions = scatter_positions(gathered.net, curve.positions(), constraints, options.strength);
-  measure_moves(gathered.net, curve.positions(), result.positions, report);
+  result.positions = scatter_positions(net, curve.positions(), constraints, options.strength);
+  measure_moves(net, curve.positions(), result.positions, report);
   report.seconds = stopwatch.seconds();
   return result;
 }

@@ -13,9 +13,9 @@
 #include "checks/spring_energy.hpp"
 #include "equilibrium/account.hpp"
 #include "equilibrium/equilibrium_method.hpp"
-#include "equilibrium/multigrid_method.hpp"
 #include "equilibrium/sweep_method.hpp"
 #include "solve/fair_boundary.hpp"
+#include "solve/papers_method.hpp"
 #include "solve/part_of_mesh.hpp"
 #include "solve/sphere_suited.hpp"
 
@@ -101,7 +101,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
       return result;
     }
   }
-  const Net& net = hierarchy_->net(hierarchy_->count() - 1);
+  const Net& net = hierarchy_->finest();
   const Outcome outcome = result.report.outcome;
   went_astray_ = tolerance && (went_astray_ || (outcome != Outcome::converged && outcome != Outcome::cancelled));
   if (tolerance) {
@@ -126,7 +126,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
 
 std::optional<std::vector<Vector3>> SurfaceFairing::predict(const Constraints& constraints, double tolerance) {
   if (!fits_last(constraints)) return std::nullopt;
-  const Net& net = hierarchy_->net(hierarchy_->count() - 1);
+  const Net& net = hierarchy_->finest();
   const std::vector<Vector3> places = hierarchy_->predict(constraints, *model_, tolerance * diagonal(net));
   if (!std::all_of(places.begin(), places.end(), [](const Vector3& place) { return place.allFinite(); }))
     return std::nullopt;
@@ -157,16 +157,7 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   }
   Net net = gather_part(*whole_, part_, constraints);
   check_.emplace(net, *model_, team_);
-  if (report.method == Method::multigrid) {
-    hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
-    run_multigrid(*hierarchy_, *model_, call);
-    warn_if_worse(*check_, hierarchy_->net(hierarchy_->count() - 1), report);
-    return {};
-  }
-  set_laplacian_weights(net, *model_, options.distribution_taken(), team_);
-  run_sweeps(net, *model_, call);
-  warn_if_worse(*check_, net, report);
-  return net;
+  return run_papers_method(std::move(net), *model_, *check_, call);
 }
 
 void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const SolverCall& call) {
@@ -238,7 +229,7 @@ void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constr
 
 bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first,
                                 const SolverCall& call) {
-  const std::vector<Vector3> nearest = hierarchy_->net(hierarchy_->count() - 1).positions;
+  const std::vector<Vector3> nearest = hierarchy_->finest().positions;
   FairReport& report = call.report;
   FairOptions options = options_;
   options.distribution = Distribution::even;
@@ -267,7 +258,7 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
   check_.emplace(net, *model_, team_);
   hierarchy_.reset();
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
-  hierarchy_->net(hierarchy_->count() - 1).positions = nearest;
+  hierarchy_->finest().positions = nearest;
   return false;
 }
 
@@ -280,7 +271,7 @@ void SurfaceFairing::try_sweeps(const Constraints& constraints, const SolverCall
   FairReport of_sweeps;
   run_sweeps(net, *model_, {options, team_, call.context, call.progress, of_sweeps});
   report.work += of_sweeps.work;
-  Net& nearest = hierarchy_->net(hierarchy_->count() - 1);
+  Net& nearest = hierarchy_->finest();
   update_directions(nearest, *model_, team_);
   update_directions(net, *model_, team_);
   const bool better = check_->fault(net).empty() && spring_energy(net).sum < spring_energy(nearest).sum;
@@ -306,7 +297,7 @@ void SurfaceFairing::try_sweeps(const Constraints& constraints, const SolverCall
 
 bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance,
                            FairReport& report) {
-  const Net& net = hierarchy_->net(hierarchy_->count() - 1);
+  const Net& net = hierarchy_->finest();
   if (part_) part_->constraints = constraints_of(constraints, part_->node);
   report.method = Method::equilibrium;
   report.springs = net.spheres.on() ? Springs::sphere : Springs::edge;

@@ -37,12 +37,13 @@ class Gathering {
  public:
   Gathering(const PolygonCurve& curve, const Constraints& constraints) : curve_(curve), constraints_(constraints) {}
 
-  CurveNet gather() {
+  Net gather() {
+    result_.is_curve = true;
     for (const auto& chain : curve_.chains()) cut(chain);
     number_moving();
     number_held();
-    add_rings(result_.net, result_.moving_runs);
-    place_net(result_.net, curve_.positions(), constraints_);
+    add_rings(result_);
+    place_net(result_, curve_.positions(), constraints_);
     take_tangents();
     return std::move(result_);
   }
@@ -50,7 +51,7 @@ class Gathering {
  private:
   [[nodiscard]] bool moves(Index node) const { return !constraints_.position_fixed(node); }
 
-  /// Adds the strands of a chain, nodes still by their numbers in the curve.
+  /// Adds the runs of a chain, nodes still by their numbers in the curve.
   void cut(const PolygonCurve::Chain& chain) {
     const std::vector<Index> nodes = unrolled(chain, constraints_);
     if (nodes.size() < 2) return;
@@ -58,7 +59,7 @@ class Gathering {
     std::transform(nodes.begin(), nodes.end(), moving.begin(), [&](Index i) { return moves(i) ? 1 : 0; });
     const auto near = within_reach(moving, chain.closed);
     if (chain.closed && std::find(near.begin(), near.end(), 0) == near.end()) {
-      add_strand(nodes, true);
+      add_run(nodes, true);
       return;
     }
     // A closed chain begins with a held node, but not always with a gap: what lies before the first gap follows the
@@ -71,21 +72,21 @@ class Gathering {
       if (near[k] != 0) {
         run.push_back(nodes[k]);
       } else if (!run.empty()) {
-        add_strand(run, false);
+        add_run(run, false);
         run.clear();
       }
     }
-    if (!run.empty()) add_strand(run, false);
+    if (!run.empty()) add_run(run, false);
   }
 
-  void add_strand(const std::vector<Index>& nodes, bool closed) {
+  void add_run(const std::vector<Index>& nodes, bool closed) {
     nodes_.push_back(nodes);
     result_.moving_runs.push_back({.nodes = std::vector<std::uint32_t>(nodes.size(), 0), .closed = closed});
   }
 
   void number(std::size_t moving_run, std::size_t place) {
-    result_.moving_runs[moving_run].nodes[place] = static_cast<std::uint32_t>(result_.net.node.size());
-    result_.net.node.push_back(nodes_[moving_run][place]);
+    result_.moving_runs[moving_run].nodes[place] = static_cast<std::uint32_t>(result_.node.size());
+    result_.node.push_back(nodes_[moving_run][place]);
   }
 
   void for_each_place(const auto& use) {
@@ -98,7 +99,7 @@ class Gathering {
     for_each_place([&](std::size_t s, std::size_t k) {
       if (moves(nodes_[s][k])) number(s, k);
     });
-    result_.net.moving = result_.net.node.size();
+    result_.moving = result_.node.size();
   }
 
   /// Held neighbours of moving nodes, whose tangents count, before all others.
@@ -114,12 +115,12 @@ class Gathering {
       for_each_place([&](std::size_t s, std::size_t k) {
         if (!moves(nodes_[s][k]) && beside_moving(s, k) == wanted) number(s, k);
       });
-      if (wanted) result_.net.computed = result_.net.node.size();
+      if (wanted) result_.computed = result_.node.size();
     }
   }
 
   void take_tangents() {
-    Net& net = result_.net;
+    Net& net = result_;
     net.tangents.assign(net.node.size(), Vector3::Zero());
     for (std::size_t i = 0; i < net.node.size(); ++i) {
       if (!constraints_.tangent_fixed(net.node[i])) continue;
@@ -130,15 +131,15 @@ class Gathering {
 
   const PolygonCurve& curve_;
   const Constraints& constraints_;
-  CurveNet result_;
-  std::vector<std::vector<Index>> nodes_;  // of every strand, by their numbers in the curve
+  Net result_;
+  std::vector<std::vector<Index>> nodes_;  // of every run, by their numbers in the curve
 };
 
 }  // namespace
 
-void add_rings(Net& net, const std::vector<MovingRun>& moving_runs) {
+void add_rings(Net& net) {
   std::vector<std::vector<Link>> links(net.computed);
-  for (const MovingRun& moving_run : moving_runs) {
+  for (const MovingRun& moving_run : net.moving_runs) {
     const auto& nodes = moving_run.nodes;
     const std::size_t count = nodes.size();
     for (std::size_t k = 0; k < count; ++k) {
@@ -153,7 +154,7 @@ void add_rings(Net& net, const std::vector<MovingRun>& moving_runs) {
   for (const auto& ring : links) net.rings.add(ring);
 }
 
-CurveNet gather_net(const PolygonCurve& curve, const Constraints& constraints) {
+Net gather_net(const PolygonCurve& curve, const Constraints& constraints) {
   return Gathering(curve, constraints).gather();
 }
 

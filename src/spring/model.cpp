@@ -19,7 +19,7 @@ void set_laplacian_weights(Net& net, const Model& model, Distribution distributi
   net.laplacian_weights.clear();
   if (distribution == Distribution::even) return;
   if (distribution == Distribution::smooth) {
-    if (net.is_curve() || tells_spacing(net, team))
+    if (net.is_curve || tells_spacing(net, team))
       net.laplacian_weights = laplacian_weights_at(net, rest_positions(net, team), team);
     return;
   }

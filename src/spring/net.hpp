@@ -14,36 +14,41 @@
 
 namespace vspring {
 
-/// The part of a shape that takes part in fairing, in coordinates and an order of its own: all that the sweep and the
-/// solvers see.
-///
-/// Local nodes: first those that move, numbered so that neighbours lie close in memory; then held nodes whose direction
-/// is computed; then all other nodes that a moving node looks at. Coordinates are centred and scaled by a power of two
-/// to a box of about 1.
-struct Net {
+/// A run of nodes of one chain of a curve that hangs together by moving nodes: local numbers, in order. Moving ones
+/// ascend.
+struct MovingRun {
+  std::vector<std::uint32_t> nodes;
+  /// The last node joins the first. The first is held, so that what moves is cut there.
+  bool closed = false;
+  /// Where its nodes lie along it: what the lengths of edges go by. A closed run has one more entry, the first node
+  /// again. Set by curve_levels().
+  std::vector<double> along = {};
+};
+
+/// Which nodes there are, what holds them and what pulls at them: what one run of a solver leaves as it is.
+struct NetProblem {
   static constexpr std::uint8_t given_normal = 1;
   static constexpr std::uint8_t given_tangent = 2;
 
-  std::vector<Vector3> positions;
-  std::vector<Vector3> normals;     ///< unit, or zero where there is none; of curves only where a rule needs them
-  std::vector<Vector3> tangents;    ///< of curves, unit or zero; empty for surfaces
-  std::vector<Vector3> curvatures;  ///< of curves, where Model::prepare() asks for them; else empty
+  bool is_curve = false;  ///< else a surface
+  // Nodes and their neighbours.
+  std::vector<Index> node;          ///< number in the shape of every local node
   std::size_t moving = 0;           ///< nodes 0 … moving − 1 move
   std::size_t computed = 0;         ///< nodes 0 … computed − 1 have rings; directions are computed where not given
   std::vector<std::uint8_t> given;  ///< which directions constraints give, for every node
   Rings rings;
+  std::vector<MovingRun> moving_runs;  ///< of curves: the order of nodes
+  Frame frame;                         ///< the coordinates
+  double tiny = 0;                     ///< see node_force()
   /// Places of all nodes in the input, where constraints put some of them elsewhere; else empty.
   std::vector<Vector3> input;
-  std::vector<double> laplacian_weights;  ///< what links count in the regularisation; empty: all the same
-  std::vector<Vector3>
-      target_positions;     ///< to where the regularisation draws moving nodes, on surfaces too; empty: nowhere
-  SphereSprings spheres;    ///< of surfaces; empty where springs are those of Eq. 4
-  TiedPoints points;        ///< scattered points that pull at nodes; empty where there are none
-  std::vector<Index> node;  ///< number in the shape of every local node
-  Frame frame;
-  double tiny = 0;  ///< see node_force()
 
-  [[nodiscard]] bool is_curve() const { return !tangents.empty(); }
+  // What acts on moving nodes besides the V-Springs of Eq. 4; each is empty where it does not.
+  std::vector<double> laplacian_weights;  ///< what links count in the regularisation (§4.4); empty: all the same
+  std::vector<Vector3> target_positions;  ///< to where the regularisation draws the nodes, on surfaces too
+  SphereSprings spheres;                  ///< of surfaces, in place of those V-Springs
+  TiedPoints points;                      ///< scattered points (§4.5)
+
   [[nodiscard]] bool normal_given(std::size_t i) const { return (given[i] & given_normal) != 0; }
   [[nodiscard]] bool tangent_given(std::size_t i) const { return (given[i] & given_tangent) != 0; }
   [[nodiscard]] std::span<const double> weights_of(std::size_t i) const {
@@ -51,6 +56,23 @@ struct Net {
     return std::span(laplacian_weights).subspan(rings.begin(i), rings.links(i).size());
   }
 };
+
+/// Where the nodes are and which way they face, one entry for every node: what a solver changes. Held nodes have the
+/// places and directions that constraints give.
+struct NetState {
+  std::vector<Vector3> positions;
+  std::vector<Vector3> normals;     ///< unit, or zero where there is none; of curves only where a rule needs them
+  std::vector<Vector3> tangents;    ///< of curves, unit or zero; empty for surfaces
+  std::vector<Vector3> curvatures;  ///< of curves, where Model::prepare() asks for them; else empty
+};
+
+/// The part of a shape that takes part in fairing, in coordinates and an order of its own: all that the sweep and the
+/// solvers see.
+///
+/// Local nodes: first those that move, numbered so that neighbours lie close in memory; then held nodes whose direction
+/// is computed; then all other nodes that a moving node looks at. Coordinates are centred and scaled by a power of two
+/// to a box of about 1.
+struct Net : NetProblem, NetState {};
 
 /// The mean length of the edges of the moving nodes, in the coordinates of the net. Cost: linear.
 double mean_edge(const Net& net);

@@ -259,7 +259,7 @@ double share_turned_over(const Net& net, ThreadTeam& team) {
 }  // namespace
 
 std::vector<Vector3> rest_positions(const Net& net, ThreadTeam& team) {
-  const std::vector<double> weights = !net.is_curve() ? sweep_weights(net, team) : even_weights(net);
+  const std::vector<double> weights = !net.is_curve ? sweep_weights(net, team) : even_weights(net);
   std::vector<Vector3> places = input_places(net);
   std::vector<Vector3> next = places;
   const auto sweep = [&] {
@@ -274,9 +274,9 @@ std::vector<Vector3> rest_positions(const Net& net, ThreadTeam& team) {
     });
     places.swap(next);
   };
-  const bool is_crumpled = !net.is_curve() && share_turned_over(net, team) > often_turned;
+  const bool is_crumpled = !net.is_curve && share_turned_over(net, team) > often_turned;
   for (int done = 0; done < (is_crumpled ? sweeps_where_turned : sweeps); ++done) sweep();
-  if (!net.is_curve()) turn_bricks_to_hexagons(net, places);
+  if (!net.is_curve) turn_bricks_to_hexagons(net, places);
   return places;
 }
 
@@ -352,7 +352,7 @@ std::vector<double> laplacian_weights_at(const Net& net, std::span<const Vector3
                                          bool coarse) {
   const double least = coarse ? least_share_of_coarse : least_share;
   std::vector<double> result(net.rings.link_count(), 0);
-  if (net.is_curve()) {
+  if (net.is_curve) {
     for (std::size_t i = 0; i < net.moving; ++i)
       share_by_length(net, i, places, std::span(result).subspan(net.rings.begin(i)));
     return result;

@@ -19,7 +19,7 @@ std::size_t crossings_of(const std::vector<Vector3>& nodes, bool closed = false)
   Constraints constraints(static_cast<Index>(nodes.size()));
   hold(constraints, nodes, 0);
   if (!closed) hold(constraints, nodes, constraints.node_count() - 1);
-  const Net net = gather_net(PolygonCurve(nodes, closed), constraints).net;
+  const Net net = gather_net(PolygonCurve(nodes, closed), constraints);
   return curve_crossings(net, net.positions, team);
 }
 

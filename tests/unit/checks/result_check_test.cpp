@@ -193,7 +193,7 @@ TEST(ResultCheck, LooksAtTheInputAndNotAtWhatConstraintsMakeOfIt) {
 TEST(ResultCheck, OfCurvesToo) {
   ThreadTeam team(1);
   const auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 20));
-  Net start = gather_net(PolygonCurve(nodes), held_ends(nodes)).net;
+  Net start = gather_net(PolygonCurve(nodes), held_ends(nodes));
   const auto model = curve_model_for(start, CurveRules());
   const ResultCheck check(start, *model, team);
   EXPECT_EQ(check.fault(start), "");
@@ -213,7 +213,7 @@ TEST(ResultCheck, CountsTurnsOfACurveAtHeldNodesToo) {
   auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 20));
   Constraints constraints = held_ends(nodes);
   hold(constraints, nodes, 10);
-  Net start = gather_net(PolygonCurve(nodes), constraints).net;
+  Net start = gather_net(PolygonCurve(nodes), constraints);
   const auto model = curve_model_for(start, CurveRules());
   const ResultCheck check(start, *model, team);
   Net sharp = start;
@@ -230,7 +230,7 @@ TEST(ResultCheck, SeesACurveThatCrossesItselfWhereNoTangentIsHeld) {
   for (const bool with_tangents : {false, true}) {
     const Constraints constraints =
         with_tangents ? held_ends(nodes, Vector3::UnitX(), Vector3::UnitX()) : held_ends(nodes);
-    Net start = gather_net(PolygonCurve(nodes), constraints).net;
+    Net start = gather_net(PolygonCurve(nodes), constraints);
     const auto model = curve_model_for(start, CurveRules());
     const ResultCheck check(start, *model, team);
     Net looped = start;

@@ -27,8 +27,7 @@ struct Start {
 
   /// With a point for every node that moves.
   [[nodiscard]] std::vector<Vector3> from(const std::vector<Vector3>& points, double pull) const {
-    CurveNet curve = gather_net(PolygonCurve(nodes, closed), constraints);
-    Net& net = curve.net;
+    Net net = gather_net(PolygonCurve(nodes, closed), constraints);
     for (std::size_t i = 0; i < net.positions.size(); ++i) {
       net.points.begin.push_back(static_cast<std::uint32_t>(net.points.order.size()));
       if (i >= net.moving) continue;
@@ -37,7 +36,7 @@ struct Start {
       net.points.weights.push_back(1);
     }
     net.points.begin.push_back(static_cast<std::uint32_t>(net.points.order.size()));
-    start_smooth(curve, std::vector<double>(net.moving, pull));
+    start_smooth(net, std::vector<double>(net.moving, pull));
     return scatter_positions(net, nodes, constraints, 1);
   }
 };

@@ -15,7 +15,7 @@ namespace {
 using namespace support;
 
 Net net_of_curve(const std::vector<Vector3>& nodes, const Constraints& constraints) {
-  Net net = gather_net(PolygonCurve(nodes), constraints).net;
+  Net net = gather_net(PolygonCurve(nodes), constraints);
   curve_model_for(net, {})->update_directions(net, 0, net.computed);
   return net;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "spring/curve_net.hpp"
 #include "spring/model.hpp"
 #include "support/curves.hpp"
 
@@ -21,15 +22,15 @@ std::vector<Vector3> arc(const std::vector<double>& at, double turn) {
   return nodes;
 }
 
-std::vector<CurveLevel> levels_of(const std::vector<Vector3>& nodes, const Constraints& constraints, bool closed,
-                                  Distribution distribution) {
+std::vector<Level> levels_of(const std::vector<Vector3>& nodes, const Constraints& constraints, bool closed,
+                             Distribution distribution) {
   return curve_levels(gather_net(PolygonCurve(nodes, closed), constraints), distribution);
 }
 
-/// The numbers in the curve of the nodes of a level's only strand.
-std::vector<Index> numbers(const CurveLevel& level) {
+/// The numbers in the curve of the nodes of a level's only run.
+std::vector<Index> numbers(const Level& level) {
   std::vector<Index> all;
-  for (const std::uint32_t i : level.curve.moving_runs[0].nodes) all.push_back(level.curve.net.node[i]);
+  for (const std::uint32_t i : level.net.moving_runs[0].nodes) all.push_back(level.net.node[i]);
   return all;
 }
 
@@ -39,8 +40,8 @@ TEST(CurveLevels, HalveSpansAsLongAsEnoughNodesAreLeft) {
   ASSERT_EQ(levels.size(), 6U);
   const std::vector<std::size_t> edges = {32, 63, 125, 250, 500, 1000};
   for (std::size_t k = 0; k < levels.size(); ++k) {
-    EXPECT_EQ(levels[k].curve.moving_runs[0].nodes.size(), edges[k] + 1);
-    EXPECT_EQ(levels[k].curve.net.moving, edges[k] - 1);
+    EXPECT_EQ(levels[k].net.moving_runs[0].nodes.size(), edges[k] + 1);
+    EXPECT_EQ(levels[k].net.moving, edges[k] - 1);
     EXPECT_EQ(numbers(levels[k]).front(), 0);
     EXPECT_EQ(numbers(levels[k]).back(), 1000);
     const auto ascending = numbers(levels[k]);
@@ -60,13 +61,13 @@ TEST(CurveLevels, KeepNodesThatAreHeldOrHaveADirection) {
     constraints.fix_normal(477, {0, 1, 0});
     const auto levels = levels_of(nodes, constraints, closed, Distribution::even);
     ASSERT_GT(levels.size(), 2U);
-    for (const CurveLevel& level : levels) {
+    for (const Level& level : levels) {
       const auto all = numbers(level);
       for (const Index i : {0, 101, 102, 205, 333, 477, 600}) EXPECT_EQ(std::count(all.begin(), all.end(), i), 1) << i;
-      for (std::size_t i = 0; i < level.curve.net.node.size(); ++i) {
-        EXPECT_EQ(level.curve.net.tangent_given(i), level.curve.net.node[i] == 205);
-        EXPECT_EQ(level.curve.net.normal_given(i), level.curve.net.node[i] == 477);
-        EXPECT_EQ(i < level.curve.net.moving, !constraints.position_fixed(level.curve.net.node[i]));
+      for (std::size_t i = 0; i < level.net.node.size(); ++i) {
+        EXPECT_EQ(level.net.tangent_given(i), level.net.node[i] == 205);
+        EXPECT_EQ(level.net.normal_given(i), level.net.node[i] == 477);
+        EXPECT_EQ(i < level.net.moving, !constraints.position_fixed(level.net.node[i]));
       }
     }
   }
@@ -77,10 +78,10 @@ TEST(CurveLevels, SharesMakeLengthsGoByThePlacesAlong) {
   const auto nodes = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::random, 400, 5));
   const auto levels = levels_of(nodes, held_ends(nodes), false, Distribution::keep);
   ASSERT_GT(levels.size(), 3U);
-  for (const CurveLevel& level : levels) {
-    const auto& moving_run = level.curve.moving_runs[0].nodes;
-    const auto& at = level.along[0];
-    const Net& net = level.curve.net;
+  for (const Level& level : levels) {
+    const auto& moving_run = level.net.moving_runs[0].nodes;
+    const auto& at = level.net.moving_runs[0].along;
+    const Net& net = level.net;
     for (std::size_t k = 1; k + 1 < moving_run.size(); ++k) {
       const auto shares = net.weights_of(moving_run[k]);
       ASSERT_EQ(shares.size(), 2U);
@@ -90,7 +91,7 @@ TEST(CurveLevels, SharesMakeLengthsGoByThePlacesAlong) {
       EXPECT_NEAR(at[k] / at.back(), nodes[static_cast<std::size_t>(number)].x(), 1e-12);
     }
   }
-  EXPECT_TRUE(levels_of(nodes, held_ends(nodes), false, Distribution::even).back().curve.net.laplacian_weights.empty());
+  EXPECT_TRUE(levels_of(nodes, held_ends(nodes), false, Distribution::even).back().net.laplacian_weights.empty());
 }
 
 TEST(CurveLevels, ProlongationOnACircleIsExactInTheMiddleAndOfSixthOrderElsewhere) {
@@ -105,19 +106,18 @@ TEST(CurveLevels, ProlongationOnACircleIsExactInTheMiddleAndOfSixthOrderElsewher
         hold(constraints, nodes, constraints.node_count() - 1);
         auto levels = levels_of(nodes, constraints, closed, Distribution::keep);
         ASSERT_GT(levels.size(), 1U);
-        CurveLevel& fine = levels.back();
-        CurveLevel& coarse = levels[levels.size() - 2];
+        Level& fine = levels.back();
+        Level& coarse = levels[levels.size() - 2];
         // Coarse nodes were averaged: back to the circle.
-        for (std::size_t i = 0; i < coarse.curve.net.moving; ++i)
-          coarse.curve.net.positions[i] =
-              fine.curve.net.frame.to_local(nodes[static_cast<std::size_t>(coarse.curve.net.node[i])]);
+        for (std::size_t i = 0; i < coarse.net.moving; ++i)
+          coarse.net.positions[i] = fine.net.frame.to_local(nodes[static_cast<std::size_t>(coarse.net.node[i])]);
         // End tangents that the circle has, as the curve alone does not know them.
-        for (std::size_t i = 0; i < coarse.curve.net.node.size(); ++i) {
-          const Vector3& p = nodes[static_cast<std::size_t>(coarse.curve.net.node[i])];
-          coarse.curve.net.tangents[i] = Vector3(-p.y(), p.x(), 0);
+        for (std::size_t i = 0; i < coarse.net.node.size(); ++i) {
+          const Vector3& p = nodes[static_cast<std::size_t>(coarse.net.node[i])];
+          coarse.net.tangents[i] = Vector3(-p.y(), p.x(), 0);
         }
-        prolong(coarse, fine);
-        const auto result = scatter_positions(fine.curve.net, nodes, constraints, 1);
+        prolong_curve(coarse, fine);
+        const auto result = scatter_positions(fine.net, nodes, constraints, 1);
         double greatest = 0;
         for (const Vector3& p : result) greatest = std::max(greatest, std::abs(p.norm() - 1));
         error.push_back(greatest);
@@ -147,9 +147,9 @@ double sharpest_cosine(const Net& net) {
 TEST(Untangle, LeavesSmoothShapesAlone) {
   const auto nodes = arc(places(Spacing::random, 40), 4.5);
   auto levels = levels_of(nodes, held_ends(nodes), false, Distribution::keep);
-  const auto before = levels[0].curve.net.positions;
-  untangle(levels[0]);
-  EXPECT_EQ(levels[0].curve.net.positions, before);
+  const auto before = levels[0].net.positions;
+  untangle(levels[0].net);
+  EXPECT_EQ(levels[0].net.positions, before);
 }
 
 TEST(Untangle, AveragesNoiseUntilNoTurnIsSharp) {
@@ -157,10 +157,10 @@ TEST(Untangle, AveragesNoiseUntilNoTurnIsSharp) {
   const Constraints constraints = held_ends(smooth);
   const auto nodes = noisy(smooth, constraints, 0.1, 3, false);
   auto levels = levels_of(nodes, constraints, false, Distribution::even);
-  EXPECT_LT(sharpest_cosine(levels[0].curve.net), 0);
-  untangle(levels[0]);
-  EXPECT_GE(sharpest_cosine(levels[0].curve.net), 0.5);
-  const auto result = scatter_positions(levels[0].curve.net, nodes, constraints, 1);
+  EXPECT_LT(sharpest_cosine(levels[0].net), 0);
+  untangle(levels[0].net);
+  EXPECT_GE(sharpest_cosine(levels[0].net), 0.5);
+  const auto result = scatter_positions(levels[0].net, nodes, constraints, 1);
   EXPECT_LT(greatest_distance(result, smooth), 0.2);
   EXPECT_EQ(result.front(), nodes.front());
 }
@@ -170,8 +170,8 @@ TEST(Straighten, PutsNodesOnTheLinesBetweenHeldOnes) {
   Constraints constraints = held_ends(nodes);
   constraints.fix_position(15, {0.4, 0.5, 0.1});
   auto levels = levels_of(nodes, constraints, false, Distribution::even);
-  start_from_chords(levels[0]);
-  const auto result = scatter_positions(levels[0].curve.net, nodes, constraints, 1);
+  start_from_chords(levels[0].net);
+  const auto result = scatter_positions(levels[0].net, nodes, constraints, 1);
   const auto first = straight({0, 0, 0}, {0.4, 0.5, 0.1}, places(Spacing::even, 15));
   const auto second = straight({0.4, 0.5, 0.1}, {1, 0, 0}, places(Spacing::even, 25));
   for (std::size_t i = 0; i <= 40; ++i)
@@ -184,9 +184,9 @@ TEST(Straighten, LeavesALoopFromOneNodeToItself) {
   Constraints constraints(40);
   hold(constraints, nodes, 0);
   auto levels = levels_of(nodes, constraints, true, Distribution::even);
-  const auto before = levels[0].curve.net.positions;
-  start_from_chords(levels[0]);
-  EXPECT_EQ(levels[0].curve.net.positions, before);
+  const auto before = levels[0].net.positions;
+  start_from_chords(levels[0].net);
+  EXPECT_EQ(levels[0].net.positions, before);
 }
 
 TEST(Straighten, GoesRoundAClosedChainFromItsFirstHeldNode) {
@@ -195,8 +195,8 @@ TEST(Straighten, GoesRoundAClosedChainFromItsFirstHeldNode) {
   Constraints constraints(40);
   for (const Index node : {4, 14, 29}) hold(constraints, nodes, node);
   auto levels = levels_of(nodes, constraints, true, Distribution::even);
-  start_from_chords(levels[0]);
-  const auto result = scatter_positions(levels[0].curve.net, nodes, constraints, 1);
+  start_from_chords(levels[0].net);
+  const auto result = scatter_positions(levels[0].net, nodes, constraints, 1);
   for (std::size_t i = 29; i <= 44; ++i) {
     const double share = (static_cast<double>(i) - 29) / 15;
     EXPECT_LT((result[i % 40] - (nodes[29] + share * (nodes[4] - nodes[29]))).norm(), 1e-14) << i;

@@ -15,17 +15,17 @@ namespace {
 using namespace support;
 
 std::vector<Vector3> smoothed(const std::vector<Vector3>& nodes, const Constraints& constraints) {
-  CurveNet curve = gather_net(PolygonCurve(nodes), constraints);
+  Net curve = gather_net(PolygonCurve(nodes), constraints);
   smooth_noise(curve);
-  return scatter_positions(curve.net, nodes, constraints, 1);
+  return scatter_positions(curve, nodes, constraints, 1);
 }
 
 /// The nodes of the net itself, bit for bit.
 bool stays(const std::vector<Vector3>& nodes, const Constraints& constraints, bool closed = false) {
-  CurveNet curve = gather_net(PolygonCurve(nodes, closed), constraints);
-  const std::vector<Vector3> before = curve.net.positions;
+  Net curve = gather_net(PolygonCurve(nodes, closed), constraints);
+  const std::vector<Vector3> before = curve.positions;
   smooth_noise(curve);
-  return curve.net.positions == before;
+  return curve.positions == before;
 }
 
 /// Turns of more than 90°.
@@ -105,19 +105,19 @@ TEST(SmoothNoise, HeldNodesAndGivenTangentsStay) {
   const auto nodes = noisy(line, constraints, 0.025, 5, false);
   constraints.fix_tangent(50, {1, 0, 0});
   constraints.fix_normal(60, {0, 1, 0});
-  CurveNet curve = gather_net(PolygonCurve(nodes), constraints);
-  const std::vector<Vector3> before = curve.net.positions;
-  const std::vector<Vector3> tangents = curve.net.tangents;
+  Net curve = gather_net(PolygonCurve(nodes), constraints);
+  const std::vector<Vector3> before = curve.positions;
+  const std::vector<Vector3> tangents = curve.tangents;
   smooth_noise(curve);
   int moved = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
-    const Index node = curve.net.node[i];
+    const Index node = curve.node[i];
     const bool is_fixed = node == 0 || node == 30 || node == 50 || node == 60 || node == 80;
-    if (is_fixed) EXPECT_EQ(curve.net.positions[i], before[i]) << node;
-    moved += curve.net.positions[i] != before[i] ? 1 : 0;
+    if (is_fixed) EXPECT_EQ(curve.positions[i], before[i]) << node;
+    moved += curve.positions[i] != before[i] ? 1 : 0;
   }
   EXPECT_GT(moved, 60);
-  EXPECT_EQ(curve.net.tangents, tangents);
+  EXPECT_EQ(curve.tangents, tangents);
 }
 
 TEST(SmoothNoise, BringsANodeBackFromBeyondAHeldEnd) {

@@ -14,8 +14,8 @@
 namespace vspring::surface_levels_test {
 namespace {
 
-std::vector<SurfaceLevel> levels_of(const PolygonMesh& mesh, const Constraints& constraints, int threads = 1,
-                                    Distribution distribution = Distribution::even) {
+std::vector<Level> levels_of(const PolygonMesh& mesh, const Constraints& constraints, int threads = 1,
+                             Distribution distribution = Distribution::even) {
   ThreadTeam team(threads);
   return surface_levels(gather_net(mesh, constraints), *surface_model(PseudoNormals::link), distribution, team);
 }
@@ -124,7 +124,7 @@ TEST(SurfaceLevels, KeepHeldNodesInsideOnEveryLevel) {
   const std::vector<Index> held = {0, 2500, 5000, 10000};
   for (const Index node : held) constraints.fix_position(node, mesh.position(node));
   constraints.fix_normal(held[1], mesh.position(held[1]));
-  for (const SurfaceLevel& level : levels_of(mesh, constraints)) {
+  for (const Level& level : levels_of(mesh, constraints)) {
     for (const Index node : held) {
       const auto at = std::find(level.net.node.begin(), level.net.node.end(), node);
       ASSERT_NE(at, level.net.node.end()) << "of " << level.net.node.size();
@@ -145,7 +145,7 @@ TEST(SurfaceLevels, OfARegionStayInIt) {
     const auto levels = levels_of(mesh, constraints);
     EXPECT_GE(levels.size(), 3U);
     EXPECT_EQ(levels.back().net.moving, region.size());
-    for (const SurfaceLevel& level : levels) expect_sound(level.net);
+    for (const Level& level : levels) expect_sound(level.net);
   }
 }
 
@@ -165,7 +165,7 @@ TEST(SurfaceLevels, HaveSharesWhereTheDistributionIsKept) {
   const auto model = surface_model(PseudoNormals::link);
   Sweep sweep(levels.back().net, *model, team);
   EXPECT_LT(sweep.iterate(), 1e-10);
-  for (const SurfaceLevel& level : levels) EXPECT_EQ(level.net.laplacian_weights.size(), level.net.rings.link_count());
+  for (const Level& level : levels) EXPECT_EQ(level.net.laplacian_weights.size(), level.net.rings.link_count());
 }
 
 /// How many times as long as the shortest edge at a node the longest is, at worst.
@@ -193,7 +193,7 @@ TEST(SurfaceLevels, LongCellsBecomeEvenFromLevelToLevel) {
     EXPECT_GT(greatest_ratio(levels.back().net), 15);
     const auto& coarsest = levels[levels.size() > 4 ? levels.size() - 4 : 0].net;
     EXPECT_LT(greatest_ratio(coarsest), 5);
-    for (const SurfaceLevel& level : levels) expect_sound(level.net);
+    for (const Level& level : levels) expect_sound(level.net);
   }
 }
 

@@ -58,7 +58,7 @@ Error error_of(const Surface& surface, const Grid& grid, Normals normals) {
   ThreadTeam team(1);
   const auto model = surface_model(PseudoNormals::link);
   auto levels = surface_levels(gather_net(mesh, constraints), *model, Distribution::even, team);
-  SurfaceLevel& coarse = levels[levels.size() - 2];
+  Level& coarse = levels[levels.size() - 2];
   Net& net = levels.back().net;
   update_directions(coarse.net, *model, team);
   for (std::size_t i = 0; i < coarse.net.node.size(); ++i) {
@@ -69,7 +69,7 @@ Error error_of(const Surface& surface, const Grid& grid, Normals normals) {
     for (auto& normal : net.normals) normal.setZero();
   }
   for (std::size_t i = 0; i < net.moving; ++i) net.positions[i].setConstant(7);
-  prolong(coarse, levels.back(), team);
+  prolong_surface(coarse, levels.back(), team);
   Constraints free(mesh.node_count());
   const auto positions = scatter_positions(net, mesh.positions(), free, 1);
   Error error;
@@ -122,7 +122,7 @@ TEST(Prolongation, IsOfThirdOrderOnToriAsFarAsNormalsAre) {
 
 struct Hierarchy {
   std::unique_ptr<const Model> model = surface_model(PseudoNormals::link);
-  std::vector<SurfaceLevel> levels;
+  std::vector<Level> levels;
 };
 
 Hierarchy hierarchy_of(const PolygonMesh& mesh, int threads = 1, Distribution distribution = Distribution::even) {
@@ -142,9 +142,9 @@ TEST(Prolongation, LeavesWhatIsHeldInPlace) {
   const auto positions = net.positions;
   const auto normals = net.normals;
   ThreadTeam team(1);
-  SurfaceLevel& coarse = hierarchy.levels[hierarchy.levels.size() - 2];
+  Level& coarse = hierarchy.levels[hierarchy.levels.size() - 2];
   update_directions(coarse.net, *hierarchy.model, team);
-  prolong(coarse, hierarchy.levels.back(), team);
+  prolong_surface(coarse, hierarchy.levels.back(), team);
   for (std::size_t i = net.moving; i < net.node.size(); ++i) {
     EXPECT_EQ(net.positions[i], positions[i]);
     EXPECT_EQ(net.normals[i], normals[i]);
@@ -159,7 +159,7 @@ TEST(ProlongationThreads, GiveTheSameBitsForEveryNumber) {
       restrict_shape(hierarchy.levels[k], hierarchy.levels[k - 1]);
     for (std::size_t k = 1; k < hierarchy.levels.size(); ++k) {
       update_directions(hierarchy.levels[k - 1].net, *hierarchy.model, team);
-      prolong(hierarchy.levels[k - 1], hierarchy.levels[k], team);
+      prolong_surface(hierarchy.levels[k - 1], hierarchy.levels[k], team);
     }
     return hierarchy.levels.back().net.positions;
   };
@@ -186,13 +186,13 @@ TEST(Prolongation, PlacesNodesAboutWhereTheRegularisationWantsThem) {
       const PolygonMesh mesh = generate::sphere_patch({.columns = 60, .rows = 60, .faces = faces, .jitter = 0.3});
       Hierarchy hierarchy = hierarchy_of(mesh, 1, distribution);
       ThreadTeam team(1);
-      SurfaceLevel& coarse = hierarchy.levels[hierarchy.levels.size() - 2];
+      Level& coarse = hierarchy.levels[hierarchy.levels.size() - 2];
       Sweep sweep(coarse.net, *hierarchy.model, team);
       for (int k = 0; k < 200; ++k) sweep.iterate();
       update_directions(coarse.net, *hierarchy.model, team);
       Net& net = hierarchy.levels.back().net;
       for (std::size_t i = 0; i < net.moving; ++i) net.positions[i].setConstant(7);
-      prolong(coarse, hierarchy.levels.back(), team);
+      prolong_surface(coarse, hierarchy.levels.back(), team);
       const double left = unevenness(net, *hierarchy.model);
       EXPECT_LT(left, 0.25);
     }
@@ -209,7 +209,7 @@ TEST(Prolongation, FoldsNoTriangleOfAFlatDisc) {
   for (int k = 0; k < 100; ++k) sweep.iterate();
   for (std::size_t k = 1; k < levels.size(); ++k) {
     update_directions(levels[k - 1].net, *hierarchy.model, team);
-    prolong(levels[k - 1], levels[k], team);
+    prolong_surface(levels[k - 1], levels[k], team);
   }
   Constraints constraints(mesh.node_count());
   const auto positions = scatter_positions(levels.back().net, mesh.positions(), constraints, 1);
@@ -232,7 +232,7 @@ TEST(Prolongation, StaysFiniteWhereNodesCoincide) {
     ThreadTeam team(1);
     for (std::size_t k = 1; k < hierarchy.levels.size(); ++k) {
       update_directions(hierarchy.levels[k - 1].net, *hierarchy.model, team);
-      prolong(hierarchy.levels[k - 1], hierarchy.levels[k], team);
+      prolong_surface(hierarchy.levels[k - 1], hierarchy.levels[k], team);
       for (const Vector3& position : hierarchy.levels[k].net.positions) EXPECT_TRUE(position.allFinite());
       for (const Vector3& normal : hierarchy.levels[k].net.normals) EXPECT_TRUE(normal.allFinite());
     }

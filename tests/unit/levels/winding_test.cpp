@@ -6,6 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "levels/curve_levels.hpp"
+#include "spring/curve_net.hpp"
 #include "support/curves.hpp"
 
 namespace vspring::winding_test {
@@ -21,10 +23,10 @@ struct Wound {
   Vector3 end;
 
   [[nodiscard]] Constraints constraints() const { return held_ends(nodes, start, end); }
-  [[nodiscard]] CurveLevel level(const std::vector<Vector3>& positions) const {
-    return curve_levels(gather_net(PolygonCurve(positions), constraints()), Distribution::even).back();
+  [[nodiscard]] Net net(const std::vector<Vector3>& positions) const {
+    return curve_levels(gather_net(PolygonCurve(positions), constraints()), Distribution::even).back().net;
   }
-  [[nodiscard]] CurveLevel level() const { return level(nodes); }
+  [[nodiscard]] Net net() const { return net(nodes); }
 };
 
 /// Its curvature falls to half, so that a fair curve with its ends and turns is known.
@@ -49,9 +51,8 @@ Wound helix(double turns, double pitch, int edges = 240) {
 }
 
 /// From the given tangent at the start over all edges to that at the end, in the plane z = 0.
-std::vector<double> turns_of(const CurveLevel& level) {
-  const Net& net = level.curve.net;
-  const auto& moving_run = level.curve.moving_runs[0].nodes;
+std::vector<double> turns_of(const Net& net) {
+  const auto& moving_run = net.moving_runs[0].nodes;
   std::vector<Vector3> ways = {net.tangents[moving_run.front()]};
   for (std::size_t k = 0; k + 1 < moving_run.size(); ++k)
     ways.emplace_back(net.positions[moving_run[k + 1]] - net.positions[moving_run[k]]);
@@ -69,9 +70,8 @@ double sum(const std::vector<double>& values) {
 }
 
 /// The sum of all turns of the polygon, whichever way.
-double turned(const CurveLevel& level) {
-  const Net& net = level.curve.net;
-  const auto& moving_run = level.curve.moving_runs[0].nodes;
+double turned(const Net& net) {
+  const auto& moving_run = net.moving_runs[0].nodes;
   double sum = 0;
   for (std::size_t k = 1; k + 1 < moving_run.size(); ++k) {
     const Vector3 before = net.positions[moving_run[k]] - net.positions[moving_run[k - 1]];
@@ -83,11 +83,11 @@ double turned(const CurveLevel& level) {
 
 TEST(HasUnwound, TellsAStraightenedCurveFromTheCurve) {
   for (const Wound& wound : {spiral(3), spiral(1.5), helix(4, 0.2)}) {
-    CurveLevel level = wound.level();
-    const std::vector<Vector3> input = level.curve.net.positions;
-    EXPECT_FALSE(lost_winding(level, input));
-    start_from_chords(level);
-    EXPECT_TRUE(lost_winding(level, input));
+    Net net = wound.net();
+    const std::vector<Vector3> input = net.positions;
+    EXPECT_FALSE(lost_winding(net, input));
+    start_from_chords(net);
+    EXPECT_TRUE(lost_winding(net, input));
   }
 }
 
@@ -99,16 +99,16 @@ TEST(HasUnwound, CountsSingleWindings) {
     return made;
   };
   const Wound three = wound(3);
-  const std::vector<Vector3> input = three.level().curve.net.positions;
-  EXPECT_FALSE(lost_winding(three.level(), input));
-  for (const double turns : {2.0, 4.0}) EXPECT_TRUE(lost_winding(three.level(wound(turns).nodes), input)) << turns;
+  const std::vector<Vector3> input = three.net().positions;
+  EXPECT_FALSE(lost_winding(three.net(), input));
+  for (const double turns : {2.0, 4.0}) EXPECT_TRUE(lost_winding(three.net(wound(turns).nodes), input)) << turns;
 }
 
 TEST(HasUnwound, SeesWindingsThatWentToTheEnds) {
   // In place of three turns five in a knot at the start, and two back at the end: as many in all.
   const Wound three = spiral(3);
-  const std::vector<Vector3> input = three.level().curve.net.positions;
-  const double all = sum(turns_of(three.level()));
+  const std::vector<Vector3> input = three.net().positions;
+  const double all = sum(turns_of(three.net()));
   const double small = 0.1;
   const Vector3 from = three.nodes.front() + Vector3(0, small, 0);
   const double last = 6 * pi * 2.0 / 3 + pi / 2;  // less than all its heading at the end: of a turn to the right
@@ -123,26 +123,26 @@ TEST(HasUnwound, SeesWindingsThatWentToTheEnds) {
     else
       knotted[k] = from + (at - 120) / 60 * (to - from);
   }
-  const CurveLevel level = three.level(knotted);
-  ASSERT_NEAR(sum(turns_of(level)), all, 1e-6);
-  EXPECT_TRUE(lost_winding(level, input));
+  const Net net = three.net(knotted);
+  ASSERT_NEAR(sum(turns_of(net)), all, 1e-6);
+  EXPECT_TRUE(lost_winding(net, input));
 }
 
 TEST(HasUnwound, NoiseDoesNotCount) {
   for (const Wound& wound : {spiral(3), helix(4, 0.2), helix(4, 0.2, 48)}) {
-    CurveLevel clean = wound.level();
+    Net clean = wound.net();
     for (const std::uint64_t seed : {1U, 2U, 3U}) {
       // Of half an edge.
       const double noise = 0.5 * (wound.nodes[1] - wound.nodes[0]).norm();
       const bool planar = wound.nodes.back().z() == 0;
-      const CurveLevel rough = wound.level(noisy(wound.nodes, wound.constraints(), noise, seed, planar));
+      const Net rough = wound.net(noisy(wound.nodes, wound.constraints(), noise, seed, planar));
       EXPECT_GT(turned(rough), 1.4 * turned(clean)) << "or it would show nothing";
       // In the same coordinates.
       std::vector<Vector3> input;
-      for (const Vector3& position : rough.curve.net.positions)
-        input.emplace_back(position / rough.curve.net.frame.scale() * clean.curve.net.frame.scale());
+      for (const Vector3& position : rough.positions)
+        input.emplace_back(position / rough.frame.scale() * clean.frame.scale());
       EXPECT_FALSE(lost_winding(clean, input));
-      const std::vector<Vector3> own = rough.curve.net.positions;
+      const std::vector<Vector3> own = rough.positions;
       EXPECT_FALSE(lost_winding(rough, own));
     }
   }
@@ -150,11 +150,10 @@ TEST(HasUnwound, NoiseDoesNotCount) {
 
 TEST(HasUnwound, PiecesWithoutTangentsDoNotCount) {
   const Wound wound = spiral(3);
-  const CurveNet net = gather_net(PolygonCurve(wound.nodes), held_ends(wound.nodes));
-  CurveLevel level = curve_levels(net, Distribution::even).back();
-  const std::vector<Vector3> input = level.curve.net.positions;
-  start_from_chords(level);
-  EXPECT_FALSE(lost_winding(level, input));
+  Net net = curve_levels(gather_net(PolygonCurve(wound.nodes), held_ends(wound.nodes)), Distribution::even).back().net;
+  const std::vector<Vector3> input = net.positions;
+  start_from_chords(net);
+  EXPECT_FALSE(lost_winding(net, input));
 }
 
 TEST(Wind, GivesASpiralOfLinearCurvatureWithAllTurnsInThePlane) {
@@ -162,22 +161,21 @@ TEST(Wind, GivesASpiralOfLinearCurvatureWithAllTurnsInThePlane) {
     const Wound wound = spiral(windings, 160);
     for (const std::uint64_t seed : {0U, 1U}) {
       const double noise = seed == 0 ? 0 : 0.3 * (wound.nodes[1] - wound.nodes[0]).norm();
-      CurveLevel level = wound.level(noisy(wound.nodes, wound.constraints(), noise, seed, true));
-      const Net before = level.curve.net;
-      const double all = sum(turns_of(level));
+      Net net = wound.net(noisy(wound.nodes, wound.constraints(), noise, seed, true));
+      const Net before = net;
+      const double all = sum(turns_of(net));
       EXPECT_GT(all, 2 * pi * windings - 0.1);
-      ASSERT_TRUE(wind(level));
-      const Net& net = level.curve.net;
+      ASSERT_TRUE(wind(net));
       for (std::size_t i = 0; i < net.positions.size(); ++i) {
         EXPECT_EQ(net.positions[i].z(), 0);
         if (i >= net.moving) EXPECT_EQ(net.positions[i], before.positions[i]);
       }
-      const std::vector<double> turns = turns_of(level);
+      const std::vector<double> turns = turns_of(net);
       EXPECT_NEAR(sum(turns), all, 1e-6);
       // Between the ends, whose nodes have half the length.
       for (std::size_t k = 2; k + 2 < turns.size() - 1; ++k)
         EXPECT_NEAR(turns[k + 1] - turns[k], turns[k] - turns[k - 1], 1e-6) << k;
-      EXPECT_FALSE(lost_winding(level, before.positions));
+      EXPECT_FALSE(lost_winding(net, before.positions));
     }
   }
 }
@@ -185,25 +183,25 @@ TEST(Wind, GivesASpiralOfLinearCurvatureWithAllTurnsInThePlane) {
 TEST(Wind, KeepsTheTurnsOfAHelixOfSmallPitch) {
   // Of whole turns there is none nearby.
   const Wound wound = helix(4.25, 0.1, 80);
-  CurveLevel level = wound.level();
-  const Net before = level.curve.net;
-  const double all = turned(level);
-  ASSERT_TRUE(wind(level));
-  EXPECT_NE(level.curve.net.positions, before.positions);
-  EXPECT_NEAR(turned(level), all, 0.01 * all);
-  EXPECT_FALSE(lost_winding(level, before.positions));
-  EXPECT_LT(greatest_distance(level.curve.net.positions, before.positions), 0.1);
+  Net net = wound.net();
+  const Net before = net;
+  const double all = turned(net);
+  ASSERT_TRUE(wind(net));
+  EXPECT_NE(net.positions, before.positions);
+  EXPECT_NEAR(turned(net), all, 0.01 * all);
+  EXPECT_FALSE(lost_winding(net, before.positions));
+  EXPECT_LT(greatest_distance(net.positions, before.positions), 0.1);
   for (std::size_t i = before.moving; i < before.positions.size(); ++i)
-    EXPECT_EQ(level.curve.net.positions[i], before.positions[i]);
+    EXPECT_EQ(net.positions[i], before.positions[i]);
 }
 
 TEST(Wind, LeavesPiecesOfLessThanHalfATurnAlone) {
-  CurveLevel level = spiral(0.4).level();
-  const std::vector<Vector3> before = level.curve.net.positions;
-  EXPECT_FALSE(wind(level));
-  EXPECT_EQ(level.curve.net.positions, before);
-  start_from_chords(level);
-  EXPECT_FALSE(lost_winding(level, before));
+  Net net = spiral(0.4).net();
+  const std::vector<Vector3> before = net.positions;
+  EXPECT_FALSE(wind(net));
+  EXPECT_EQ(net.positions, before);
+  start_from_chords(net);
+  EXPECT_FALSE(lost_winding(net, before));
 }
 
 TEST(Wind, WindsOnlyThePiecesThatDo) {
@@ -216,14 +214,14 @@ TEST(Wind, WindsOnlyThePiecesThatDo) {
   Constraints constraints = held_ends(wound.nodes, wound.start, wound.end);
   hold(constraints, wound.nodes, 240);
   constraints.fix_tangent(240, wound.end);
-  CurveLevel level = curve_levels(gather_net(PolygonCurve(wound.nodes), constraints), Distribution::even).back();
-  const Net before = level.curve.net;
-  ASSERT_TRUE(wind(level));
+  Net net = curve_levels(gather_net(PolygonCurve(wound.nodes), constraints), Distribution::even).back().net;
+  const Net before = net;
+  ASSERT_TRUE(wind(net));
   for (std::size_t i = 0; i < before.moving; ++i) {
     if (before.node[i] > 240)
-      EXPECT_EQ(level.curve.net.positions[i], before.positions[i]);
+      EXPECT_EQ(net.positions[i], before.positions[i]);
     else
-      EXPECT_NE(level.curve.net.positions[i], before.positions[i]);
+      EXPECT_NE(net.positions[i], before.positions[i]);
   }
 }
 

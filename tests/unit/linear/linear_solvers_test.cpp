@@ -64,13 +64,13 @@ Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>> as_m
 
 /// A surface with its levels, ready for systems over `count` of them.
 struct Prepared {
-  std::vector<SurfaceLevel> levels;
+  std::vector<Level> levels;
   SystemLevels systems;
 };
 
 Prepared prepared(Net net, std::size_t count, ThreadTeam& team) {
   Prepared result{surface_levels(std::move(net), *surface_model(PseudoNormals::link), Distribution::even, team), {}};
-  std::vector<SurfaceLevel>& levels = result.levels;
+  std::vector<Level>& levels = result.levels;
   result.systems.net = &levels.back().net;
   for (std::size_t k = levels.size() - 1; k > 0 && result.systems.interpolations.size() + 1 < count; --k) {
     restrict_shape(levels[k], levels[k - 1]);
@@ -197,8 +197,8 @@ TEST(Interpolation, ReproducesLinearFunctionsOfThePlace) {
   ThreadTeam team(1);
   const auto levels =
       surface_levels(disc_net(2000, false, team), *surface_model(PseudoNormals::link), Distribution::even, team);
-  const SurfaceLevel& fine = levels.back();
-  const SurfaceLevel& coarse = levels[levels.size() - 2];
+  const Level& fine = levels.back();
+  const Level& coarse = levels[levels.size() - 2];
   const Interpolation between = interpolation(fine.net, coarse.net, coarse.finer, team);
   ASSERT_EQ(between.up.rows(), fine.net.moving);
   ASSERT_EQ(between.up.columns(), coarse.net.moving);

@@ -137,7 +137,7 @@ TEST(PointTies, PassWhereChainsMeet) {
   const PolygonCurve curve(positions, chains);
   Constraints held(curve.node_count());
   fix_boundary_positions(held, curve);
-  Net net = gather_net(curve, held).net;
+  Net net = gather_net(curve, held);
   const Vector3 point = heading(4);
   PointTies ties(net, std::vector<Vector3>{point}, std::vector<double>{1}, std::vector<Index>{5});
   ThreadTeam team(1);

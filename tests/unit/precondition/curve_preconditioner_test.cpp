@@ -42,11 +42,10 @@ Bent bent(Spacing spacing, const std::function<void(Constraints&, const std::vec
 double left_over(const Bent& curve, Distribution distribution) {
   ThreadTeam alone(1);
   const auto model = curve_model({});
-  CurveNet gathered = gather_net(PolygonCurve(curve.nodes), curve.constraints);
-  Net& net = gathered.net;
+  Net net = gather_net(PolygonCurve(curve.nodes), curve.constraints);
   model->prepare(net);
   set_laplacian_weights(net, *model, distribution, alone);
-  CurvePreconditioner preconditioner(gathered);
+  CurvePreconditioner preconditioner(net);
   update_directions(net, *model, alone);
   std::vector<NodeForce> forces(net.moving);
   model->find_forces(net, {0, net.moving}, forces);
@@ -111,10 +110,9 @@ TEST(CurvePreconditioner, CutsClosedChainsAtAHeldNodeWithoutATrace) {
     for (int k = 0; k < count; ++k) chain.nodes.push_back((k + shift) % count);
     ThreadTeam alone(1);
     const auto model = curve_model({});
-    CurveNet gathered = gather_net(PolygonCurve(nodes, {chain}), constraints);
-    Net& net = gathered.net;
+    Net net = gather_net(PolygonCurve(nodes, {chain}), constraints);
     model->prepare(net);
-    CurvePreconditioner preconditioner(gathered);
+    CurvePreconditioner preconditioner(net);
     update_directions(net, *model, alone);
     std::vector<NodeForce> forces(net.moving);
     model->find_forces(net, {0, net.moving}, forces);

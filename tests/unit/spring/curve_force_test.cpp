@@ -34,7 +34,7 @@ Net net_of(const std::vector<Vector3>& nodes) {
   const PolygonCurve curve(nodes);
   Constraints constraints(curve.node_count());
   fix_boundary_positions(constraints, curve);
-  Net net = gather_net(curve, constraints).net;
+  Net net = gather_net(curve, constraints);
   ThreadTeam alone(1);
   const auto model = curve_model({});
   model->prepare(net);

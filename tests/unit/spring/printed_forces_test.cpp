@@ -70,8 +70,7 @@ TEST(PrintedForces, DoInFullWhatPointsAskFor) {
 TEST(PrintedForces, LeaveNodesInLineWithTheirNeighboursWhereTheyAre) {
   const PolygonCurve bent(std::vector<Vector3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 1, 0}, {4, 1, 0}});
   const auto moved = [&](Forces forces) {
-    const CurveNet curve = gather_net(bent, held_ends(bent.positions()));
-    Net net = curve.net;
+    Net net = gather_net(bent, held_ends(bent.positions()));
     ThreadTeam team(1);
     const auto model = curve_model_for(net, CurveRules::paper(), forces);
     update_directions(net, *model, team);

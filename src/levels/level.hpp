@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "levels/coarsening.hpp"
+#include "spring/net.hpp"
+
+namespace vspring {
+
+/// One level of the hierarchy of a shape (§4.7).
+struct Level {
+  Net net;
+  /// For every node its number in the net of the next finer level; empty on the finest.
+  std::vector<std::uint32_t> finer;
+  /// Of surfaces: the nodes of the next finer level that this one lacks, in its numbers; empty on the finest. Groups as
+  /// from coarsen().
+  std::vector<Removals> removals;
+  /// Of surfaces: where the nodes lie by rest_positions() of the finest net; empty on that, and with
+  /// Distribution::even.
+  std::vector<Vector3> places;
+};
+
+/// Hands the shape of a level down to the next coarser one: nodes stay where they are, on surfaces with their normals.
+/// Cost: linear in the coarse nodes.
+void restrict_shape(const Level& fine, Level& coarse);
+
+}  // namespace vspring

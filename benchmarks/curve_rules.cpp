@@ -55,13 +55,11 @@ double error(const Spacing& spacing, std::size_t edges, const CurveRules& rules)
   FairOptions options;
   options.curve = rules;
   options.distribution = Distribution::keep;
-  options.tolerance = 1e-9;
+  options.method = EquilibriumMethod{.tolerance = 1e-9};
   FairResult result = fair(curve, constraints, options);
   if (result.report.outcome != Outcome::converged) {
     // The preconditioner is made for the rules by default; the plain iteration takes all of them.
-    options.method = Method::sweep;
-    options.step_tolerance = 1e-8;
-    options.max_iterations = 3'000'000;
+    options.method = SweepMethod{.step_tolerance = 1e-8, .max_iterations = 3'000'000};
     result = fair(curve, constraints, options);
   }
   if (result.report.outcome != Outcome::converged) return -1;

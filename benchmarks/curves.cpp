@@ -67,7 +67,7 @@ struct Timed {
 
 Timed best_of(int times, const Case& task, double tolerance, int threads) {
   FairOptions options;
-  options.tolerance = tolerance;
+  options.method = EquilibriumMethod{.tolerance = tolerance};
   Context context;
   context.threads = threads;
   Timed best;
@@ -128,15 +128,10 @@ void print_sweeps() {
   const reference::Clothoid arc = reference::hermite_clothoid({0, 0}, 1, {1, 0}, -1);
   for (const Index nodes : {Index{11}, Index{21}, Index{41}}) {
     const Case task = disturbed(nodes, 1, -1, 0);
-    FairOptions options;
-    options.method = Method::sweep;
-    options.max_iterations = 10'000'000;
-    const FairResult plain = fair(task.curve, task.constraints, options);
+    const FairResult plain = fair(task.curve, task.constraints, {.method = SweepMethod{.max_iterations = 10'000'000}});
     // Doubling the sweeps until the error is small enough, then halving the gap.
     const auto error_after = [&](int sweeps) {
-      FairOptions limited = options;
-      limited.step_tolerance = 1e-300;
-      limited.max_iterations = sweeps;
+      const FairOptions limited = {.method = SweepMethod{.step_tolerance = 1e-300, .max_iterations = sweeps}};
       return distance_from(arc, fair(task.curve, task.constraints, limited).positions);
     };
     int high = 16;

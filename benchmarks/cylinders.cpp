@@ -62,7 +62,7 @@ Kind disc(const std::string& name, double jitter, bool polygons, std::optional<D
 std::string error_of(const Specimen& specimen, Springs springs) {
   FairOptions options;
   options.springs = springs;
-  options.tolerance = tolerance;
+  options.method = EquilibriumMethod{.tolerance = tolerance};
   options.distribution = specimen.distribution;
   const FairResult result = fair(specimen.start, specimen.constraints, options);
   double greatest = 0;

@@ -15,6 +15,7 @@
 #include "flat_cap.hpp"
 #include "memory.hpp"
 #include "spring/net.hpp"
+#include "support/methods.hpp"
 #include "support/surfaces.hpp"
 #include "sweep/sweep.hpp"
 #include "vspring/vspring.hpp"
@@ -68,8 +69,7 @@ int main(int argc, char** argv) {
     const Case input = flat_start(nodes);
     for (const int threads : {1, 2}) {
       const double iteration = iteration_seconds(input, threads);
-      FairOptions options;
-      options.method = Method::equilibrium;
+      const FairOptions options = {.method = equilibrium_alone()};
       Context context;
       context.threads = threads;
       FairReport report;

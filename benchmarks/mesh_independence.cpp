@@ -21,6 +21,7 @@
 
 #include "base/random.hpp"
 #include "support/fairness_of.hpp"
+#include "support/methods.hpp"
 #include "support/specimens.hpp"
 
 namespace {
@@ -305,9 +306,8 @@ int main(int argc, char** argv) {
         const Constraints constraints =
             clamped ? held_boundary(start, [](const Vector3&) { return Vector3::UnitZ(); }) : held_boundary(start);
         FairOptions options;
-        options.method = Method::equilibrium;
+        options.method = equilibrium_alone(1e-7);
         options.distribution = kind.distribution;
-        options.tolerance = 1e-7;
         options.springs = way == "edge" ? Springs::edge : Springs::sphere;
         options.fair_by = fair_by;
         const FairResult result = fair(start, constraints, options);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "support/methods.hpp"
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
@@ -74,10 +75,9 @@ int main() {
     for (int halvings = 0; halvings < 4; ++halvings) {
       const Problem problem = shape.make(halvings);
       FairOptions options;
-      options.method = Method::equilibrium;
+      options.method = equilibrium_alone(1e-8);
       options.springs = Springs::edge;
       options.distribution = Distribution::even;
-      options.tolerance = 1e-8;
       const FairResult equilibrium = fair(problem.start, problem.constraints, options);
       const auto from_closed_form = [&](const std::vector<Vector3>& positions) {
         if (!shape.distance) return std::string();
@@ -85,13 +85,10 @@ int main() {
         for (const Vector3& position : positions) greatest = std::max(greatest, shape.distance(position));
         return fmt::format("{:.1e}", greatest);
       };
-      options.method = Method::multigrid;
-      options.levels = 6;
-      options.max_iterations = 200'000;
       const double lowered = 1e-3 * std::pow(0.5, 4 * halvings);
       for (const double e : {1e-3, lowered}) {
         if (halvings == 0 && e != lowered) continue;
-        options.step_tolerance = e;
+        options.method = MultigridMethod{.step_tolerance = e, .max_iterations = 200'000, .levels = 6};
         const FairResult result = fair(problem.start, problem.constraints, options);
         fmt::print("| {} | {} | {:.1e} | {} | {:.1e} | {} | {} |\n", shape.name, problem.start.node_count(), e,
                    result.report.levels.back().iterations, greatest_distance(result.positions, equilibrium.positions),

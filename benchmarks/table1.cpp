@@ -28,9 +28,8 @@ struct Column {
   double paper_seconds;  ///< 0 where the paper has no figure
 };
 
-FairResult run(const PolygonMesh& mesh, const Constraints& constraints, FairOptions options, Method method, int threads,
+FairResult run(const PolygonMesh& mesh, const Constraints& constraints, const FairOptions& options, int threads,
                int times) {
-  options.method = method;
   Context context;
   context.threads = threads;
   FairResult best;
@@ -66,15 +65,16 @@ int main(int argc, char** argv) {
       const int times = column.nodes > 20'000 ? 1 : 3;
       FairOptions options;
       options.pseudo_normals = normals;
-      if (column.paper_seconds > 0) options.levels = papers_levels;
-      const FairResult alone = run(mesh, constraints, options, Method::multigrid, 1, times);
-      const FairResult both = run(mesh, constraints, options, Method::multigrid, 2, times);
+      MultigridMethod multigrid;
+      if (column.paper_seconds > 0) multigrid.levels = papers_levels;
+      options.method = multigrid;
+      const FairResult alone = run(mesh, constraints, options, 1, times);
+      const FairResult both = run(mesh, constraints, options, 2, times);
       // Where it goes nowhere there is nothing to compare with.
-      options.levels.reset();
-      options.max_iterations = most_iterations;
+      options.method = EquilibriumMethod{.max_iterations = most_iterations};
       options.springs = Springs::edge;
       options.distribution = Distribution::even;
-      const FairResult equilibrium = run(mesh, constraints, options, Method::equilibrium, 2, 1);
+      const FairResult equilibrium = run(mesh, constraints, options, 2, 1);
       const double error = greatest_distance(alone.positions, equilibrium.positions) / diagonal(mesh);
       const double seconds = alone.report.seconds;
       if (first == 0) first = seconds;

@@ -45,7 +45,7 @@ struct Summary {
 std::optional<double> error_by(const PolygonMesh& start, const Specimen& specimen, FairOptions options,
                                const FairResult& result) {
   const double expected = result.report.expected_error.value_or(0);
-  options.tolerance = 1e-12;
+  options.method = EquilibriumMethod{.tolerance = 1e-12};
   const FairResult truth = fair(start, specimen.constraints, options);
   if (truth.report.outcome != Outcome::converged && !(truth.report.expected_error.value_or(1) < 1e-3 * expected))
     return std::nullopt;

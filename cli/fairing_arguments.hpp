@@ -21,9 +21,16 @@ struct FairingArguments {
   Hold fix_directions = Hold::none;
   std::string region;
   std::optional<double> weld;  ///< nodes nearer than this share of the diagonal are one; else what the format needs
+  /// What is given of options that depend on each other; settle_options() makes `options` of it.
+  std::optional<Method> method;
+  double tolerance = EquilibriumMethod().tolerance;
+  std::optional<double> step_tolerance;
+  std::optional<int> max_iterations;
+  std::optional<int> levels;
+  int pre_smoothing = MultigridMethod().pre_smoothing;
+  bool fair_boundary = false;
+  std::optional<Distribution> distribution;
   FairOptions options;
-  std::optional<Distribution> distribution;  ///< else what the command takes by itself
-  std::optional<double> step_tolerance;      ///< likewise
   bool paper = false;
   int threads = 0;
   std::optional<double> time_limit;  ///< seconds

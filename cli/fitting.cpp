@@ -27,6 +27,27 @@ Json to_json(const PointDistances& distances) {
 
 Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
+/// Of those flags that belong to it.
+FairingMethod method_of(const FairingArguments& arguments) {
+  const double step_tolerance = arguments.step_tolerance.value_or(SweepMethod().step_tolerance);
+  switch (arguments.method.value_or(arguments.paper ? Method::sweep : Method::equilibrium)) {
+    case Method::multigrid:
+      return MultigridMethod{.step_tolerance = step_tolerance,
+                             .max_iterations = arguments.max_iterations,
+                             .levels = arguments.levels,
+                             .pre_smoothing = arguments.pre_smoothing};
+    case Method::sweep:
+      return SweepMethod{.step_tolerance = step_tolerance, .max_iterations = arguments.max_iterations};
+    case Method::equilibrium:
+      break;
+  }
+  EquilibriumMethod method = {
+      .tolerance = arguments.tolerance, .max_iterations = arguments.max_iterations, .fallbacks = std::nullopt};
+  // Whoever names it wants no other shape.
+  if (!arguments.method) method.fallbacks = Fallbacks{.step_tolerance = step_tolerance};
+  return method;
+}
+
 }  // namespace
 
 bool asks_to_fit(const PullArguments& arguments) {
@@ -41,15 +62,17 @@ bool asks_to_fit(const PullArguments& arguments) {
 
 void settle_options(FairingArguments& arguments, bool own_nodes_pull) {
   FairOptions& options = arguments.options;
-  options.as_found = arguments.paper || options.method || arguments.distribution;
+  options.method = method_of(arguments);
+  if (arguments.fair_boundary)
+    options.fair_boundary =
+        EquilibriumMethod{.tolerance = arguments.tolerance, .max_iterations = arguments.max_iterations};
+  options.as_found = arguments.paper || arguments.method || arguments.distribution;
   options.distribution = arguments.distribution;
-  options.step_tolerance = arguments.step_tolerance.value_or(options.step_tolerance);
   if (arguments.paper) {
     options.pseudo_normals = PseudoNormals::average;
     options.springs = Springs::edge;
     options.forces = Forces::printed;
     options.curve = CurveRules::paper();
-    if (!options.method) options.method = Method::sweep;
     if (!options.distribution) options.distribution = Distribution::even;
   } else if (!options.distribution && own_nodes_pull) {
     options.distribution = Distribution::keep;

@@ -40,8 +40,8 @@ void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context
 /// Throws Error(invalid_argument) where more than one of the four is given, or --outliers without any.
 [[nodiscard]] bool asks_to_fit(const PullArguments& arguments);
 
-/// What --paper stands for, and how nodes are distributed: those that are the points stay about where they are, unless
-/// the command says otherwise. What it asks for by name is written as found.
+/// The method with its own options, what --paper stands for, and how nodes are distributed: those that are the points
+/// stay about where they are, unless the command says otherwise. What it asks for by name is written as found.
 void settle_options(FairingArguments& arguments, bool own_nodes_pull);
 
 [[nodiscard]] FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing);

@@ -32,7 +32,7 @@ void fix_boundary_directions(Constraints& constraints, const PolygonCurve& curve
 /// A boundary that is faired goes on smoothly outside the region.
 void restrict_boundary(Constraints& constraints, const PolygonMesh& mesh, const std::vector<Index>& region,
                        const FairingArguments& arguments) {
-  if (arguments.options.fair_boundary) restrict_to_region(constraints, boundary_curve(mesh), region);
+  if (arguments.fair_boundary) restrict_to_region(constraints, boundary_curve(mesh), region);
 }
 
 /// With the nodes that are one with some of the region, and those that belong to no face any more, which stay anyway.
@@ -53,7 +53,7 @@ void restrict_boundary(Constraints& /*constraints*/, const PolygonCurve& /*curve
 template <typename Shape>
 Constraints constraints_of(const FairingArguments& arguments, const Shape& shape, const RuleInput& input) {
   Constraints constraints(shape.node_count());
-  if (arguments.fix == Hold::boundary && !arguments.options.fair_boundary) fix_boundary_positions(constraints, shape);
+  if (arguments.fix == Hold::boundary && !arguments.fair_boundary) fix_boundary_positions(constraints, shape);
   if (arguments.fix_directions == Hold::boundary) fix_boundary_directions(constraints, shape);
   if (!arguments.rules.empty()) {
     try {

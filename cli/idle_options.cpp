@@ -88,12 +88,11 @@ bool asks_for_boundary(const RunFacts& facts) {
 }  // namespace
 
 void look_at(RunFacts& facts, const FairingArguments& arguments) {
-  const Method by_default = arguments.paper ? Method::sweep : Method::equilibrium;
   facts.given = arguments.given;
-  facts.equilibrium_tried = arguments.options.method.value_or(by_default) == Method::equilibrium;
+  facts.equilibrium_tried = arguments.options.method_kind() == Method::equilibrium;
   facts.springs = arguments.options.springs;
   facts.fix_is_none = arguments.fix == Hold::none;
-  facts.fair_boundary = arguments.options.fair_boundary;
+  facts.fair_boundary = arguments.fair_boundary;
   facts.has_picture = !arguments.picture.path.empty();
   facts.picture_is_svg = facts.has_picture && named_svg(arguments.picture.path);
   facts.has_page = !arguments.html.empty();

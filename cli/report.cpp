@@ -38,7 +38,7 @@ std::string outcome_line(const FairReport& report, const FairOptions& options, c
     case Outcome::converged:
       return terminal.green("converged");
     case Outcome::iteration_limit:
-      return terminal.yellow(options.max_iterations
+      return terminal.yellow(options.max_iterations()
                                  ? "stopped at the limit of iterations (--max-iterations)"
                                  : "stopped at the limit of iterations that is there by default (--max-iterations "
                                    "changes it)");

@@ -8,11 +8,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   FuzzedDataProvider data(bytes, size);
   const PolygonMesh shape = mesh(data);
   constexpr double tolerance = 1e-4;
-  FairOptions options = {.tolerance = tolerance};
+  EquilibriumMethod method = {.tolerance = tolerance};
   // Most inputs are to take little time.
-  if (data.ConsumeIntegralInRange(0, 7) > 0) options.max_iterations = data.ConsumeIntegralInRange(1, 60);
+  if (data.ConsumeIntegralInRange(0, 7) > 0) method.max_iterations = data.ConsumeIntegralInRange(1, 60);
   attempt([&] {
-    FairingSession session(shape, options, 1);
+    FairingSession session(shape, {.method = method}, 1);
     Constraints held = constraints(data, shape);
     for (int calls = data.ConsumeIntegralInRange(1, 8); calls > 0; --calls) {
       if (data.ConsumeIntegralInRange(0, 7) == 0) held = constraints(data, shape);

@@ -1,5 +1,7 @@
 // Fairs and fits small shapes under any constraints and options.
+#include <optional>
 #include <type_traits>
+#include <variant>
 
 #include "shapes.hpp"
 
@@ -10,20 +12,28 @@ namespace {
 
 FairOptions options_of(FuzzedDataProvider& data) {
   FairOptions options;
+  EquilibriumMethod equilibrium;
   constexpr std::array methods = {Method::equilibrium, Method::multigrid, Method::sweep};
   constexpr std::array distributions = {Distribution::smooth, Distribution::even, Distribution::keep};
-  if (data.ConsumeIntegralInRange(0, 3) == 0) options.method = data.PickValueInArray(methods);
+  // Where none is named, others may stand for what is not found.
+  std::optional<Method> method;
+  if (data.ConsumeIntegralInRange(0, 3) == 0) method = data.PickValueInArray(methods);
+  if (method) equilibrium.fallbacks.reset();
   if (data.ConsumeIntegralInRange(0, 3) == 0) options.distribution = data.PickValueInArray(distributions);
   options.springs = data.ConsumeBool() ? Springs::sphere : Springs::edge;
   options.fair_by = data.ConsumeIntegralInRange(0, 3) == 0 ? FairBy::bending : FairBy::curvature;
-  options.fair_boundary = data.ConsumeIntegralInRange(0, 7) == 0;
+  const bool boundary_first = data.ConsumeIntegralInRange(0, 7) == 0;
   options.strength = data.ConsumeIntegralInRange(0, 3) == 0 ? 0.5 : 1;
-  options.tolerance = data.ConsumeBool() ? 1e-5 : 1e-3;
+  equilibrium.tolerance = data.ConsumeBool() ? 1e-5 : 1e-3;
   // The paper's methods take as long as they are let, and most inputs are to take little time.
-  if (options.method && *options.method != Method::equilibrium)
-    options.max_iterations = 100;
+  if (method && *method != Method::equilibrium)
+    equilibrium.max_iterations = 100;
   else if (data.ConsumeIntegralInRange(0, 7) > 0)
-    options.max_iterations = data.ConsumeIntegralInRange(1, 60);
+    equilibrium.max_iterations = data.ConsumeIntegralInRange(1, 60);
+  options.method = equilibrium;
+  if (method == Method::multigrid) options.method = MultigridMethod{.max_iterations = equilibrium.max_iterations};
+  if (method == Method::sweep) options.method = SweepMethod{.max_iterations = equilibrium.max_iterations};
+  if (boundary_first) options.fair_boundary = equilibrium;
   return options;
 }
 
@@ -32,6 +42,8 @@ void solve(FuzzedDataProvider& data, const Shape& shape) {
   Context context;
   context.threads = data.ConsumeIntegralInRange(1, 2);
   FairOptions options = options_of(data);
+  const auto* const equilibrium = std::get_if<EquilibriumMethod>(&options.method);
+  const double tolerance = equilibrium ? equilibrium->tolerance : 0;
   const bool fits = data.ConsumeIntegralInRange(0, 2) == 0;
   const int pull = data.ConsumeIntegralInRange(0, 4);
   const bool own_nodes = data.ConsumeBool();
@@ -42,7 +54,7 @@ void solve(FuzzedDataProvider& data, const Shape& shape) {
   if (!fits) {
     attempt([&] {
       const FairResult result = fair(shape, held, options, context);
-      if (options.strength == 1) check(shape, held, result.report, options.tolerance, result.positions);
+      if (options.strength == 1) check(shape, held, result.report, tolerance, result.positions);
     });
     return;
   }
@@ -58,7 +70,7 @@ void solve(FuzzedDataProvider& data, const Shape& shape) {
   if (pull == 4 && std::is_same_v<Shape, PolygonMesh>) how.criterion = Noise{0.05};
   attempt([&] {
     const FitResult result = fit(shape, held, points, how, context);
-    if (options.strength == 1) check(shape, held, result.report.fair, options.tolerance, result.positions);
+    if (options.strength == 1) check(shape, held, result.report.fair, tolerance, result.positions);
   });
 }
 

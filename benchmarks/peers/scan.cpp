@@ -119,9 +119,7 @@ void run(const std::string& name, const PolygonMesh& mesh, const fs::path& drive
     const Result ours = look(fitted.positions);
     FitOptions plain = options;
     plain.criterion = Weight{0.1};
-    plain.fair.method = Method::sweep;
-    plain.fair.step_tolerance = 1e-12;
-    plain.fair.max_iterations = iterations_timed;
+    plain.fair.method = SweepMethod{.step_tolerance = 1e-12, .max_iterations = iterations_timed};
     plain.fair.distribution = Distribution::even;  // else folds are taken out first
     double iteration = -processor_time();
     (void)fit(noisy, held, {noisy.positions()}, plain, context);

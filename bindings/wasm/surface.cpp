@@ -62,8 +62,10 @@ class Surface {
 
   /// Whether boundary nodes whose position is free are faired first, as curves.
   void set_fair_boundary(bool first) {
-    if (first != options_.fair_boundary) session_.reset();
-    options_.fair_boundary = first;
+    if (first == options_.fair_boundary.has_value()) return;
+    session_.reset();
+    options_.fair_boundary.reset();
+    if (first) options_.fair_boundary.emplace();
   }
   /// The normals that are held, in unit length: `nodes`, ascending, and `normals`, three numbers each.
   [[nodiscard]] val held_normals() const {

@@ -128,7 +128,7 @@ void add_node_options(CLI::App& command, CurveArguments& arguments) {
 void add_curve_method(CLI::App& command, CurveArguments& arguments, const FairingWords& words) {
   FairOptions& options = arguments.options;
   add_choice(
-      command, "--method", options.method, methods,
+      command, "--method", arguments.method, methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium)")
       ->group(fairing_group);

@@ -90,7 +90,7 @@ const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNorm
 void add_surface_method(CLI::App& command, FairArguments& arguments, const FairingWords& words) {
   FairOptions& options = arguments.options;
   add_choice(
-      command, "--method", options.method, methods,
+      command, "--method", arguments.method, methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium; where it finds none, sweep)")
       ->group(fairing_group);
@@ -136,7 +136,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
              "Format of - (default: found from the content; the input's)");
   add_constraint_options(command, *arguments, words);
   command
-      .add_flag("--fair-boundary", arguments->options.fair_boundary,
+      .add_flag("--fair-boundary", arguments->fair_boundary,
                 "Fair the boundary loops first, as curves between their nodes that rules hold, then the surface that "
                 "they bound; in place of --fix boundary (default: off)")
       ->group(holding_group);

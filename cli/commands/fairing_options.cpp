@@ -84,12 +84,11 @@ void add_weld_option(CLI::App& command, FairingArguments& arguments) {
 }
 
 void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& default_step) {
-  FairOptions& options = arguments.options;
   command
-      .add_option("--tolerance", options.tolerance,
+      .add_option("--tolerance", arguments.tolerance,
                   fmt::format("equilibrium: stop when no node is expected to be further from its final place than "
                               "this share of the diagonal of the box around the moving nodes (default: {})",
-                              options.tolerance))
+                              arguments.tolerance))
       ->type_name("X")
       ->check(positive_number())
       ->group(fairing_group);
@@ -102,7 +101,7 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments, const 
       ->check(positive_number())
       ->group(fairing_group);
   command
-      .add_option("--levels", options.levels,
+      .add_option("--levels", arguments.levels,
                   "multigrid: number of levels, fewer where there are too few nodes (default: 6 as in the paper, fewer "
                   "where the "
                   "coarsest would have under 60 moving nodes, more where there are enough for another; curves: down to "
@@ -113,13 +112,13 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments, const 
       ->group(fairing_group);
   command
       .add_option(
-          "--pre-smoothing", options.pre_smoothing,
-          fmt::format("multigrid: iterations on each level on the way down (default: {})", options.pre_smoothing))
+          "--pre-smoothing", arguments.pre_smoothing,
+          fmt::format("multigrid: iterations on each level on the way down (default: {})", arguments.pre_smoothing))
       ->type_name("N")
       ->check(whole_number(0))
       ->group(fairing_group);
   command
-      .add_option("--max-iterations", options.max_iterations,
+      .add_option("--max-iterations", arguments.max_iterations,
                   "Stop after this many iterations (default: on each level 200 for equilibrium, 10000 for the others)")
       ->type_name("N")
       ->check(whole_number(0))

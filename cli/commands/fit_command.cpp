@@ -64,14 +64,6 @@ ColumnChoice columns_of_points(const FitArguments& arguments) {
   return may_be_point_table(arguments.points) ? arguments.columns : ColumnChoice{};
 }
 
-FitOptions options_of(const FitArguments& arguments) {
-  FairOptions options = arguments.options;
-  // The last steps of a fit are about k times their distance.
-  const double weight = arguments.pull.weight.value_or(0);
-  if (!arguments.step_tolerance && weight > 0) options.step_tolerance = std::min(options.step_tolerance, weight / 10);
-  return fit_options(arguments.pull, options);
-}
-
 template <typename File>
 int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   using Shape = ShapeOf<File>;
@@ -87,7 +79,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   const bool points_face = !points.normals.empty();
   if (arguments.ignore_normals) points.normals.clear();
 
-  FitResult result = fit(shape, constraints, points, options_of(arguments), fairing.context());
+  FitResult result = fit(shape, constraints, points, fit_options(arguments.pull, arguments.options), fairing.context());
   const FitAccount account(result.report, arguments.pull, arguments.points, points);
   const PolygonMesh cloud(std::move(points.positions), {0}, {});
   closed.follow(result.positions);
@@ -138,6 +130,10 @@ void check_options(const FitArguments& arguments) {
 }
 
 int run_fit(FitArguments arguments) {
+  // The last steps of a fit are about k times their distance.
+  const double weight = arguments.pull.weight.value_or(0);
+  if (!arguments.step_tolerance && weight > 0)
+    arguments.step_tolerance = std::min(SweepMethod().step_tolerance, weight / 10);
   settle_options(arguments, false);
   check_outputs(arguments, {{"--points", arguments.points}});
   check_options(arguments);
@@ -159,7 +155,7 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
                    "that faces the same way)");
   add_pull_options(command, arguments.pull, "How points pull: one of", true);
   add_choice(
-      command, "--method", arguments.options.method, methods,
+      command, "--method", arguments.method, methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium; where it finds none, on surfaces sweep)")
       ->group(fairing_group);

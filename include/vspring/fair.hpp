@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "vspring/constraints.hpp"
@@ -14,19 +15,58 @@
 
 namespace vspring {
 
-enum class Method {
-  equilibrium,  ///< the accelerated solver, which goes to the equilibrium itself; see docs/solver.md
-  multigrid,    ///< the paper's V-cycle over coarser levels (§4.7)
-  sweep         ///< the paper's plain iteration (§4.1)
+enum class Method { equilibrium, multigrid, sweep };
+
+/// What may stand for an equilibrium that is not found, with a warning: on surfaces that of another distribution, where
+/// none is given, and last the shape of the plain iteration; in fits what FitOptions::fair says.
+struct Fallbacks {
+  double step_tolerance = 1e-3;  ///< of the plain iteration, as in SweepMethod
 };
 
+/// The accelerated solver, which goes to the equilibrium itself; see docs/solver.md.
+struct EquilibriumMethod {
+  /// Stop when no node is expected to be further from its final place than this share of the diagonal of the box around
+  /// the moving nodes and their rim. More than 0.
+  double tolerance = 1e-5;
+  /// Stop after so many iterations, on each level; no other springs, distributions or methods are then tried. Empty:
+  /// 200 iterations on each level (30 on the finest with sphere springs that are not near by then), no more work than
+  /// FairReport::most_work, and where that leads nowhere the other ways of docs/solver.md.
+  std::optional<int> max_iterations = std::nullopt;
+  /// Empty: the nearest shape stays.
+  std::optional<Fallbacks> fallbacks = Fallbacks{};
+};
+
+/// The paper's V-cycle over coarser levels (§4.7).
+struct MultigridMethod {
+  /// The paper's e (§4.6), more than 0. Stop when no node moves further in one iteration than this share of the mean
+  /// length of its edges.
+  double step_tolerance = 1e-3;
+  /// Stop after so many iterations, on each level. Empty: 10,000.
+  std::optional<int> max_iterations = std::nullopt;
+  /// Number of levels, the shape itself among them; fewer where it has too few nodes. Empty: as many as leave 60 moving
+  /// nodes or more on the coarsest (6 as in the paper for 60,000 to 250,000 nodes); on curves as leave 24 to 47 edges
+  /// between held nodes.
+  std::optional<int> levels = std::nullopt;
+  /// Iterations on each level on the way down.
+  int pre_smoothing = 5;
+};
+
+/// The paper's plain iteration (§4.1).
+struct SweepMethod {
+  /// As in MultigridMethod.
+  double step_tolerance = 1e-3;
+  /// Stop after so many iterations. Empty: 10,000.
+  std::optional<int> max_iterations = std::nullopt;
+};
+
+/// How a shape is made fair, in the order of Method.
+using FairingMethod = std::variant<EquilibriumMethod, MultigridMethod, SweepMethod>;
+
 struct FairOptions {
-  /// Empty: equilibrium. If that finds none on a surface, and max_iterations is not given, the plain iteration is tried
-  /// last, with a warning.
-  std::optional<Method> method = std::nullopt;
+  FairingMethod method = EquilibriumMethod{};
   /// Surfaces: how normals follow from the nodes around.
   PseudoNormals pseudo_normals = PseudoNormals::link;
-  /// Surfaces, method equilibrium: which springs. Edge springs are taken all the same by other methods and fits; where
+  /// Surfaces, EquilibriumMethod: which springs. Edge springs are taken all the same by other methods and fits; where
   /// the boundary moves; where so little is held that spheres of many sizes are fair; where a normal is given at a node
   /// with moving nodes on more sides than one; and, with a warning, where sphere springs find no equilibrium.
   Springs springs = Springs::sphere;
@@ -41,25 +81,9 @@ struct FairOptions {
   /// sweep is asked for.
   std::optional<Distribution> distribution = std::nullopt;
   /// Surfaces: boundary nodes whose position is free are faired first, as closed curves between the held ones (§4.5),
-  /// and stay there while the surface follows. Otherwise they move with the surface, which draws them in.
-  bool fair_boundary = false;
-  /// Equilibrium: stop when no node is expected to be further from its final place than this share of the diagonal of
-  /// the box around the moving nodes and their rim. More than 0.
-  double tolerance = 1e-5;
-  /// Multigrid and sweep: the paper's e (§4.6). Stop when no node moves further in one iteration than this share of the
-  /// mean length of its edges.
-  double step_tolerance = 1e-3;
-  /// Stop after so many iterations, on each level; no other springs, distributions or methods are then tried. Empty:
-  /// 10,000 sweeps; with equilibrium 200 iterations on each level (30 on the finest with sphere springs that are not
-  /// near by then), no more work than FairReport::most_work, and where that leads nowhere the fallbacks of
-  /// docs/solver.md.
-  std::optional<int> max_iterations = std::nullopt;
-  /// Multigrid: number of levels, the shape itself among them; fewer where it has too few nodes. Empty: as many as
-  /// leave 60 moving nodes or more on the coarsest (6 as in the paper for 60,000 to 250,000 nodes); on curves as leave
-  /// 24 to 47 edges between held nodes.
-  std::optional<int> levels = std::nullopt;
-  /// Multigrid: iterations on each level on the way down.
-  int pre_smoothing = 5;
+  /// and stay there while the surface follows: always to their equilibrium, by these options; in fits by `method`, as
+  /// the surface. Empty: they move with the surface, which draws them in.
+  std::optional<EquilibriumMethod> fair_boundary = std::nullopt;
   /// Return a shape that is worse than the input as it was found, with a warning, and try nothing else: for comparisons
   /// of methods and distributions.
   bool as_found = false;
@@ -69,9 +93,14 @@ struct FairOptions {
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
 
+  /// Which method `method` is.
+  [[nodiscard]] Method method_kind() const noexcept { return static_cast<Method>(method.index()); }
+  /// That of the method, where it is given one.
+  [[nodiscard]] std::optional<int> max_iterations() const;
+
   /// The distribution given, or else the default, of surfaces.
   [[nodiscard]] Distribution distribution_taken() const {
-    const bool papers_own = method && *method != Method::equilibrium;
+    const bool papers_own = method_kind() != Method::equilibrium;
     return distribution.value_or(papers_own ? Distribution::even : Distribution::smooth);
   }
 };
@@ -87,7 +116,7 @@ struct FairOptions {
 
 enum class Outcome {
   converged,        ///< no node is expected to be further from its final place than the tolerance
-  iteration_limit,  ///< FairOptions::max_iterations was reached; with multigrid and sweep also its default
+  iteration_limit,  ///< the method's max_iterations was reached; with multigrid and sweep also its default
   work_limit,       ///< FairReport::most_work, or the default limit of iterations, was reached
   stalled,          ///< further iterations do not come nearer
   /// The shape found has folds, crossings, bending or the like that the input has not; docs/distribution.md has the
@@ -162,7 +191,7 @@ struct FairResult {
 /// without a tangent is free to turn. A given normal leaves the tangent free to turn about it; on a planar curve it
 /// gives the tangent.
 ///
-/// Surfaces: nodes go to where no node is displaced any more (Method::equilibrium); see docs/solver.md. With
+/// Surfaces: nodes go to where no node is displaced any more (EquilibriumMethod); see docs/solver.md. With
 /// options.fair_boundary the boundary is faired first, as a curve, always to its equilibrium, under the positions and
 /// tangents that the constraints give there (normals act on the surface); throws as for a curve.
 ///

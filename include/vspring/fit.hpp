@@ -30,7 +30,7 @@ struct SmoothingLength {
 /// The shape of least bending from which no point lies further than this, in units of the input, more than 0. On curves
 /// in space: the shape of least V-Spring energy on the way there. On curves in a plane: the shape whose curvature
 /// changes least in proportion to itself, where that has fewer inflections or extremes of curvature (docs/curves.md).
-/// Method::equilibrium only. Surfaces whose own nodes are the points, with Distribution::keep, no method and no normals
+/// EquilibriumMethod only. Surfaces whose own nodes are the points, with Distribution::keep, fallbacks and no normals
 /// given, and noise of a sixth to a half of this and of a hundredth of the median edge or more: a third of this is
 /// taken off as noise, by the filters of Noise, and nodes that end further away go back (docs/fit.md).
 struct Within {
@@ -38,7 +38,7 @@ struct Within {
 };
 
 /// The largest smoothing length for which the root mean square of the distances is not above this, in units of the
-/// input, more than 0. Method::equilibrium only. Surfaces whose own nodes are the points, with Distribution::keep and
+/// input, more than 0. EquilibriumMethod only. Surfaces whose own nodes are the points, with Distribution::keep and
 /// no normals given, take the filters of Noise instead, with this as its deviation; nodes that end further away, in the
 /// root mean square, go back towards where they came from. Where filters leave less than 0.7 of it, they are not used.
 struct RootMeanSquare {
@@ -58,10 +58,10 @@ using FitCriterion = std::variant<Weight, SmoothingLength, Within, RootMeanSquar
 
 struct FitOptions {
   FitCriterion criterion = Weight{};
-  /// As for fair(). Where no method is given: equilibrium; where that finds none and max_iterations is not given, with
-  /// a warning, on surfaces the shape of sweep, on curves the shape that came nearest or the smoothing spline of the
-  /// points. Those do not count as converged. With fair_boundary, for a surface whose own nodes are the points, the
-  /// boundary is fitted to its nodes first, as a curve, and the surface then holds it.
+  /// As for fair(). Fallbacks, where no equilibrium is found and max_iterations is not given: on surfaces the shape of
+  /// sweep, on curves the shape that came nearest or the smoothing spline of the points, with a warning. Those do not
+  /// count as converged. With fair_boundary, for a surface whose own nodes are the points, the boundary is fitted to
+  /// its nodes first, as a curve, and the surface then holds it.
   FairOptions fair = {};
   /// The share of the points, from 0 to less than 1, that is left out: those furthest from the shape. Shape and
   /// outliers are found in turns.
@@ -131,11 +131,11 @@ struct FitResult {
 /// be held by points alone, though its nodes can then slide (docs/fit.md); boundaries and ends must be held all the
 /// same. Nodes without points are fair between those that have some.
 ///
-/// Method::equilibrium goes to where springs and points balance at every node and ties do not change any more. Where
-/// ties would go to and fro, a point changes only to a node that is nearer by a margin. Method::sweep and multigrid
+/// EquilibriumMethod goes to where springs and points balance at every node and ties do not change any more. Where
+/// ties would go to and fro, a point changes only to a node that is nearer by a margin. The other methods
 /// divide what pulls by 1 + k, unless with Forces::printed, so that any weight is stable. They end when no node moves
-/// further in one iteration than options.fair.step_tolerance times the mean length of its edges; with small weights
-/// nodes then still have far to go, about a step over k.
+/// further in one iteration than their step_tolerance times the mean length of its edges; with small weights nodes then
+/// still have far to go, about a step over k.
 ///
 /// For Within and RootMeanSquare the equilibrium is found some ten to a hundred times. If no shape of this mesh is
 /// within them, the nearest one found is returned, with a warning and an outcome that is not `converged`.

@@ -51,9 +51,10 @@ class EquilibriumSearch : private Relaxation {
     void (EquilibriumSearch::*run)();
   };
 
-  EquilibriumSearch(Hierarchy& hierarchy, const Model& model, const SolverCall& call, PointLevels* points)
-      : Relaxation(hierarchy, model, call, points),
-        options_(call.options),
+  EquilibriumSearch(Hierarchy& hierarchy, const Model& model, const SearchTask& task, const SolverCall& call,
+                    PointLevels* points)
+      : Relaxation(hierarchy, model, task.method, call, points),
+        task_(task),
         team_(call.team),
         context_(call.context),
         report_(call.report) {}
@@ -69,7 +70,7 @@ class EquilibriumSearch : private Relaxation {
         {"windings of the input", &Search::may_have_lost_windings, &Search::wind_as_input},
     };
     report_.outcome = context_.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
-    if (context_.cancelled() || options_.max_iterations == 0) return;
+    if (context_.cancelled() || task_.method.max_iterations == 0) return;
     if (!points_) input_ = shape().positions;
     displacements_ = greatest_displacements(shape());
     for (const Strategy& strategy : strategies) {
@@ -79,12 +80,13 @@ class EquilibriumSearch : private Relaxation {
     }
     if (check) stay_sound(*check);
     // Limits that nobody gave.
-    if (!options_.max_iterations && report_.outcome == Outcome::iteration_limit) report_.outcome = Outcome::work_limit;
+    if (!task_.method.max_iterations && report_.outcome == Outcome::iteration_limit)
+      report_.outcome = Outcome::work_limit;
   }
 
  private:
   /// Coarser levels do not keep a distribution, and where points are, a start is near.
-  [[nodiscard]] bool starts_near() const { return points_ && options_.distribution == Distribution::keep; }
+  [[nodiscard]] bool starts_near() const { return points_ && task_.distribution == Distribution::keep; }
 
   bool may_be_in_place() { return starts_near() || may_have_converged(displacements_.all); }
 
@@ -92,7 +94,7 @@ class EquilibriumSearch : private Relaxation {
   void stay_in_place() {
     if (!starts_near()) return relax(last(), 1);
     const std::vector<Vector3> start = shape().positions;
-    relax(last(), std::min(options_.max_iterations.value_or(near_limit), near_limit));
+    relax(last(), std::min(task_.method.max_iterations.value_or(near_limit), near_limit));
     if (!unfinished()) return;
     shape().positions = start;
     report_.outcome = Outcome::iteration_limit;
@@ -102,7 +104,7 @@ class EquilibriumSearch : private Relaxation {
 
   /// Coarse levels first, each to its equilibrium, each the start of the next finer one.
   void go_down() {
-    const int limit = options_.max_iterations.value_or(default_limit);
+    const int limit = task_.method.max_iterations.value_or(default_limit);
     came_from_coarse_ = true;
     // Where noise has folded the finest level, its own start is no help.
     const bool is_folded = !shape().laplacian_weights.empty() && has_crease(last());
@@ -136,7 +138,7 @@ class EquilibriumSearch : private Relaxation {
   }
 
   bool may_keep_spacing() {
-    return !points_ && !options_.distribution && unfinished() && may_have_converged(displacements_.of_springs);
+    return !points_ && !task_.distribution && unfinished() && may_have_converged(displacements_.of_springs);
   }
 
   /// A shape that is fair as it came, but whose nodes find no more even spacing along it, keeps the one that it has.
@@ -151,7 +153,7 @@ class EquilibriumSearch : private Relaxation {
   }
 
   bool may_have_lost_windings() {
-    return !points_ && !options_.max_iterations && report_.outcome != Outcome::cancelled &&
+    return !points_ && !task_.method.max_iterations && report_.outcome != Outcome::cancelled &&
            (unfinished() || hierarchy_.lost_winding(input_));
   }
 
@@ -191,7 +193,7 @@ class EquilibriumSearch : private Relaxation {
   /// and with the spacing of the start. The best that is no worse stays, at worst the start.
   void stay_sound(const ResultCheck& check) {
     Net& net = shape();
-    if (options_.as_found) return warn_if_worse(check, net, report_);
+    if (task_.as_found) return warn_if_worse(check, net, report_);
     const std::string fault = this->fault(check);
     if (fault.empty()) return;
     const bool is_unwound = lost_winding_;
@@ -224,7 +226,7 @@ class EquilibriumSearch : private Relaxation {
       net.positions = input_;
       start.go();
       set_strategy(start.name);
-      relax(last(), options_.max_iterations.value_or(default_limit));
+      relax(last(), task_.method.max_iterations.value_or(default_limit));
       if (report_.outcome == Outcome::cancelled) break;
       if (!this->fault(check).empty()) continue;
       if (report_.outcome == Outcome::converged) return;
@@ -267,7 +269,7 @@ class EquilibriumSearch : private Relaxation {
 
   bool may_follow_flow() {
     const Net& net = shape();
-    return came_from_coarse_ && unfinished() && !points_ && !options_.max_iterations && !net.is_curve &&
+    return came_from_coarse_ && unfinished() && !points_ && !task_.method.max_iterations && !net.is_curve &&
            !net.spheres.on() && !is_underconstrained(net);
   }
 
@@ -359,10 +361,10 @@ class EquilibriumSearch : private Relaxation {
   /// False where displacements are so large that corrections cannot be within the tolerance: as displacements of an
   /// equilibrium that is off by one correction they are at most a few times as large.
   [[nodiscard]] bool may_have_converged(double displacement) const {
-    return displacement <= greatest_displacement_ratio * options_.tolerance * size();
+    return displacement <= greatest_displacement_ratio * task_.method.tolerance * size();
   }
 
-  const FairOptions& options_;
+  const SearchTask& task_;
   ThreadTeam& team_;
   Context& context_;
   FairReport& report_;
@@ -382,17 +384,18 @@ bool is_underconstrained(const Net& net) {
   return known < fixes_a_sphere;
 }
 
-void run_equilibrium(Hierarchy& hierarchy, const Model& model, const SolverCall& call, const ResultCheck* check,
-                     PointLevels* points) {
-  EquilibriumSearch(hierarchy, model, call, points).run(check);
+void run_equilibrium(Hierarchy& hierarchy, const Model& model, const SearchTask& task, const SolverCall& call,
+                     const ResultCheck* check, PointLevels* points) {
+  EquilibriumSearch(hierarchy, model, task, call, points).run(check);
 }
 
 void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,
-                               const SolverCall& call, PointLevels* points, Anderson<float>* memory, bool take_last) {
-  Relaxation relaxation(hierarchy, model, call, points);
+                               const EquilibriumMethod& method, const SolverCall& call, PointLevels* points,
+                               Anderson<float>* memory, bool take_last) {
+  Relaxation relaxation(hierarchy, model, method, call, points);
   relaxation.remember(memory, take_last);
   relaxation.set_strategy("from the last shape");
-  relaxation.relax(hierarchy.count() - 1, std::min(call.options.max_iterations.value_or(near_limit), near_limit),
+  relaxation.relax(hierarchy.count() - 1, std::min(method.max_iterations.value_or(near_limit), near_limit),
                    preconditioner);
 }
 

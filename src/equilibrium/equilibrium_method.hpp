@@ -1,13 +1,29 @@
 #pragma once
 
+#include <optional>
+#include <variant>
+
 #include "checks/result_check.hpp"
 #include "equilibrium/hierarchy.hpp"
 #include "equilibrium/point_levels.hpp"
 #include "equilibrium/solver_call.hpp"
 #include "precondition/anderson.hpp"
 #include "spring/model.hpp"
+#include "vspring/fair.hpp"
 
 namespace vspring {
+
+/// How an equilibrium is looked for.
+struct SearchTask {
+  EquilibriumMethod method;
+  std::optional<Distribution> distribution;  ///< as in FairOptions
+  bool as_found = false;                     ///< likewise
+};
+
+/// By the options of a shape whose method is EquilibriumMethod.
+inline SearchTask search_task(const FairOptions& options) {
+  return {std::get<EquilibriumMethod>(options.method), options.distribution, options.as_found};
+}
 
 /// Whether so little holds it that spheres of many sizes are fair: an equilibrium is one of a family then, and nothing
 /// to be found by steps to a single one.
@@ -16,13 +32,13 @@ bool is_underconstrained(const Net& net);
 /// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the shape is
 /// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. check:
 /// where given, of the start, the result is no worse or said to be. points: of the levels, if any.
-void run_equilibrium(Hierarchy& hierarchy, const Model& model, const SolverCall& call, const ResultCheck* check,
-                     PointLevels* points = nullptr);
+void run_equilibrium(Hierarchy& hierarchy, const Model& model, const SearchTask& task, const SolverCall& call,
+                     const ResultCheck* check, PointLevels* points = nullptr);
 
 /// The same from a shape that is near to its equilibrium, without a look at coarser levels, with a preconditioner of
 /// the shape itself. Ends short of it where the shape is not near enough. memory, take_last: as in EquilibriumTask.
 void run_equilibrium_from_near(Hierarchy& hierarchy, Preconditioner& preconditioner, const Model& model,
-                               const SolverCall& call, PointLevels* points = nullptr, Anderson<float>* memory = nullptr,
-                               bool take_last = false);
+                               const EquilibriumMethod& method, const SolverCall& call, PointLevels* points = nullptr,
+                               Anderson<float>* memory = nullptr, bool take_last = false);
 
 }  // namespace vspring

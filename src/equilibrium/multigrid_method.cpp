@@ -17,10 +17,11 @@ constexpr double coarsest_share = 1e-3;
 
 class Cycle {
  public:
-  Cycle(Hierarchy& hierarchy, const Model& model, const SolverCall& call, PointLevels* points)
+  Cycle(Hierarchy& hierarchy, const Model& model, const MultigridMethod& method, const SolverCall& call,
+        PointLevels* points)
       : hierarchy_(hierarchy),
         model_(model),
-        options_(call.options),
+        method_(method),
         team_(call.team),
         context_(call.context),
         progress_(call.progress),
@@ -29,20 +30,20 @@ class Cycle {
 
   void run() {
     const std::size_t by_default = hierarchy_.count() - hierarchy_.first_of_use();
-    hierarchy_.limit(options_.levels ? static_cast<std::size_t>(*options_.levels) : by_default);
+    hierarchy_.limit(method_.levels ? static_cast<std::size_t>(*method_.levels) : by_default);
     const std::size_t finest = hierarchy_.count() - 1;
     report_.levels.assign(hierarchy_.count(), {.outcome = Outcome::cancelled, .strategy = "V-cycle"});
     for (std::size_t k = 0; k <= finest; ++k)
       report_.levels[k].moving_nodes = static_cast<Index>(hierarchy_.net(k).moving);
     for (std::size_t k = finest; k > 0; --k) {
-      report_.outcome = iterate(k, 0, options_.pre_smoothing).outcome;
+      report_.outcome = iterate(k, 0, method_.pre_smoothing).outcome;
       if (report_.outcome == Outcome::cancelled) return;
       hierarchy_.restrict_from(k);
     }
-    const int limit = options_.max_iterations.value_or(SweepTask().max_iterations);
+    const int limit = method_.max_iterations.value_or(SweepTask().max_iterations);
     for (std::size_t k = 0;; ++k) {
       const double share = k == 0 && finest > 0 ? coarsest_share : 1;
-      const SweepResult result = iterate(k, share * options_.step_tolerance, limit);
+      const SweepResult result = iterate(k, share * method_.step_tolerance, limit);
       report_.outcome = result.outcome;
       report_.residual = result.residual;
       report_.levels[k].outcome = result.outcome;
@@ -95,7 +96,7 @@ class Cycle {
 
   Hierarchy& hierarchy_;
   const Model& model_;
-  const FairOptions& options_;
+  const MultigridMethod& method_;
   ThreadTeam& team_;
   Context& context_;
   ProgressReporter& progress_;
@@ -106,8 +107,9 @@ class Cycle {
 
 }  // namespace
 
-void run_multigrid(Hierarchy& hierarchy, const Model& model, const SolverCall& call, PointLevels* points) {
-  Cycle(hierarchy, model, call, points).run();
+void run_multigrid(Hierarchy& hierarchy, const Model& model, const MultigridMethod& method, const SolverCall& call,
+                   PointLevels* points) {
+  Cycle(hierarchy, model, method, call, points).run();
 }
 
 }  // namespace vspring

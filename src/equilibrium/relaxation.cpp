@@ -30,14 +30,16 @@ constexpr double most_work_a_node = 450;
 
 }  // namespace
 
-Relaxation::Relaxation(Hierarchy& hierarchy, const Model& model, const SolverCall& call, PointLevels* points)
+Relaxation::Relaxation(Hierarchy& hierarchy, const Model& model, const EquilibriumMethod& method,
+                       const SolverCall& call, PointLevels* points)
     : hierarchy_(hierarchy),
       model_(model),
       points_(points),
+      method_(method),
       call_(call),
       // Shares of a shape without extent are nothing or infinite, but something.
       size_(std::max(diagonal(shape()), std::numeric_limits<double>::min())) {
-  if (!call.options.max_iterations)
+  if (!method.max_iterations)
     call.report.most_work = std::max(most_work, most_work_a_node * static_cast<double>(shape().moving));
 }
 
@@ -57,12 +59,12 @@ void Relaxation::relax(std::size_t level, int max_iterations,
                        const std::function<EquilibriumResult(const EquilibriumTask&)>& method) {
   const Stopwatch stopwatch;
   FairReport& report = call_.report;
-  const bool has_limit = call_.options.max_iterations.has_value();
+  const bool has_limit = method_.max_iterations.has_value();
   const Net& net = hierarchy_.net(level);
   const auto nodes = static_cast<double>(net.moving);
   const double share = nodes / static_cast<double>(shape().moving);
   EquilibriumTask task;
-  task.tolerance = call_.options.tolerance * size_ * (level == last() ? 1 : coarse_share);
+  task.tolerance = method_.tolerance * size_ * (level == last() ? 1 : coarse_share);
   task.max_iterations = max_iterations;
   if (net.spheres.on() && !has_limit) {
     task.most_while_far = sphere_limit;

@@ -20,7 +20,8 @@ namespace vspring {
 class Relaxation {
  public:
   /// points: of the levels, if any. Sets the most work of the report.
-  Relaxation(Hierarchy& hierarchy, const Model& model, const SolverCall& call, PointLevels* points);
+  Relaxation(Hierarchy& hierarchy, const Model& model, const EquilibriumMethod& method, const SolverCall& call,
+             PointLevels* points);
 
   /// From the shape as it is, by corrections (go_to_equilibrium()).
   void relax(std::size_t level, int max_iterations) { relax(level, max_iterations, hierarchy_.preconditioner(level)); }
@@ -76,6 +77,7 @@ class Relaxation {
   void relax(std::size_t level, int max_iterations,
              const std::function<EquilibriumResult(const EquilibriumTask&)>& method);
 
+  EquilibriumMethod method_;
   SolverCall call_;
   double size_;
   Anderson<float>* memory_ = nullptr;

@@ -6,9 +6,8 @@
 
 namespace vspring {
 
-/// What a solver works by, and where it says what it did.
+/// What any solver works with, and where it says what it did.
 struct SolverCall {
-  const FairOptions& options;
   ThreadTeam& team;
   Context& context;
   ProgressReporter& progress;

@@ -70,10 +70,11 @@ void warn_of_growing_steps(FairReport& report) {
        "steps is kept; hold more nodes, or normals, or let a smaller region move"});
 }
 
-void run_sweeps(Net& net, const Model& model, const SolverCall& call, std::function<void()> renew_ties) {
+void run_sweeps(Net& net, const Model& model, const SweepMethod& method, const SolverCall& call,
+                std::function<void()> renew_ties) {
   FairReport& report = call.report;
-  SweepTask task{.step_tolerance = call.options.step_tolerance,
-                 .max_iterations = call.options.max_iterations.value_or(SweepTask().max_iterations),
+  SweepTask task{.step_tolerance = method.step_tolerance,
+                 .max_iterations = method.max_iterations.value_or(SweepTask().max_iterations),
                  .renew_ties = std::move(renew_ties)};
   task.on_iteration = [&](double residual) {
     report.history.push_back(residual);

@@ -42,6 +42,7 @@ void warn_of_growing_steps(FairReport& report);
 
 /// The plain iteration on the shape itself. Fills outcome, iterations, residual and history. renew_ties: as in
 /// SweepTask.
-void run_sweeps(Net& net, const Model& model, const SolverCall& call, std::function<void()> renew_ties = nullptr);
+void run_sweeps(Net& net, const Model& model, const SweepMethod& method, const SolverCall& call,
+                std::function<void()> renew_ties = nullptr);
 
 }  // namespace vspring

@@ -13,6 +13,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/stopwatch.hpp"
@@ -233,7 +234,7 @@ class Fitting {
 
   /// smooth: by some edges, instead of to a tolerance.
   void fit(ProgressReporter& progress, bool smooth) {
-    run_.start_report(options_.fair.method.value_or(Method::equilibrium));
+    run_.start_report(options_.fair.method_kind());
     FairReport& report = run_.result.report.fair;
     UntiedPoints points = run_.untied_points();
     const auto has_weight = [](double weight) { return weight > 0; };
@@ -250,8 +251,8 @@ class Fitting {
     }
     const std::vector<Warning> warnings = run_.subject.check(pulled);
     report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
-    if (report.method == Method::sweep) {
-      sweep(std::move(points), options_.fair, progress);
+    if (const auto* const method = std::get_if<SweepMethod>(&options_.fair.method)) {
+      sweep(std::move(points), *method, progress);
       return;
     }
     if (report.method == Method::multigrid) {
@@ -272,8 +273,9 @@ class Fitting {
     }
     const bool has_targets = run_on_levels(std::move(points), progress);
     const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
-    if (found || !may_replace() || std::is_same_v<Subject, FitCurve>) return;
-    // Nobody asked for this method: the paper's iteration ends where points crumple a shape, too.
+    const Fallbacks* const fallbacks = this->fallbacks();
+    if (found || !fallbacks || std::is_same_v<Subject, FitCurve>) return;
+    // The paper's iteration ends where points crumple a shape, too.
     std::optional<FitResult> nearest;
     if (has_targets) nearest = run_.result;
     std::vector<Warning> said = std::move(report.warnings);
@@ -286,13 +288,13 @@ class Fitting {
     const double limit = report.most_work;
     const Index nodes = report.moving_nodes;
     run_.start_report(Method::sweep);
-    FairOptions options = options_.fair;
-    if (options_.weight()) options.step_tolerance = std::min(options.step_tolerance, step_share * *options_.weight());
-    options.max_iterations = sweeps_of_last_resort(static_cast<std::size_t>(nodes));
-    if (nearest) options.max_iterations = std::min(*options.max_iterations, most_sweeps_with_targets);
+    SweepMethod method = {.step_tolerance = fallbacks->step_tolerance,
+                          .max_iterations = sweeps_of_last_resort(static_cast<std::size_t>(nodes))};
+    if (options_.weight()) method.step_tolerance = std::min(method.step_tolerance, step_share * *options_.weight());
+    if (nearest) method.max_iterations = std::min(*method.max_iterations, most_sweeps_with_targets);
     points = run_.untied_points();
     report.warnings = std::move(said);
-    sweep(std::move(points), options, progress);
+    sweep(std::move(points), method, progress);
     report.work += work;
     report.most_work = limit;
     if (report.outcome == Outcome::iteration_limit) report.outcome = Outcome::work_limit;
@@ -321,15 +323,17 @@ class Fitting {
     return !shape.net().target_positions.empty();
   }
 
-  /// Whether another shape may stand for one that was not found.
-  [[nodiscard]] bool may_replace() const {
-    return !options_.fair.method && !options_.fair.max_iterations && !options_.fair.as_found;
+  /// Null where no other shape may stand for one that was not found.
+  [[nodiscard]] const Fallbacks* fallbacks() const {
+    const auto* const method = std::get_if<EquilibriumMethod>(&options_.fair.method);
+    if (!method || !method->fallbacks || method->max_iterations || options_.fair.as_found) return nullptr;
+    return &*method->fallbacks;
   }
 
   /// Where a curve has no equilibrium with its points: a shape that is neither is knotted sooner than near to one.
   void take_spline_if_lost(WarmStartedFit& shape) {
     FairReport& report = run_.result.report.fair;
-    if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled || !may_replace()) return;
+    if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled || !fallbacks()) return;
     if (report.expected_error && *report.expected_error < curve_is_lost_at) {
       report.warnings.push_back(
           {WarningCode::no_equilibrium,
@@ -347,16 +351,16 @@ class Fitting {
          "smoothing length, or a tolerance"});
   }
 
-  void sweep(UntiedPoints points, FairOptions options, ProgressReporter& progress) {
+  void sweep(UntiedPoints points, const SweepMethod& method, ProgressReporter& progress) {
     Net net = run_.gather_start();
-    const auto model = model_of(net, options);
-    set_laplacian_weights(net, *model, distribution_of(net, options), run_.team);
+    const auto model = model_of(net, options_.fair);
+    set_laplacian_weights(net, *model, distribution_of(net, options_.fair), run_.team);
     const auto smoothing = smoothing_in(net);
     PointTies ties = tie_points(net, *model, points, smoothing, run_.team);
     points = {};
     std::function<void()> renew_ties;
     if (!net.points.empty()) renew_ties = [&] { (void)ties.renew(run_.team); };
-    run_sweeps(net, *model, {options, run_.team, run_.context, progress, run_.result.report.fair}, renew_ties);
+    run_sweeps(net, *model, method, {run_.team, run_.context, progress, run_.result.report.fair}, renew_ties);
     run_.finish(net);
   }
 

@@ -137,9 +137,9 @@ void FitOptions::validate() const {
   check_length("noise", noise());
   if (!(outliers >= 0 && outliers < 1)) refuse(fmt::format("outliers must be from 0 to less than 1, not {}", outliers));
   const bool is_amount = tolerance() || noise();
-  if (is_amount && fair.method.value_or(Method::equilibrium) != Method::equilibrium)
+  if (is_amount && fair.method_kind() != Method::equilibrium)
     refuse(fmt::format("points can be fitted to a tolerance by the method equilibrium only, not by {}",
-                       name(*fair.method)));
+                       name(fair.method_kind())));
   if (is_amount && fair.strength < 1) refuse("points can be fitted to a tolerance at full strength only");
 }
 

@@ -355,7 +355,7 @@ class DenseFit {
 /// Whether a weight of points means the same for more nodes, and nothing is said of how the solver is to go.
 bool may_fit_densely(const FitOptions& options) {
   const bool means_the_same = options.tolerance() || options.smoothing_length();
-  const bool by_equilibrium = options.fair.method.value_or(Method::equilibrium) == Method::equilibrium;
+  const bool by_equilibrium = options.fair.method_kind() == Method::equilibrium;
   return means_the_same && by_equilibrium && options.outliers == 0 && options.fair.strength == 1;
 }
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "equilibrium/account.hpp"
@@ -28,8 +29,8 @@ class FitToTolerance {
   /// Then that is the fairest, and the result. in_few_steps: whole scans have no equilibrium, and take long to show it.
   bool plain_fairing_is_within(FairOptions options, bool in_few_steps) {
     if (in_few_steps) {
-      options.method = Method::equilibrium;
-      options.max_iterations = std::min(options.max_iterations.value_or(few_steps), few_steps);
+      auto& limit = std::get<EquilibriumMethod>(options.method).max_iterations;
+      limit = std::min(limit.value_or(few_steps), few_steps);
     }
     FitResult& result = run_.result;
     try {
@@ -56,7 +57,8 @@ class FitToTolerance {
     const double edge = mean_edge(net);
     const auto length = std::make_shared<double>(edge);
     FairOptions options = run_.options.fair;
-    options.tolerance = std::min(options.tolerance, precision * tolerance_ * scale / diagonal(net));
+    auto& method = std::get<EquilibriumMethod>(options.method);
+    method.tolerance = std::min(method.tolerance, precision * tolerance_ * scale / diagonal(net));
     WarmStartedFit shape(std::move(net), options, std::move(points), length, run_.team);
     // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
     const auto nodes = static_cast<double>(shape.net().moving);
@@ -68,7 +70,7 @@ class FitToTolerance {
       shape.find(context, progress, report.fair);
       if (report.fair.outcome == Outcome::converged || context.cancelled()) break;
     }
-    if (!options.max_iterations) report.fair.most_work = most_work;
+    if (!method.max_iterations) report.fair.most_work = most_work;
     const auto finish_with = [&](double found) {
       run_.finish(shape.net());
       report.smoothing_length = found / scale;

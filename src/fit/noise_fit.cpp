@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "fit/fit_points.hpp"
@@ -208,7 +209,8 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
 
 bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, bool only_smooth,
                            ProgressReporter& progress) {
-  if (!points.are_nodes || run.options.fair.method) return false;
+  const auto& method = std::get<EquilibriumMethod>(run.options.fair.method);
+  if (!points.are_nodes || !method.fallbacks) return false;
   const double tolerance = *run.options.within();
   const NoiseEstimate estimate = estimate_noise(run.subject.shape(), run.measuring);
   const double noise = estimate.deviation;

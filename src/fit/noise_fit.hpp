@@ -17,9 +17,8 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
 /// The same for Within, where the nodes have noise that the tolerance is little more than: takes a third of
 /// the tolerance off as noise, or where the noise is clearly larger, that; nodes that end further away than the
 /// tolerance are taken back, and what is near goes along. only_smooth: no node is taken back. False,
-/// and nothing is done, where that does not apply: a method that is asked for by name, points that are not the nodes,
-/// normals that are given, noise of less than a sixth or more than half of the tolerance or of less than a hundredth of
-/// the edges.
+/// and nothing is done, where that does not apply: no fallbacks, points that are not the nodes, normals that are given,
+/// noise of less than a sixth or more than half of the tolerance or of less than a hundredth of the edges.
 bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, bool only_smooth,
                            ProgressReporter& progress);
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/progress.hpp"
@@ -73,7 +74,7 @@ class WarmStartedFit {
       levels_.tie(hierarchy_->count() - 1);
     }
     (void)start_from_points();
-    run_equilibrium(*hierarchy_, *model_, {options_, *team_, context, progress, report}, nullptr,
+    run_equilibrium(*hierarchy_, *model_, search_task(options_), {*team_, context, progress, report}, nullptr,
                     net().points.empty() ? nullptr : &levels_);
   }
 
@@ -89,7 +90,8 @@ class WarmStartedFit {
 
   /// By the paper's V-cycle.
   void cycle(Context& context, ProgressReporter& progress, FairReport& report) {
-    run_multigrid(*hierarchy_, *model_, {options_, *team_, context, progress, report},
+    const auto& method = std::get<MultigridMethod>(options_.method);
+    run_multigrid(*hierarchy_, *model_, method, {*team_, context, progress, report},
                   net().points.empty() ? nullptr : &levels_);
   }
 
@@ -99,15 +101,16 @@ class WarmStartedFit {
     const std::size_t last = hierarchy_->count() - 1;
     levels_.tie(last);
     const std::vector<Vector3> start = net().positions;
-    const SolverCall call{options_, *team_, context, progress, report};
-    run_equilibrium_from_near(*hierarchy_, hierarchy_->preconditioner(last), *model_, call, &levels_);
+    const auto& method = std::get<EquilibriumMethod>(options_.method);
+    const SolverCall call{*team_, context, progress, report};
+    run_equilibrium_from_near(*hierarchy_, hierarchy_->preconditioner(last), *model_, method, call, &levels_);
     if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
     // Where ties do not change nothing else leads further.
     if (net().points.are_nodes) return;
     net().positions = start;
     levels_.tie(last);
     if (start_from_points()) {
-      run_equilibrium_from_near(*hierarchy_, hierarchy_->preconditioner(last), *model_, call, &levels_);
+      run_equilibrium_from_near(*hierarchy_, hierarchy_->preconditioner(last), *model_, method, call, &levels_);
       if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
       net().positions = start;
       levels_.tie(last);

@@ -86,9 +86,9 @@ FairResult fair_boundary_first(const PolygonMesh& mesh, const Constraints& const
   (void)check_constraints(mesh, task.of_surface, {});
 
   const double strength = std::exchange(options.strength, 1);
-  options.fair_boundary = false;
   FairOptions curve_options = options;
-  curve_options.method = Method::equilibrium;
+  curve_options.method = *options.fair_boundary;
+  options.fair_boundary.reset();
   FairResult curve = fair(task.curve, task.of_curve, curve_options, context);
   hold(task, curve.positions);
   PolygonMesh bounded = mesh;
@@ -107,7 +107,7 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
     throw Error(ErrorCode::invalid_argument,
                 "the boundary can be fitted first only where the points are the nodes of the shape; else fair it "
                 "before, and hold it");
-  options.fair.fair_boundary = false;
+  options.fair.fair_boundary.reset();
   BoundaryTask task = boundary_task(mesh, constraints);
   if (task.free.empty()) return fit(mesh, constraints, points, options, context);
   hold(task, mesh.positions());

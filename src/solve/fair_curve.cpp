@@ -23,7 +23,7 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
   FairResult result;
   FairReport& report = result.report;
   report.warnings = check_constraints(curve, constraints);
-  report.method = options.method.value_or(Method::equilibrium);
+  report.method = options.method_kind();
 
   ProgressReporter progress(context);
   progress.report("preparing", 0);
@@ -34,14 +34,14 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
 
   const auto model = model_of(net, options);
   const ResultCheck check(net, *model, team);
-  const SolverCall call{options, team, context, progress, report};
+  const SolverCall call{team, context, progress, report};
   if (report.method == Method::equilibrium) {
     const Distribution distribution = distribution_of(net, options);
     const std::unique_ptr<Hierarchy> hierarchy = hierarchy_of(std::move(net), *model, distribution, team);
-    run_equilibrium(*hierarchy, *model, call, &check);
+    run_equilibrium(*hierarchy, *model, search_task(options), call, &check);
     net = std::move(*hierarchy).take();
   } else {
-    net = run_papers_method(std::move(net), *model, check, call);
+    net = run_papers_method(std::move(net), *model, check, options, call);
   }
 
   result.positions = scatter_positions(net, curve.positions(), constraints, options.strength);

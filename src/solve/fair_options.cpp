@@ -1,11 +1,49 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
+#include <variant>
 
 #include "vspring/error.hpp"
 #include "vspring/fair.hpp"
 
 namespace vspring {
+
+namespace {
+
+void require(bool holds, const char* option, const char* range, double value) {
+  if (!holds) throw Error(ErrorCode::invalid_argument, fmt::format("{} must be {}, not {}", option, range, value));
+}
+
+void check_positive(const char* option, double value) {
+  require(value > 0 && std::isfinite(value), option, "greater than 0", value);
+}
+
+void check_limit(const std::optional<int>& max_iterations) {
+  require(max_iterations.value_or(0) >= 0, "maximum of iterations", "0 or more", max_iterations.value_or(0));
+}
+
+constexpr const char* step_tolerance = "step tolerance";
+
+void check(const EquilibriumMethod& method) {
+  check_positive("tolerance", method.tolerance);
+  if (method.fallbacks) check_positive(step_tolerance, method.fallbacks->step_tolerance);
+  check_limit(method.max_iterations);
+}
+
+void check(const MultigridMethod& method) {
+  check_positive(step_tolerance, method.step_tolerance);
+  check_limit(method.max_iterations);
+  require(method.levels.value_or(1) >= 1, "number of levels", "1 or more", method.levels.value_or(1));
+  require(method.pre_smoothing >= 0, "pre-smoothing", "0 or more", method.pre_smoothing);
+}
+
+void check(const SweepMethod& method) {
+  check_positive(step_tolerance, method.step_tolerance);
+  check_limit(method.max_iterations);
+}
+
+}  // namespace
 
 const char* name(Method method) noexcept {
   switch (method) {
@@ -41,15 +79,13 @@ const char* name(Outcome outcome) noexcept {
   return "";
 }
 
+std::optional<int> FairOptions::max_iterations() const {
+  return std::visit([](const auto& one) { return one.max_iterations; }, method);
+}
+
 void FairOptions::validate() const {
-  const auto require = [](bool holds, const char* option, const char* range, double value) {
-    if (!holds) throw Error(ErrorCode::invalid_argument, fmt::format("{} must be {}, not {}", option, range, value));
-  };
-  require(tolerance > 0 && std::isfinite(tolerance), "tolerance", "greater than 0", tolerance);
-  require(step_tolerance > 0 && std::isfinite(step_tolerance), "step tolerance", "greater than 0", step_tolerance);
-  require(max_iterations.value_or(0) >= 0, "maximum of iterations", "0 or more", max_iterations.value_or(0));
-  require(levels.value_or(1) >= 1, "number of levels", "1 or more", levels.value_or(1));
-  require(pre_smoothing >= 0, "pre-smoothing", "0 or more", pre_smoothing);
+  std::visit([](const auto& one) { check(one); }, method);
+  if (fair_boundary) check(*fair_boundary);
   require(strength >= 0 && strength <= 1, "strength", "from 0 to 1", strength);
 }
 

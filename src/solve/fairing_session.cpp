@@ -1,6 +1,7 @@
 #include "vspring/fairing_session.hpp"
 
 #include <utility>
+#include <variant>
 
 #include "constraints/immovable_nodes_fixed.hpp"
 #include "solve/surface_fairing.hpp"
@@ -10,8 +11,10 @@ namespace vspring {
 namespace {
 
 FairOptions with_tolerance(FairOptions options, double tolerance) {
-  options.tolerance = tolerance;
-  options.validate();
+  // Whatever the method, as for an equilibrium.
+  FairOptions{.method = EquilibriumMethod{.tolerance = tolerance}}.validate();
+  if (auto* const method = std::get_if<EquilibriumMethod>(&options.method)) method->tolerance = tolerance;
+  if (options.fair_boundary) options.fair_boundary->tolerance = tolerance;
   return options;
 }
 
@@ -55,7 +58,7 @@ class FairingSession::SurfaceSession final : public Session {
  private:
   /// Somebody waits: no other method is tried where this one finds nothing.
   static FairOptions settled(FairOptions options) {
-    if (!options.method) options.method = Method::equilibrium;
+    if (auto* const method = std::get_if<EquilibriumMethod>(&options.method)) method->fallbacks.reset();
     return options;
   }
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <utility>
+#include <variant>
 
 #include "equilibrium/account.hpp"
 #include "equilibrium/multigrid_method.hpp"
@@ -10,14 +11,15 @@
 
 namespace vspring {
 
-Net run_papers_method(Net net, const Model& model, const ResultCheck& check, const SolverCall& call) {
-  const Distribution distribution = distribution_of(net, call.options);
-  if (call.report.method == Method::sweep) {
+Net run_papers_method(Net net, const Model& model, const ResultCheck& check, const FairOptions& options,
+                      const SolverCall& call) {
+  const Distribution distribution = distribution_of(net, options);
+  if (const auto* const sweep = std::get_if<SweepMethod>(&options.method)) {
     set_laplacian_weights(net, model, distribution, call.team);
-    run_sweeps(net, model, call);
+    run_sweeps(net, model, *sweep, call);
   } else {
     const std::unique_ptr<Hierarchy> hierarchy = hierarchy_of(std::move(net), model, distribution, call.team);
-    run_multigrid(*hierarchy, model, call);
+    run_multigrid(*hierarchy, model, std::get<MultigridMethod>(options.method), call);
     net = std::move(*hierarchy).take();
   }
   warn_if_worse(check, net, call.report);

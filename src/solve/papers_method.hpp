@@ -3,11 +3,13 @@
 #include "checks/result_check.hpp"
 #include "equilibrium/solver_call.hpp"
 #include "spring/model.hpp"
+#include "vspring/fair.hpp"
 
 namespace vspring {
 
-/// The shape that a net comes to by the paper's V-cycle over levels (§4.7) or, where its report says Method::sweep, by
-/// the plain iteration alone (§4.1), as it is found: with a warning where that is worse than the start.
-Net run_papers_method(Net net, const Model& model, const ResultCheck& check, const SolverCall& call);
+/// The shape that a net comes to by the options' method, MultigridMethod or SweepMethod, as it is found: with a warning
+/// where that is worse than the start.
+Net run_papers_method(Net net, const Model& model, const ResultCheck& check, const FairOptions& options,
+                      const SolverCall& call);
 
 }  // namespace vspring

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 #include "base/stopwatch.hpp"
 #include "checks/new_crossings.hpp"
@@ -53,10 +54,15 @@ constexpr double work_of_a_try = 0.2;
 constexpr std::string_view ways_out =
     "hold more nodes, or normals, let a smaller region move, or only take its noise off";
 
-/// While somebody drags: what leads nowhere in so many iterations on each level is for later.
+// On each level, while somebody drags: what leads nowhere is for later.
+constexpr int iterations_in_a_hurry = 40;
+
 FairOptions in_a_hurry(FairOptions options) {
-  constexpr int enough = 40;
-  if (!options.max_iterations) options.max_iterations = enough;
+  std::visit(
+      [](auto& method) {
+        if (!method.max_iterations) method.max_iterations = iterations_in_a_hurry;
+      },
+      options.method);
   options.as_found = true;
   return options;
 }
@@ -146,21 +152,21 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
                         const FairOptions& options) {
   part_ = active_submesh(*whole_, constraints);
   report.warnings = check_part(*whole_, part_, constraints);
-  report.method = options.method.value_or(Method::equilibrium);
+  report.method = options.method_kind();
   ProgressReporter progress(context);
   progress.report("preparing", 0);
   report.threads = team_.size();
-  const SolverCall call{options, team_, context, progress, report};
-  if (report.method == Method::equilibrium) {
-    run_to_equilibrium(constraints, call);
+  const SolverCall call{team_, context, progress, report};
+  if (const auto* const method = std::get_if<EquilibriumMethod>(&options.method)) {
+    run_to_equilibrium(constraints, {call, options, *method});
     return {};
   }
   Net net = gather_part(*whole_, part_, constraints);
   check_.emplace(net, *model_, team_);
-  return run_papers_method(std::move(net), *model_, *check_, call);
+  return run_papers_method(std::move(net), *model_, *check_, options, call);
 }
 
-void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const SolverCall& call) {
+void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const EquilibriumCall& call) {
   const FairOptions& options = call.options;
   FairReport& report = call.report;
   const FairReport at_first = report;
@@ -172,7 +178,7 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const So
          "least bending is for sphere springs, which would not see what is held here: these are edge springs"});
     return;
   }
-  if (is_final(report) || options.max_iterations || options.as_found) return;
+  if (is_final(report) || call.method.max_iterations || options.as_found) return;
   const FairReport by_bending = std::exchange(report, at_first);
   find_equilibrium(FairBy::curvature, constraints, call);
   report.iterations += by_bending.iterations;
@@ -182,16 +188,17 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const So
       {WarningCode::other_fairness, "no shape of least bending was found: this is fair by curvature"});
 }
 
-void SurfaceFairing::find_equilibrium(FairBy fair_by, const Constraints& constraints, const SolverCall& call) {
+void SurfaceFairing::find_equilibrium(FairBy fair_by, const Constraints& constraints, const EquilibriumCall& call) {
   const FairOptions& options = call.options;
   const FairReport at_first = call.report;
   find_with_springs(fair_by, constraints, call);
-  if (is_final(call.report) || options.method || options.max_iterations || options.as_found) return;
+  const std::optional<Fallbacks>& fallbacks = call.method.fallbacks;
+  if (is_final(call.report) || !fallbacks || call.method.max_iterations || options.as_found) return;
   if (!options.distribution && try_evenly(fair_by, constraints, at_first, call)) return;
-  if (call.report.fair_by == FairBy::curvature) try_sweeps(constraints, call);
+  if (call.report.fair_by == FairBy::curvature) try_sweeps(constraints, fallbacks->step_tolerance, call);
 }
 
-void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constraints, const SolverCall& call) {
+void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constraints, const EquilibriumCall& call) {
   const FairOptions& options = call.options;
   FairReport& report = call.report;
   bool spheres_have_none = false;
@@ -207,11 +214,10 @@ void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constr
     hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
     // Whoever gives a number of iterations, or asks for what is found, gets that; edge springs come second else, and
     // after least bending curvature does.
-    const bool is_try = is_sphere && !options.max_iterations && !options.as_found;
-    FairOptions taken = options;
-    if (is_try) taken.as_found = true;
+    const bool is_try = is_sphere && !call.method.max_iterations && !options.as_found;
+    const SearchTask task = {call.method, options.distribution, is_try || options.as_found};
     FairReport one = report;
-    run_equilibrium(*hierarchy_, *model_, {taken, team_, call.context, call.progress, one}, &*check_);
+    run_equilibrium(*hierarchy_, *model_, task, {team_, call.context, call.progress, one}, &*check_);
     one.springs = springs;
     one.fair_by = by_bending ? FairBy::bending : FairBy::curvature;
     if (!is_try || by_bending || is_final(one)) {
@@ -228,19 +234,21 @@ void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constr
 }
 
 bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first,
-                                const SolverCall& call) {
+                                const EquilibriumCall& call) {
   const std::vector<Vector3> nearest = hierarchy_->finest().positions;
   FairReport& report = call.report;
   FairOptions options = options_;
   options.distribution = Distribution::even;
-  options.max_iterations = iterations_of_a_try;
   options.as_found = true;
+  EquilibriumMethod method = call.method;
+  method.max_iterations = iterations_of_a_try;
+  options.method = method;
   FairReport even = at_first;
   even.iterations = report.iterations;
   const double beyond = std::max(0.0, report.work - (1 - work_of_a_try) * report.most_work);
   even.work = report.work - beyond;
   even.most_work = report.most_work;
-  find_with_springs(fair_by, constraints, {options, team_, call.context, call.progress, even});
+  find_with_springs(fair_by, constraints, {{team_, call.context, call.progress, even}, options, method});
   even.work += beyond;
   if (was_found(even)) {
     report = std::move(even);
@@ -262,14 +270,13 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
   return false;
 }
 
-void SurfaceFairing::try_sweeps(const Constraints& constraints, const SolverCall& call) {
+void SurfaceFairing::try_sweeps(const Constraints& constraints, double step_tolerance, const SolverCall& call) {
   FairReport& report = call.report;
   Net net = gather_part(*whole_, part_, constraints);
   set_laplacian_weights(net, *model_, options_.distribution_taken(), team_);
-  FairOptions options = options_;
-  options.max_iterations = sweeps_of_last_resort(net.moving);
+  const SweepMethod method = {.step_tolerance = step_tolerance, .max_iterations = sweeps_of_last_resort(net.moving)};
   FairReport of_sweeps;
-  run_sweeps(net, *model_, {options, team_, call.context, call.progress, of_sweeps});
+  run_sweeps(net, *model_, method, {team_, call.context, call.progress, of_sweeps});
   report.work += of_sweeps.work;
   Net& nearest = hierarchy_->finest();
   update_directions(nearest, *model_, team_);
@@ -304,12 +311,11 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std
   report.fair_by = net.spheres.differences.empty() ? FairBy::curvature : FairBy::bending;
   ProgressReporter progress(context);
   report.threads = team_.size();
-  FairOptions options = options_;
-  options.tolerance = tolerance.value_or(options_.tolerance);
-  hierarchy_->update(constraints, *model_, options.tolerance * diagonal(net));
-  run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_,
-                            {options, team_, context, progress, report}, nullptr, &hierarchy_->memory(),
-                            tolerance.has_value());
+  auto method = std::get<EquilibriumMethod>(options_.method);
+  if (tolerance) method.tolerance = *tolerance;
+  hierarchy_->update(constraints, *model_, method.tolerance * diagonal(net));
+  run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, method,
+                            {team_, context, progress, report}, nullptr, &hierarchy_->memory(), tolerance.has_value());
   if (report.outcome == Outcome::cancelled) return true;
   if (report.outcome != Outcome::converged) return false;
   const std::string fault = check_->fault_of_places(net);

@@ -34,23 +34,28 @@ class SurfaceFairing {
   std::optional<std::vector<Vector3>> predict(const Constraints& constraints, double tolerance);
 
  private:
+  struct EquilibriumCall : SolverCall {
+    const FairOptions& options;
+    const EquilibriumMethod& method;  ///< of the options
+  };
+
   /// Whether it can go on from the last shape.
   [[nodiscard]] bool fits_last(const Constraints& constraints) const;
   /// Leaves the shape in the net that it returns, or in hierarchy_.
   Net run(const Constraints& constraints, Context& context, FairReport& report, const FairOptions& options);
   /// The same by the method equilibrium. Where no shape of least bending is found that by curvature comes next.
-  void run_to_equilibrium(const Constraints& constraints, const SolverCall& call);
+  void run_to_equilibrium(const Constraints& constraints, const EquilibriumCall& call);
   /// The same, made fair by that; with other distributions and, by curvature, the plain iteration if need be.
-  void find_equilibrium(FairBy fair_by, const Constraints& constraints, const SolverCall& call);
+  void find_equilibrium(FairBy fair_by, const Constraints& constraints, const EquilibriumCall& call);
   /// The same with sphere springs, where they are wanted and suit, and with edge springs where these have no
   /// equilibrium. Iterations and work are added to those that the report has.
-  void find_with_springs(FairBy fair_by, const Constraints& constraints, const SolverCall& call);
+  void find_with_springs(FairBy fair_by, const Constraints& constraints, const EquilibriumCall& call);
   /// Where no equilibrium was found: one with another distribution may be. Else the nearest shape stays. at_first: the
   /// report before anything was tried.
-  bool try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first, const SolverCall& call);
-  /// Where no equilibrium was found and nobody asked for the method: the paper's iteration may lead somewhere. The
-  /// fairer of both stays.
-  void try_sweeps(const Constraints& constraints, const SolverCall& call);
+  bool try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first,
+                  const EquilibriumCall& call);
+  /// Where no equilibrium was found: the paper's iteration may lead somewhere. The fairer of both stays.
+  void try_sweeps(const Constraints& constraints, double step_tolerance, const SolverCall& call);
   /// From the last shape. False where that leads nowhere.
   bool go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance, FairReport& report);
   /// Says where faces cross each other that did not before. True where they do, and that is not wanted as found.

@@ -124,7 +124,7 @@ TEST(Constraints, WhatFallsApartIsStoppedAndItsBestShapeKept) {
   Constraints constraints(block.node_count());
   constraints.fix_position(0, block.position(0));
   const FairResult result =
-      fair(block, constraints, {.method = Method::sweep, .step_tolerance = 1e-6, .max_iterations = 100000});
+      fair(block, constraints, {.method = SweepMethod{.step_tolerance = 1e-6, .max_iterations = 100000}});
   EXPECT_EQ(result.report.outcome, Outcome::stalled);
   EXPECT_LT(result.report.iterations, 10000);
   EXPECT_EQ(result.report.warnings.size(), 2U);
@@ -224,7 +224,7 @@ TEST(Constraints, InconsistentOrientationZeroLengthsAndIsolatedNodesAreFaired) {
     }
     return constraints;
   };
-  const FairOptions options{.tolerance = 1e-11};
+  const FairOptions options{.method = EquilibriumMethod{.tolerance = 1e-11}};
   std::vector<Index> corners = cap.corners();
   for (std::size_t f = 0; f < corners.size() / 3; f += 2) std::swap(corners[3 * f], corners[3 * f + 1]);
   std::vector<Vector3> positions = generate::add_noise(cap, 0.02, 3).positions();
@@ -258,12 +258,13 @@ TEST(Constraints, AMoebiusStripIsFaired) {
     }
   }
   const PolygonMesh strip = builder.take();
-  const FairResult by_edges = fair(strip, held_boundary(strip), {.springs = Springs::edge, .tolerance = 1e-8});
+  const FairResult by_edges =
+      fair(strip, held_boundary(strip), {.method = EquilibriumMethod{.tolerance = 1e-8}, .springs = Springs::edge});
   EXPECT_EQ(by_edges.report.outcome, Outcome::converged);
   const auto [before, after] = fairness_of(strip, held_boundary(strip), by_edges.positions);
   EXPECT_LT(after.vspring_energy, before.vspring_energy / 4);
   // Spheres, whose normals turn over where the strip's sides meet, may leave it to edges.
-  const FairResult by_default = fair(strip, held_boundary(strip), {.tolerance = 1e-8});
+  const FairResult by_default = fair(strip, held_boundary(strip), {.method = EquilibriumMethod{.tolerance = 1e-8}});
   EXPECT_EQ(by_default.report.outcome, Outcome::converged);
 }
 
@@ -283,7 +284,8 @@ TEST(Region, ThePatchMeetsTheRestWithACommonTangentPlane) {
     const PolygonMesh mesh(dented, cylinder.face_begin(), cylinder.corners());
     Constraints constraints = held_boundary(mesh);
     restrict_to_region(constraints, mesh, region);
-    const FairResult result = fair(mesh, constraints, {.distribution = Distribution::even, .tolerance = 1e-9});
+    const FairResult result =
+        fair(mesh, constraints, {.method = EquilibriumMethod{.tolerance = 1e-9}, .distribution = Distribution::even});
     double greatest = 0;
     for (const Vector3& p : result.positions) greatest = std::max(greatest, std::abs(std::hypot(p.x(), p.y()) - 1));
     return greatest;

@@ -44,12 +44,10 @@ struct DisturbedCap {
 
 FairOptions boundary_first() {
   FairOptions options;
-  options.fair_boundary = true;
   // So that nodes of the rim come back to the places that their normals are of.
   options.distribution = Distribution::even;
-  options.tolerance = 1e-12;
-  options.step_tolerance = 1e-12;
-  options.max_iterations = 20000;
+  options.fair_boundary = EquilibriumMethod{.tolerance = 1e-12, .max_iterations = 20000};
+  options.method = *options.fair_boundary;
   return options;
 }
 
@@ -103,9 +101,7 @@ TEST(FairBoundary, OnPolygonsOfEveryKind) {
     Constraints constraints(mesh.node_count());
     const auto rim = boundary_loops(mesh).at(0);
     for (std::size_t k = 0; k < rim.size(); k += 3) constraints.fix_position(rim[k], patch.position(rim[k]));
-    FairOptions options = boundary_first();
-    options.step_tolerance = 1e-3;
-    const FairResult result = fair(mesh, constraints, options);
+    const FairResult result = fair(mesh, constraints, boundary_first());
     EXPECT_EQ(result.report.outcome, Outcome::converged);
     const auto [before, after] = fairness_of(mesh, constraints, result.positions);
     EXPECT_LT(after.rms_turn, 0.8 * before.rms_turn);

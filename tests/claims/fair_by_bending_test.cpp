@@ -44,7 +44,7 @@ double distance_from_torus(const std::vector<Vector3>& positions) {
 FairOptions by(FairBy fair_by, double tolerance = 1e-8) {
   FairOptions options;
   options.fair_by = fair_by;
-  options.tolerance = tolerance;
+  options.method = EquilibriumMethod{.tolerance = tolerance};
   return options;
 }
 

@@ -177,9 +177,7 @@ TEST(FairCurveClothoid, ThePapersIterationComesToTheSameShape) {
     const Constraints constraints = held(start, {60, 20});
     FairOptions options = to_the_end(distribution);
     const auto equilibrium = faired(start, constraints, options);
-    options.method = Method::sweep;
-    options.step_tolerance = 1e-11;
-    options.max_iterations = 100000;
+    options.method = SweepMethod{.step_tolerance = 1e-11, .max_iterations = 100000};
     // The last step is some hundredth of what is left to go, in edges.
     EXPECT_LT(greatest_distance(faired(start, constraints, options), equilibrium), 2e-9);
     EXPECT_GT(greatest_distance(start, equilibrium), 0.1);

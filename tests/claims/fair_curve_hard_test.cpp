@@ -8,6 +8,7 @@
 
 #include "support/curves.hpp"
 #include "support/fairness_of.hpp"
+#include "support/methods.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::fair_curve_hard_test {
@@ -19,13 +20,13 @@ using namespace support;
 /// than the start is called converged.
 void expect_sane(const std::vector<Vector3>& start, const Constraints& constraints, bool closed) {
   for (const Distribution distribution : {Distribution::even, Distribution::keep}) {
-    for (const Method method : {Method::equilibrium, Method::sweep}) {
+    for (const FairingMethod& method :
+         {FairingMethod(equilibrium_alone()), FairingMethod(SweepMethod{.max_iterations = 100})}) {
       for (const CurveRules& rules : {CurveRules(), CurveRules::paper()}) {
         FairOptions options;
         options.distribution = distribution;
         options.method = method;
         options.curve = rules;
-        if (method == Method::sweep) options.max_iterations = 100;
         const FairResult result = fair(PolygonCurve(start, closed), constraints, options);
         const FairReport& report = result.report;
         ASSERT_EQ(result.positions.size(), start.size());
@@ -42,17 +43,18 @@ void expect_sane(const std::vector<Vector3>& start, const Constraints& constrain
         const Fairness after = measure(PolygonCurve(result.positions, closed), &constraints);
         EXPECT_TRUE(std::isfinite(after.vspring_energy) && std::isfinite(after.greatest_turn));
         EXPECT_NE(report.outcome, Outcome::cancelled);
-        if (method == Method::sweep) {
+        const auto* const sweep = std::get_if<SweepMethod>(&method);
+        if (sweep) {
           EXPECT_LE(report.iterations, 100);
           if (report.outcome == Outcome::iteration_limit) {
             EXPECT_EQ(report.iterations, 100);
           }
         }
         if (report.outcome != Outcome::converged) continue;
-        if (method == Method::sweep)
-          EXPECT_LT(report.residual, options.step_tolerance);
+        if (sweep)
+          EXPECT_LT(report.residual, sweep->step_tolerance);
         else
-          EXPECT_LE(report.expected_error.value_or(1), options.tolerance);
+          EXPECT_LE(report.expected_error.value_or(1), EquilibriumMethod().tolerance);
         if (measure(PolygonCurve(start, closed), &constraints).greatest_turn >= 90) continue;
         EXPECT_LE(after.greatest_turn, 90.01);
       }
@@ -186,7 +188,7 @@ Believed believed(const std::vector<Vector3>& start, const Constraints& constrai
   const std::vector<Vector3> truth = faired(start, constraints, to_the_end(Distribution::smooth));
   for (const double tolerance : {1e-3, 1e-5, 1e-7, 1e-9}) {
     FairOptions options;
-    options.tolerance = tolerance;
+    options.method = EquilibriumMethod{.tolerance = tolerance};
     options.distribution = Distribution::smooth;
     const FairResult result = fair(PolygonCurve(start), constraints, options);
     EXPECT_EQ(result.report.outcome, Outcome::converged);
@@ -236,10 +238,7 @@ TEST(FairCurveReport, TheExpectedErrorCanBeBelievedAfterHeavyNoise) {
 TEST(FairCurveReport, TellsHowFarItIsAndMayBeCancelledThere) {
   const auto start = straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, 400));
   const Constraints constraints = held_ends(start, heading(1), heading(-1));
-  FairOptions sweeps;
-  sweeps.method = Method::sweep;
-  sweeps.step_tolerance = 1e-300;
-  sweeps.max_iterations = 1'000'000'000;
+  const FairOptions sweeps = {.method = SweepMethod{.step_tolerance = 1e-300, .max_iterations = 1'000'000'000}};
   Context context;
   std::vector<Progress> told;
   context.on_progress = [&](const Progress& progress) {
@@ -281,12 +280,13 @@ TEST(FairCurveReport, TellsHowItWent) {
   EXPECT_DOUBLE_EQ(result.report.greatest_move, greatest_distance(result.positions, start));
   EXPECT_GT(result.report.greatest_move, 0.1);
   EXPECT_EQ(result.report.residual, *result.report.expected_error);
-  EXPECT_LT(*result.report.expected_error, FairOptions().tolerance);
+  EXPECT_LT(*result.report.expected_error, EquilibriumMethod().tolerance);
   const auto [before, after] = fairness_of(PolygonCurve(start), constraints, result.positions);
   EXPECT_LT(after.vspring_energy, 0.1 * before.vspring_energy);
 
-  EXPECT_THROW((void)fair(PolygonCurve(start), constraints, {.tolerance = 0}), Error);
-  EXPECT_THROW((void)fair(PolygonCurve(start), constraints, {.tolerance = std::nan("")}), Error);
+  EXPECT_THROW((void)fair(PolygonCurve(start), constraints, {.method = EquilibriumMethod{.tolerance = 0}}), Error);
+  EXPECT_THROW((void)fair(PolygonCurve(start), constraints, {.method = EquilibriumMethod{.tolerance = std::nan("")}}),
+               Error);
 }
 
 }  // namespace

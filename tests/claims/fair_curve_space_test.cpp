@@ -192,9 +192,7 @@ TEST(FairCurveSpace, InTheWholeNormalPlaneAHelixMovesByItsTorsion) {
   const double torsion = rise / (radius * radius + rise * rise);
   for (const int edges : {30, 60, 120}) {
     const auto nodes = helix(edges);
-    FairOptions once;
-    once.method = Method::sweep;
-    once.max_iterations = 1;
+    const FairOptions once = {.method = SweepMethod{.max_iterations = 1}};
     const double edge = (nodes[1] - nodes[0]).norm();
     const double step = std::pow(edge, 4) * curvature * torsion * torsion / 8;
     Constraints constraints = held_helix(nodes);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/curves.hpp"
+#include "support/methods.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::fair_curve_symmetry_test {
@@ -117,15 +118,13 @@ TEST(FairCurveSymmetry, NodeNumbersDoNotMatter) {
 }
 
 TEST(FairCurveSymmetry, ThreadsGiveTheSameBits) {
-  for (const Method method : {Method::equilibrium, Method::sweep}) {
+  for (const FairingMethod& method :
+       {FairingMethod(equilibrium_alone()), FairingMethod(SweepMethod{.max_iterations = 20})}) {
     const auto [nodes, constraints] = example(false, 20000);
     const auto run = [&, &nodes = nodes, &constraints = constraints](int threads) {
       Context context;
       context.threads = threads;
-      FairOptions options;
-      options.method = method;
-      if (method == Method::sweep) options.max_iterations = 20;
-      return fair(PolygonCurve(nodes), constraints, options, context);
+      return fair(PolygonCurve(nodes), constraints, {.method = method}, context);
     };
     const FairResult one = run(1);
     EXPECT_NE(one.positions, nodes);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "support/fairness_of.hpp"
+#include "support/methods.hpp"
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
@@ -14,11 +15,8 @@ namespace {
 
 using namespace support;
 
-FairOptions multigrid(double step_tolerance = 1e-3) {
-  FairOptions options;
-  options.method = Method::multigrid;
-  options.step_tolerance = step_tolerance;
-  return options;
+FairOptions multigrid(double step_tolerance = 1e-3, std::optional<int> levels = std::nullopt) {
+  return {.method = MultigridMethod{.step_tolerance = step_tolerance, .levels = levels}};
 }
 
 TEST(Multigrid, AFlatDiscBecomesTheCapOfWhateverPolygons) {
@@ -33,9 +31,7 @@ TEST(Multigrid, AFlatDiscBecomesTheCapOfWhateverPolygons) {
 
 TEST(Multigrid, GetsFarNearerThanThePlainIterationWithTheSameTest) {
   const PolygonMesh cap = generate::cap({.nodes = 1801, .radius = 1, .half_angle = 60});
-  FairOptions plain;
-  plain.method = Method::sweep;
-  const FairResult swept = fair(pressed(cap, 0.5), held_boundary(cap, radial), plain);
+  const FairResult swept = fair(pressed(cap, 0.5), held_boundary(cap, radial), {.method = SweepMethod{}});
   const FairResult cycled = fair(pressed(cap, 0.5), held_boundary(cap, radial), multigrid());
   EXPECT_EQ(swept.report.outcome, Outcome::converged);
   EXPECT_EQ(cycled.report.outcome, Outcome::converged);
@@ -46,9 +42,7 @@ TEST(Multigrid, GetsFarNearerThanThePlainIterationWithTheSameTest) {
 TEST(Multigrid, GetsNearerWithFinerMeshesWhereTheTestGoesWithTheFourthPowerOfTheSpacing) {
   const auto error = [](Index nodes, double e) {
     const PolygonMesh cap = generate::cap({.nodes = nodes, .radius = 1, .half_angle = 60});
-    FairOptions options = multigrid(e);
-    options.levels = 6;
-    const FairResult result = fair(pressed(cap, 0.5), held_boundary(cap, radial), options);
+    const FairResult result = fair(pressed(cap, 0.5), held_boundary(cap, radial), multigrid(e, 6));
     EXPECT_EQ(result.report.outcome, Outcome::converged);
     return distance_from_unit_sphere(result.positions);
   };
@@ -60,9 +54,7 @@ TEST(Multigrid, GetsNearerWithFinerMeshesWhereTheTestGoesWithTheFourthPowerOfThe
 
 TEST(Multigrid, TellsOfEveryLevel) {
   const PolygonMesh cap = generate::cap({.nodes = 4921, .radius = 1, .half_angle = 60});
-  FairOptions options = multigrid();
-  options.levels = 6;
-  const FairReport six = fair(cap, held_boundary(cap, radial), options).report;
+  const FairReport six = fair(cap, held_boundary(cap, radial), multigrid(1e-3, 6)).report;
   ASSERT_GE(six.levels.size(), 5U);
   ASSERT_LE(six.levels.size(), 6U);
   int iterations = 0;
@@ -71,15 +63,13 @@ TEST(Multigrid, TellsOfEveryLevel) {
     EXPECT_GT(six.levels[k].seconds, 0);
     if (k > 0) {
       EXPECT_GT(six.levels[k].moving_nodes, 3 * six.levels[k - 1].moving_nodes);
-      EXPECT_GE(six.levels[k].iterations, options.pre_smoothing + 1);
+      EXPECT_GE(six.levels[k].iterations, MultigridMethod().pre_smoothing + 1);
     }
   }
   EXPECT_EQ(iterations, six.iterations);
   EXPECT_EQ(six.levels.back().moving_nodes, six.moving_nodes);
-  options.levels = 3;
-  EXPECT_EQ(fair(cap, held_boundary(cap, radial), options).report.levels.size(), 3U);
-  options.levels = 1;
-  EXPECT_EQ(fair(cap, held_boundary(cap, radial), options).report.levels.size(), 1U);
+  EXPECT_EQ(fair(cap, held_boundary(cap, radial), multigrid(1e-3, 3)).report.levels.size(), 3U);
+  EXPECT_EQ(fair(cap, held_boundary(cap, radial), multigrid(1e-3, 1)).report.levels.size(), 1U);
 }
 
 TEST(Multigrid, HasFewerLevelsWhereThereIsTooLittle) {
@@ -161,18 +151,16 @@ TEST(Multigrid, CurvesOfAHundredEdgesHaveLevels) {
   constraints.fix_tangent(0, {1, 1, 0});
   constraints.fix_tangent(100, {1, -1, 0});
   // The arc of 90° over a chord of 1.
-  const auto distance_from_arc = [&](Method method) {
-    FairOptions options;
-    options.method = method;
-    const FairResult result = fair(PolygonCurve(line), constraints, options);
+  const auto distance_from_arc = [&](const FairingMethod& method) {
+    const FairResult result = fair(PolygonCurve(line), constraints, {.method = method});
     EXPECT_EQ(result.report.outcome, Outcome::converged);
-    EXPECT_EQ(result.report.levels.size() > 1, method == Method::multigrid);
+    EXPECT_EQ(result.report.levels.size() > 1, result.report.method == Method::multigrid);
     double greatest = 0;
     for (const Vector3& p : result.positions)
       greatest = std::max(greatest, std::abs((p - Vector3(0.5, -0.5, 0)).norm() - std::sqrt(0.5)));
     return greatest;
   };
-  EXPECT_LT(10 * distance_from_arc(Method::multigrid), distance_from_arc(Method::sweep));
+  EXPECT_LT(10 * distance_from_arc(MultigridMethod{}), distance_from_arc(SweepMethod{}));
 }
 
 TEST(Multigrid, CoarseLevelsFoldNothing) {
@@ -181,7 +169,8 @@ TEST(Multigrid, CoarseLevelsFoldNothing) {
     const PolygonMesh annulus = generate::annulus({.nodes = nodes, .boundary_nodes = boundary_nodes});
     const Constraints constraints = clamped_boundary(annulus);
     for (const auto& [method, normals] :
-         {std::pair(Method::multigrid, PseudoNormals::link), std::pair(Method::equilibrium, PseudoNormals::angle)}) {
+         {std::pair<FairingMethod, PseudoNormals>(MultigridMethod{}, PseudoNormals::link),
+          std::pair<FairingMethod, PseudoNormals>(equilibrium_alone(), PseudoNormals::angle)}) {
       FairOptions options;
       options.method = method;
       options.pseudo_normals = normals;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "support/curves.hpp"
+#include "support/methods.hpp"
 #include "support/specimens.hpp"
 
 namespace vspring::fair_starts_test {
@@ -92,12 +93,12 @@ std::vector<Problem> problems() {
 
 TEST(Starts, SurfacesForgetTheirs) {
   FairOptions options;
-  options.method = Method::equilibrium;
+  options.method = equilibrium_alone();
   // Spacing, where it is kept, is that of the start.
   options.distribution = Distribution::even;
   for (const Problem& problem : problems()) {
     FairOptions exact = options;
-    exact.tolerance = 1e-12;
+    exact.method = equilibrium_alone(1e-12);
     // Where one start finds no equilibrium of sphere springs it is compared with that of edge springs.
     const FairResult truth = fair(problem.mesh, problem.constraints, exact);
     exact.springs = Springs::edge;

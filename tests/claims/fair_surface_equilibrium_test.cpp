@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "support/methods.hpp"
 #include "support/specimens.hpp"
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
@@ -18,12 +19,7 @@ using namespace support;
 
 using generate::Faces;
 
-FairOptions to_equilibrium(double tolerance = 1e-5) {
-  FairOptions options;
-  options.method = Method::equilibrium;
-  options.tolerance = tolerance;
-  return options;
-}
+FairOptions to_equilibrium(double tolerance = 1e-5) { return {.method = equilibrium_alone(tolerance)}; }
 
 TEST(SurfaceEquilibrium, AFlatDiscWithNoiseBecomesTheSphereThatItsRimAsksFor) {
   for (const Index nodes : {100, 1000, 5000}) {

@@ -18,13 +18,7 @@ using namespace support;
 using generate::Faces;
 using generate::Grid;
 
-FairOptions to_the_end() {
-  FairOptions options;
-  options.method = Method::sweep;
-  options.step_tolerance = 1e-13;
-  options.max_iterations = 20000;
-  return options;
-}
+FairOptions to_the_end() { return {.method = SweepMethod{.step_tolerance = 1e-13, .max_iterations = 20000}}; }
 
 PolygonMesh noisy_annulus() {
   const PolygonMesh annulus = generate::annulus({.nodes = 553, .boundary_nodes = 121});
@@ -85,9 +79,7 @@ TEST(FairSurface, FairingAFairShapeAgainChangesNothing) {
 
 TEST(FairSurface, MotionAndScalingCommuteWithFairing) {
   const PolygonMesh mesh = noisy_annulus();
-  FairOptions options;
-  options.method = Method::sweep;
-  options.max_iterations = 30;
+  const FairOptions options = {.method = SweepMethod{.max_iterations = 30}};
   const Normal up = [](const Vector3&) { return Vector3(0, 0, 1); };
   const FairResult plain = fair(mesh, held_boundary(mesh, up), options);
   for (const double scale : {1.0, 1e-30, 3e7, 1e60}) {
@@ -139,8 +131,7 @@ TEST(FairSurface, ThreadsGiveTheSameBits) {
   const auto run = [&](int threads) {
     Context context;
     context.threads = threads;
-    FairOptions options;
-    options.max_iterations = 40;
+    const FairOptions options = {.method = EquilibriumMethod{.max_iterations = 40}};
     return fair(mesh, held_boundary(mesh, radial), options, context);
   };
   const FairResult one = run(1);
@@ -192,8 +183,7 @@ TEST(FairSurface, TellsHowItWentAndHowFarNodesMoved) {
   const auto [before, after] = fairness_of(mesh, constraints, result.positions);
   EXPECT_LT(after.vspring_energy, before.vspring_energy);
 
-  FairOptions options;
-  options.max_iterations = 3;
+  const FairOptions options = {.method = EquilibriumMethod{.max_iterations = 3}};
   EXPECT_EQ(fair(mesh, constraints, options).report.outcome, Outcome::iteration_limit);
   context.cancel();
   fraction = 0;
@@ -205,9 +195,15 @@ TEST(FairSurface, TellsHowItWentAndHowFarNodesMoved) {
 TEST(FairSurface, RefusesOptionsOutOfRange) {
   const PolygonMesh mesh = noisy_annulus();
   const Constraints constraints = held_boundary(mesh);
-  EXPECT_THROW((void)fair(mesh, constraints, {.step_tolerance = 0}), Error);
-  EXPECT_THROW((void)fair(mesh, constraints, {.step_tolerance = std::nan("")}), Error);
-  EXPECT_THROW((void)fair(mesh, constraints, {.max_iterations = -1}), Error);
+  const double nan = std::nan("");
+  for (const FairingMethod& method :
+       {FairingMethod(EquilibriumMethod{.tolerance = 0}), FairingMethod(EquilibriumMethod{.max_iterations = -1}),
+        FairingMethod(EquilibriumMethod{.fallbacks = Fallbacks{.step_tolerance = nan}}),
+        FairingMethod(MultigridMethod{.step_tolerance = nan}), FairingMethod(MultigridMethod{.max_iterations = -1}),
+        FairingMethod(MultigridMethod{.levels = 0}), FairingMethod(MultigridMethod{.pre_smoothing = -1}),
+        FairingMethod(SweepMethod{.step_tolerance = 0}), FairingMethod(SweepMethod{.max_iterations = -1})})
+    EXPECT_THROW((void)fair(mesh, constraints, {.method = method}), Error);
+  EXPECT_THROW((void)fair(mesh, constraints, {.fair_boundary = EquilibriumMethod{.tolerance = nan}}), Error);
   EXPECT_THROW((void)fair(mesh, constraints, {.strength = 1.5}), Error);
   EXPECT_THROW((void)fair(mesh, Constraints(3)), Error);
 }

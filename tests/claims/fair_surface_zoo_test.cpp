@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "support/methods.hpp"
 #include "support/specimens.hpp"
 
 namespace vspring::fair_surface_zoo_test {
@@ -21,8 +22,7 @@ using generate::Faces;
 
 FairOptions to_equilibrium(double tolerance, std::optional<Distribution> distribution = Distribution::even) {
   FairOptions options;
-  options.method = Method::equilibrium;
-  options.tolerance = tolerance;
+  options.method = equilibrium_alone(tolerance);
   options.distribution = distribution;
   return options;
 }
@@ -146,7 +146,7 @@ TEST(Zoo, WhereCorrectionsLeadNowhereTheFlowOfThePlainIterationDoes) {
   EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-8);
   // Iterations that are limited are all that is done.
   FairOptions limited = options;
-  limited.max_iterations = 200;
+  limited.method = EquilibriumMethod{.tolerance = 1e-10, .max_iterations = 200};
   EXPECT_NE(fair(start, constraints, limited).report.outcome, Outcome::converged);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "support/methods.hpp"
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
@@ -28,12 +29,12 @@ Dragged dragged(Index nodes) {
   for (Index i = 0; i < mesh.node_count(); ++i) {
     if ((mesh.position(i) - middle).norm() < (mesh.position(node) - middle).norm()) node = i;
   }
-  const FairResult free = fair(mesh, constraints, {.method = Method::equilibrium});
+  const FairResult free = fair(mesh, constraints, {.method = equilibrium_alone()});
   constraints.fix_position(node, free.positions[static_cast<std::size_t>(node)]);
   return {std::move(mesh), std::move(constraints), node};
 }
 
-FairOptions to(double tolerance) { return {.method = Method::equilibrium, .tolerance = tolerance}; }
+FairOptions to(double tolerance) { return {.method = equilibrium_alone(tolerance)}; }
 
 TEST(FairingSession, FollowsWhatIsDragged) {
   for (const Index nodes : {800, 2400}) {
@@ -92,7 +93,7 @@ TEST(FairingSession, PicturesOfADragStayWithinTheirTolerance) {
     Constraints constraints(mesh.node_count());
     fix_boundary_positions(constraints, mesh);
     if (normals_held) fix_boundary_normals(constraints, mesh);
-    FairingSession session(mesh, {.method = Method::equilibrium});
+    FairingSession session(mesh, {.method = equilibrium_alone()});
     (void)session.fair(constraints);
     Context context;
     int iterations = 0;
@@ -107,7 +108,7 @@ TEST(FairingSession, PicturesOfADragStayWithinTheirTolerance) {
       EXPECT_LT(*seen.report.expected_error, tolerance);
       iterations += seen.report.iterations;
       if (step % 10 != 0) continue;
-      const FairResult anew = fair(mesh, constraints, {.method = Method::equilibrium});
+      const FairResult anew = fair(mesh, constraints, {.method = equilibrium_alone()});
       EXPECT_LT(greatest_distance(seen.positions, anew.positions), 3 * tolerance * diagonal(mesh)) << step;
     }
     EXPECT_LT(iterations, 200) << "hardly more than one a picture";
@@ -302,7 +303,7 @@ TEST(FairingSession, HoldsNodesThatCannotMoveAndFollowsAllTheSame) {
 
 TEST(FairingSession, OtherMethodsFairAnewEveryTime) {
   Dragged one = dragged(800);
-  const FairOptions options = {.method = Method::multigrid};
+  const FairOptions options = {.method = MultigridMethod{}};
   FairingSession session(one.mesh, options);
   (void)session.fair(one.constraints);
   one.constraints.fix_position(one.node, one.constraints.position(one.node) + Vector3(0, 0, 0.01));

@@ -59,13 +59,10 @@ TEST(FitEquilibrium, IsWhereSweepsEnd) {
 template <typename Shape>
 void expect_the_same_by_cycles(const FitSpecimen<Shape>& specimen, FitOptions options) {
   options.fair.distribution = Distribution::even;
-  options.fair.tolerance = 1e-8;
+  options.fair.method = EquilibriumMethod{.tolerance = 1e-8};
   const FitResult equilibrium = specimen.fit(options);
   EXPECT_EQ(equilibrium.report.fair.outcome, Outcome::converged);
-  options.fair.method = Method::multigrid;
-  options.fair.levels = 3;
-  options.fair.max_iterations = 50000;
-  options.fair.step_tolerance = 1e-8;
+  options.fair.method = MultigridMethod{.step_tolerance = 1e-8, .max_iterations = 50000, .levels = 3};
   options.fair.as_found = true;
   const FitResult cycled = specimen.fit(options);
   EXPECT_EQ(cycled.report.fair.method, Method::multigrid);
@@ -80,8 +77,7 @@ template <typename Shape>
 void expect_a_cycle_of_one_level_to_be_sweeps(const FitSpecimen<Shape>& specimen) {
   FitOptions options = by_sweeps(0.05, 1e-5, 2000);
   const FitResult swept = specimen.fit(options);
-  options.fair.method = Method::multigrid;
-  options.fair.levels = 1;
+  options.fair.method = MultigridMethod{.step_tolerance = 1e-5, .max_iterations = 2000, .levels = 1};
   const FitResult cycled = specimen.fit(options);
   EXPECT_EQ(cycled.report.fair.outcome, Outcome::converged);
   EXPECT_EQ(cycled.report.fair.iterations, swept.report.fair.iterations);
@@ -369,7 +365,7 @@ TEST(FitEquilibrium, GivesTheSameBitsOnAnyNumberOfThreads) {
     Context context;
     context.threads = threads;
     FitOptions options = to_equilibrium(1e-3);
-    options.fair.max_iterations = 12;
+    options.fair.method = EquilibriumMethod{.max_iterations = 12};
     return fit(cap.start, cap.held, cap.points, options, context);
   };
   const FitResult one = run(1);

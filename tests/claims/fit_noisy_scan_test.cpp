@@ -311,7 +311,7 @@ TEST(FitNoisyScan, ARimIsFittedFirstWhereThatIsAskedFor) {
   const PolygonMesh cap = generate::cap({.nodes = 900});
   const PolygonMesh noisy = generate::add_noise(cap, 0.03, 1, true);
   FitOptions options = without_noise(deviation_in_ball(0.03));
-  options.fair.fair_boundary = true;
+  options.fair.fair_boundary.emplace();
   const FitResult result = fit_to_itself(noisy, options);
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   ASSERT_NE(result.report.fair.boundary, nullptr);
@@ -341,7 +341,7 @@ TEST(FitNoisyScan, RefusesWhatHasNoNodesOfItsOwn) {
   spread.fair.distribution = Distribution::even;
   EXPECT_THROW((void)fit_to_itself(torus, spread), Error);
   FitOptions rim = without_noise(0.01);
-  rim.fair.fair_boundary = true;
+  rim.fair.fair_boundary.emplace();
   EXPECT_THROW((void)fit(torus, none, others, rim), Error);
   const PolygonCurve curve(torus.positions(), true);
   EXPECT_THROW((void)fit(curve, none, {.positions = torus.positions()}, without_noise(0.01)), Error);

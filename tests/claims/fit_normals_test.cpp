@@ -102,7 +102,7 @@ struct ThinWall {
   }
 };
 
-FitOptions weight(double k, std::optional<Method> method = std::nullopt) {
+FitOptions weight(double k, const FairingMethod& method = EquilibriumMethod{}) {
   FitOptions options{.criterion = Weight{k}};
   options.fair.method = method;
   return options;
@@ -110,8 +110,8 @@ FitOptions weight(double k, std::optional<Method> method = std::nullopt) {
 
 TEST(FitNormals, EachSideOfAThinWallHasItsOwnPoints) {
   const ThinWall wall;
-  for (const auto method : {std::optional<Method>(), std::optional<Method>(Method::sweep)}) {
-    SCOPED_TRACE(method ? name(*method) : "default");
+  for (const FairingMethod& method : {FairingMethod(EquilibriumMethod{}), FairingMethod(SweepMethod{})}) {
+    SCOPED_TRACE(method.index());
     const FitResult result = wall.fit(wall.points, weight(0.1, method));
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
     EXPECT_TRUE(result.report.fair.warnings.empty());

@@ -189,7 +189,7 @@ TEST(FitPoints, RefusalsNameThePoint) {
   points.positions[17].y() = 0;
   EXPECT_NE(refusal(points, by_sweeps(-1)).find("weight"), std::string::npos);
   FitOptions options;
-  options.fair.method = Method::multigrid;
+  options.fair.method = MultigridMethod{};
   options.criterion = Within{0.01};
   EXPECT_NE(refusal(points, options).find("multigrid"), std::string::npos);
   options = {};

@@ -77,7 +77,7 @@ TEST(Fit, AClosedSurfaceMayBeHeldByPointsAlone) {
 TEST(Fit, WithoutWeightItIsPlainFairingToTheBit) {
   const FlatCap start;
   FitOptions options = by_sweeps(0, 1e-4);
-  options.fair.method = Method::sweep;
+  options.fair.method = SweepMethod{};
   const FairResult plain = fair(start.flat, start.held, options.fair);
   EXPECT_EQ(fit(start.flat, start.held, on_the_sphere(100), options).positions, plain.positions);
   ScatteredPoints unweighted = on_the_sphere(100);
@@ -89,13 +89,7 @@ TEST(Fit, WithoutWeightItIsPlainFairingToTheBit) {
 
   const PolygonCurve bent(noisy(segment(30).positions(), held_ends(segment(30).positions()), 0.01, 1, true));
   const Constraints ends = held_ends(bent.positions());
-  EXPECT_EQ(fit(bent, ends, on_the_sphere(10), by_sweeps(0)).positions, fair(bent, ends,
-                                                                             [] {
-                                                                               FairOptions sweep = by_sweeps(0).fair;
-                                                                               sweep.method = Method::sweep;
-                                                                               return sweep;
-                                                                             }())
-                                                                            .positions);
+  EXPECT_EQ(fit(bent, ends, on_the_sphere(10), by_sweeps(0)).positions, fair(bent, ends, by_sweeps(0).fair).positions);
 }
 
 TEST(Fit, AHugeWeightInterpolatesOnePointForEveryNode) {

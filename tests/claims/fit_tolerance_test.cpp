@@ -11,6 +11,7 @@
 
 #include "support/curves.hpp"
 #include "support/fairness_of.hpp"
+#include "support/methods.hpp"
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
@@ -24,8 +25,7 @@ constexpr double pi = std::numbers::pi;
 FitOptions smoothing(double length, double tolerance = 1e-8) {
   FitOptions options;
   options.criterion = SmoothingLength{length};
-  options.fair.method = Method::equilibrium;
-  options.fair.tolerance = tolerance;
+  options.fair.method = equilibrium_alone(tolerance);
   return options;
 }
 
@@ -140,9 +140,8 @@ TEST(FitSmoothingLength, HoldsForEveryLengthAndMethod) {
     for (const Vector3& p : result.positions) EXPECT_TRUE(p.allFinite());
   }
   FitOptions sweeps = smoothing(0.2);
-  sweeps.fair.method = Method::sweep;
   sweeps.fair.distribution = Distribution::smooth;
-  sweeps.fair.step_tolerance = 1e-7;
+  sweeps.fair.method = SweepMethod{.step_tolerance = 1e-7};
   const FitResult swept = fit(bumpy, held_boundary(plane), points, sweeps);
   const FitResult solved = fit(bumpy, held_boundary(plane), points, smoothing(0.2));
   EXPECT_LT(greatest_distance(swept.positions, solved.positions), 1e-4);
@@ -198,7 +197,7 @@ double best_of_weights(const Specimen& specimen, double distance) {
   for (int k = 0; k < 30; ++k) {
     FitOptions options;
     options.criterion = Weight{std::pow(10, -8 + 0.3 * k)};
-    options.fair.max_iterations = 60;
+    options.fair.method = EquilibriumMethod{.max_iterations = 60};
     const FitResult result = specimen.fit(options);
     if (result.report.after.all.greatest <= distance) best = std::min(best, specimen.turn(result));
   }
@@ -379,7 +378,7 @@ TEST(FitTolerances, RefuseWhatCannotBeMeant) {
   EXPECT_NE(refusal([](FitOptions& o) { o.outliers = 1; }).find("outliers"), std::string::npos);
   EXPECT_NE(refusal([](FitOptions& o) {
               o.criterion = Within{1};
-              o.fair.method = Method::sweep;
+              o.fair.method = SweepMethod{};
             }).find("sweep"),
             std::string::npos);
 }

@@ -18,7 +18,7 @@ namespace {
 using namespace support;
 using generate::Side;
 
-FairOptions by(Method method, PseudoNormals normals = PseudoNormals::link) {
+FairOptions by(const FairingMethod& method, PseudoNormals normals = PseudoNormals::link) {
   FairOptions options;
   options.method = method;
   options.pseudo_normals = normals;
@@ -35,9 +35,7 @@ struct NoisyAnnulus {
 TEST(PaperFigures, NineBFiveSweepsTakeLargeNoiseOut) {
   const NoisyAnnulus shape;
   for (const PseudoNormals normals : {PseudoNormals::average, PseudoNormals::link}) {
-    FairOptions options = by(Method::sweep, normals);
-    options.max_iterations = 5;
-    const FairResult result = fair(shape.noisy, shape.held, options);
+    const FairResult result = fair(shape.noisy, shape.held, by(SweepMethod{.max_iterations = 5}, normals));
     EXPECT_EQ(result.report.iterations, 5);
     const auto [before, after] = fairness_of(shape.noisy, shape.held, result.positions);
     EXPECT_LT(after.rms_turn, before.rms_turn / 5);
@@ -50,9 +48,7 @@ TEST(PaperFigures, NineBFiveSweepsTakeLargeNoiseOut) {
 TEST(PaperFigures, NineCEndsInTheShapeThatComesWithoutNoise) {
   const NoisyAnnulus shape;
   for (const PseudoNormals normals : {PseudoNormals::average, PseudoNormals::link}) {
-    FairOptions options = by(Method::multigrid, normals);
-    options.levels = 6;
-    options.step_tolerance = 1e-6;
+    const FairOptions options = by(MultigridMethod{.step_tolerance = 1e-6, .levels = 6}, normals);
     const FairResult rough = fair(shape.noisy, shape.held, options);
     const FairResult clean = fair(shape.clean, shape.held, options);
     EXPECT_EQ(rough.report.outcome, Outcome::converged);
@@ -79,9 +75,7 @@ double asymmetry(const std::vector<Vector3>& positions) {
 
 TEST(PaperFigures, TenPipesMeetTheirBoundariesWithTheirNormals) {
   const PolygonMesh pipes = generate::pipe_blend({.pipes = {Side::plus_x, Side::plus_z, Side::minus_z}, .cells = 5});
-  FairOptions options = by(Method::multigrid);
-  options.levels = 6;
-  options.step_tolerance = 1e-4;
+  const FairOptions options = by(MultigridMethod{.step_tolerance = 1e-4, .levels = 6});
   const Constraints held = clamped_boundary(pipes);
   const FairResult result = fair(pipes, held, options);
   EXPECT_EQ(result.report.outcome, Outcome::converged);

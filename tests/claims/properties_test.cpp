@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "support/curves.hpp"
+#include "support/methods.hpp"
 #include "support/surfaces.hpp"
 
 namespace vspring::properties_test {
@@ -133,7 +134,7 @@ template <typename Shape>
 void expect_moved_result(const Shape& shape) {
   const Constraints held = drawn_constraints(shape);
   const Motion motion = drawn_motion();
-  const FairOptions options = {.tolerance = 1e-8};
+  const FairOptions options = {.method = EquilibriumMethod{.tolerance = 1e-8}};
   const FairResult here = fair(shape, held, options);
   RC_PRE(plainly_converged(here));
   const FairResult there = fair(at(shape, motion.points(shape.positions())), motion.constraints(held), options);
@@ -166,7 +167,7 @@ RC_GTEST_PROP(Properties, ACurveScaledByAPowerOfTwoHasTheSameBits, ()) { expect_
 RC_GTEST_PROP(Properties, ARenumberedSurfaceHasTheRenumberedResult, ()) {
   const PolygonMesh mesh = drawn_surface();
   const generate::Shuffled other = generate::shuffle(mesh, static_cast<std::uint64_t>(*rc::gen::inRange(1, 1000)));
-  const FairOptions options = {.tolerance = 1e-8};
+  const FairOptions options = {.method = EquilibriumMethod{.tolerance = 1e-8}};
   const FairResult here = fair(mesh, clamped_boundary(mesh), options);
   RC_PRE(plainly_converged(here));
   const FairResult there = fair(other.mesh, clamped_boundary(other.mesh), options);
@@ -188,17 +189,19 @@ void expect_sound_end(const Shape& drawn) {
   Constraints held = drawn_constraints(drawn);
   held = motion.constraints(held);
   FairOptions options;
-  options.method = *rc::gen::element(Method::equilibrium, Method::multigrid, Method::sweep);
-  options.max_iterations = *rc::gen::inRange(1, 30);
+  options.method = *rc::gen::element<FairingMethod>(equilibrium_alone(), MultigridMethod{}, SweepMethod{});
+  const int limit = *rc::gen::inRange(1, 30);
+  std::visit([&](auto& method) { method.max_iterations = limit; }, options.method);
   const FairResult result = fair(shape, held, options);
   for (Index i = 0; i < shape.node_count(); ++i) {
     const Vector3& position = result.positions[static_cast<std::size_t>(i)];
     RC_ASSERT(position.allFinite());
     if (held.position_fixed(i)) RC_ASSERT(same_bits(position, held.position(i)));
   }
-  const int most = *options.max_iterations + (options.method == Method::multigrid ? options.pre_smoothing : 0);
+  const auto* const multigrid = std::get_if<MultigridMethod>(&options.method);
+  const int most = limit + (multigrid ? multigrid->pre_smoothing : 0);
   for (const LevelReport& level : result.report.levels) RC_ASSERT(level.iterations <= most);
-  if (options.method == Method::sweep) RC_ASSERT(result.report.iterations <= *options.max_iterations);
+  if (result.report.method == Method::sweep) RC_ASSERT(result.report.iterations <= limit);
   for (const double residual : result.report.history) RC_ASSERT(residual >= 0);
 }
 
@@ -209,9 +212,9 @@ RC_GTEST_PROP(Properties, ACurveEndsWithinItsLimitsWithHeldNodesInPlace, ()) { e
 template <typename Shape>
 void expect_honest_error(const Shape& shape) {
   const Constraints held = drawn_constraints(shape);
-  const FairResult rough = fair(shape, held, {.tolerance = 1e-3});
+  const FairResult rough = fair(shape, held, {.method = EquilibriumMethod{.tolerance = 1e-3}});
   RC_PRE(plainly_converged(rough) && rough.report.moving_nodes > 0);
-  const FairResult exact = fair(shape, held, {.tolerance = 1e-10});
+  const FairResult exact = fair(shape, held, {.method = EquilibriumMethod{.tolerance = 1e-10}});
   RC_PRE(plainly_converged(exact));
   const double distance = greatest_distance(rough.positions, exact.positions);
   RC_ASSERT(distance <= (4 * rough.report.expected_error.value() + 1e-9) * diagonal(shape.positions()));

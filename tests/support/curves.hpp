@@ -124,7 +124,7 @@ inline Constraints held_ends(const std::vector<Vector3>& nodes, const Vector3& s
 inline FairOptions to_the_end(Distribution distribution = Distribution::even, double tolerance = 1e-13) {
   FairOptions options;
   options.distribution = distribution;
-  options.tolerance = tolerance;
+  options.method = EquilibriumMethod{.tolerance = tolerance};
   return options;
 }
 

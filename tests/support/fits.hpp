@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "support/curves.hpp"
+#include "support/methods.hpp"
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
 
@@ -15,17 +16,14 @@ namespace vspring::support {
 inline FitOptions to_equilibrium(double weight, double tolerance = 1e-5) {
   FitOptions options;
   options.criterion = Weight{weight};
-  options.fair.method = Method::equilibrium;
-  options.fair.tolerance = tolerance;
+  options.fair.method = equilibrium_alone(tolerance);
   return options;
 }
 
 inline FitOptions by_sweeps(double weight, double step_tolerance = 1e-8, int iterations = 20000) {
   FitOptions options;
   options.criterion = Weight{weight};
-  options.fair.method = Method::sweep;
-  options.fair.step_tolerance = step_tolerance;
-  options.fair.max_iterations = iterations;
+  options.fair.method = SweepMethod{.step_tolerance = step_tolerance, .max_iterations = iterations};
   return options;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/fairness_of.hpp"
+#include "support/methods.hpp"
 #include "vspring/vspring.hpp"
 
 namespace vspring::moving_part_test {
@@ -71,8 +72,9 @@ TEST(ActiveSubmesh, FairingItIsFairingTheWhole) {
   const Constraints in_small = held_around(small, 0.28);
   ASSERT_TRUE(active_submesh(large, in_large));
   ASSERT_FALSE(active_submesh(small, in_small));
-  for (const auto method : {Method::equilibrium, Method::sweep}) {
-    const FairOptions options{.method = method, .step_tolerance = 1e-6};
+  for (const FairingMethod& method :
+       {FairingMethod(support::equilibrium_alone()), FairingMethod(SweepMethod{.step_tolerance = 1e-6})}) {
+    const FairOptions options{.method = method};
     const FairResult of_large = fair(large, in_large, options);
     const FairResult of_small = fair(small, in_small, options);
     ASSERT_EQ(of_large.report.outcome, Outcome::converged);
@@ -120,14 +122,14 @@ TEST(ActiveSubmesh, FaultsAreNamedByTheirPlaceInTheWhole) {
 TEST(ActiveSubmesh, ASessionFollowsInIt) {
   const PolygonMesh mesh = generate::saddle({.columns = 40, .rows = 40});
   Constraints constraints = held_around(mesh, 0.4);
-  FairingSession session(mesh, {.tolerance = 1e-7});
+  FairingSession session(mesh, {.method = EquilibriumMethod{.tolerance = 1e-7}});
   ASSERT_EQ(session.fair(constraints).report.outcome, Outcome::converged);
   Index rim = 0;
   while (mesh.position(rim).head<2>().cwiseAbs().maxCoeff() > 0.451 || !constraints.position_fixed(rim)) ++rim;
   constraints.fix_position(rim, mesh.position(rim) + Vector3(0, 0, 0.004));
   const FairResult followed = session.fair(constraints);
   EXPECT_EQ(followed.report.levels.size(), 1U);
-  const FairResult anew = fair(mesh, constraints, {.tolerance = 1e-7});
+  const FairResult anew = fair(mesh, constraints, {.method = EquilibriumMethod{.tolerance = 1e-7}});
   for (std::size_t i = 0; i < anew.positions.size(); ++i)
     EXPECT_LT((followed.positions[i] - anew.positions[i]).norm(), 1e-6);
 }

@@ -21,16 +21,16 @@ bool warns_of_a_level(const FairReport& report) {
 TEST(MultigridMethod, SaysThatACoarserLevelWasCutShortThoughTheFinestIsStill) {
   const PolygonMesh mesh = generate::annulus({.nodes = 800});
   // The finest level is still soon; the coarsest would have to go on until its steps are a thousandth of that.
-  FairOptions options = {.method = Method::multigrid, .step_tolerance = 0.05, .max_iterations = 12};
-  const FairReport cut = fair(mesh, held_boundary(mesh), options).report;
+  MultigridMethod method = {.step_tolerance = 0.05, .max_iterations = 12};
+  const FairReport cut = fair(mesh, held_boundary(mesh), {.method = method}).report;
   ASSERT_GT(cut.levels.size(), 1U);
   EXPECT_EQ(cut.outcome, Outcome::converged);
   EXPECT_EQ(cut.levels.back().outcome, Outcome::converged);
   EXPECT_EQ(cut.levels.front().outcome, Outcome::iteration_limit);
   EXPECT_TRUE(warns_of_a_level(cut));
 
-  options.max_iterations.reset();
-  const FairReport whole = fair(mesh, held_boundary(mesh), options).report;
+  method.max_iterations.reset();
+  const FairReport whole = fair(mesh, held_boundary(mesh), {.method = method}).report;
   EXPECT_EQ(whole.levels.front().outcome, Outcome::converged);
   EXPECT_FALSE(warns_of_a_level(whole));
 }
@@ -39,7 +39,7 @@ TEST(MultigridMethod, SaysWhichLevelsWereNotReached) {
   const PolygonMesh mesh = generate::annulus({.nodes = 800});
   Context context;
   context.cancel();
-  const FairReport report = fair(mesh, held_boundary(mesh), {.method = Method::multigrid}, context).report;
+  const FairReport report = fair(mesh, held_boundary(mesh), {.method = MultigridMethod{}}, context).report;
   EXPECT_EQ(report.outcome, Outcome::cancelled);
   ASSERT_GT(report.levels.size(), 1U);
   for (const LevelReport& level : report.levels) EXPECT_EQ(level.outcome, Outcome::cancelled);

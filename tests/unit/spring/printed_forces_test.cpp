@@ -56,8 +56,7 @@ TEST(PrintedForces, DoInFullWhatPointsAskFor) {
   const PolygonMesh flat = generate::plane({.columns = 2, .rows = 2});
   const auto height = [&](Forces forces) {
     FitOptions options{.criterion = Weight{0.5}};
-    options.fair.method = Method::sweep;
-    options.fair.max_iterations = 1;
+    options.fair.method = SweepMethod{.max_iterations = 1};
     options.fair.forces = forces;
     options.fair.as_found = true;
     const FitResult result = fit(flat, held_boundary(flat), {.positions = {Vector3(0.5, 0.5, 0.1)}}, options);

@@ -1,0 +1,16 @@
+#pragma once
+
+// Methods as tests ask for them.
+
+#include <optional>
+
+#include "vspring/fair.hpp"
+
+namespace vspring::support {
+
+/// The equilibrium, or the nearest shape that was found.
+inline EquilibriumMethod equilibrium_alone(double tolerance = 1e-5) {
+  return {.tolerance = tolerance, .fallbacks = std::nullopt};
+}
+
+}  // namespace vspring::support

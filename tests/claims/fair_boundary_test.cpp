@@ -80,6 +80,17 @@ TEST(FairBoundary, ReportsTheWholeWayAndTheBoundarysOwn) {
   EXPECT_LT(after.vspring_energy, before.vspring_energy);
 }
 
+TEST(FairBoundary, TheBoundaryGoesToItsEquilibriumWhateverTheMethodOfTheSurface) {
+  const DisturbedCap disturbed;
+  FairOptions options = boundary_first();
+  options.method = SweepMethod{.max_iterations = 1};
+  const FairReport report = fair(disturbed.mesh, disturbed.constraints, options).report;
+  EXPECT_EQ(report.method, Method::sweep);
+  ASSERT_TRUE(report.boundary);
+  EXPECT_EQ(report.boundary->method, Method::equilibrium);
+  EXPECT_LE(report.boundary->expected_error.value_or(1), options.fair_boundary->tolerance);
+}
+
 TEST(FairBoundary, StrengthGoesThatShareOfTheWholeWay) {
   const DisturbedCap disturbed;
   FairOptions options = boundary_first();

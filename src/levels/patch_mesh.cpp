@@ -26,7 +26,7 @@ void for_each_face(const Net& net, std::size_t i, std::vector<Index>& face, cons
     face.push_back(node(k));
     // A chain that closes on itself repeats its first node without the mark of a spoke.
     const bool chain_ends = k + 1 == links.size() ? links.front().start() : links[k + 1].start();
-    if (!links[k].spoke() && !chain_ends) continue;
+    if (!links[k].spoke() && !links[k].cut() && !chain_ends) continue;
     use(face);
     face.assign({centre, node(k)});
   }

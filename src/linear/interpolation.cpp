@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/linear_precision.hpp"
+#include "spring/near_nodes.hpp"
 
 namespace vspring {
 
@@ -64,7 +65,7 @@ Interpolation interpolation(const Net& fine, const Net& coarse, std::span<const 
       };
       for (const Link near : fine.rings.links(i)) {
         look(near.node());
-        if (near.node() >= fine.moving) continue;
+        if (near.node() >= fine.moving || fine.rings.links(near.node()).size() > most_links_beside) continue;
         for (const Link far : fine.rings.links(near.node())) look(far.node());
       }
       std::sort(sources.begin(), sources.end(), [](const Source& a, const Source& b) {

@@ -113,18 +113,10 @@ FactoredMatrix::FactoredMatrix(const Net& net, EdgeAlignedRows rows, ThreadTeam&
     : net_(&net), rows_(std::move(rows)), further_columns_(rows_.further.transposed()) {
   across_.assign(rows_.beside.size(), 0);
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto links = net.rings.links(i);
-      for (std::size_t k = 0; k < links.size(); ++k) {
-        const std::size_t j = links[k].node();
-        if (!links[k].spoke() || j >= net.moving) continue;
-        const auto back = net.rings.links(j);
-        const auto found = std::find_if(back.begin(), back.end(), [&](Link l) { return l.spoke() && l.node() == i; });
-        if (found != back.end())
-          across_[net.rings.begin(i) + k] =
-              rows_.beside[net.rings.begin(j) + static_cast<std::size_t>(found - back.begin())];
-      }
-    }
+    net.rings.for_spoke_pairs(begin, end, net.moving, [&](std::size_t, std::size_t k, std::size_t, std::size_t back) {
+      across_[k] = rows_.beside[back];
+      across_[back] = rows_.beside[k];
+    });
   });
 }
 

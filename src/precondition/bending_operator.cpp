@@ -20,6 +20,25 @@ constexpr double least_left = 0.3;
 constexpr double least_mass = 0.2;
 constexpr double greatest_mass = 8;
 
+// Links in the row of a node with more of them, spread evenly around it: all pairs of them have an entry in B.
+constexpr std::size_t most_links = 64;
+
+/// Calls use(k) for the places of a node's links, or of some of many.
+template <typename Use>
+void for_some_links(std::span<const Link> links, const Use& use) {
+  if (links.size() <= most_links) {
+    for (std::size_t k = 0; k < links.size(); ++k) use(k);
+    return;
+  }
+  for (std::size_t part = 0; part < most_links; ++part) {
+    std::size_t k = part * links.size() / most_links;
+    const std::size_t end = (part + 1) * links.size() / most_links;
+    // Rows of edges alone have entries for spokes.
+    while (k + 1 < end && !links[k].spoke()) ++k;
+    use(k);
+  }
+}
+
 double edge_weight(const Net& net, std::size_t i, std::size_t j) {
   const Vector3 d = net.positions[j] - net.positions[i];
   return 1 / std::sqrt(d.dot(d) + net.tiny);
@@ -37,13 +56,13 @@ double curvature_row(const Net& net, std::size_t i, const Wanted& wanted, Sparse
     const Vector3 d = net.positions[j] - net.positions[i];
     return d - d.dot(normal) * normal;
   };
-  for (std::size_t k = 0; k < links.size(); ++k) {
-    if (!links[k].spoke() || !wanted(k)) continue;
+  for_some_links(links, [&](std::size_t k) {
+    if (!links[k].spoke() || !wanted(k)) return;
     const std::size_t j = links[k].node();
     const double w = edge_weight(net, i, j);
     linear.add(w, across(j));
     row.push_back({static_cast<std::uint32_t>(j), w});
-  }
+  });
   const double sum = linear.sum();
   if (!(linear.size() > 0) || row.size() < 3) return sum;
   const Vector3 slope = linear.leaving(least_left, linear.slope_across(normal));
@@ -65,20 +84,20 @@ void sphere_row(const Net& net, std::size_t i, SparseRows::Row& row) {
   const double* stiffness = spheres.stiffness.data() + net.rings.begin(i);
   double plain = 0;
   double raised = 0;
-  for (std::size_t k = 0; k < links.size(); ++k) {
+  for_some_links(links, [&](std::size_t k) {
     plain += stiffness[k];
     raised += stiffness[k] + spheres.raised[i];
-  }
+  });
   // Forces have the plain entries, curvatures the raised ones: the symmetric form between has their geometric mean.
   const double area = std::clamp(raised > 0 ? spheres.spreads[i] / 4 * plain / raised : 0,
                                  least_mass * spheres.areas[i], greatest_mass * spheres.areas[i]);
   const double scale = 4 * std::sqrt(area) / spheres.spreads[i];
   double sum = 0;
-  for (std::size_t k = 0; k < links.size(); ++k) {
+  for_some_links(links, [&](std::size_t k) {
     const double value = scale * (stiffness[k] + spheres.raised[i]);
     row.push_back({static_cast<std::uint32_t>(links[k].node()), value});
     sum += value;
-  }
+  });
   row.push_back({static_cast<std::uint32_t>(i), -sum});
 }
 
@@ -202,7 +221,8 @@ void for_bending_row(const Net& net, std::size_t i, SparseRows::Row& room, const
     sphere_row(net, i, room);
     if (room.empty()) return;
     with_node(room.back().value);
-    for (std::size_t k = 0; k + 1 < room.size(); ++k) with_spoke(k, room[k].value);
+    std::size_t next = 0;
+    for_some_links(net.rings.links(i), [&](std::size_t k) { with_spoke(k, room[next++].value); });
     return;
   }
   const double sum = curvature_row(
@@ -212,9 +232,9 @@ void for_bending_row(const Net& net, std::size_t i, SparseRows::Row& room, const
   with_node(-sum * scale);
   const auto links = net.rings.links(i);
   std::size_t next = 0;
-  for (std::size_t k = 0; k < links.size(); ++k) {
+  for_some_links(links, [&](std::size_t k) {
     if (links[k].spoke()) with_spoke(k, room[next++].value * scale);
-  }
+  });
 }
 
 }  // namespace
@@ -297,28 +317,37 @@ std::vector<double> bending_residual(const Net& net, std::span<const Vector3> wa
 }
 
 SparseRows tangential_laplacian(const Net& net, ThreadTeam& team, double shift) {
-  // Symmetric: of two different shares of an edge, half each.
-  const auto one_way = [&](std::size_t from, std::size_t to) {
-    const auto links = net.rings.links(from);
-    const auto shares = net.weights_of(from);
-    if (shares.empty()) return 1.0;
-    double spokes = 0;
-    double share = 0;
-    for (std::size_t k = 0; k < links.size(); ++k) {
-      if (!links[k].spoke()) continue;
-      spokes += 1;
-      if (links[k].node() == to) share = shares[k];
-    }
-    return std::max(spokes * share, least_weight);
-  };
+  // Of every spoke; empty: 1.
+  std::vector<double> weights;
+  if (!net.laplacian_weights.empty()) {
+    std::vector<double> one_way(net.rings.begin(net.moving));
+    parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto links = net.rings.links(i);
+        const auto shares = net.weights_of(i);
+        const auto spokes =
+            static_cast<double>(std::count_if(links.begin(), links.end(), [](Link link) { return link.spoke(); }));
+        for (std::size_t k = 0; k < links.size(); ++k)
+          one_way[net.rings.begin(i) + k] = std::max(spokes * shares[k], least_weight);
+      }
+    });
+    // Symmetric: of two different shares of an edge, half each.
+    weights = one_way;
+    parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+      net.rings.for_spoke_pairs(begin, end, net.moving, [&](std::size_t, std::size_t k, std::size_t, std::size_t back) {
+        weights[k] = weights[back] = 0.5 * (one_way[k] + one_way[back]);
+      });
+    });
+  }
   return SparseRows::build(team, net.moving, net.moving, [&] {
     return [&](std::size_t i, SparseRows::Row& row) {
       double sum = 0;
-      for (const Link link : net.rings.links(i)) {
-        if (!link.spoke()) continue;
+      const auto links = net.rings.links(i);
+      for (std::size_t k = 0; k < links.size(); ++k) {
+        if (!links[k].spoke()) continue;
         if (!net.target_positions.empty()) sum += 1;
-        const std::size_t j = link.node();
-        const double weight = j < net.moving ? 0.5 * (one_way(i, j) + one_way(j, i)) : one_way(i, j);
+        const std::size_t j = links[k].node();
+        const double weight = weights.empty() ? 1 : weights[net.rings.begin(i) + k];
         sum += weight;
         if (j < net.moving) row.push_back({static_cast<std::uint32_t>(j), -weight});
       }

@@ -18,9 +18,12 @@ struct Link {
   [[nodiscard]] std::size_t node() const noexcept { return code & node_mask; }
   /// An edge joins the node to its centre; a face ends here and the next begins.
   [[nodiscard]] bool spoke() const noexcept { return (code & spoke_bit) != 0; }
-  /// A chain begins here: no face lies between this link and the one before it. A walk whose first link has
+  /// A chain begins here, at a spoke: no face lies between this link and the one before it. A walk whose first link has
   /// no such mark is closed: a face lies between its last link and its first.
-  [[nodiscard]] bool start() const noexcept { return (code & start_bit) != 0; }
+  [[nodiscard]] bool start() const noexcept { return (code & (spoke_bit | start_bit)) == (spoke_bit | start_bit); }
+  /// A cut through a face, which is no edge (with_large_faces_cut()), leads from here to the centre: the face ends.
+  [[nodiscard]] bool cut() const noexcept { return (code & (spoke_bit | start_bit)) == start_bit; }
+  void make_cut() noexcept { code = (code & node_mask) | start_bit; }
 };
 
 /// The walk around one node, and what is wrong there.

@@ -218,6 +218,7 @@ void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constr
     const SearchTask task = {call.method, options.distribution, is_try || options.as_found};
     FairReport one = report;
     run_equilibrium(*hierarchy_, *model_, task, {team_, call.context, call.progress, one}, &*check_);
+    if (is_try && one.outcome == Outcome::cancelled) go_back_if_worse(constraints, one);
     one.springs = springs;
     one.fair_by = by_bending ? FairBy::bending : FairBy::curvature;
     if (!is_try || by_bending || is_final(one)) {
@@ -233,9 +234,19 @@ void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constr
         {WarningCode::other_springs, "sphere springs have no equilibrium here: these are edge springs"});
 }
 
+void SurfaceFairing::go_back_if_worse(const Constraints& constraints, FairReport& report) {
+  Net& found = hierarchy_->finest();
+  if (check_->fault(found).empty()) return;
+  Net input = gather_part(*whole_, part_, constraints, true);
+  if (!check_->fault_of_places(input).empty() && check_->misplaced(found).empty()) return;
+  found.positions = std::move(input.positions);
+  report.warnings.back().text += ": this is the input with its constraints";
+}
+
 bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first,
                                 const EquilibriumCall& call) {
   const std::vector<Vector3> nearest = hierarchy_->finest().positions;
+  const bool was_with_spheres = hierarchy_->finest().spheres.on();
   FairReport& report = call.report;
   FairOptions options = options_;
   options.distribution = Distribution::even;
@@ -250,9 +261,8 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
   even.most_work = report.most_work;
   find_with_springs(fair_by, constraints, {{team_, call.context, call.progress, even}, options, method});
   even.work += beyond;
-  if (was_found(even)) {
+  if (even.outcome == Outcome::converged) {
     report = std::move(even);
-    if (report.outcome == Outcome::cancelled) return true;
     report.warnings.push_back(
         {WarningCode::other_distribution,
          "with the spacing of the input no equilibrium was found: nodes go to the mean of their neighbours"});
@@ -260,14 +270,16 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
   }
   report.iterations = even.iterations;
   report.work = even.work;
-  if (fair_by == FairBy::bending) return false;
-  // Of other nodes than with sphere springs.
-  Net net = gather_part(*whole_, part_, constraints);
+  const bool was_cancelled = even.outcome == Outcome::cancelled;
+  if (was_cancelled) report.outcome = Outcome::cancelled;
+  if (fair_by == FairBy::bending && !was_cancelled) return false;
+  // Nets with sphere springs have other nodes.
+  Net net = gather_part(*whole_, part_, constraints, was_with_spheres);
   check_.emplace(net, *model_, team_);
   hierarchy_.reset();
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
   hierarchy_->finest().positions = nearest;
-  return false;
+  return was_cancelled;
 }
 
 void SurfaceFairing::try_sweeps(const Constraints& constraints, double step_tolerance, const SolverCall& call) {

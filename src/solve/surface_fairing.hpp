@@ -50,6 +50,8 @@ class SurfaceFairing {
   /// The same with sphere springs, where they are wanted and suit, and with edge springs where these have no
   /// equilibrium. Iterations and work are added to those that the report has.
   void find_with_springs(FairBy fair_by, const Constraints& constraints, const EquilibriumCall& call);
+  /// A try that was cancelled: the input with its constraints, where the shape so far is worse.
+  void go_back_if_worse(const Constraints& constraints, FairReport& report);
   /// Where no equilibrium was found: one with another distribution may be. Else the nearest shape stays. at_first: the
   /// report before anything was tried.
   bool try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first,

@@ -11,8 +11,11 @@ namespace vspring {
 /// As many as a quadratic with a tangent plane has unknowns.
 constexpr std::size_t enough_near_nodes = 5;
 
+/// Links of a node beyond which those of its neighbours are not near to each other.
+constexpr std::size_t most_links_beside = 64;
+
 /// Calls use(node) for the nodes that a quadratic around a node is fitted to: those of its link, and where these are
-/// fewer than its unknowns those of their links too.
+/// fewer than its unknowns those of their links too, but for nodes with very many.
 template <typename Use>
 void for_near_nodes(const Net& net, std::size_t i, const Use& use) {
   const auto links = net.rings.links(i);
@@ -23,7 +26,7 @@ void for_near_nodes(const Net& net, std::size_t i, const Use& use) {
   std::vector<std::size_t> nodes;
   for (const Link link : links) {
     nodes.push_back(link.node());
-    if (link.node() >= net.computed) continue;
+    if (link.node() >= net.computed || net.rings.links(link.node()).size() > most_links_beside) continue;
     for (const Link next : net.rings.links(link.node())) nodes.push_back(next.node());
   }
   std::sort(nodes.begin(), nodes.end());

@@ -1,9 +1,11 @@
 #include "spring/net.hpp"
 
 #include <algorithm>
+#include <set>
 #include <span>
 #include <utility>
 
+#include "shape/large_faces.hpp"
 #include "spring/node_order.hpp"
 #include "spring/pseudo_normal.hpp"
 
@@ -107,9 +109,9 @@ void agree_on_given_normals(Net& net) {
   }
 }
 
-}  // namespace
-
-Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for_spheres) {
+/// cuts: links to which are no edges.
+Net gather_net_of(const PolygonMesh& mesh, const std::set<std::pair<Index, Index>>& cuts,
+                  const Constraints& constraints, bool for_spheres) {
   Net net;
   const Incidence incidence(mesh);
   FanWalker walker(mesh, incidence);
@@ -138,8 +140,9 @@ Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for
     const Fan& fan = walker.walk(number.node(i));
     flipped = flipped || fan.flipped_neighbour >= 0;
     for (const Link link : fan.links) {
-      const auto local = static_cast<std::uint32_t>(number(static_cast<Index>(link.node())));
-      links.push_back({local | (link.code & ~Link::node_mask)});
+      const auto there = static_cast<Index>(link.node());
+      links.push_back({static_cast<std::uint32_t>(number(there)) | (link.code & ~Link::node_mask)});
+      if (!cuts.empty() && cuts.contains(std::minmax(number.node(i), there))) links.back().make_cut();
     }
     net.rings.add(links);
   }
@@ -149,6 +152,13 @@ Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for
   agree_on_given_normals(net);
   if (for_spheres) use_sphere_springs(net);
   return net;
+}
+
+}  // namespace
+
+Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for_spheres) {
+  if (const auto cut = with_large_faces_cut(mesh)) return gather_net_of(cut->mesh, cut->cuts, constraints, for_spheres);
+  return gather_net_of(mesh, {}, constraints, for_spheres);
 }
 
 void place_net(Net& net, const std::vector<Vector3>& positions, const Constraints& constraints) {

@@ -82,6 +82,7 @@ Vector3 mean_of_neighbours(const Net& net, std::size_t node);
 
 /// Gathers the net of a mesh under constraints. The mesh must have passed check_constraints(). Cost: linear in the
 /// mesh, once, and in the moving nodes.
+/// Large faces are cut, see with_large_faces_cut().
 /// for_spheres: with rings of all held nodes of the faces around moving ones, also where their normal is given.
 Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for_spheres = false);
 

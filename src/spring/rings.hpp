@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,25 @@ class Rings {
   void add(std::span<const Link> links) {
     links_.insert(links_.end(), links.begin(), links.end());
     begin_.push_back(static_cast<std::uint32_t>(links_.size()));
+  }
+
+  /// Calls use(i, k, j, back) for edges between nodes i and j of 0 … count − 1, with the places of the two spokes among
+  /// all links. Each edge comes once, with the node of begin … end − 1 that has the longer walk, so the search is short
+  /// beside nodes with very many neighbours, too.
+  template <typename Use>
+  void for_spoke_pairs(std::size_t begin, std::size_t end, std::size_t count, const Use& use) const {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t size = links(i).size();
+      for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+        const std::size_t j = links_[k].node();
+        if (!links_[k].spoke() || j >= count) continue;
+        const auto there = links(j);
+        if (there.size() > size || (there.size() == size && j > i)) continue;
+        const auto back =
+            std::find_if(there.begin(), there.end(), [&](Link link) { return link.spoke() && link.node() == i; });
+        if (back != there.end()) use(i, k, j, begin_[j] + static_cast<std::size_t>(back - there.begin()));
+      }
+    }
   }
 
   /// The same walk in the other sense. It must be of one chain.

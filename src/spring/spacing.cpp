@@ -85,27 +85,26 @@ std::vector<Stretch> stretches(const Net& net, ThreadTeam& team) {
   std::vector<Stretch> stretch(net.computed);
   // What turns the stretch of a neighbour into the terms of the node, for every link.
   std::vector<Stretch> turn(net.rings.link_count(), 0);
+  std::vector<double> angle(net.rings.link_count(), 0);
+  std::vector<std::uint8_t> open(net.computed, 0);
   parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     std::vector<double> angles;
-    std::vector<double> angles_there;
     for (std::size_t i = begin; i < end; ++i) {
       const auto links = net.rings.links(i);
-      if (is_open(links)) continue;
+      open[i] = is_open(links) ? 1 : 0;
+      if (open[i] != 0) continue;
       regular_angles(links, angles);
       stretch[i] = stretch_around(net, i, angles);
-      for (std::size_t k = 0; k < links.size(); ++k) {
-        const std::size_t j = links[k].node();
-        if (!links[k].spoke() || j >= net.computed) continue;
-        const auto there = net.rings.links(j);
-        if (is_open(there)) continue;
-        const auto back =
-            std::find_if(there.begin(), there.end(), [&](Link link) { return link.spoke() && link.node() == i; });
-        if (back == there.end()) continue;
-        regular_angles(there, angles_there);
-        const double angle = angles_there[static_cast<std::size_t>(back - there.begin())];
-        turn[net.rings.begin(i) + k] = std::polar(1.0, 2 * (angles[k] - angle));
-      }
+      std::copy_n(angles.begin(), links.size(), angle.begin() + static_cast<std::ptrdiff_t>(net.rings.begin(i)));
     }
+  });
+  parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    net.rings.for_spoke_pairs(begin, end, net.computed,
+                              [&](std::size_t i, std::size_t k, std::size_t j, std::size_t back) {
+                                if (open[i] != 0 || open[j] != 0) return;
+                                turn[k] = std::polar(1.0, 2 * (angle[k] - angle[back]));
+                                turn[back] = std::polar(1.0, 2 * (angle[back] - angle[k]));
+                              });
   });
   std::vector<Stretch> next(stretch.size());
   for (int pass = 0; pass < stretch_passes; ++pass) {

@@ -56,6 +56,16 @@ TEST(Zoo, SpheresOnIrregularMeshesOfEveryKind) {
   }
 }
 
+TEST(Zoo, PolygonsOfHundredsOfSidesBecomeSpheres) {
+  // They are cut for the solver: what they become does not depend on how.
+  for (const int sides : {200, 300}) {
+    const PolygonMesh polygon = polygon_cap(sides, 6);
+    const FairResult result = fair(pressed(polygon, 0.9), held_boundary(polygon, radial), to_equilibrium(1e-9));
+    EXPECT_EQ(result.report.outcome, Outcome::converged) << sides;
+    EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-7) << sides;
+  }
+}
+
 /// The distance of an equilibrium from the cylinder of radius 1.
 double cylinder_error(Faces faces, int cells, bool estimated_normals, Springs springs = Springs::sphere) {
   const Normal from_axis = [](const Vector3& p) { return Vector3(p.x(), p.y(), 0); };

@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <random>
 #include <thread>
 #include <utility>
 
 #include "guarded_server.hpp"
 #include "vspring/error.hpp"
+#include "vspring/input_file.hpp"
 #include "vspring/output_file.hpp"
 
 namespace vspring::cli {
@@ -118,10 +117,12 @@ class EditorServer::Running {
   }
 
   void read(const httplib::Request& request, httplib::Response& response) const {
-    std::ifstream stream;
-    if (!input_.empty() && request.path == root_ + input_) stream.open(file_.input, std::ios::binary);
-    if (!stream.is_open()) return answer(response, 404, "There is no such file.\n");
-    response.set_content(std::string(std::istreambuf_iterator<char>(stream), {}), "application/octet-stream");
+    if (input_.empty() || request.path != root_ + input_) return answer(response, 404, "There is no such file.\n");
+    try {
+      response.set_content(read_file(file_.input), "application/octet-stream");
+    } catch (const Error& error) {
+      return answer(response, 500, error.what());
+    }
   }
 
   void write(const httplib::Request& request, httplib::Response& response) const {

@@ -1,25 +1,17 @@
 #include "holding.hpp"
 
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "vspring/error.hpp"
+#include "vspring/input_file.hpp"
 #include "vspring/topology.hpp"
 #include "vspring/weld.hpp"
 
 namespace vspring::cli {
 
 namespace {
-
-std::string read_text(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file.is_open() || file.bad()) throw Error(ErrorCode::unusable_file, path + ": cannot be read");
-  return text;
-}
 
 void fix_boundary_directions(Constraints& constraints, const PolygonMesh& mesh) {
   fix_boundary_normals(constraints, mesh);
@@ -57,7 +49,7 @@ Constraints constraints_of(const FairingArguments& arguments, const Shape& shape
   if (arguments.fix_directions == Hold::boundary) fix_boundary_directions(constraints, shape);
   if (!arguments.rules.empty()) {
     try {
-      apply_rules(constraints, shape, read_text(arguments.rules), input);
+      apply_rules(constraints, shape, read_file(arguments.rules), input);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::unusable_constraint) throw;
       throw Error(error.code(), arguments.rules + ": " + error.what());

@@ -14,6 +14,7 @@
 #include "vspring/figures.hpp"
 #include "vspring/fit.hpp"
 #include "vspring/generate.hpp"
+#include "vspring/input_file.hpp"
 #include "vspring/model.hpp"
 #include "vspring/noise.hpp"
 #include "vspring/output_file.hpp"

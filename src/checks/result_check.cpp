@@ -177,20 +177,6 @@ std::size_t turned_edges(const Net& net, ThreadTeam& team) {
   return defects_of(net, net.positions, mean_edge(net), team, false).turned;
 }
 
-std::vector<std::uint8_t> nodes_at_turned_edges(const Net& net, ThreadTeam& team) {
-  std::vector<std::uint8_t> result(net.computed, 0);
-  parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    std::vector<std::size_t> spokes;
-    std::vector<Vector3> faces;
-    for (std::size_t i = begin; i < end; ++i) {
-      find_faces(net, net.positions, i, spokes, faces);
-      for (std::size_t s = 0; s < faces.size(); ++s)
-        if (turns_back(faces[(s + faces.size() - 1) % faces.size()], faces[s])) result[i] = 1;
-    }
-  });
-  return result;
-}
-
 ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team) : model_(&model), team_(&team) {
   for (const Vector3& position : start.positions) box_.extend(position);
   for (const Vector3& position : start.points.positions) box_.extend(position);

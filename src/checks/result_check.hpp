@@ -16,9 +16,6 @@ namespace vspring {
 /// How many edges turn by more than 90°, between two faces of a surface or along a curve. Cost: linear.
 std::size_t turned_edges(const Net& net, ThreadTeam& team);
 
-/// 1 for each node of a surface at such an edge; of the nodes with rings. Cost: linear.
-std::vector<std::uint8_t> nodes_at_turned_edges(const Net& net, ThreadTeam& team);
-
 /// What a shape may have, and should have no more of, or not much.
 struct ShapeDefects {
   std::size_t turned =

@@ -15,6 +15,7 @@
 
 #include "io/input_file.hpp"
 #include "vspring/error.hpp"
+#include "vspring/input_file.hpp"
 #include "vspring/output_file.hpp"
 
 namespace vspring {
@@ -65,12 +66,17 @@ class FileDescriptor {
   int number_;
 };
 
+/// The whole of an open file, which stays as it is meanwhile. What has no size, such as a pipe or a device, may go on
+/// for ever: it is read up to a limit.
 std::string read_all(int number, const std::string& name) {
-  struct stat status {};
-  if (::fstat(number, &status) != 0) refuse_file(name, "read", errno);
-  if (S_ISDIR(status.st_mode)) refuse_file(name, "read", EISDIR);
+  constexpr std::size_t most_without_size = std::size_t{1} << 30;
+  struct stat before {};
+  if (::fstat(number, &before) != 0) refuse_file(name, "read", errno);
+  if (S_ISDIR(before.st_mode)) refuse_file(name, "read", EISDIR);
+  const std::size_t size = S_ISREG(before.st_mode) ? static_cast<std::size_t>(before.st_size) : 0;
+  const std::size_t most = std::max(size, most_without_size);
   // One byte more than the size, so that the end is seen without growing.
-  std::size_t room = S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) + 1 : std::size_t{1} << 16;
+  std::size_t room = size > 0 ? size + 1 : std::size_t{1} << 16;
   std::string bytes;
   std::size_t filled = 0;
   for (;;) {
@@ -82,9 +88,17 @@ std::string read_all(int number, const std::string& name) {
     }
     if (count == 0) break;
     filled += static_cast<std::size_t>(count);
-    if (filled == bytes.size()) room = 2 * filled;
+    if (filled > most)
+      throw Error(ErrorCode::unusable_file, fmt::format("{}: goes on after 1 GiB; save what it gives as a file", name));
+    if (filled == bytes.size()) room = std::min(2 * filled, most + 1);
   }
   bytes.resize(filled);
+  struct stat after {};
+  if (::fstat(number, &after) != 0) refuse_file(name, "read", errno);
+  const bool same = after.st_size == before.st_size && after.st_mtim.tv_sec == before.st_mtim.tv_sec &&
+                    after.st_mtim.tv_nsec == before.st_mtim.tv_nsec;
+  if (S_ISREG(before.st_mode) && !same)
+    throw Error(ErrorCode::unusable_file, fmt::format("{}: was changed while it was read; try again", name));
   return bytes;
 }
 
@@ -234,9 +248,13 @@ InputFile read_input(const std::string& path) {
     constexpr const char* name = "standard input";
     return input_of(read_all(STDIN_FILENO, name), name);
   }
+  return input_of(read_file(path), path);
+}
+
+std::string read_file(const std::string& path) {
   const FileDescriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (!descriptor.valid()) refuse_file(path, "read", errno);
-  return input_of(read_all(descriptor.number(), path), path);
+  return read_all(descriptor.number(), path);
 }
 
 void check_writable(const std::string& path) {

@@ -21,7 +21,6 @@ class ObjGroups {
   void start_groups(std::vector<std::string> names, Index next_element);
   /// The name of an `o` line.
   void start_object(std::string name, Index next_element);
-  [[nodiscard]] bool empty() const { return elements_.empty(); }
 
   /// element_begin: where each element's nodes begin, and where the last one's end. Ends what is open and returns the
   /// nodes of every group, ascending. Cost: linear in the elements of all groups.

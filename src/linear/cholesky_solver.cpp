@@ -1,6 +1,7 @@
 #include "linear/cholesky_solver.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace vspring {
 
@@ -16,9 +17,12 @@ constexpr double work_of_entries = 5e-3;
 
 void CholeskySolver::build(const SparseRows& rows) {
   const Eigen::SparseMatrix<double> matrix = rows.to_eigen();
-  if (ordered_entries_ != matrix.nonZeros()) {
+  // As many entries at other places would be written beyond the factor's memory.
+  std::vector<int> pattern(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1);
+  pattern.insert(pattern.end(), matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
+  if (pattern != ordered_pattern_) {
     factor_.analyzePattern(matrix);
-    ordered_entries_ = matrix.nonZeros();
+    ordered_pattern_ = std::move(pattern);
   }
   factor_.setShift(0);
   factor_.factorize(matrix);

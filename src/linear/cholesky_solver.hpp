@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <vector>
 
 #include "base/threads.hpp"
 #include "linear/linear_solver.hpp"
@@ -15,8 +16,8 @@ class CholeskySolver final : public LinearSolver {
  public:
   explicit CholeskySolver(ThreadTeam& team) : team_(&team) {}
 
-  /// Makes ready for a matrix; where a pivot vanishes for that with a trifle added to its diagonal. One with as many
-  /// entries as the last must have the same pattern, and keeps its ordering.
+  /// Makes ready for a matrix; where a pivot vanishes for that with a trifle added to its diagonal. One with the
+  /// pattern of the last keeps its ordering.
   void build(const SparseRows& matrix);
   /// What that takes, in iterations of the equilibrium solver with all nodes.
   [[nodiscard]] double work_of_building() const;
@@ -29,7 +30,7 @@ class CholeskySolver final : public LinearSolver {
 
   ThreadTeam* team_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> factor_;
-  Eigen::Index ordered_entries_ = -1;
+  std::vector<int> ordered_pattern_;  ///< where columns begin, and rows
 };
 
 }  // namespace vspring

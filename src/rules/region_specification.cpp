@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -12,6 +10,7 @@
 
 #include "base/message_text.hpp"
 #include "vspring/error.hpp"
+#include "vspring/input_file.hpp"
 #include "vspring/rules.hpp"
 
 namespace vspring {
@@ -42,14 +41,16 @@ std::vector<double> numbers(const std::string& specification, const std::string&
 }
 
 std::vector<Index> nodes_of_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (!file.is_open() || file.bad() || text.empty())
+  std::string text;
+  try {
+    text = read_file(path);
+  } catch (const Error& fault) {
     throw Error(
-        ErrorCode::unusable_file,
-        fmt::format("{}: cannot be read; a region is sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1, group:NAME or the name "
-                    "of a JSON file with a list of nodes",
-                    in_one_line(path, 4096)));
+        fault.code(),
+        fmt::format("{}; a region is sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1, group:NAME or the name of a JSON file with "
+                    "a list of nodes",
+                    in_one_line(fault.what(), 4096)));
+  }
   nlohmann::json json;
   try {
     json = nlohmann::json::parse(text);

@@ -46,6 +46,34 @@ TEST(Rules, NormalsOfTheInputAndOfTheFile) {
   EXPECT_EQ(constraints.normal(3), Vector3(0, 1, 0));
 }
 
+/// Which nodes have a fixed position.
+std::vector<Index> held(const Constraints& constraints) {
+  std::vector<Index> nodes;
+  for (Index i = 0; i < constraints.node_count(); ++i)
+    if (constraints.position_fixed(i)) nodes.push_back(i);
+  return nodes;
+}
+
+TEST(Rules, HoldNodesWhereNoneCanMove) {
+  const char* const rules = R"({"rules": [{"nodes": "non-manifold", "position": "fixed"}]})";
+  // Three faces at edge 0–1; two fans that meet at node 5 alone.
+  MeshBuilder builder;
+  for (int k = 0; k < 10; ++k) builder.add_node({1.0 * k, 1.0 * k * k, 1.0 * (k % 3)});
+  for (const std::vector<Index>& face :
+       std::vector<std::vector<Index>>{{0, 1, 2}, {0, 1, 3}, {1, 0, 4}, {5, 6, 7}, {5, 8, 9}})
+    builder.add_face(face);
+  const PolygonMesh mesh = builder.take();
+  Constraints of_mesh(mesh.node_count());
+  apply_rules(of_mesh, mesh, rules);
+  EXPECT_EQ(held(of_mesh), (std::vector<Index>{0, 1, 5}));
+  // Two chains through node 2, and one that comes by node 6 twice.
+  const PolygonCurve curve(std::vector<Vector3>(8, Vector3::Zero()),
+                           {{{0, 1, 2, 3}, false}, {{4, 2}, false}, {{5, 6, 7, 6}, false}});
+  Constraints of_curve(curve.node_count());
+  apply_rules(of_curve, curve, rules);
+  EXPECT_EQ(held(of_curve), (std::vector<Index>{2, 6}));
+}
+
 TEST(Rules, WrongOnesAreNamedInOneShortLine) {
   const PolygonMesh mesh = generate::plane({.columns = 4, .rows = 4});
   const Groups groups = {{"rim", {0}}, {"two\nlines", {1}}};

@@ -13,9 +13,10 @@ PROGRAM = os.environ["VSPRING"]
 EXAMPLES = pathlib.Path(__file__).parents[2] / "examples"
 
 
-def run(*arguments, stdin=None, environment=None, timeout=120):
+def run(*arguments, stdin=None, environment=None, timeout=120, before=None):
+    """before: what the new process calls first."""
     return subprocess.run([PROGRAM, *map(str, arguments)], input=stdin, capture_output=True, timeout=timeout,
-                          env={**os.environ, **(environment or {})})
+                          env={**os.environ, **(environment or {})}, preexec_fn=before)
 
 
 def hat(rings=4, sides=12):

@@ -129,6 +129,19 @@ class Faults(Case):
         self.assertEqual(self.fail_at("sync", 0), (2, False), "nothing has been renamed yet")
         self.assertEqual(self.fail_at("folder", 0), (0, True), "the file is there all the same")
 
+    def test_an_input_that_is_changed_while_it_is_read_is_refused(self):
+        text = self.before.read_bytes()
+        for command in ("printf 'v 0 0 0\\n' >> '{}'", "truncate --size=100 '{}'", "printf '# A HAT\\n' | dd status=none conv=notrunc of='{}'"):
+            self.before.write_bytes(text)
+            os.utime(self.before, (0, 0))
+            self.out.write_bytes(OLD)
+            done = run(*self.arguments, environment={**self.preload, "AFTER_READ": command.format(self.before)})
+            self.assertNotEqual(self.before.read_bytes(), text)
+            self.assertEqual(done.returncode, 2, (command, done.stderr))
+            self.assertIn("in.obj: was changed while it was read; try again", self.assert_one_line(done))
+            self.assertEqual(self.out.read_bytes(), OLD)
+            self.assertEqual(self.files(), self.names)
+
     def test_killed_at_any_moment(self):
         draw = random.Random(7)
         begin = time.monotonic()

@@ -110,6 +110,19 @@ class File(Html):
         self.assertLess(max(scene["part"]["extents"]), 0.4)
         self.assertIsNone(block(self.make("curve", path, "-o", self.folder / "out.csv"), "scene")["part"])
 
+    def test_a_curve_in_space_is_seen_in_its_plane_where_it_has_one(self):
+        for height, planar in ((lambda x, y: 0.25, True), (lambda x, y: 0.5 * x + 0.75 * y, True), (lambda x, y: x * x, False)):
+            points = [(math.cos(k / 10), math.sin(k / 10)) for k in range(30)]
+            path = self.write("in.csv", "x,y,z\n" + "".join(f"{x!r},{y!r},{height(x, y)!r}\n" for x, y in points))
+            scene = block(self.make("measure", path), "scene")
+            self.assertEqual(scene["planar"], planar)
+            across, up, towards = scene["view"]
+            for a, b in ((across, up), (up, towards), (across, towards)):
+                self.assertAlmostEqual(sum(x * y for x, y in zip(a, b)), 0)
+            if planar:
+                depths = [sum(n * p for n, p in zip(towards, (x, y, height(x, y)))) for x, y in points]
+                self.assertAlmostEqual(min(depths), max(depths), msg="the plane is looked at from straight above")
+
     def test_deviation_is_from_the_surface(self):
         """A sphere that is turned deviates by less than its faces from their arcs, though its nodes went far."""
         text, angle, radius = sphere(12, radius=2.0), 0.3, 2.1

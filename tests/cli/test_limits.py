@@ -2,7 +2,9 @@
 promise more than they have."""
 import json
 import math
+import os
 import resource
+import signal
 import struct
 import subprocess
 
@@ -126,6 +128,23 @@ class Limits(Case):
                 self.assertIn(name, line)
                 self.assertNotIn("memory", line)
                 self.assertNotIn("out.obj", self.files())
+
+    def test_what_never_ends_is_refused(self):
+        path, out, pipe = self.write("in.obj", grid(3)), self.folder / "out.obj", self.folder / "pipe"
+        os.mkfifo(pipe)
+        for arguments, name in ((("fair", "/dev/zero"), "/dev/zero"), (("curve", "-"), "standard input"),
+                                (("fair", path, "--constraints", pipe), str(pipe)), (("fair", path, "--region", "/dev/zero"), "/dev/zero")):
+            with self.subTest(arguments):
+                with subprocess.Popen([PROGRAM, *map(str, arguments), "-o", out], stdin=subprocess.PIPE, stderr=subprocess.PIPE) as program:
+                    feeder = subprocess.Popen(f"yes > '{pipe}'" if pipe in arguments else "yes", shell=True, stderr=subprocess.DEVNULL,
+                                              stdout=program.stdin, start_new_session=True)
+                    program.stdin.close()
+                    line = program.stderr.read().decode()
+                    self.assertEqual((program.wait(timeout=60), line.count("\n")), (2, 1), line)
+                    os.killpg(feeder.pid, signal.SIGKILL)
+                    feeder.wait()
+                self.assertIn(f"{name}: goes on after 1 GiB; save what it gives as a file", line)
+                self.assertEqual(self.files(), ["in.obj", "pipe"])
 
     def test_rules_of_many_and_deep_levels_are_refused(self):
         path = self.write("in.obj", grid(3))

@@ -1,7 +1,8 @@
 /* Preloaded into the program: lets calls fail, as a machine without memory or a full disk would.
    FAULT=KIND:N fails the N-th call, from 0, of its kind after main() begins: allocation, open, write, sync (of a file),
    folder (its sync), rename or thread. FAULT=KIND:N+ fails that one and all after it.
-   FAULT_COUNTS=FILE gets a line "KIND NUMBER" for each kind when the program ends. */
+   FAULT_COUNTS=FILE gets a line "KIND NUMBER" for each kind when the program ends.
+   AFTER_READ=COMMAND is run by the shell when the program has read from a file for the first time. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -23,6 +24,7 @@ static atomic_long counts[kinds];
 static long first_failing[kinds] = {-1, -1, -1, -1, -1, -1, -1};
 static long last_failing[kinds] = {-1, -1, -1, -1, -1, -1, -1};
 static int counts_file = -1;
+static const char* after_read;
 static atomic_int is_running;
 
 extern void* __libc_malloc(size_t);
@@ -40,6 +42,7 @@ static void begin(void) {
   }
   const char* path = getenv("FAULT_COUNTS");
   if (path) counts_file = open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  after_read = getenv("AFTER_READ");
   is_running = 1;
 }
 
@@ -95,6 +98,20 @@ int open(const char* path, int flags, ...) {
     if (fails(opening)) return -1;
   }
   return next(path, flags, mode);
+}
+
+ssize_t read(int file, void* bytes, size_t size) {
+  static ssize_t (*next)(int, void*, size_t);
+  if (!next) next = (ssize_t(*)(int, void*, size_t))dlsym(RTLD_NEXT, "read");
+  const ssize_t count = next(file, bytes, size);
+  struct stat status;
+  if (is_running && after_read && fstat(file, &status) == 0 && S_ISREG(status.st_mode)) {
+    const char* command = after_read;
+    after_read = NULL;
+    unsetenv("LD_PRELOAD");
+    if (system(command) != 0) abort();
+  }
+  return count;
 }
 
 ssize_t write(int file, const void* bytes, size_t size) {

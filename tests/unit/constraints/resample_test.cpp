@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -207,6 +208,14 @@ TEST(ResampleByCurvature, StraightLinesAndCirclesStayEven) {
   const Resampled round = resample(ellipse(1, 1), Constraints(400), {.spacing = 0.1, .by = ResamplingBy::curvature});
   EXPECT_EQ(round.curve.node_count(), 63);
   EXPECT_LT(spread(edges_of(round.curve)), 1.01);
+}
+
+TEST(Resample, WhatDoesNotFitTheCurveIsRefused) {
+  const PolygonCurve curve(std::vector<Vector3>{{0, 0, 0}, {1, 0, 0}, {2, 1, 0}});
+  const Constraints constraints(curve.node_count());
+  EXPECT_THROW(std::ignore = resample(curve, Constraints(2), {.nodes = 9}), Error);
+  for (const Index nodes : {Index{0}, Index{-1}, std::numeric_limits<Index>::max()})
+    EXPECT_THROW(std::ignore = resample(curve, constraints, {.nodes = nodes}), Error) << nodes;
 }
 
 TEST(ResampleDensely, EverySoManiethNodeIsOneOfTheResampledCurve) {

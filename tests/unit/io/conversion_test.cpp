@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "io/formats.hpp"
@@ -197,6 +198,30 @@ TEST_F(Conversion, RefusesPositionsThatDoNotFitTheMesh) {
   surface.source.reset();
   write_surface(path("a.off"), surface, surface.mesh.positions());
   EXPECT_EQ(read_surface(path("a.off")).mesh.corners(), surface.mesh.corners());
+}
+
+TEST_F(Conversion, RefusesNodesThatAreNowhere) {
+  PolygonMesh mesh = mixed();
+  std::vector<Vector3> positions = mesh.positions();
+  positions[3].y() = std::numeric_limits<double>::infinity();
+  mesh.set_positions(positions);
+  for (const char* name : {"a.obj", "a.off", "a.ply", "a.stl"}) {
+    EXPECT_EQ(message_of([&] { write_surface(path(name), mesh); }, ErrorCode::invalid_argument),
+              "node 3: its position is not finite");
+  }
+  EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Conversion, KeepsFacesOfManySides) {
+  MeshBuilder builder;
+  std::vector<Index> face;
+  for (int k = 0; k < 300; ++k) face.push_back(builder.add_node({std::cos(k / 48.0), std::sin(k / 48.0), 0}));
+  builder.add_face(face);
+  const PolygonMesh mesh = builder.take();
+  for (const char* name : {"a.obj", "a.off", "a.ply"}) {
+    write_surface(path(name), mesh);
+    EXPECT_EQ(read_surface(path(name)).mesh.corners(), face) << name;
+  }
 }
 
 TEST_F(Conversion, WritesWhatTheCallerPutIntoTheMesh) {

@@ -81,6 +81,16 @@ TEST_F(ObjFile, WarnsOfWhatItDoesNotKnow) {
   EXPECT_NE(warnings[1].find(":22: 'strange'"), std::string::npos) << warnings[1];
 }
 
+TEST_F(ObjFile, WarnsOnceOfManyStatementsThatItDoesNotKnow) {
+  const SurfaceFile surface = read("v 0 0 0\nodd 1\nv 1 0 0\nv 0 1 0\nlod 3\nf 1 2 3\nodder\nodd 2\n");
+  ASSERT_EQ(surface.warnings.size(), 1U);
+  EXPECT_NE(surface.warnings[0].find(":2: 'odd' and 2 more are not known statements; they are kept as they are"),
+            std::string::npos)
+      << surface.warnings[0];
+  const std::vector<std::string> losses = write_surface(path("out.off"), surface, surface.mesh.positions());
+  EXPECT_EQ(losses, (std::vector<std::string>{"display attributes", "statements that are not known"}));
+}
+
 TEST_F(ObjFile, ComesOutByteForByteWhenNothingMoves) {
   for (const std::string& text : {rich + "\n", rich + " 3", rich + "\r\n\n"}) {
     const SurfaceFile surface = read(text);

@@ -63,6 +63,17 @@ TEST_F(OffFile, AStreamOfNumbersKeepsItsLines) {
   EXPECT_EQ(get("out.off"), "OFF\n3 1\n0\n0 0\n7 1 0\n0 0 1 0 3\n0 1\n2\n");
 }
 
+TEST_F(OffFile, AStreamOfNumbersKeepsNodesThatAreNowhere) {
+  const SurfaceFile surface = read("OFF 4 1\n0\n0 0\n0 1 0\n0 0 1 0 5 nan 5 3\n0 1\n2\n");
+  ASSERT_EQ(surface.mesh.node_count(), 4);
+  std::vector<Vector3> places = surface.mesh.positions();
+  write_surface(path("same.off"), surface, places);
+  EXPECT_EQ(get("same.off"), get("in.off"));
+  places[0] = {0, 0, 7};
+  write_surface(path("out.off"), surface, places);
+  EXPECT_EQ(get("out.off"), "OFF 4 1\n0\n0 0\n7 1 0\n0 0 1 0 5 nan 5 3\n0 1\n2\n");
+}
+
 TEST_F(OffFile, EveryKindKeepsItsBytesButThoseOfMovedNodes) {
   for (const Kind& kind : kinds) {
     const auto text = [&](const std::string& place, const std::string& more) {

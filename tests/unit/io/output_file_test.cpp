@@ -149,6 +149,23 @@ TEST_F(OutputFile, RespectsFilesThatMayNotBeWritten) {
   EXPECT_EQ(get("fixed"), "text");
 }
 
+TEST_F(OutputFile, RespectsFoldersThatMayNotBeWritten) {
+  fs::create_directory(path("locked"));
+  put("locked/file", "text");
+  ::chmod(path("locked").c_str(), 0555);
+  without_privilege([&] {
+    for (const std::string name : {"locked/file", "locked/new"}) {
+      const std::string refused =
+          name + ": cannot be written: Permission denied; check its permissions or choose another place";
+      EXPECT_EQ(message_of([&] { write_file(path(name), "x"); }), refused);
+      EXPECT_EQ(message_of([&] { check_writable(path(name)); }), refused);
+    }
+  });
+  ::chmod(path("locked").c_str(), 0755);
+  EXPECT_EQ(get("locked/file"), "text");
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("locked")), fs::directory_iterator()), 1);
+}
+
 /// Puts a file in place of an open one while it lives.
 class Redirected {
  public:

@@ -193,6 +193,35 @@ TEST_F(PlyFile, WholeNumbersBecomeDoublesWhenNodesMove) {
   }
 }
 
+TEST_F(PlyFile, SmallWholeNumbersAreCornersAndNormalsThatAreKept) {
+  for (const Ply::Encoding encoding : encodings) {
+    Ply ply(encoding);
+    ply.line("element vertex 3");
+    for (const char* name : {"x", "y", "z"}) ply.line(std::string("property double ") + name);
+    for (const char* name : {"nx", "ny", "nz"}) ply.line(std::string("property char ") + name);
+    ply.line("element face 1").line("property list char char vertex_indices").line("end_header");
+    const auto number = [](int value) { return static_cast<std::int8_t>(value); };
+    for (int node = 0; node < 3; ++node) {
+      for (int k = 0; k < 3; ++k) ply.put(k + 1 == node ? 1.0 : 0.0);
+      for (const int part : {0, 0, -1}) ply.put(number(part));
+      ply.end_row();
+    }
+    for (const int entry : {3, 2, 1, 0}) ply.put(number(entry));
+    ply.end_row();
+    const SurfaceFile surface = read(ply.bytes);
+    EXPECT_EQ(surface.mesh.corners(), (std::vector<Index>{2, 1, 0}));
+    EXPECT_EQ(surface.normals, std::vector<Vector3>(3, Vector3(0, 0, -1)));
+    std::vector<Vector3> positions = surface.mesh.positions();
+    positions[1].z() = 0.5;
+    EXPECT_EQ(write_surface(path("out.ply"), surface, positions),
+              (std::vector<std::string>{
+                  "normals that fit the moved nodes: the file holds whole numbers, kept as they were"}));
+    const SurfaceFile again = read_surface(path("out.ply"));
+    EXPECT_EQ(again.mesh.positions(), positions);
+    EXPECT_EQ(again.normals, surface.normals);
+  }
+}
+
 TEST_F(PlyFile, CutsStripsIntoTriangles) {
   for (const Ply::Encoding encoding : encodings) {
     Ply ply(encoding);

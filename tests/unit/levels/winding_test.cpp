@@ -168,7 +168,9 @@ TEST(Wind, GivesASpiralOfLinearCurvatureWithAllTurnsInThePlane) {
       ASSERT_TRUE(wind(net));
       for (std::size_t i = 0; i < net.positions.size(); ++i) {
         EXPECT_EQ(net.positions[i].z(), 0);
-        if (i >= net.moving) EXPECT_EQ(net.positions[i], before.positions[i]);
+        if (i >= net.moving) {
+          EXPECT_EQ(net.positions[i], before.positions[i]);
+        }
       }
       const std::vector<double> turns = turns_of(net);
       EXPECT_NEAR(sum(turns), all, 1e-6);

@@ -158,6 +158,27 @@ TEST(CholeskySolver, SolvesAndSolvesAnew) {
   }
 }
 
+TEST(CholeskySolver, AsManyEntriesAtOtherPlacesAreAnotherMatrix) {
+  ThreadTeam team(1);
+  CholeskySolver solver(team);
+  constexpr std::uint32_t count = 30;
+  // Arrows: what one node has to do with all others has no fill in one order and much in another.
+  for (const std::uint32_t hub : {count - 1, 0U, 7U}) {
+    const SparseRows matrix = SparseRows::build(team, count, count, [&] {
+      return [&](std::size_t i, SparseRows::Row& row) {
+        for (std::uint32_t k = 0; k < count; ++k)
+          if (k == i || i == hub || k == hub) row.push_back({k, k == i ? count + 0.25 * k : -1.0});
+      };
+    });
+    solver.build(matrix);
+    const std::vector<double> right(count, 1);
+    std::vector<double> solution = right;
+    solver.solve(solution, {});
+    const Eigen::VectorXd expected = dense(matrix).ldlt().solve(Eigen::VectorXd::Ones(count));
+    EXPECT_LT((Eigen::Map<Eigen::VectorXd>(solution.data(), count) - expected).norm(), 1e-12) << hub;
+  }
+}
+
 TEST(CholeskySolver, AMatrixWithoutAFactorLeavesNothingToChance) {
   ThreadTeam team(1);
   CholeskySolver solver(team);

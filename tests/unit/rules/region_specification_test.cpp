@@ -55,9 +55,10 @@ TEST_F(RegionSpecification, IsRefusedWithWhatIsWrong) {
   EXPECT_EQ(refused("sphere:9,0,0,1"), "region \"sphere:9,0,0,1\": no node lies in it");
   EXPECT_EQ(refused("group:side"), "region \"group:side\": the shape has no such group; it has ends, none");
   EXPECT_EQ(refused("group:none"), "region \"group:none\": no node lies in it");
-  EXPECT_EQ(refused(path("gone.json"), ErrorCode::unusable_file),
-            "gone.json: cannot be read; a region is sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1, group:NAME or the name of a "
-            "JSON file with a list of nodes");
+  EXPECT_EQ(
+      refused(path("gone.json"), ErrorCode::unusable_file),
+      "gone.json: cannot be read: No such file or directory; check the path, its folders have to exist; a region is "
+      "sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1, group:NAME or the name of a JSON file with a list of nodes");
   EXPECT_EQ(refused(put("four.json", "[0, 4]")), "four.json: 4 is not a node; nodes go from 0 to 3");
   EXPECT_EQ(refused(put("below.json", "[-1]")), "below.json: -1 is not a node; nodes go from 0 to 3");
   EXPECT_EQ(refused(put("half.json", "[0.5]")),

@@ -46,7 +46,9 @@ TEST(Denoise, NoiseFarLessThanThatOfTheNodesMovesNothingAndFarMoreLeavesAShape) 
   for (std::size_t i = 0; i < smooth.size(); ++i) {
     EXPECT_TRUE(smooth[i].allFinite());
     EXPECT_LT(smooth[i].norm(), 1);
-    if (i >= noisy.net.moving) EXPECT_EQ(smooth[i], noisy.net.positions[i]);
+    if (i >= noisy.net.moving) {
+      EXPECT_EQ(smooth[i], noisy.net.positions[i]);
+    }
   }
 }
 

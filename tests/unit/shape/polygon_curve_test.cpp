@@ -50,5 +50,11 @@ TEST(PolygonCurve, AnUnknownNodeIsRefused) {
   EXPECT_THROW(PolygonCurve(std::vector<Vector3>(2, Vector3::Zero()), {{{0, 2}, false}}), Error);
 }
 
+TEST(PolygonCurve, PositionsForOtherNodesAreRefused) {
+  PolygonCurve curve(std::vector<Vector3>(3, Vector3::Zero()));
+  EXPECT_THROW(curve.set_positions(std::vector<Vector3>(4, Vector3::Ones())), Error);
+  EXPECT_EQ(curve.positions(), std::vector<Vector3>(3, Vector3::Zero()));
+}
+
 }  // namespace
 }  // namespace vspring::polygon_curve_test

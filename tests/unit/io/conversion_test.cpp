@@ -214,8 +214,11 @@ TEST_F(Conversion, RefusesNodesThatAreNowhere) {
 
 TEST_F(Conversion, KeepsFacesOfManySides) {
   MeshBuilder builder;
-  std::vector<Index> face;
-  for (int k = 0; k < 300; ++k) face.push_back(builder.add_node({std::cos(k / 48.0), std::sin(k / 48.0), 0}));
+  std::vector<Index> face(300);
+  for (Index& node : face) {
+    const double angle = static_cast<double>(&node - face.data()) / 48;
+    node = builder.add_node({std::cos(angle), std::sin(angle), 0});
+  }
   builder.add_face(face);
   const PolygonMesh mesh = builder.take();
   for (const char* name : {"a.obj", "a.off", "a.ply"}) {

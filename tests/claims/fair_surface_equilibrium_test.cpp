@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 #include <vector>
 
+#include "support/fairness_of.hpp"
 #include "support/methods.hpp"
 #include "support/specimens.hpp"
 #include "support/surfaces.hpp"
@@ -190,6 +193,40 @@ TEST(SurfaceEquilibrium, CanBeCancelled) {
   const FairResult some = fair(start, held_boundary(cap, radial), to_equilibrium(), amid);
   EXPECT_EQ(some.report.outcome, Outcome::cancelled);
   for (const Vector3& p : some.positions) EXPECT_TRUE(p.allFinite());
+}
+
+TEST(SurfaceEquilibrium, WhenCancelledNeverLeavesAShapeWorseThanTheInput) {
+  // Thin and noisy faces around one node: on the way the shape is crumpled.
+  constexpr Index sides = 2000;
+  MeshBuilder builder;
+  builder.add_node({0, 0, 0.3});
+  for (const auto& [radius, height] : {std::pair(1.0, 0.25), std::pair(1.2, 0.1), std::pair(1.4, 0.0)}) {
+    for (Index k = 0; k < sides; ++k) {
+      const double angle = 2 * std::numbers::pi * k / sides;
+      const double noise = 0.004 * std::sin(1e3 * k * k);
+      builder.add_node({radius * std::cos(angle), radius * std::sin(angle), height + noise});
+    }
+  }
+  for (Index k = 0; k < sides; ++k) {
+    const Index next = (k + 1) % sides;
+    builder.add_face({0, k + 1, next + 1});
+    for (const Index ring : {1, 1 + sides})
+      builder.add_face({ring + k, ring + sides + k, ring + sides + next, ring + next});
+  }
+  const PolygonMesh mesh = builder.take();
+  Constraints constraints(mesh.node_count());
+  fix_boundary_positions(constraints, mesh);
+  for (const int iterations : {1, 100}) {
+    Context context;
+    context.on_progress = [&](const Progress& progress) {
+      if (progress.iteration >= iterations) context.cancel();
+    };
+    const FairResult result = fair(mesh, constraints, {}, context);
+    EXPECT_EQ(result.report.outcome, Outcome::cancelled) << iterations;
+    const auto [before, after] = fairness_of(mesh, constraints, result.positions);
+    EXPECT_LE(after.greatest_turn, before.greatest_turn) << iterations;
+    EXPECT_LE(after.vspring_energy, before.vspring_energy) << iterations;
+  }
 }
 
 TEST(SurfaceEquilibrium, TheExpectedErrorIsWithinAFactorOfThreeOfTheTrueOne) {

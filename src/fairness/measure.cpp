@@ -3,11 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/degrees.hpp"
 #include "fairness/counted.hpp"
 #include "shape/face_geometry.hpp"
 #include "shape/fan.hpp"
+#include "shape/large_faces.hpp"
 #include "spring/pseudo_normal.hpp"
 #include "spring/v_spring.hpp"
 
@@ -81,15 +83,21 @@ FairnessMeter::FairnessMeter(const PolygonMesh& mesh, const Constraints* constra
     if (nodes[static_cast<std::size_t>(i)] != 0) node_.push_back(i);
   }
   const Incidence incidence(mesh);
+  const std::optional<CutMesh> cut = with_large_faces_cut(mesh);
+  std::optional<Incidence> incidence_of_cut;
+  if (cut) incidence_of_cut.emplace(cut->mesh);
   struct Run {
     Rings rings;
     std::vector<Neighbours> neighbours;
   };
   const auto look = [&](std::size_t begin, std::size_t end, Run& run) {
-    FanWalker walker(mesh, incidence);
+    FanWalker walker(cut ? cut->mesh : mesh, cut ? *incidence_of_cut : incidence);
+    std::vector<Link> links;
     NeighbouringFaces neighbouring(mesh);
     for (std::size_t k = begin; k < end; ++k) {
-      run.rings.add(walker.walk(node_[k]).links);
+      links = walker.walk(node_[k]).links;
+      if (cut) cut->mark(node_[k], links);
+      run.rings.add(links);
       neighbouring.for_each(node_[k], incidence.corners(node_[k]), [&](Index a, Index b, bool same_sense) {
         if (counted_[static_cast<std::size_t>(a)] != 0 && counted_[static_cast<std::size_t>(b)] != 0)
           run.neighbours.push_back({a, b, same_sense});

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
+#include "shape/fan.hpp"
 #include "vspring/polygon_mesh.hpp"
 
 namespace vspring {
@@ -14,6 +17,13 @@ inline constexpr std::size_t largest_uncut_face = 128;
 struct CutMesh {
   PolygonMesh mesh;
   std::set<std::pair<Index, Index>> cuts;  ///< the nodes that each joins, the lower number first
+
+  /// Says which links of a walk around a node lead along cuts.
+  void mark(Index node, std::span<Link> links) const {
+    for (Link& link : links) {
+      if (cuts.contains(std::minmax(node, static_cast<Index>(link.node())))) link.make_cut();
+    }
+  }
 };
 
 /// A mesh with its largest faces cut, between their nodes, into such of at most 16 sides: each node of a face looks at

@@ -1,7 +1,6 @@
 #include "spring/net.hpp"
 
 #include <algorithm>
-#include <set>
 #include <span>
 #include <utility>
 
@@ -109,9 +108,8 @@ void agree_on_given_normals(Net& net) {
   }
 }
 
-/// cuts: links to which are no edges.
-Net gather_net_of(const PolygonMesh& mesh, const std::set<std::pair<Index, Index>>& cuts,
-                  const Constraints& constraints, bool for_spheres) {
+/// cut: where the mesh is one that was cut.
+Net gather_net_of(const PolygonMesh& mesh, const CutMesh* cut, const Constraints& constraints, bool for_spheres) {
   Net net;
   const Incidence incidence(mesh);
   FanWalker walker(mesh, incidence);
@@ -136,13 +134,13 @@ Net gather_net_of(const PolygonMesh& mesh, const std::set<std::pair<Index, Index
   std::vector<Link> links;
   bool flipped = false;
   for (std::size_t i = 0; i < net.computed; ++i) {
-    links.clear();
     const Fan& fan = walker.walk(number.node(i));
     flipped = flipped || fan.flipped_neighbour >= 0;
-    for (const Link link : fan.links) {
-      const auto there = static_cast<Index>(link.node());
-      links.push_back({static_cast<std::uint32_t>(number(there)) | (link.code & ~Link::node_mask)});
-      if (!cuts.empty() && cuts.contains(std::minmax(number.node(i), there))) links.back().make_cut();
+    links = fan.links;
+    if (cut) cut->mark(number.node(i), links);
+    for (Link& link : links) {
+      const auto local = static_cast<std::uint32_t>(number(static_cast<Index>(link.node())));
+      link = {local | (link.code & ~Link::node_mask)};
     }
     net.rings.add(links);
   }
@@ -157,8 +155,8 @@ Net gather_net_of(const PolygonMesh& mesh, const std::set<std::pair<Index, Index
 }  // namespace
 
 Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for_spheres) {
-  if (const auto cut = with_large_faces_cut(mesh)) return gather_net_of(cut->mesh, cut->cuts, constraints, for_spheres);
-  return gather_net_of(mesh, {}, constraints, for_spheres);
+  if (const auto cut = with_large_faces_cut(mesh)) return gather_net_of(cut->mesh, &*cut, constraints, for_spheres);
+  return gather_net_of(mesh, nullptr, constraints, for_spheres);
 }
 
 void place_net(Net& net, const std::vector<Vector3>& positions, const Constraints& constraints) {

@@ -305,11 +305,10 @@ int main(int argc, char** argv) {
         const PolygonMesh start = kind.make(nodes);
         const Constraints constraints =
             clamped ? held_boundary(start, [](const Vector3&) { return Vector3::UnitZ(); }) : held_boundary(start);
-        FairOptions options;
-        options.method = equilibrium_alone(1e-7);
-        options.distribution = kind.distribution;
-        options.springs = way == "edge" ? Springs::edge : Springs::sphere;
-        options.fair_by = fair_by;
+        const FairOptions options = {.method = equilibrium_alone(1e-7),
+                                     .springs = way == "edge" ? Springs::edge : Springs::sphere,
+                                     .fair_by = fair_by,
+                                     .distribution = kind.distribution};
         const FairResult result = fair(start, constraints, options);
         std::vector<Vector3> profile;
         for (const Vector3& p : result.positions) profile.emplace_back(p.head<2>().norm(), 0, p.z());

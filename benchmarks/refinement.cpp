@@ -74,11 +74,9 @@ int main() {
   for (const Shape& shape : shapes()) {
     for (int halvings = 0; halvings < 4; ++halvings) {
       const Problem problem = shape.make(halvings);
-      FairOptions options;
-      options.method = equilibrium_alone(1e-8);
-      options.springs = Springs::edge;
-      options.distribution = Distribution::even;
-      const FairResult equilibrium = fair(problem.start, problem.constraints, options);
+      const FairOptions to_equilibrium = {
+          .method = equilibrium_alone(1e-8), .springs = Springs::edge, .distribution = Distribution::even};
+      const FairResult equilibrium = fair(problem.start, problem.constraints, to_equilibrium);
       const auto from_closed_form = [&](const std::vector<Vector3>& positions) {
         if (!shape.distance) return std::string();
         double greatest = 0;
@@ -88,8 +86,11 @@ int main() {
       const double lowered = 1e-3 * std::pow(0.5, 4 * halvings);
       for (const double e : {1e-3, lowered}) {
         if (halvings == 0 && e != lowered) continue;
-        options.method = MultigridMethod{.step_tolerance = e, .max_iterations = 200'000, .levels = 6};
-        const FairResult result = fair(problem.start, problem.constraints, options);
+        const FairOptions by_cycle = {
+            .method = MultigridMethod{.step_tolerance = e, .max_iterations = 200'000, .levels = 6},
+            .springs = Springs::edge,
+            .distribution = Distribution::even};
+        const FairResult result = fair(problem.start, problem.constraints, by_cycle);
         fmt::print("| {} | {} | {:.1e} | {} | {:.1e} | {} | {} |\n", shape.name, problem.start.node_count(), e,
                    result.report.levels.back().iterations, greatest_distance(result.positions, equilibrium.positions),
                    from_closed_form(result.positions), from_closed_form(equilibrium.positions));

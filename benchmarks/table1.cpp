@@ -63,18 +63,17 @@ int main(int argc, char** argv) {
       const PolygonMesh mesh = generate::annulus({.nodes = column.nodes, .boundary_nodes = column.boundary_nodes});
       const Constraints constraints = clamped_boundary(mesh);
       const int times = column.nodes > 20'000 ? 1 : 3;
-      FairOptions options;
-      options.pseudo_normals = normals;
       MultigridMethod multigrid;
       if (column.paper_seconds > 0) multigrid.levels = papers_levels;
-      options.method = multigrid;
-      const FairResult alone = run(mesh, constraints, options, 1, times);
-      const FairResult both = run(mesh, constraints, options, 2, times);
+      const FairOptions by_cycle = {.method = multigrid, .pseudo_normals = normals};
+      const FairResult alone = run(mesh, constraints, by_cycle, 1, times);
+      const FairResult both = run(mesh, constraints, by_cycle, 2, times);
       // Where it goes nowhere there is nothing to compare with.
-      options.method = EquilibriumMethod{.max_iterations = most_iterations};
-      options.springs = Springs::edge;
-      options.distribution = Distribution::even;
-      const FairResult equilibrium = run(mesh, constraints, options, 2, 1);
+      const FairOptions to_equilibrium = {.method = EquilibriumMethod{.max_iterations = most_iterations},
+                                          .pseudo_normals = normals,
+                                          .springs = Springs::edge,
+                                          .distribution = Distribution::even};
+      const FairResult equilibrium = run(mesh, constraints, to_equilibrium, 2, 1);
       const double error = greatest_distance(alone.positions, equilibrium.positions) / diagonal(mesh);
       const double seconds = alone.report.seconds;
       if (first == 0) first = seconds;

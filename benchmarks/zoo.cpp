@@ -42,10 +42,10 @@ struct Summary {
 };
 
 /// The error of a result by a run to 1e-12; none where that run does not get far enough.
-std::optional<double> error_by(const PolygonMesh& start, const Specimen& specimen, FairOptions options,
-                               const FairResult& result) {
+std::optional<double> error_by(const PolygonMesh& start, const Specimen& specimen,
+                               std::optional<Distribution> distribution, const FairResult& result) {
   const double expected = result.report.expected_error.value_or(0);
-  options.method = EquilibriumMethod{.tolerance = 1e-12};
+  const FairOptions options = {.method = EquilibriumMethod{.tolerance = 1e-12}, .distribution = distribution};
   const FairResult truth = fair(start, specimen.constraints, options);
   if (truth.report.outcome != Outcome::converged && !(truth.report.expected_error.value_or(1) < 1e-3 * expected))
     return std::nullopt;
@@ -59,11 +59,12 @@ bool went_evenly(const FairReport& report) {
 }
 
 /// By a run from the same start; where that ends at another equilibrium, by one from the result.
-std::optional<double> true_error(const Specimen& specimen, FairOptions options, const FairResult& result) {
-  const std::optional<double> error = error_by(specimen.start, specimen, options, result);
+std::optional<double> true_error(const Specimen& specimen, const FairResult& result) {
+  std::optional<Distribution> distribution = specimen.distribution;
+  const std::optional<double> error = error_by(specimen.start, specimen, distribution, result);
   if (error && *error < another_equilibrium) return error;
-  if (went_evenly(result.report)) options.distribution = Distribution::even;
-  return error_by(with_positions(specimen.start, result.positions), specimen, options, result);
+  if (went_evenly(result.report)) distribution = Distribution::even;
+  return error_by(with_positions(specimen.start, result.positions), specimen, distribution, result);
 }
 
 void run(const Specimen& specimen, Tally& tally, Summary& summary) {
@@ -75,7 +76,7 @@ void run(const Specimen& specimen, Tally& tally, Summary& summary) {
   ++tally.all;
   if (converged) ++tally.converged;
   const double expected = report.expected_error.value_or(0);
-  const std::optional<double> error = converged ? true_error(specimen, options, result) : std::nullopt;
+  const std::optional<double> error = converged ? true_error(specimen, result) : std::nullopt;
   const double ratio = error && expected > 0 ? *error / expected : 0;
   if (ratio > summary.greatest_ratio) {
     summary.greatest_ratio = ratio;

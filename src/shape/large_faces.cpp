@@ -14,9 +14,9 @@ constexpr std::size_t largest_piece = 16;
 // Edges of a face between two nodes that a cut joins.
 constexpr std::size_t edges_of_piece = 8;
 
-class Cutting {
+class FaceCutter {
  public:
-  explicit Cutting(const PolygonMesh& mesh) : mesh_(&mesh), incidence_(mesh) {}
+  explicit FaceCutter(const PolygonMesh& mesh) : mesh_(&mesh), incidence_(mesh) {}
 
   /// The pieces of a face; none where it has to stay whole.
   std::vector<std::vector<Index>> cut(std::span<const Index> face) {
@@ -69,18 +69,18 @@ std::optional<CutMesh> with_large_faces_cut(const PolygonMesh& mesh) {
   bool any = false;
   for (Index f = 0; f < mesh.face_count() && !any; ++f) any = is_large(f);
   if (!any) return std::nullopt;
-  Cutting cutting(mesh);
+  FaceCutter cutter(mesh);
   MeshBuilder builder;
   for (const Vector3& position : mesh.positions()) builder.add_node(position);
   std::vector<std::vector<Index>> pieces;
   for (Index f = 0; f < mesh.face_count(); ++f) {
     std::vector<std::vector<Index>> cut;
-    if (is_large(f)) cut = cutting.cut(mesh.face(f));
+    if (is_large(f)) cut = cutter.cut(mesh.face(f));
     if (cut.empty()) builder.add_face(mesh.face(f));
     pieces.insert(pieces.end(), cut.begin(), cut.end());
   }
   for (const auto& piece : pieces) builder.add_face(piece);
-  return CutMesh{builder.take(), std::move(cutting).take()};
+  return CutMesh{builder.take(), std::move(cutter).take()};
 }
 
 }  // namespace vspring

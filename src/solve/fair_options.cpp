@@ -23,23 +23,23 @@ void check_limit(const std::optional<int>& max_iterations) {
   require(max_iterations.value_or(0) >= 0, "maximum of iterations", "0 or more", max_iterations.value_or(0));
 }
 
-constexpr const char* step_tolerance = "step tolerance";
+constexpr const char* name_of_step_tolerance = "step tolerance";
 
 void check(const EquilibriumMethod& method) {
   check_positive("tolerance", method.tolerance);
-  if (method.fallbacks) check_positive(step_tolerance, method.fallbacks->step_tolerance);
+  if (method.fallbacks) check_positive(name_of_step_tolerance, method.fallbacks->step_tolerance);
   check_limit(method.max_iterations);
 }
 
 void check(const MultigridMethod& method) {
-  check_positive(step_tolerance, method.step_tolerance);
+  check_positive(name_of_step_tolerance, method.step_tolerance);
   check_limit(method.max_iterations);
   require(method.levels.value_or(1) >= 1, "number of levels", "1 or more", method.levels.value_or(1));
   require(method.pre_smoothing >= 0, "pre-smoothing", "0 or more", method.pre_smoothing);
 }
 
 void check(const SweepMethod& method) {
-  check_positive(step_tolerance, method.step_tolerance);
+  check_positive(name_of_step_tolerance, method.step_tolerance);
   check_limit(method.max_iterations);
 }
 

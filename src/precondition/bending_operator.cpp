@@ -23,10 +23,12 @@ constexpr double greatest_mass = 8;
 // Links in the row of a node with more of them, spread evenly around it: all pairs of them have an entry in B.
 constexpr std::size_t most_links = 64;
 
+bool has_many(std::span<const Link> links) { return links.size() > most_links; }
+
 /// Calls use(k) for the places of a node's links, or of some of many.
 template <typename Use>
 void for_some_links(std::span<const Link> links, const Use& use) {
-  if (links.size() <= most_links) {
+  if (!has_many(links)) {
     for (std::size_t k = 0; k < links.size(); ++k) use(k);
     return;
   }
@@ -44,10 +46,10 @@ double edge_weight(const Net& net, std::size_t i, std::size_t j) {
   return 1 / std::sqrt(d.dot(d) + net.tiny);
 }
 
-/// The row of curvature of a node with a normal, over the links that are wanted: what (node, share) are, times the sum
-/// of the weights. Returns that sum.
-template <typename Wanted>
-double curvature_row(const Net& net, std::size_t i, const Wanted& wanted, SparseRows::Row& row) {
+/// The row of curvature of a node with a normal: what (node, share) are, times the sum of the weights. Returns that
+/// sum. for_links(use): calls use(k) for the places of the links that count.
+template <typename ForLinks>
+double curvature_row_of(const Net& net, std::size_t i, const ForLinks& for_links, SparseRows::Row& row) {
   const auto links = net.rings.links(i);
   const Vector3& normal = net.normals[i];
   row.clear();
@@ -56,8 +58,8 @@ double curvature_row(const Net& net, std::size_t i, const Wanted& wanted, Sparse
     const Vector3 d = net.positions[j] - net.positions[i];
     return d - d.dot(normal) * normal;
   };
-  for_some_links(links, [&](std::size_t k) {
-    if (!links[k].spoke() || !wanted(k)) return;
+  for_links([&](std::size_t k) {
+    if (!links[k].spoke()) return;
     const std::size_t j = links[k].node();
     const double w = edge_weight(net, i, j);
     linear.add(w, across(j));
@@ -75,6 +77,20 @@ double curvature_row(const Net& net, std::size_t i, const Wanted& wanted, Sparse
   return sum;
 }
 
+/// The same over all links: where they are many, some stand for all.
+double curvature_row(const Net& net, std::size_t i, SparseRows::Row& row) {
+  const auto links = net.rings.links(i);
+  const double sum = curvature_row_of(
+      net, i, [&](const auto& use) { for_some_links(links, use); }, row);
+  if (!has_many(links) || !(sum > 0)) return sum;
+  double all = 0;
+  for (const Link link : links) {
+    if (link.spoke()) all += edge_weight(net, i, link.node());
+  }
+  for (auto& [j, value] : row) value *= all / sum;
+  return all;
+}
+
 /// The row of a node with sphere springs, over all of its link: its curvature times 2 √(Σ K |e|²).
 void sphere_row(const Net& net, std::size_t i, SparseRows::Row& row) {
   const auto links = net.rings.links(i);
@@ -84,10 +100,10 @@ void sphere_row(const Net& net, std::size_t i, SparseRows::Row& row) {
   const double* stiffness = spheres.stiffness.data() + net.rings.begin(i);
   double plain = 0;
   double raised = 0;
-  for_some_links(links, [&](std::size_t k) {
+  for (std::size_t k = 0; k < links.size(); ++k) {
     plain += stiffness[k];
     raised += stiffness[k] + spheres.raised[i];
-  });
+  }
   // Forces have the plain entries, curvatures the raised ones: the symmetric form between has their geometric mean.
   const double area = std::clamp(raised > 0 ? spheres.spreads[i] / 4 * plain / raised : 0,
                                  least_mass * spheres.areas[i], greatest_mass * spheres.areas[i]);
@@ -98,6 +114,10 @@ void sphere_row(const Net& net, std::size_t i, SparseRows::Row& row) {
     row.push_back({static_cast<std::uint32_t>(links[k].node()), value});
     sum += value;
   });
+  if (has_many(links) && sum > 0) {
+    for (auto& [j, value] : row) value *= scale * raised / sum;
+    sum = scale * raised;
+  }
   row.push_back({static_cast<std::uint32_t>(i), -sum});
 }
 
@@ -139,15 +159,24 @@ class Extra {
  public:
   explicit Extra(const Net& net) : net_(&net) {}
 
-  /// (Σ w_j (h_j − h_i)) / √(Σ w_j) over the edges to some neighbours.
-  template <typename Wanted>
-  void add_bend(std::size_t i, const Wanted& wanted) {
+  /// (Σ w_j (h_j − h_i)) / √(Σ w_j) over the edges of a node.
+  void add_bend(std::size_t i) {
     SparseRows::Row row;
-    const double sum = curvature_row(*net_, i, wanted, row);
-    if (sum == 0) return;
-    row.push_back({static_cast<std::uint32_t>(i), -sum});
-    for (auto& entry : row) entry.value /= std::sqrt(sum);
-    rows_.push_back({i, std::move(row)});
+    const double sum = curvature_row(*net_, i, row);
+    add_bend(i, sum, std::move(row));
+  }
+  /// The same over the two on the boundary.
+  void add_bend_along_boundary(std::size_t i) {
+    SparseRows::Row row;
+    const std::size_t count = net_->rings.links(i).size();
+    const double sum = curvature_row_of(
+        *net_, i,
+        [&](const auto& use) {
+          use(0);
+          if (count > 1) use(count - 1);
+        },
+        row);
+    add_bend(i, sum, std::move(row));
   }
 
   void add_sphere(std::size_t i) {
@@ -170,6 +199,13 @@ class Extra {
   [[nodiscard]] std::vector<BendingRow> take() && { return std::move(rows_); }
 
  private:
+  void add_bend(std::size_t i, double sum, SparseRows::Row row) {
+    if (sum == 0) return;
+    row.push_back({static_cast<std::uint32_t>(i), -sum});
+    for (auto& entry : row) entry.value /= std::sqrt(sum);
+    rows_.push_back({i, std::move(row)});
+  }
+
   const Net* net_;
   std::vector<BendingRow> rows_;
 };
@@ -189,9 +225,9 @@ std::vector<BendingRow> extra_rows(const Net& net, std::span<const double> pull)
         if (link.spoke()) extra.add_edge(i, i, link.node());
       }
     } else if (moves && open) {
-      extra.add_bend(i, [&](std::size_t k) { return k == 0 || k + 1 == links.size(); });
+      extra.add_bend_along_boundary(i);
     } else if (!moves && !open && !net.normal_given(i)) {
-      extra.add_bend(i, [](std::size_t) { return true; });
+      extra.add_bend(i);
     }
     if (!moves || net.normal_given(i)) continue;
     for (const Link link : links) {
@@ -225,8 +261,7 @@ void for_bending_row(const Net& net, std::size_t i, SparseRows::Row& room, const
     for_some_links(net.rings.links(i), [&](std::size_t k) { with_spoke(k, room[next++].value); });
     return;
   }
-  const double sum = curvature_row(
-      net, i, [](std::size_t) { return true; }, room);
+  const double sum = curvature_row(net, i, room);
   if (!(sum > 0)) return;
   const double scale = 1 / std::sqrt(sum);
   with_node(-sum * scale);

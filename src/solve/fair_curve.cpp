@@ -9,7 +9,7 @@
 #include "checks/result_check.hpp"
 #include "equilibrium/account.hpp"
 #include "equilibrium/equilibrium_method.hpp"
-#include "equilibrium/of_net.hpp"
+#include "equilibrium/from_options.hpp"
 #include "solve/papers_method.hpp"
 #include "spring/curve_net.hpp"
 #include "vspring/fair.hpp"

@@ -5,8 +5,8 @@
 #include <variant>
 
 #include "equilibrium/account.hpp"
+#include "equilibrium/from_options.hpp"
 #include "equilibrium/multigrid_method.hpp"
-#include "equilibrium/of_net.hpp"
 #include "equilibrium/sweep_method.hpp"
 
 namespace vspring {

@@ -236,11 +236,15 @@ void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constr
 
 void SurfaceFairing::go_back_if_worse(const Constraints& constraints, FairReport& report) {
   Net& found = hierarchy_->finest();
-  if (check_->fault(found).empty()) return;
   Net input = gather_part(*whole_, part_, constraints, true);
-  if (!check_->fault_of_places(input).empty() && check_->misplaced(found).empty()) return;
+  if (found.positions == input.positions) return;
+  const std::string fault = check_->fault(found);
+  if (fault.empty() || (!check_->fault_of_places(input).empty() && check_->misplaced(found).empty())) return;
   found.positions = std::move(input.positions);
-  report.warnings.back().text += ": this is the input with its constraints";
+  // In place of what is said of the shape that was found.
+  std::erase_if(report.warnings, [](const Warning& warning) { return warning.code == WarningCode::worse_than_input; });
+  report.warnings.push_back({WarningCode::worse_than_input, "what was found so far is worse than the input (" + fault +
+                                                                "): this is the input with its constraints"});
 }
 
 bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first,

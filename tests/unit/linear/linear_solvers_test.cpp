@@ -139,6 +139,57 @@ TEST(BendingForm, DoesNotResistTilts) {
   }
 }
 
+/// A node among so many, over an angle, and a ring around these, which is held. Without them all around it is one of
+/// the boundary. In the plane.
+Net fan_net(Index spokes, double angle, ThreadTeam& team) {
+  const bool closed = angle > 6;
+  MeshBuilder builder;
+  builder.add_node(Vector3::Zero());
+  for (const double radius : {1.0, 2.0}) {
+    for (Index k = 0; k < spokes; ++k) {
+      const double at = angle * k / (closed ? spokes : spokes - 1);
+      builder.add_node(radius * Vector3(std::cos(at), std::sin(at), 0));
+    }
+  }
+  for (Index k = 0; k < (closed ? spokes : spokes - 1); ++k) {
+    const Index next = (k + 1) % spokes;
+    builder.add_face({0, 1 + k, 1 + next});
+    builder.add_face({1 + k, 1 + spokes + k, 1 + spokes + next, 1 + next});
+  }
+  const PolygonMesh mesh = builder.take();
+  Constraints constraints(mesh.node_count());
+  for (Index k = 0; k < spokes; ++k) constraints.fix_position(1 + spokes + k, mesh.position(1 + spokes + k));
+  Net net = gather_net(mesh, constraints);
+  update_directions(net, *surface_model(PseudoNormals::link), team);
+  return net;
+}
+
+Eigen::Index place_of(const Net& net, Index node) {
+  return std::find(net.node.begin(), net.node.end(), node) - net.node.begin();
+}
+
+TEST(BendingForm, SomeOfManyNeighboursStandForAll) {
+  ThreadTeam team(1);
+  const auto stiffness = [&](Index spokes) {
+    const Net net = fan_net(spokes, 2 * std::numbers::pi, team);
+    const Eigen::Index middle = place_of(net, 0);
+    return dense(bending_operator(net, team))(middle, middle);
+  };
+  // As the sum of the weights of its edges, which are all the same.
+  const double expected = stiffness(64) / 64;
+  EXPECT_NEAR(stiffness(128) / 128, expected, 0.1 * expected);
+  EXPECT_NEAR(stiffness(640) / 640, expected, 0.2 * expected);
+}
+
+TEST(BendingForm, ABoundaryNodeOfManyNeighboursBendsAlongTheBoundary) {
+  ThreadTeam team(1);
+  for (const Index spokes : {20, 100}) {
+    const Net net = fan_net(spokes, std::numbers::pi, team);
+    const Eigen::MatrixXd matrix = dense(bending_operator(net, team));
+    EXPECT_GT(matrix(place_of(net, 1), place_of(net, spokes)), 0) << spokes;
+  }
+}
+
 TEST(CholeskySolver, SolvesAndSolvesAnew) {
   ThreadTeam team(2);
   CholeskySolver solver(team);

@@ -1,4 +1,4 @@
-#include "equilibrium/of_net.hpp"
+#include "equilibrium/from_options.hpp"
 
 #include <utility>
 

@@ -16,6 +16,7 @@
 #include "interruption.hpp"
 #include "terminal.hpp"
 #include "vspring/generate.hpp"
+#include "vspring/surface_file.hpp"
 #include "vspring/topology.hpp"
 
 namespace vspring::cli {

@@ -6,10 +6,9 @@
 #include <span>
 #include <utility>
 
-#include "levels/surface_slide.hpp"
+#include "equilibrium/surface_spreading.hpp"
 #include "linear/interpolation.hpp"
 #include "precondition/surface_preconditioner.hpp"
-#include "spring/surface_force.hpp"
 
 namespace vspring {
 
@@ -17,11 +16,6 @@ namespace {
 
 // Passes of means over the few nodes of the coarsest level, until they lie as on a soap film.
 constexpr int film_passes = 500;
-// Of nodes along the surface that was handed up. A step of less than this many edges is left to the solver.
-constexpr int slide_passes = 6;
-constexpr double worth_sliding = 0.5;
-constexpr double negligible_slide = 0.05;
-constexpr double slide_share = 0.15;
 // Moves of what holds, as shares of the tolerance: those that nobody need follow, and those that say where nodes go.
 constexpr double negligible_move = 0.25;
 constexpr double telling_move = 2;
@@ -59,7 +53,15 @@ void SurfaceHierarchy::make_systems(std::size_t level) {
     system_levels_.interpolations.push_back(interpolation(levels_[k].net, coarse.net, coarse.finer, *team_));
   }
   rigid_modes_.emplace(levels_[level].net);
-  spreading_ = spreading_solver(system_levels_, *team_, !rigid_modes_->needed());
+  const bool held = !rigid_modes_->needed();
+  if (system_levels_.interpolations.empty()) {
+    spreading_levels_ = nullptr;
+    spreading_ = spreading_factor(*system_levels_.net, *team_, held);
+  } else {
+    auto levels = spreading_multigrid(system_levels_, *team_, held);
+    spreading_levels_ = levels.get();
+    spreading_ = std::move(levels);
+  }
 }
 
 void SurfaceHierarchy::start() {
@@ -82,9 +84,18 @@ void SurfaceHierarchy::start_from_membrane(std::size_t level) {
 }
 
 void SurfaceHierarchy::prolong_from(std::size_t level) {
-  prolong_surface(levels_[level], levels_[level + 1], *team_);
+  Level& coarse = levels_[level];
+  Level& fine = levels_[level + 1];
+  prolong_surface(coarse, fine, *team_);
   systems_of_.reset();
-  spread_along(level + 1);
+  const NetState found = coarse.net;
+  make_systems(level + 1);
+  if (spreading_levels_ && !rigid_modes_->needed()) {
+    static_cast<NetState&>(coarse.net) = found;
+    if (spread_coarser(coarse.net, fine.net, system_levels_.interpolations.front(), *spreading_levels_, *team_))
+      prolong_surface(coarse, fine, *team_);
+  }
+  spread_along(fine.net, *spreading_, *rigid_modes_, *team_);
 }
 
 std::vector<Vector3> SurfaceHierarchy::step_of_held(const Constraints& constraints) const {
@@ -154,34 +165,6 @@ void SurfaceHierarchy::arrived() {
 void SurfaceHierarchy::go_back() {
   finest().positions = began_;
   finest().normals = normals_began_;
-}
-
-void SurfaceHierarchy::spread_along(std::size_t level) {
-  Net& net = levels_[level].net;
-  make_systems(level);
-  std::vector<NodeForce> forces(net.moving);
-  std::vector<Vector3> steps(net.moving);
-  for (int pass = 0; pass < slide_passes; ++pass) {
-    parallel_ranges(*team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        forces[i] = surface_force(net, i);
-        const auto links = net.rings.links(i);
-        const auto spokes = std::count_if(links.begin(), links.end(), [](Link link) { return link.spoke(); });
-        steps[i] = regularisation_divisor(net) * static_cast<double>(spokes) * forces[i].regularisation;
-      }
-    });
-    double least_edge = forces.front().mean_edge;
-    for (const NodeForce& force : forces) least_edge = std::min(least_edge, force.mean_edge);
-    rigid_modes_->hold(steps);
-    spreading_->solve(steps, {.enough = negligible_slide * least_edge, .share = slide_share});
-    for (std::size_t i = 0; i < net.moving; ++i) steps[i] -= steps[i].dot(net.normals[i]) * net.normals[i];
-    rigid_modes_->hold(steps);
-    bool worth_it = false;
-    for (std::size_t i = 0; i < net.moving; ++i)
-      worth_it = worth_it || steps[i].norm() > worth_sliding * forces[i].mean_edge;
-    if (!worth_it) break;
-    slide(net, steps, *team_);
-  }
 }
 
 }  // namespace vspring

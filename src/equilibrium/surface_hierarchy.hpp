@@ -8,6 +8,7 @@
 #include "equilibrium/hierarchy.hpp"
 #include "levels/surface_levels.hpp"
 #include "linear/linear_solver.hpp"
+#include "linear/multigrid_solver.hpp"
 #include "precondition/anderson.hpp"
 #include "precondition/multisecant_predictor.hpp"
 #include "precondition/surface_preconditioner.hpp"
@@ -54,8 +55,6 @@ class SurfaceHierarchy final : public Hierarchy {
   Anderson<float>& memory() { return *memory_; }
 
  private:
-  /// Moves the nodes of a level along their surface to where the regularisation (§4.4) wants them.
-  void spread_along(std::size_t level);
   /// The moves of held nodes of the shape itself, then of the ends of given normals.
   [[nodiscard]] std::vector<Vector3> step_of_held(const Constraints& constraints) const;
   /// The ways of the moving nodes with it.
@@ -68,6 +67,7 @@ class SurfaceHierarchy final : public Hierarchy {
   SystemLevels system_levels_;
   std::optional<TangentialRigidModes> rigid_modes_;
   std::unique_ptr<LinearSolver> spreading_;
+  MultigridSolver* spreading_levels_ = nullptr;  ///< the same, where it has coarser levels
   std::optional<SurfacePreconditioner> preconditioner_;
   MultisecantPredictor predictor_;
   /// Of the last update(); none where it tells nothing.

@@ -212,8 +212,10 @@ void MultigridSolver::scale(Level& level) const {
 template <typename Value>
 class MultigridSolver::Cycle {
  public:
-  explicit Cycle(MultigridSolver& solver) : solver_(&solver), levels_(solver.levels_.size() + 1) {
-    for (std::size_t k = 0; k < levels_.size(); ++k) {
+  /// first: the level that it is for.
+  explicit Cycle(MultigridSolver& solver, std::size_t first = 0)
+      : solver_(&solver), first_(first), levels_(solver.levels_.size() + 1) {
+    for (std::size_t k = first; k < levels_.size(); ++k) {
       const std::size_t rows = k == 0 ? size_of(solver.levels_[0].matrix) : solver.interpolations_[k - 1].up.columns();
       levels_[k].solution.resize(rows);
       if (k + 1 == levels_.size()) break;
@@ -223,11 +225,11 @@ class MultigridSolver::Cycle {
   }
 
   /// solution() ≈ matrix⁻¹ right(), a symmetric operator; right() is used up.
-  void apply() { descend(0); }
-  std::vector<Value>& right() { return levels_[0].residual; }
-  [[nodiscard]] const std::vector<Value>& solution() const { return levels_[0].solution; }
+  void apply() { descend(first_); }
+  std::vector<Value>& right() { return levels_[first_].residual; }
+  [[nodiscard]] const std::vector<Value>& solution() const { return levels_[first_].solution; }
   /// Free between cycles.
-  std::vector<Value>& spare() { return levels_[0].step; }
+  std::vector<Value>& spare() { return levels_[first_].step; }
   std::vector<Value>& between() { return between_; }
 
  private:
@@ -305,6 +307,7 @@ class MultigridSolver::Cycle {
   }
 
   MultigridSolver* solver_;
+  std::size_t first_;
   std::vector<Room> levels_;
   std::vector<Value> between_;
 };
@@ -331,6 +334,14 @@ void MultigridSolver::solve(std::span<double> values, const Accuracy& accuracy) 
 void MultigridSolver::solve(std::span<Vector3> values, const Accuracy& accuracy) {
   Cycle<Three> cycle(*this);
   solve_any(cycle, values, accuracy);
+}
+
+void MultigridSolver::solve_coarser(std::span<Vector3> values) {
+  if (levels_.size() == 1) return coarsest_.solve(values, {});
+  Cycle<Three> cycle(*this, 1);
+  for_rows(*team_, values.size(), [&](std::size_t i) { cycle.right()[i] = narrowed(values[i]); });
+  cycle.apply();
+  for_rows(*team_, values.size(), [&](std::size_t i) { widen(cycle.solution()[i], values[i]); });
 }
 
 template <typename Value, typename Values>

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "base/threads.hpp"
+#include "levels/level.hpp"
+#include "linear/interpolation.hpp"
+#include "linear/linear_solver.hpp"
+#include "linear/multigrid_solver.hpp"
+#include "precondition/tangential_rigid_modes.hpp"
+#include "spring/net.hpp"
+
+namespace vspring {
+
+/// Moves the nodes of a surface that was handed up from a coarser level along it to where the regularisation (§4.4)
+/// wants them. spreading: of the tangential_laplacian() of the net. Needs directions, and sets them. Cost: linear.
+void spread_along(Net& net, LinearSolver& spreading, const TangentialRigidModes& rigid_modes, ThreadTeam& team);
+
+/// Moves the nodes of a coarser level along its surface to where they are wanted by the finer one that was handed up
+/// from it, for a quarter of what it takes there. between: of the two; spreading: of the finer one. Needs directions
+/// on the coarser one, and sets them. False where nothing is to be moved. Cost: linear.
+bool spread_coarser(Net& coarse, const Net& fine, const Interpolation& between, MultigridSolver& spreading,
+                    ThreadTeam& team);
+
+}  // namespace vspring

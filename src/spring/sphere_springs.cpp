@@ -31,9 +31,11 @@ constexpr double least_spread = 2;
 constexpr double of_neighbours = 0.5;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-double cotangent(double cosine, double sine) {
-  if (!(sine * greatest_cotangent > std::abs(cosine))) return cosine < 0 ? -greatest_cotangent : greatest_cotangent;
-  return cosine / sine;
+/// From the cosine and the inverse of the sine, which may be infinite.
+double cotangent(double cosine, double inverse_sine) {
+  const double value = cosine * inverse_sine;
+  if (!(value < greatest_cotangent)) return greatest_cotangent;
+  return std::max(value, -greatest_cotangent);
 }
 
 /// Of a triangle with a corner at 0 and two others: the halves of its angles' cotangents, and twice its area.
@@ -46,9 +48,10 @@ struct HalfCotangents {
   HalfCotangents(const Vector3& a, const Vector3& b) {
     const Vector3 side = b - a;
     area = a.cross(side).norm();
-    at_origin = 0.5 * cotangent(a.dot(b), area);
-    at_a = 0.5 * cotangent(-a.dot(side), area);
-    at_b = 0.5 * cotangent(b.dot(side), area);
+    const double inverse = 1 / area;
+    at_origin = 0.5 * cotangent(a.dot(b), inverse);
+    at_a = 0.5 * cotangent(-a.dot(side), inverse);
+    at_b = 0.5 * cotangent(b.dot(side), inverse);
   }
 };
 
@@ -188,30 +191,30 @@ struct Triangle {
   double& operator()(std::size_t row, std::size_t column) { return values[row * (row + 1) / 2 + column]; }
 };
 
-/// x of a x = b for a symmetric positive definite a, which is replaced by its Cholesky factor.
+/// x of a x = b for a symmetric positive definite a, which is replaced by its factor L of L D Lᵀ.
 template <std::size_t n>
 Unknowns<n> solve_in_place(Triangle<n>& a, Unknowns<n> b) {
+  Unknowns<n> inverse;
   unrolled<n>([&](auto j) {
-    unrolled<j>([&](auto k) {
-      double sum = a(j, k);
-      unrolled<k>([&](auto m) { sum -= a(j, m) * a(k, m); });
-      a(j, k) = sum / a(k, k);
-    });
+    // Row j of L D, then of L.
+    unrolled<j>([&](auto k) { unrolled<k>([&](auto m) { a(j, k) -= a(k, m) * a(j, m); }); });
     double pivot = a(j, j);
-    unrolled<j>([&](auto m) { pivot -= a(j, m) * a(j, m); });
+    unrolled<j>([&](auto k) {
+      const double entry = a(j, k) * inverse[k];
+      pivot -= a(j, k) * entry;
+      b[j] -= entry * b[k];
+      a(j, k) = entry;
+    });
     // What nothing tells of gets nothing.
-    a(j, j) = pivot > 0 ? std::sqrt(pivot) : std::numeric_limits<double>::infinity();
-    double value = b[j];
-    unrolled<j>([&](auto m) { value -= a(j, m) * b[m]; });
-    b[j] = value / a(j, j);
+    inverse[j] = pivot > 0 ? 1 / pivot : 0;
   });
   unrolled<n>([&](auto back) {
     constexpr std::size_t j = n - 1 - back;
+    b[j] *= inverse[j];
     unrolled<back>([&](auto k) {
       constexpr std::size_t m = j + 1 + k;
       b[j] -= a(m, j) * b[m];
     });
-    b[j] /= a(j, j);
   });
   return b;
 }

@@ -218,6 +218,12 @@ MUTATIONS = {
         ("turn-of-flipped", "turn between faces of two senses", "neighbours_[k].same_sense ? -a.dot(b) : a.dot(b)", "a.dot(b)"),
         ("turn-mean", "root mean square turn", "std::sqrt(turns.squares / turns.count)", "std::sqrt(turns.squares)"),
     ],
+    "src/fairness/height_field.cpp": [
+        ("one-way", "triangles that all face one way", "u.cross(v).dot(direction_) > view_margin * (u.squaredNorm() + v.squaredNorm())", "true"),
+        ("simple-outline", "a boundary that does not cross itself", "if (!are_apart(k, static_cast<std::size_t>(other))) simple = false;", ""),
+        ("one-sheet", "no place is wound around twice", "counter_clockwise == 1", "counter_clockwise > 0"),
+        ("edges-cancel", "edges along which triangles run both ways are no boundary", "own[k] % 2 == 0 ? 1 : -1", "1"),
+    ],
     "src/fairness/curvatures.cpp": [
         ("form-frame", "two tangents at right angles", "-p * q / (e * w)", "p * q / (e * w)"),
         ("codazzi", "covariant derivative of the form", "(third - bent / w2)", "third"),

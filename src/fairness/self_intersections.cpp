@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "fairness/height_field.hpp"
 #include "shape/box_tree.hpp"
 #include "shape/triangles.hpp"
 
@@ -24,12 +25,13 @@ class Crossings {
       for (const Index i : triangle.nodes) greatest = std::max(greatest, mesh.position(i).cwiseAbs().maxCoeff());
     }
     // By a power of two and without moving the shape: no digit changes, and what touches still touches.
-    const double scale = greatest > 0 ? std::ldexp(1.0, -std::clamp(std::ilogb(greatest), -1000, 1000)) : 1.0;
+    const double scale = greatest > 0 ? std::ldexp(1.0, -std::max(std::ilogb(greatest), -1000)) : 1.0;
     positions_.reserve(mesh.positions().size());
     for (const Vector3& position : mesh.positions()) positions_.push_back(position * scale);
   }
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
+  [[nodiscard]] const std::vector<Vector3>& positions() const noexcept { return positions_; }
 
   [[nodiscard]] Box box(const Triangle& triangle) const {
     Box box;
@@ -115,6 +117,7 @@ std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh,
                                                         ThreadTeam& team) {
   const Crossings crossings(mesh);
   const auto& triangles = crossings.triangles();
+  if (is_height_field(triangles, crossings.positions(), team)) return {};
   std::vector<Box> boxes;
   boxes.reserve(triangles.size());
   for (const Triangle& triangle : triangles) boxes.push_back(crossings.box(triangle));

@@ -56,7 +56,7 @@ MUTATIONS = {
          "spheres.areas[i] * own * spheres.differences[i]"),
         ("bending-difference", "H² − K = 4|q|²", "4 * (fit.q1 * fit.q1 + fit.q2 * fit.q2)", "4 * (fit.q1 * fit.q1 - fit.q2 * fit.q2)"),
         ("sphere-area", "a node's third of its triangles", "half.area / 6", "half.area / 2"),
-        ("slopes", "normals from heights over the link", "first + fit.slope1 * t1 + fit.slope2 * t2", "first", "Vector3"),
+        ("slopes", "normals from heights over the link", "normal + fit.slope1 * t1 + fit.slope2 * t2", "normal", "Vector3"),
     ],
     "src/spring/tangent.hpp": [
         ("circle-tangent", "tangent of the circle: e/ℓ²", "sum += *edge / length2;", "sum += *edge / std::sqrt(length2);"),

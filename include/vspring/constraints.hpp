@@ -50,7 +50,11 @@ class Constraints {
   static constexpr std::uint8_t normal_flag = 2;
   static constexpr std::uint8_t tangent_flag = 4;
   /// Throws Error(unusable_constraint) for a node number out of range.
-  [[nodiscard]] std::size_t at(Index node) const;
+  [[nodiscard]] std::size_t at(Index node) const {
+    if (node < 0 || node >= node_count()) refuse(node);
+    return static_cast<std::size_t>(node);
+  }
+  [[noreturn]] void refuse(Index node) const;
 
   /// A vector for some of the nodes: most have no constraint of most kinds.
   class Vectors {

@@ -45,8 +45,15 @@ constexpr double collapsed_size = 1e-4;
 constexpr double ridge_of_fits = 1e-9;
 
 bool turns_back(const Vector3& a, const Vector3& b) {
-  return a.dot(b) < beyond_right * std::sqrt(a.squaredNorm() * b.squaredNorm());
+  const double product = a.dot(b);
+  // Hardly ever: without a root for all others.
+  return product < 0 && product < beyond_right * std::sqrt(a.squaredNorm() * b.squaredNorm());
 }
+
+/// The next place once around: a division, as for a remainder, takes as long as a face.
+std::size_t place_after(std::size_t k, std::size_t count) { return k + 1 < count ? k + 1 : 0; }
+
+std::size_t place_before(std::size_t k, std::size_t count) { return (k > 0 ? k : count) - 1; }
 
 /// Vector areas, times two, of the faces that follow the spokes of a node; not a number where there is none.
 void find_faces(const Net& net, const std::vector<Vector3>& positions, std::size_t i, std::vector<std::size_t>& spokes,
@@ -59,7 +66,7 @@ void find_faces(const Net& net, const std::vector<Vector3>& positions, std::size
     spokes.push_back(k);
     Vector3 area = Vector3::Zero();
     for (std::size_t at = k;;) {
-      const std::size_t next = (at + 1) % links.size();
+      const std::size_t next = place_after(at, links.size());
       if (links[next].start() || links.size() < 2) {
         area.setConstant(std::numeric_limits<double>::quiet_NaN());
         break;
@@ -82,7 +89,7 @@ double bending_at(const Net& net, const std::vector<Vector3>& positions, std::si
   Vector3 normal = Vector3::Zero();
   double share = 0;
   for (std::size_t s = 0; s < faces.size(); ++s) {
-    const std::size_t next = spokes[(s + 1) % spokes.size()];
+    const std::size_t next = spokes[place_after(s, spokes.size())];
     const std::size_t corners = (next > spokes[s] ? next : next + links.size()) - spokes[s] + 2;
     normal += faces[s];
     share += 0.5 * faces[s].norm() / static_cast<double>(corners);
@@ -148,16 +155,17 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
     for (std::size_t i = begin; i < end; ++i) {
       if (is_dragged(i)) continue;
       find_faces(net, positions, i, spokes, faces);
-      const auto neighbour = [&](std::size_t s) { return net.rings.links(i)[spokes[s % spokes.size()]].node(); };
-      for (std::size_t s = 0; s < spokes.size(); ++s) {
+      const auto links = net.rings.links(i);
+      const auto neighbour = [&](std::size_t s) { return links[spokes[s]].node(); };
+      const std::size_t count = spokes.size();
+      for (std::size_t s = 0; s < count; ++s) {
         const std::size_t j = neighbour(s);
-        if (is_dragged(j) || is_dragged(neighbour(s + 1))) continue;
+        if (is_dragged(j) || is_dragged(neighbour(place_after(s, count)))) continue;
         if (faces[s].norm() < 2 * tiny * tiny) ++part.collapsed;
         if (j < i && j < net.computed) continue;
-        const Vector3& before = faces[(s + faces.size() - 1) % faces.size()];
-        if (turns_back(before, faces[s]) && !is_dragged(neighbour(s + spokes.size() - 1))) ++part.turned;
+        const std::size_t last = place_before(s, count);
+        if (turns_back(faces[last], faces[s]) && !is_dragged(neighbour(last))) ++part.turned;
       }
-      const auto links = net.rings.links(i);
       if (with_bending && std::none_of(links.begin(), links.end(), [&](Link link) { return is_dragged(link.node()); }))
         part.bending += bending_at(net, positions, i, spokes, faces);
     }

@@ -40,11 +40,9 @@ void Constraints::Vectors::set(std::size_t node, std::size_t node_count, const V
   values_[place_[node]] = value;
 }
 
-std::size_t Constraints::at(Index node) const {
-  if (node < 0 || node >= node_count())
-    throw Error(ErrorCode::unusable_constraint,
-                fmt::format("node {} does not exist; nodes go from 0 to {}", node, node_count() - 1));
-  return static_cast<std::size_t>(node);
+void Constraints::refuse(Index node) const {
+  throw Error(ErrorCode::unusable_constraint,
+              fmt::format("node {} does not exist; nodes go from 0 to {}", node, node_count() - 1));
 }
 
 void Constraints::fix_position(Index node, const Vector3& position) {

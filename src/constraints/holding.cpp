@@ -6,12 +6,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/dense_algebra.hpp"
 #include "base/disjoint_sets.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
+#include "shape/boundary.hpp"
 #include "shape/fan.hpp"
 #include "shape/frame.hpp"
 #include "shape/node_graph.hpp"
@@ -35,28 +38,34 @@ class Holding {
         pulled_(pulled),
         incidence_(mesh),
         graph_(mesh, incidence_),
-        parts_(static_cast<std::size_t>(mesh.node_count())) {}
+        parts_(static_cast<std::size_t>(mesh.node_count())),
+        inside_(static_cast<std::size_t>(mesh.node_count()), 0) {}
 
   void refuse_defects() {
+    const bool are_lost = any_lost_nodes();
     // Held nodes beside moving ones, whose normals and spheres follow from all faces around them.
-    std::vector<std::uint8_t> is_rim(static_cast<std::size_t>(mesh_.node_count()), 0);
+    std::vector<std::uint8_t> is_rim(are_lost ? static_cast<std::size_t>(mesh_.node_count()) : 0, 0);
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       const auto face = mesh_.face(f);
       if (std::none_of(face.begin(), face.end(), [&](Index i) { return !constraints_.position_fixed(i); })) continue;
       if (face.size() < 3) add_fault(Defect{.kind = Defect::Kind::too_few_nodes, .face = f}, face[0]);
+      if (!are_lost) continue;
       refuse_lost_nodes(face);
       for (const Index i : face) {
         if (constraints_.position_fixed(i)) is_rim[static_cast<std::size_t>(i)] = 1;
       }
     }
-    for (Index f = 0; f < mesh_.face_count(); ++f) {
+    for (Index f = 0; f < mesh_.face_count() && are_lost; ++f) {
       const auto face = mesh_.face(f);
       if (std::any_of(face.begin(), face.end(), [&](Index i) { return is_rim[static_cast<std::size_t>(i)] != 0; }))
         refuse_lost_nodes(face);
     }
     FanWalker walker(mesh_, incidence_);
     for (Index i = 0; i < mesh_.node_count(); ++i) {
-      if (moves(i)) check_fan(i, walker.walk(i));
+      if (!moves(i)) continue;
+      const Fan& fan = walker.walk(i);
+      check_fan(i, fan);
+      inside_[static_cast<std::size_t>(i)] = fan.closed ? 1 : 0;
     }
     if (faults_.empty()) return;
     std::string text;
@@ -96,7 +105,7 @@ class Holding {
 
   /// Whether the component with this node, as find() gives it, has a boundary.
   bool has_boundary(Index component) {
-    const auto loops = boundary_loops(mesh_);
+    const auto loops = boundary().loops();
     return std::any_of(loops.begin(), loops.end(),
                        [&](const auto& loop) { return moves(loop.front()) && find(loop.front()) == component; });
   }
@@ -104,7 +113,7 @@ class Holding {
   void check_boundaries(std::vector<Warning>& warnings) {
     Index free_nodes = 0;
     Index first_free = -1;
-    const auto loops = boundary_loops(mesh_);
+    const auto loops = boundary().loops();
     for (const auto& loop : loops) {
       const auto held = static_cast<Index>(
           std::count_if(loop.begin(), loop.end(), [&](Index i) { return constraints_.position_fixed(i); }));
@@ -132,7 +141,7 @@ class Holding {
   /// leave more than one of them, they leave a family of shapes.
   void warn_of_families(std::vector<Warning>& warnings) {
     using System = Eigen::Matrix<double, 5, 5>;
-    const auto boundary = boundary_nodes(mesh_);
+    const auto& on_boundary = boundary().nodes();
     Eigen::AlignedBox<double, 3> box;
     for (Index i = 0; i < mesh_.node_count(); ++i) {
       if (constraints_.position_fixed(i) && constraints_.position(i).allFinite()) box.extend(constraints_.position(i));
@@ -163,7 +172,7 @@ class Holding {
     for (Index j = 0; j < mesh_.node_count(); ++j) {
       met.clear();
       if (moves(j)) {
-        if (boundary[static_cast<std::size_t>(j)] != 0) bounded[system(j)] = 1;
+        if (on_boundary[static_cast<std::size_t>(j)] != 0) bounded[system(j)] = 1;
         const std::size_t k = system(j);
         // Points hold a node somewhere near its place.
         if (pulled(j)) add_place(k, frame.to_local(mesh_.position(j)));
@@ -173,7 +182,7 @@ class Holding {
         if (moves(i) && std::find(met.begin(), met.end(), system(i)) == met.end()) met.push_back(system(i));
       });
       for (const std::size_t k : met) {
-        if (boundary[static_cast<std::size_t>(j)] != 0) bounded[k] = 1;
+        if (on_boundary[static_cast<std::size_t>(j)] != 0) bounded[k] = 1;
         const Vector3 p = frame.to_local(constraints_.position(j));
         add_place(k, p);
         if (!constraints_.normal_fixed(j)) continue;
@@ -199,10 +208,21 @@ class Holding {
   }
 
  private:
+  [[nodiscard]] bool is_lost(Index i) const {
+    return !(constraints_.position_fixed(i) ? constraints_.position(i) : mesh_.position(i)).allFinite();
+  }
+
+  /// Hardly ever: faces need not be looked through for them.
+  [[nodiscard]] bool any_lost_nodes() const {
+    for (Index i = 0; i < mesh_.node_count(); ++i) {
+      if (is_lost(i)) return true;
+    }
+    return false;
+  }
+
   void refuse_lost_nodes(std::span<const Index> face) {
     for (const Index i : face) {
-      const Vector3& position = constraints_.position_fixed(i) ? constraints_.position(i) : mesh_.position(i);
-      if (!position.allFinite()) add_fault(Defect{.kind = Defect::Kind::not_finite, .node = i}, i);
+      if (is_lost(i)) add_fault(Defect{.kind = Defect::Kind::not_finite, .node = i}, i);
     }
   }
 
@@ -254,9 +274,16 @@ class Holding {
     for (Index i = 0; i < mesh_.node_count(); ++i) {
       if (!moves(i)) continue;
       graph_.for_each_neighbour(i, [&](Index j) {
-        if (moves(j)) parts_.join(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+        // The other way round it is the same edge.
+        if (i < j && moves(j)) parts_.join(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
       });
     }
+  }
+
+  /// Found once, when it is asked for.
+  const Boundary& boundary() {
+    if (!boundary_) boundary_.emplace(mesh_, incidence_, inside_);
+    return *boundary_;
   }
 
   Index find(Index i) { return static_cast<Index>(parts_.find(static_cast<std::size_t>(i))); }
@@ -266,7 +293,9 @@ class Holding {
   std::span<const std::uint8_t> pulled_;
   Incidence incidence_;
   NodeGraph graph_;
-  DisjointSets parts_;  // of moving nodes
+  DisjointSets parts_;                // of moving nodes
+  std::vector<std::uint8_t> inside_;  ///< moving nodes with faces all around
+  std::optional<Boundary> boundary_;
   std::vector<std::string> faults_;
   std::size_t fault_count_ = 0;
   Index fault_node_ = -1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace vspring {
 
@@ -35,10 +36,33 @@ void for_each_face(const Net& net, std::size_t i, std::vector<Index>& face, cons
   use(face);
 }
 
+/// Collects triangles, but for those that name a node twice.
+class TriangleList {
+ public:
+  explicit TriangleList(std::size_t nodes) { corners_.reserve(3 * faces_per_node * nodes); }
+
+  void add(Index a, Index b, Index c) {
+    if (a != b && b != c && c != a) corners_.insert(corners_.end(), {a, b, c});
+  }
+
+  [[nodiscard]] PolygonMesh take(const std::vector<Vector3>& positions) && {
+    std::vector<Index> face_begin(corners_.size() / 3 + 1);
+    for (std::size_t f = 0; f < face_begin.size(); ++f) face_begin[f] = static_cast<Index>(3 * f);
+    return {positions, std::move(face_begin), std::move(corners_)};
+  }
+
+ private:
+  // About as many as closed surfaces have.
+  static constexpr std::size_t faces_per_node = 2;
+
+  std::vector<Index> corners_;
+};
+
 /// Cuts polygons into triangles, ear by ear.
 class EarClipper {
  public:
-  EarClipper(std::vector<std::uint32_t> edges, MeshBuilder& builder) : edges_(std::move(edges)), builder_(&builder) {}
+  EarClipper(std::vector<std::uint32_t> edges, TriangleList& triangles)
+      : edges_(std::move(edges)), triangles_(&triangles) {}
 
   /// Empties the face.
   void cut(std::vector<Index>& face) {
@@ -67,7 +91,7 @@ class EarClipper {
       add(before(best), face[best], after(best));
       face.erase(face.begin() + static_cast<std::ptrdiff_t>(best));
     }
-    add_triangle(face[0], face[1], face[2]);
+    triangles_->add(face[0], face[1], face[2]);
     face.clear();
   }
 
@@ -77,22 +101,40 @@ class EarClipper {
   void add(Index a, Index b, Index c) {
     ++edges_[static_cast<std::size_t>(a)];
     ++edges_[static_cast<std::size_t>(c)];
-    add_triangle(a, b, c);
-  }
-  void add_triangle(Index a, Index b, Index c) {
-    if (a != b && b != c && c != a) builder_->add_face({a, b, c});
+    triangles_->add(a, b, c);
   }
 
   std::vector<std::uint32_t> edges_;
-  MeshBuilder* builder_;
+  TriangleList* triangles_;
 };
 
-}  // namespace
+bool has_triangles_alone(const Net& net) {
+  for (std::size_t i = 0; i < net.computed; ++i) {
+    const auto links = net.rings.links(i);
+    if (!std::all_of(links.begin(), links.end(), [](Link link) { return link.spoke(); })) return false;
+  }
+  return true;
+}
 
-PolygonMesh triangulated_patch(const Net& net) {
+// Of each face, the node with the lowest number has it in its ring, as nodes with rings have the lowest numbers: there
+// it is added.
+
+void add_triangles(const Net& net, TriangleList& triangles) {
+  for (std::size_t i = 0; i < net.computed; ++i) {
+    const auto links = net.rings.links(i);
+    const auto add = [&](std::size_t a, std::size_t b) {
+      if (i < a && i < b) triangles.add(static_cast<Index>(i), static_cast<Index>(a), static_cast<Index>(b));
+    };
+    for (std::size_t k = 1; k < links.size(); ++k) {
+      if (!links[k].start()) add(links[k - 1].node(), links[k].node());
+    }
+    if (!links.empty() && !links.front().start()) add(links.back().node(), links.front().node());
+  }
+}
+
+void cut_polygons(const Net& net, TriangleList& triangles) {
   std::vector<Index> face;
   std::vector<std::uint32_t> faces_at(net.positions.size(), 0);
-  // Nodes with rings have the lowest numbers, so the node of a face with the lowest one has it in its ring.
   const auto for_each_own_face = [&](const auto& use) {
     for (std::size_t i = 0; i < net.computed; ++i) {
       for_each_face(net, i, face, [&](std::vector<Index>& own) {
@@ -103,11 +145,19 @@ PolygonMesh triangulated_patch(const Net& net) {
   for_each_own_face([&](const std::vector<Index>& own) {
     for (const Index node : own) ++faces_at[static_cast<std::size_t>(node)];
   });
-  MeshBuilder builder;
-  for (const Vector3& position : net.positions) builder.add_node(position);
-  EarClipper cutter(std::move(faces_at), builder);
+  EarClipper cutter(std::move(faces_at), triangles);
   for_each_own_face([&](std::vector<Index>& own) { cutter.cut(own); });
-  return builder.take();
+}
+
+}  // namespace
+
+PolygonMesh triangulated_patch(const Net& net) {
+  TriangleList triangles(net.positions.size());
+  if (has_triangles_alone(net))
+    add_triangles(net, triangles);
+  else
+    cut_polygons(net, triangles);
+  return std::move(triangles).take(net.positions);
 }
 
 }  // namespace vspring

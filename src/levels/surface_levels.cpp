@@ -1,6 +1,7 @@
 #include "levels/surface_levels.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "levels/coarse_nodes.hpp"
 #include "levels/patch_mesh.hpp"
@@ -75,8 +76,14 @@ Net coarse_net(const Net& fine, const Selection& selection, const Triangulation&
 std::vector<Level> surface_levels(Net net, const Model& model, Distribution distribution, ThreadTeam& team) {
   // Coarser levels do not keep a distribution: that of a coarse one may ask for faces that turn over.
   std::vector<Vector3> places;
-  if (distribution == Distribution::smooth && !tells_spacing(net, team)) distribution = Distribution::even;
-  if (distribution != Distribution::even) places = rest_positions(net, team);
+  if (distribution == Distribution::smooth) {
+    if (auto told = told_rest_positions(net, team))
+      places = std::move(*told);
+    else
+      distribution = Distribution::even;
+  } else if (distribution != Distribution::even) {
+    places = rest_positions(net, team);
+  }
   if (distribution == Distribution::smooth) {
     net.laplacian_weights = laplacian_weights_at(net, places, team);
   } else {

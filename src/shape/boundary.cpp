@@ -1,8 +1,9 @@
+#include "shape/boundary.hpp"
+
 #include <algorithm>
 #include <utility>
 
 #include "shape/edges.hpp"
-#include "shape/fan.hpp"
 #include "vspring/topology.hpp"
 
 namespace vspring {
@@ -11,106 +12,91 @@ namespace {
 
 constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-/// The boundary edges and how they follow each other.
-class Boundary {
- public:
-  explicit Boundary(const PolygonMesh& mesh) {
-    const Incidence incidence(mesh);
-    EdgeFinder edges(mesh, incidence);
-    for (Index i = 0; i < mesh.node_count(); ++i) {
-      edges.at_node(i, [&](Index j, std::span<const EdgeUse> uses) {
-        if (uses.size() == 1 && i < j) edges_.push_back({i, j, uses.front().forward});
-      });
-    }
-    next_.assign(2 * edges_.size(), none);
-    std::vector<std::uint8_t> touched(static_cast<std::size_t>(mesh.node_count()), 0);
-    for (const Edge& edge : edges_)
-      touched[static_cast<std::size_t>(edge.low)] = touched[static_cast<std::size_t>(edge.high)] = 1;
-    FanWalker walker(mesh, incidence);
-    for (Index i = 0; i < mesh.node_count(); ++i) {
-      if (touched[static_cast<std::size_t>(i)] != 0) join_chains(i, walker.walk(i));
-    }
-  }
-
-  std::vector<std::vector<Index>> loops() {
-    std::vector<std::vector<Index>> all;
-    std::vector<std::uint8_t> used(edges_.size(), 0);
-    for (std::size_t first = 0; first < edges_.size(); ++first) {
-      if (used[first] != 0) continue;
-      // In the sense of the first edge's face.
-      std::size_t side = 2 * first + (edges_[first].forward ? 1 : 0);
-      // A chain that ends at an edge of more than two faces is entered at its beginning.
-      for (std::size_t back = side ^ 1U; next_[back] != none && next_[back] / 2 != first; back = next_[back])
-        side = next_[back] ^ 1U;
-      std::vector<Index> loop;
-      while (side != none && used[side / 2] == 0) {
-        used[side / 2] = 1;
-        loop.push_back(node(side ^ 1U));
-        if (next_[side] == none) loop.push_back(node(side));
-        side = next_[side];
-      }
-      all.push_back(std::move(loop));
-    }
-    return all;
-  }
-
- private:
-  struct Edge {
-    Index low;
-    Index high;
-    bool forward;  // the face runs from low to high
-  };
-
-  // A side is an edge on its way to one of its ends: 2 × edge for the low one, + 1 for the high one.
-  [[nodiscard]] Index node(std::size_t side) const {
-    return side % 2 == 0 ? edges_[side / 2].low : edges_[side / 2].high;
-  }
-
-  [[nodiscard]] std::size_t side_towards(Index from, Index to) const {
-    const std::pair<Index, Index> key = std::minmax(from, to);
-    const auto found = std::lower_bound(edges_.begin(), edges_.end(), key, [](const Edge& edge, const auto& wanted) {
-      return std::pair(edge.low, edge.high) < wanted;
-    });
-    if (found == edges_.end() || found->low != key.first || found->high != key.second) return none;
-    return 2 * static_cast<std::size_t>(found - edges_.begin()) + (to == key.second ? 1 : 0);
-  }
-
-  // Around a node every open chain of faces lies between the two boundary edges that follow each other there.
-  void join_chains(Index i, const Fan& fan) {
-    for (std::size_t begin = 0; begin < fan.links.size();) {
-      std::size_t end = begin + 1;
-      while (end < fan.links.size() && !fan.links[end].start()) ++end;
-      if (fan.links[begin].start() && fan.links[end - 1].spoke()) {
-        const std::size_t a = side_towards(static_cast<Index>(fan.links[end - 1].node()), i);
-        const std::size_t b = side_towards(static_cast<Index>(fan.links[begin].node()), i);
-        if (a != none && b != none) {
-          next_[a] = b ^ 1U;
-          next_[b] = a ^ 1U;
-        }
-      }
-      begin = end;
-    }
-  }
-
-  std::vector<Edge> edges_;
-  std::vector<std::size_t> next_;
-};
-
 }  // namespace
+
+Boundary::Boundary(const PolygonMesh& mesh, const Incidence& incidence, std::span<const std::uint8_t> inside)
+    : mesh_(&mesh), incidence_(&incidence), nodes_(static_cast<std::size_t>(mesh.node_count()), 0) {
+  EdgeFinder edges(mesh, incidence);
+  FanWalker walker(mesh, incidence);
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    const bool is_inside = !inside.empty() && inside[static_cast<std::size_t>(i)] != 0;
+    // Walking around is faster than looking at all edges.
+    if (is_inside || walker.walk(i).closed) continue;
+    edges.at_node(i, [&](Index j, std::span<const EdgeUse> uses) {
+      if (uses.size() == 1 && i < j) edges_.push_back({i, j, uses.front().forward});
+    });
+  }
+  for (const Edge& edge : edges_)
+    nodes_[static_cast<std::size_t>(edge.low)] = nodes_[static_cast<std::size_t>(edge.high)] = 1;
+}
+
+std::size_t Boundary::side_towards(Index from, Index to) const {
+  const std::pair<Index, Index> key = std::minmax(from, to);
+  const auto found = std::lower_bound(edges_.begin(), edges_.end(), key, [](const Edge& edge, const auto& wanted) {
+    return std::pair(edge.low, edge.high) < wanted;
+  });
+  if (found == edges_.end() || found->low != key.first || found->high != key.second) return none;
+  return 2 * static_cast<std::size_t>(found - edges_.begin()) + (to == key.second ? 1 : 0);
+}
+
+// Around a node every open chain of faces lies between the two boundary edges that follow each other there.
+void Boundary::join_chains(Index i, const Fan& fan, std::vector<std::size_t>& next) const {
+  for (std::size_t begin = 0; begin < fan.links.size();) {
+    std::size_t end = begin + 1;
+    while (end < fan.links.size() && !fan.links[end].start()) ++end;
+    if (fan.links[begin].start() && fan.links[end - 1].spoke()) {
+      const std::size_t a = side_towards(static_cast<Index>(fan.links[end - 1].node()), i);
+      const std::size_t b = side_towards(static_cast<Index>(fan.links[begin].node()), i);
+      if (a != none && b != none) {
+        next[a] = b ^ 1U;
+        next[b] = a ^ 1U;
+      }
+    }
+    begin = end;
+  }
+}
+
+std::vector<std::size_t> Boundary::next_sides() const {
+  std::vector<std::size_t> next(2 * edges_.size(), none);
+  FanWalker walker(*mesh_, *incidence_);
+  for (Index i = 0; i < mesh_->node_count(); ++i) {
+    if (nodes_[static_cast<std::size_t>(i)] != 0) join_chains(i, walker.walk(i), next);
+  }
+  return next;
+}
+
+std::vector<std::vector<Index>> Boundary::loops() const {
+  const std::vector<std::size_t> next = next_sides();
+  std::vector<std::vector<Index>> all;
+  std::vector<std::uint8_t> used(edges_.size(), 0);
+  for (std::size_t first = 0; first < edges_.size(); ++first) {
+    if (used[first] != 0) continue;
+    // In the sense of the first edge's face.
+    std::size_t side = 2 * first + (edges_[first].forward ? 1 : 0);
+    // A chain that ends at an edge of more than two faces is entered at its beginning.
+    for (std::size_t back = side ^ 1U; next[back] != none && next[back] / 2 != first; back = next[back])
+      side = next[back] ^ 1U;
+    std::vector<Index> loop;
+    while (side != none && used[side / 2] == 0) {
+      used[side / 2] = 1;
+      loop.push_back(node(side ^ 1U));
+      if (next[side] == none) loop.push_back(node(side));
+      side = next[side];
+    }
+    all.push_back(std::move(loop));
+  }
+  return all;
+}
 
 std::vector<std::uint8_t> boundary_nodes(const PolygonMesh& mesh) {
   const Incidence incidence(mesh);
-  EdgeFinder edges(mesh, incidence);
-  std::vector<std::uint8_t> boundary(static_cast<std::size_t>(mesh.node_count()), 0);
-  for (Index i = 0; i < mesh.node_count(); ++i) {
-    edges.at_node(i, [&](Index, std::span<const EdgeUse> uses) {
-      if (uses.size() == 1) boundary[static_cast<std::size_t>(i)] = 1;
-    });
-  }
-  return boundary;
+  return Boundary(mesh, incidence).nodes();
 }
 
-std::vector<std::vector<Index>> boundary_loops(const PolygonMesh& mesh) { return Boundary(mesh).loops(); }
+std::vector<std::vector<Index>> boundary_loops(const PolygonMesh& mesh) {
+  const Incidence incidence(mesh);
+  return Boundary(mesh, incidence).loops();
+}
 
 std::vector<Index> components(const PolygonMesh& mesh) {
   std::vector<Index> root(static_cast<std::size_t>(mesh.node_count()));

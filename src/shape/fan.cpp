@@ -8,16 +8,41 @@ namespace {
 
 constexpr Index open_side = -1;
 
+// With more, sorting takes less time than comparing all with all.
+constexpr std::size_t few_faces = 16;
+
+/// steps: less than once around.
 Index along(std::span<const Index> face, Index place, Index steps) {
   const auto size = static_cast<Index>(face.size());
-  return face[static_cast<std::size_t>(((place + steps) % size + size) % size)];
+  const Index there = place + steps;
+  return face[static_cast<std::size_t>(there < 0 ? there + size : there < size ? there : there - size)];
 }
 
 }  // namespace
 
-Index FanWalker::neighbour(Index side) const {
-  const Corner corner = corners_[static_cast<std::size_t>(side / 2)];
-  return along(mesh_->face(corner.face), corner.place, side % 2 == 0 ? 1 : -1);
+void FanWalker::find_neighbours() {
+  neighbours_.resize(2 * corners_.size());
+  for (std::size_t k = 0; k < corners_.size(); ++k) {
+    const auto face = mesh_->face(corners_[k].face);
+    neighbours_[2 * k] = along(face, corners_[k].place, 1);
+    neighbours_[2 * k + 1] = along(face, corners_[k].place, -1);
+  }
+}
+
+bool FanWalker::pair_all_around(Index node) {
+  const std::size_t faces = corners_.size();
+  if (faces > few_faces) return false;
+  twin_.assign(2 * faces, open_side);
+  for (std::size_t a = 0; a < faces; ++a) {
+    const Index before = neighbours_[2 * a + 1];
+    // The first that fits: if all find one of their own, no neighbour comes twice.
+    std::size_t b = faces;
+    for (std::size_t k = faces; k-- > 0;) b = neighbours_[2 * k] == before ? k : b;
+    if (b == faces || before == node || twin_[2 * b] != open_side) return false;
+    twin_[2 * b] = static_cast<Index>(2 * a + 1);
+    twin_[2 * a + 1] = static_cast<Index>(2 * b);
+  }
+  return true;
 }
 
 void FanWalker::pair_sides(Index node) {
@@ -42,9 +67,6 @@ void FanWalker::pair_sides(Index node) {
     }
     k = end;
   }
-  for (std::size_t k = 1; k < corners_.size(); ++k) {
-    if (corners_[k].face == corners_[k - 1].face && fan_.repeating_face < 0) fan_.repeating_face = corners_[k].face;
-  }
 }
 
 void FanWalker::walk_chain(Index first_side) {
@@ -57,7 +79,7 @@ void FanWalker::walk_chain(Index first_side) {
     const auto face = mesh_->face(corner.face);
     const Index step = side % 2 == 0 ? 1 : -1;
     for (Index k = 2; k + 1 < static_cast<Index>(face.size()); ++k) emit(along(face, corner.place, k * step), 0);
-    emit(along(face, corner.place, -step), Link::spoke_bit);
+    emit(neighbour(side ^ 1), Link::spoke_bit);
     side = twin_[static_cast<std::size_t>(side ^ 1)];
   }
   ++fan_.chains;
@@ -79,11 +101,16 @@ const Fan& FanWalker::walk(Index node) {
   fan_.chains = 0;
   fan_.crowded_neighbour = fan_.flipped_neighbour = fan_.repeating_face = -1;
   if (corners_.empty()) return fan_;
-  pair_sides(node);
+  for (std::size_t k = 1; k < corners_.size(); ++k) {
+    if (corners_[k].face == corners_[k - 1].face && fan_.repeating_face < 0) fan_.repeating_face = corners_[k].face;
+  }
+  find_neighbours();
+  const bool all_around = pair_all_around(node);
+  if (!all_around) pair_sides(node);
   visited_.assign(corners_.size(), 0);
   // Open chains first, begun where the faces' own sense leads inwards; then what is left is closed.
   const auto sides = static_cast<Index>(twin_.size());
-  for (Index parity = 0; parity < 2; ++parity) {
+  for (Index parity = 0; parity < 2 && !all_around; ++parity) {
     for (Index side = parity; side < sides; side += 2) {
       if (twin_[static_cast<std::size_t>(side)] == open_side && visited_[static_cast<std::size_t>(side / 2)] == 0)
         walk_chain(side);

@@ -50,7 +50,7 @@ class FanWalker {
   FanWalker(const PolygonMesh& mesh, const Incidence& incidence) : mesh_(&mesh), incidence_(&incidence) {}
 
   /// The fan of a node, in the sense of its first face where the orientation is consistent; valid until the next walk.
-  /// Cost: d log d for d faces.
+  /// Cost: d log d for d faces, of which there are few at most nodes.
   const Fan& walk(Index node);
 
  private:
@@ -58,15 +58,19 @@ class FanWalker {
     Index neighbour;
     Index side;  // 2 × corner, + 1 on the side of the previous node in the face
   };
+  void find_neighbours();
+  /// Where faces of one sense lie all around: tells so, and pairs their sides. Else leaves pairs as they come.
+  bool pair_all_around(Index node);
   void pair_sides(Index node);
   void walk_chain(Index first_side);
   void emit(Index node, std::uint32_t bits) { fan_.links.push_back({static_cast<std::uint32_t>(node) | bits}); }
-  [[nodiscard]] Index neighbour(Index side) const;
+  [[nodiscard]] Index neighbour(Index side) const { return neighbours_[static_cast<std::size_t>(side)]; }
 
   const PolygonMesh* mesh_;
   const Incidence* incidence_;
   std::span<const Corner> corners_;
   Fan fan_;
+  std::vector<Index> neighbours_;  // of every side
   std::vector<End> ends_;
   std::vector<Index> twin_;
   std::vector<std::uint8_t> visited_;

@@ -2,7 +2,7 @@
 
 namespace vspring {
 
-Incidence::Incidence(const PolygonMesh& mesh) : begin_(static_cast<std::size_t>(mesh.node_count()) + 1, 0) {
+Incidence::Incidence(const PolygonMesh& mesh) : begin_(static_cast<std::size_t>(mesh.node_count()) + 2, 0) {
   const auto for_each_corner = [&](const auto& use) {
     for (Index f = 0; f < mesh.face_count(); ++f) {
       const auto face = mesh.face(f);
@@ -11,11 +11,13 @@ Incidence::Incidence(const PolygonMesh& mesh) : begin_(static_cast<std::size_t>(
         use(static_cast<std::size_t>(face[k]), Corner{f, static_cast<Index>(k)});
     }
   };
-  for_each_corner([&](std::size_t node, Corner) { ++begin_[node + 1]; });
-  for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+  // Counted one place further on, so that while corners are put in each entry goes from where those of the node before
+  // begin to where they end.
+  for_each_corner([&](std::size_t node, Corner) { ++begin_[node + 2]; });
+  for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
   corners_.resize(static_cast<std::size_t>(begin_.back()));
-  std::vector<Index> next(begin_.begin(), begin_.end() - 1);
-  for_each_corner([&](std::size_t node, Corner corner) { corners_[static_cast<std::size_t>(next[node]++)] = corner; });
+  for_each_corner(
+      [&](std::size_t node, Corner corner) { corners_[static_cast<std::size_t>(begin_[node + 1]++)] = corner; });
 }
 
 }  // namespace vspring

@@ -19,8 +19,8 @@ void set_laplacian_weights(Net& net, const Model& model, Distribution distributi
   net.laplacian_weights.clear();
   if (distribution == Distribution::even) return;
   if (distribution == Distribution::smooth) {
-    if (net.is_curve || tells_spacing(net, team))
-      net.laplacian_weights = laplacian_weights_at(net, rest_positions(net, team), team);
+    const auto places = net.is_curve ? rest_positions(net, team) : told_rest_positions(net, team);
+    if (places) net.laplacian_weights = laplacian_weights_at(net, *places, team);
     return;
   }
   update_directions(net, model, team);

@@ -11,7 +11,8 @@ namespace vspring {
 
 /// A model from rules for one node, which are made from the kind of forces:
 ///   static void prepare(Net&);
-///   void update_direction(Net&, std::size_t node) const;
+///   void update_direction(Net&, std::size_t node) const;  or, for several at once,
+///   void update_directions(Net&, std::size_t begin, std::size_t end) const;
 ///   NodeForce force(const Net&, std::size_t node) const;
 ///   Vector3 sprung(const Net&, std::size_t node, const Vector3& d) const;  the part of d along which springs act
 ///   void present_laplacian_weights(const Net&, std::size_t node, std::span<double> shares) const;
@@ -23,7 +24,11 @@ class ModelOf final : public Model {
   void prepare(Net& net) const override { Rules::prepare(net); }
 
   void update_directions(Net& net, std::size_t begin, std::size_t end) const override {
-    for (std::size_t i = begin; i < end; ++i) rules_.update_direction(net, i);
+    if constexpr (requires { rules_.update_directions(net, begin, end); }) {
+      rules_.update_directions(net, begin, end);
+    } else {
+      for (std::size_t i = begin; i < end; ++i) rules_.update_direction(net, i);
+    }
   }
 
   [[nodiscard]] std::vector<double> present_laplacian_weights(const Net& net) const override {

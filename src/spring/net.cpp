@@ -108,6 +108,34 @@ void agree_on_given_normals(Net& net) {
   }
 }
 
+/// Adds the rings of the nodes numbered so far, which move, and of the held ones whose direction is to be computed;
+/// with the numbers of the mesh. Returns whether faces beside them run in different senses.
+bool add_rings(Net& net, const NodeGraph& graph, FanWalker& walker, Numbering& number, const Constraints& constraints,
+               bool for_spheres) {
+  bool flipped = false;
+  const auto add_ring = [&](Index node) {
+    const Fan& fan = walker.walk(node);
+    flipped = flipped || fan.flipped_neighbour >= 0;
+    net.rings.add(fan.links);
+  };
+  net.moving = number.count();
+  net.rings.reserve(net.moving, 7 * net.moving);
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    add_ring(number.node(i));
+    if (!for_spheres) continue;
+    for (const Link link : net.rings.links(i)) number(static_cast<Index>(link.node()));
+  }
+  for (std::size_t i = 0; i < net.moving && !for_spheres; ++i) {
+    graph.for_each_neighbour(number.node(i), [&](Index j) {
+      if (constraints.position_fixed(j) && !constraints.normal_fixed(j)) number(j);
+    });
+  }
+  net.computed = number.count();
+  net.rings.reserve(net.computed, 0);
+  for (std::size_t i = net.moving; i < net.computed; ++i) add_ring(number.node(i));
+  return flipped;
+}
+
 /// cut: where the mesh is one that was cut.
 Net gather_net_of(const PolygonMesh& mesh, const CutMesh* cut, const Constraints& constraints, bool for_spheres) {
   Net net;
@@ -119,30 +147,14 @@ Net gather_net_of(const PolygonMesh& mesh, const CutMesh* cut, const Constraints
   }
   const NodeGraph graph(mesh, incidence);
   Numbering number(order_for_locality(graph, moving), mesh.node_count());
-  net.moving = number.count();
-  for (std::size_t i = 0; i < net.moving && for_spheres; ++i) {
-    for (const Link link : walker.walk(number.node(i)).links) number(static_cast<Index>(link.node()));
-  }
-  for (std::size_t i = 0; i < net.moving; ++i) {
-    graph.for_each_neighbour(number.node(i), [&](Index j) {
-      if (constraints.position_fixed(j) && !constraints.normal_fixed(j)) number(j);
-    });
-  }
-  net.computed = number.count();
-
-  net.rings.reserve(net.computed, 7 * net.computed);
-  std::vector<Link> links;
-  bool flipped = false;
+  const bool flipped = add_rings(net, graph, walker, number, constraints, for_spheres);
   for (std::size_t i = 0; i < net.computed; ++i) {
-    const Fan& fan = walker.walk(number.node(i));
-    flipped = flipped || fan.flipped_neighbour >= 0;
-    links = fan.links;
+    const auto links = net.rings.mutable_links(i);
     if (cut) cut->mark(number.node(i), links);
     for (Link& link : links) {
       const auto local = static_cast<std::uint32_t>(number(static_cast<Index>(link.node())));
       link = {local | (link.code & ~Link::node_mask)};
     }
-    net.rings.add(links);
   }
   net.node = std::move(number).take();
   if (flipped) agree_on_sides(net);

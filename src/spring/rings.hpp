@@ -16,6 +16,9 @@ class Rings {
   [[nodiscard]] std::span<const Link> links(std::size_t node) const noexcept {
     return {links_.data() + begin_[node], begin_[node + 1] - begin_[node]};
   }
+  [[nodiscard]] std::span<Link> mutable_links(std::size_t node) noexcept {
+    return {links_.data() + begin_[node], begin_[node + 1] - begin_[node]};
+  }
   /// Place of the node's first link among all links.
   [[nodiscard]] std::size_t begin(std::size_t node) const noexcept { return begin_[node]; }
   [[nodiscard]] std::size_t link_count() const noexcept { return links_.size(); }
@@ -50,7 +53,7 @@ class Rings {
 
   /// The same walk in the other sense. It must be of one chain.
   void turn_over(std::size_t node) {
-    const auto links = std::span(links_).subspan(begin_[node], begin_[node + 1] - begin_[node]);
+    const auto links = mutable_links(node);
     if (links.empty()) return;
     if (links.front().start()) {
       std::reverse(links.begin(), links.end());

@@ -1,10 +1,12 @@
 #include "spring/spacing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "base/dense_algebra.hpp"
@@ -34,27 +36,53 @@ constexpr double least_sine = 1e-9;
 
 bool is_open(std::span<const Link> links) { return links.front().start(); }
 
-/// The angle of every spoke around a node with faces all around if the mesh were regular there; of links that are no
-/// spokes, nothing.
-void regular_angles(std::span<const Link> links, std::vector<double>& angles) {
-  const auto spokes = static_cast<double>(std::count_if(links.begin(), links.end(), [](Link k) { return k.spoke(); }));
-  const double step = 2 * std::numbers::pi / spokes;
-  angles.assign(links.size(), 0);
-  double angle = 0;
-  for (std::size_t k = 0; k < links.size(); ++k) {
-    if (!links[k].spoke()) continue;
-    angles[k] = angle;
-    angle += step;
-  }
-}
-
 /// By how much the mesh is longer one way than the other around a node, and which way: with θ the angle around the node
 /// if the mesh were regular there, the logarithms of squared edges are a constant and Re(s̄ exp 2iθ).
 using Stretch = std::complex<double>;
 
+/// A spoke around a node with faces all around, if the mesh were regular there.
+struct RegularSpoke {
+  double angle;
+  Stretch turn;  ///< exp 2iθ
+};
+
+/// The spokes of such nodes, which are the same for all with so many: sines and cosines take their time. Use one per
+/// thread.
+class RegularSpokes {
+ public:
+  /// Valid until the next call.
+  std::span<const RegularSpoke> of(std::size_t count) {
+    if (count > most_kept) return fill(many_, count);
+    std::vector<RegularSpoke>& spokes = few_[count];
+    return spokes.empty() ? fill(spokes, count) : spokes;
+  }
+
+ private:
+  // Hardly any node has more.
+  static constexpr std::size_t most_kept = 16;
+
+  static std::span<const RegularSpoke> fill(std::vector<RegularSpoke>& spokes, std::size_t count) {
+    spokes.clear();
+    const double step = 2 * std::numbers::pi / static_cast<double>(count);
+    double angle = 0;
+    for (std::size_t s = 0; s < count; ++s, angle += step) spokes.push_back({angle, std::polar(1.0, 2 * angle)});
+    return spokes;
+  }
+
+  std::array<std::vector<RegularSpoke>, most_kept + 1> few_;
+  std::vector<RegularSpoke> many_;
+};
+
+void find_spokes(std::span<const Link> links, std::vector<std::size_t>& spokes) {
+  spokes.clear();
+  for (std::size_t k = 0; k < links.size(); ++k) {
+    if (links[k].spoke()) spokes.push_back(k);
+  }
+}
+
 /// What the stretch makes of the logarithm of a squared edge.
-double stretched(const Stretch& stretch, double angle) {
-  return stretch.real() * std::cos(2 * angle) + stretch.imag() * std::sin(2 * angle);
+double stretched(const Stretch& stretch, const RegularSpoke& spoke) {
+  return stretch.real() * spoke.turn.real() + stretch.imag() * spoke.turn.imag();
 }
 
 /// The spacing is that of the input, whatever is pulled out of it.
@@ -65,19 +93,16 @@ double log_square(const Net& net, std::size_t i, std::size_t j) {
   return std::log((places[j] - places[i]).squaredNorm() + net.tiny);
 }
 
-/// Of a node with faces all around. angles: regular_angles().
-Stretch stretch_around(const Net& net, std::size_t i, std::span<const double> angles) {
+/// Of a node with faces all around. spokes: the places of its spokes in its walk.
+Stretch stretch_around(const Net& net, std::size_t i, std::span<const std::size_t> spokes,
+                       std::span<const RegularSpoke> regular) {
   const auto links = net.rings.links(i);
   Stretch sum = 0;
-  double spokes = 0;
-  for (std::size_t k = 0; k < links.size(); ++k) {
-    if (!links[k].spoke()) continue;
-    sum += std::polar(1.0, 2 * angles[k]) * log_square(net, i, links[k].node());
-    spokes += 1;
-  }
-  if (spokes < 3) return 0;
+  for (std::size_t s = 0; s < spokes.size(); ++s) sum += regular[s].turn * log_square(net, i, links[spokes[s]].node());
+  const auto count = static_cast<double>(spokes.size());
+  if (count < 3) return 0;
   // Around four spokes the sines vanish, and the squared cosines are all ones.
-  return sum * ((spokes == 4 ? 1 : 2) / spokes);
+  return sum * ((count == 4 ? 1 : 2) / count);
 }
 
 /// The stretch around every node with faces all around, noise evened out over neighbours; else none.
@@ -88,14 +113,16 @@ std::vector<Stretch> stretches(const Net& net, ThreadTeam& team) {
   std::vector<double> angle(net.rings.link_count(), 0);
   std::vector<std::uint8_t> open(net.computed, 0);
   parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> angles;
+    RegularSpokes regular_spokes;
+    std::vector<std::size_t> spokes;
     for (std::size_t i = begin; i < end; ++i) {
       const auto links = net.rings.links(i);
       open[i] = is_open(links) ? 1 : 0;
       if (open[i] != 0) continue;
-      regular_angles(links, angles);
-      stretch[i] = stretch_around(net, i, angles);
-      std::copy_n(angles.begin(), links.size(), angle.begin() + static_cast<std::ptrdiff_t>(net.rings.begin(i)));
+      find_spokes(links, spokes);
+      const auto regular = regular_spokes.of(spokes.size());
+      stretch[i] = stretch_around(net, i, spokes, regular);
+      for (std::size_t s = 0; s < spokes.size(); ++s) angle[net.rings.begin(i) + spokes[s]] = regular[s].angle;
     }
   });
   parallel_ranges(team, net.computed, nodes_per_task, [&](std::size_t begin, std::size_t end) {
@@ -103,7 +130,7 @@ std::vector<Stretch> stretches(const Net& net, ThreadTeam& team) {
                               [&](std::size_t i, std::size_t k, std::size_t j, std::size_t back) {
                                 if (open[i] != 0 || open[j] != 0) return;
                                 turn[k] = std::polar(1.0, 2 * (angle[k] - angle[back]));
-                                turn[back] = std::polar(1.0, 2 * (angle[back] - angle[k]));
+                                turn[back] = std::conj(turn[k]);
                               });
   });
   std::vector<Stretch> next(stretch.size());
@@ -127,21 +154,33 @@ std::vector<Stretch> stretches(const Net& net, ThreadTeam& team) {
   return stretch;
 }
 
+/// The logarithms of squared edges beyond what is common to all of a node and its stretch make them.
+void find_further(const Net& net, std::size_t i, std::span<const std::size_t> spokes,
+                  std::span<const RegularSpoke> regular, std::vector<double>& further) {
+  const auto links = net.rings.links(i);
+  const Stretch own = stretch_around(net, i, spokes, regular);
+  further.clear();
+  double mean = 0;
+  for (const std::size_t k : spokes) {
+    further.push_back(log_square(net, i, links[k].node()));
+    mean += further.back() / static_cast<double>(spokes.size());
+  }
+  for (std::size_t s = 0; s < further.size(); ++s) further[s] = further[s] - mean - stretched(own, regular[s]);
+}
+
 /// What the links of moving nodes count in a sweep, of sum 1 at each: the inverse squares of the lengths that edges
 /// have but for noise.
 std::vector<double> sweep_weights(const Net& net, ThreadTeam& team) {
   const std::vector<Stretch> stretch = stretches(net, team);
   std::vector<double> weights(net.rings.link_count(), 0);
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    std::vector<double> angles;
+    RegularSpokes regular_spokes;
     std::vector<std::size_t> spokes;
+    std::vector<double> further;
     for (std::size_t i = begin; i < end; ++i) {
       const auto links = net.rings.links(i);
       const auto of_node = std::span(weights).subspan(net.rings.begin(i), links.size());
-      spokes.clear();
-      for (std::size_t k = 0; k < links.size(); ++k) {
-        if (links[k].spoke()) spokes.push_back(k);
-      }
+      find_spokes(links, spokes);
       if (spokes.empty()) continue;
       if (is_open(links)) {
         // Along a free boundary only, as on a curve: the mean of all would draw it in.
@@ -149,22 +188,16 @@ std::vector<double> sweep_weights(const Net& net, ThreadTeam& team) {
         of_node[spokes.back()] += 0.5;
         continue;
       }
-      regular_angles(links, angles);
-      const Stretch own = stretch_around(net, i, angles);
       const std::size_t count = spokes.size();
+      const auto regular = regular_spokes.of(count);
+      // What edges that lie opposite have in common beyond the stretch: of eight, four may be diagonals.
       const bool has_more = count >= 8 && count % 2 == 0;
-      double mean = 0;
-      for (const std::size_t k : spokes) mean += log_square(net, i, links[k].node()) / static_cast<double>(count);
-      // What edges that lie opposite have in common beyond that: of eight, four may be diagonals.
-      const auto further = [&](std::size_t k) {
-        return log_square(net, i, links[k].node()) - mean - stretched(own, angles[k]);
-      };
+      if (has_more) find_further(net, i, spokes, regular, further);
       double sum = 0;
       for (std::size_t s = 0; s < count; ++s) {
-        const std::size_t k = spokes[s];
-        double square = stretched(stretch[i], angles[k]);
-        if (has_more) square += 0.5 * (further(k) + further(spokes[(s + count / 2) % count]));
-        sum += of_node[k] = std::exp(-square);
+        double square = stretched(stretch[i], regular[s]);
+        if (has_more) square += 0.5 * (further[s] + further[(s + count / 2) % count]);
+        sum += of_node[spokes[s]] = std::exp(-square);
       }
       for (const std::size_t k : spokes) of_node[k] /= sum;
     }
@@ -255,31 +288,47 @@ double share_turned_over(const Net& net, ThreadTeam& team) {
   return count > 0 ? static_cast<double>(turned) / static_cast<double>(count) : 0;
 }
 
-}  // namespace
-
-std::vector<Vector3> rest_positions(const Net& net, ThreadTeam& team) {
-  const std::vector<double> weights = !net.is_curve ? sweep_weights(net, team) : even_weights(net);
-  std::vector<Vector3> places = input_places(net);
+/// Moves nodes half of their way to the means of their neighbours by `weights`, so many times.
+void sweep_places(const Net& net, std::span<const double> weights, int times, std::vector<Vector3>& places,
+                  ThreadTeam& team) {
   std::vector<Vector3> next = places;
-  const auto sweep = [&] {
-    parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+  for (int done = 0; done < times; ++done) {
+    const std::span<const Vector3> from = places;
+    const std::span<Vector3> to = next;
+    parallel_ranges(team, net.moving, nodes_per_task, [=, &net](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const auto links = net.rings.links(i);
+        const auto of_node = weights.subspan(net.rings.begin(i), links.size());
+        const Vector3 place = from[i];
         Vector3 way = Vector3::Zero();
-        for (std::size_t k = 0; k < links.size(); ++k)
-          way += weights[net.rings.begin(i) + k] * (places[links[k].node()] - places[i]);
-        next[i] = places[i] + 0.5 * way;
+        for (std::size_t k = 0; k < links.size(); ++k) way += of_node[k] * (from[links[k].node()] - place);
+        to[i] = place + 0.5 * way;
       }
     });
     places.swap(next);
-  };
-  const bool is_crumpled = !net.is_curve && share_turned_over(net, team) > often_turned;
-  for (int done = 0; done < (is_crumpled ? sweeps_where_turned : sweeps); ++done) sweep();
+  }
+}
+
+/// As rest_positions(), where that share of corners is turned over.
+std::vector<Vector3> swept(const Net& net, double turned, ThreadTeam& team) {
+  const std::vector<double> weights = !net.is_curve ? sweep_weights(net, team) : even_weights(net);
+  std::vector<Vector3> places = input_places(net);
+  sweep_places(net, weights, turned > often_turned ? sweeps_where_turned : sweeps, places, team);
   if (!net.is_curve) turn_bricks_to_hexagons(net, places);
   return places;
 }
 
-bool tells_spacing(const Net& net, ThreadTeam& team) { return share_turned_over(net, team) <= about_all_turned; }
+}  // namespace
+
+std::vector<Vector3> rest_positions(const Net& net, ThreadTeam& team) {
+  return swept(net, net.is_curve ? 0 : share_turned_over(net, team), team);
+}
+
+std::optional<std::vector<Vector3>> told_rest_positions(const Net& net, ThreadTeam& team) {
+  const double turned = share_turned_over(net, team);
+  if (turned > about_all_turned) return std::nullopt;
+  return swept(net, turned, team);
+}
 
 void even_shares(const Net& net, std::size_t i, const Vector3& normal, std::span<const Vector3> places,
                  std::span<double> shares) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -16,9 +17,9 @@ namespace vspring {
 /// become hexagons. Cost: linear; the same result on any number of threads.
 std::vector<Vector3> rest_positions(const Net& net, ThreadTeam& team);
 
-/// Whether the input of a surface's net tells how nodes are to be spaced: noise of several edges turns
-/// faces over as it likes, and leaves nothing of it. Cost: linear.
-bool tells_spacing(const Net& net, ThreadTeam& team);
+/// The same where the input of a surface's net tells how nodes are to be spaced; else none: noise of several edges
+/// turns faces over as it likes, and leaves nothing of it.
+std::optional<std::vector<Vector3>> told_rest_positions(const Net& net, ThreadTeam& team);
 
 /// Of all shares of sum 1 that leave a node in its place among its neighbours, across the normal, those nearest to even
 /// ones: share_j = 1/m − (d_j − mean)·a. Aligned with the links of the node, zero where a link is no spoke. Shares of a

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -180,44 +182,81 @@ void unrolled(const Use& use) {
   (std::make_index_sequence<n>());
 }
 
-template <std::size_t n>
-using Unknowns = std::array<double, n>;
+/// value: a number, or one for each of several nodes.
+template <std::size_t n, typename Value = double>
+using Unknowns = std::array<Value, n>;
 
 /// The lower triangle of a symmetric matrix, row by row.
-template <std::size_t n>
+template <std::size_t n, typename Value = double>
 struct Triangle {
-  std::array<double, n*(n + 1) / 2> values = {};
+  std::array<Value, n*(n + 1) / 2> values = {};
 
-  double& operator()(std::size_t row, std::size_t column) { return values[row * (row + 1) / 2 + column]; }
+  Value& operator()(std::size_t row, std::size_t column) { return values[row * (row + 1) / 2 + column]; }
 };
 
-/// x of a x = b for a symmetric positive definite a, which is replaced by its factor L of L D Lᵀ.
-template <std::size_t n>
-Unknowns<n> solve_in_place(Triangle<n>& a, Unknowns<n> b) {
-  Unknowns<n> inverse;
-  unrolled<n>([&](auto j) {
+/// One value for each of the nodes whose equations are solved together: divisions follow on one another, and those of
+/// one node alone would be waited for.
+using Together = Eigen::Array<double, spheres_together, 1>;
+
+// What nothing tells of gets nothing.
+double inverse_of_pivot(double pivot) { return pivot > 0 ? 1 / pivot : 0; }
+
+Together inverse_of_pivot(const Together& pivots) { return (pivots > 0).select(pivots.inverse(), Together::Zero()); }
+
+/// Puts x of a x = b in the place of b, for a symmetric positive definite a, which is replaced by its factor L of L D Lᵀ.
+template <std::size_t n, typename Value>
+void solve_in_place(Triangle<n, Value>& a, Unknowns<n, Value>& b) {
+  Unknowns<n, Value> inverse;
+  for (std::size_t j = 0; j < n; ++j) {
     // Row j of L D, then of L.
-    unrolled<j>([&](auto k) { unrolled<k>([&](auto m) { a(j, k) -= a(k, m) * a(j, m); }); });
-    double pivot = a(j, j);
-    unrolled<j>([&](auto k) {
-      const double entry = a(j, k) * inverse[k];
+    for (std::size_t k = 0; k < j; ++k) {
+      for (std::size_t m = 0; m < k; ++m) a(j, k) -= a(k, m) * a(j, m);
+    }
+    Value pivot = a(j, j);
+    for (std::size_t k = 0; k < j; ++k) {
+      const Value entry = a(j, k) * inverse[k];
       pivot -= a(j, k) * entry;
       b[j] -= entry * b[k];
       a(j, k) = entry;
-    });
-    // What nothing tells of gets nothing.
-    inverse[j] = pivot > 0 ? 1 / pivot : 0;
-  });
-  unrolled<n>([&](auto back) {
-    constexpr std::size_t j = n - 1 - back;
+    }
+    inverse[j] = inverse_of_pivot(pivot);
+  }
+  for (std::size_t j = n; j-- > 0;) {
     b[j] *= inverse[j];
-    unrolled<back>([&](auto k) {
-      constexpr std::size_t m = j + 1 + k;
-      b[j] -= a(m, j) * b[m];
-    });
-  });
-  return b;
+    for (std::size_t m = j + 1; m < n; ++m) b[j] -= a(m, j) * b[m];
+  }
 }
+
+/// Σ r rᵀ of rows r of n numbers and a right side, on and above its diagonal, without the last row: by pairs of
+/// columns, each as fast as one.
+template <std::size_t n>
+class RowProducts {
+ public:
+  RowProducts() {
+    for (auto& row : sums_) row.fill(Pair::Zero());
+  }
+
+  /// A row and its right side, both times a weight.
+  void add(const Unknowns<n>& row, double right, double weight) {
+    const auto at = [&](std::size_t c) { return c < n ? row[c] : c == n ? right : 0.0; };
+    std::array<Pair, pairs> weighted;
+    unrolled<pairs>([&](auto p) { weighted[p] = Pair(at(2 * p), at(2 * p + 1)) * weight; });
+    unrolled<n>([&](auto r) {
+      const double left = weighted[r / 2][r % 2];
+      unrolled<pairs - r / 2>([&](auto p) { sums_[r][r / 2 + p] += left * weighted[r / 2 + p]; });
+    });
+  }
+
+  [[nodiscard]] double operator()(std::size_t r, std::size_t c) const {
+    return sums_[r][c / 2][static_cast<Eigen::Index>(c % 2)];
+  }
+
+ private:
+  using Pair = Eigen::Array2d;
+  static constexpr std::size_t pairs = n / 2 + 1;
+
+  std::array<std::array<Pair, pairs>, n> sums_;
+};
 
 /// Calls use(node, e, |e|²) for the nodes that heights are fitted to, see for_near_nodes().
 template <typename Use>
@@ -232,15 +271,21 @@ void for_near_edges(const Net& net, std::size_t i, const LinkEdges& edges, const
   });
 }
 
-/// Least squares of heights over a node's link, by x and y in its tangent plane: height(j, e) for node j against the n
-/// unknowns of row(x, y, |e|²), both weighed by |e|⁻². forms_ridge and slopes_ridge: what is added to the diagonal for
-/// each unknown, times the number of nodes and times Σ |e|⁻², as their units ask.
-template <std::size_t n, typename Height, typename Row>
-Unknowns<n> fit_heights(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& t1, const Vector3& t2,
-                        const Unknowns<n>& forms_ridge, const Unknowns<n>& slopes_ridge, const Height& height,
-                        const Row& row_of) {
+/// The equations a x = b of n unknowns.
+template <std::size_t n>
+struct HeightEquations {
   Triangle<n> a;
-  Unknowns<n> b = {};
+  Unknowns<n> b;
+};
+
+/// Those of least squares of heights over a node's link, by x and y in its tangent plane: height(j, e) for node j
+/// against the n unknowns of row(x, y, |e|²), both weighed by |e|⁻². forms_ridge and slopes_ridge: what is added to the
+/// diagonal for each unknown, times the number of nodes and times Σ |e|⁻², as their units ask.
+template <std::size_t n, typename Height, typename Row>
+HeightEquations<n> equations_of_heights(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& t1,
+                                        const Vector3& t2, const Unknowns<n>& forms_ridge,
+                                        const Unknowns<n>& slopes_ridge, const Height& height, const Row& row_of) {
+  RowProducts<n> products;
   double inverses = 0;
   double count = 0;
   for_near_edges(net, i, edges, [&](std::size_t j, const Vector3& e, double length2) {
@@ -248,16 +293,15 @@ Unknowns<n> fit_heights(const Net& net, std::size_t i, const LinkEdges& edges, c
     const double inverse = 1 / length2;
     inverses += inverse;
     count += 1;
-    Unknowns<n> row = row_of(e.dot(t1), e.dot(t2), length2);
-    const double right = height(j, e) * inverse;
-    unrolled<n>([&](auto r) {
-      row[r] *= inverse;
-      unrolled<r + 1>([&](auto c) { a(r, c) += row[r] * row[c]; });
-      b[r] += right * row[r];
-    });
+    products.add(row_of(e.dot(t1), e.dot(t2), length2), height(j, e), inverse);
   });
-  unrolled<n>([&](auto r) { a(r, r) += count * forms_ridge[r] + inverses * slopes_ridge[r]; });
-  return solve_in_place<n>(a, b);
+  HeightEquations<n> equations;
+  unrolled<n>([&](auto r) {
+    unrolled<r + 1>([&](auto c) { equations.a(r, c) = products(c, r); });
+    equations.a(r, r) += count * forms_ridge[r] + inverses * slopes_ridge[r];
+    equations.b[r] = products(r, n);
+  });
+  return equations;
 }
 
 /// The form q of heights without its trace, and the slopes by which the plane is to tilt.
@@ -268,36 +312,37 @@ struct HeightFit {
   double slope2 = 0;
 };
 
-HeightFit fit_inside(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& normal, const Vector3& t1,
-                     const Vector3& t2) {
-  const Unknowns<5> x = fit_heights<5>(
+HeightEquations<5> equations_inside(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& normal,
+                                    const Vector3& t1, const Vector3& t2) {
+  return equations_of_heights<5>(
       net, i, edges, t1, t2, {ridge_of_forms, ridge_of_forms, 0, 0, 0}, {0, 0, ridge_of_slopes, ridge_of_slopes, 0},
       [&](std::size_t, const Vector3& e) { return e.dot(normal); },
       [](double u, double v, double square) {
         return Unknowns<5>{u * u - v * v, 2 * u * v, -u, -v, square};
       });
-  return {x[0], x[1], x[2], x[3]};
 }
 
 template <typename Height>
 HeightFit fit_given(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& t1, const Vector3& t2,
                     const Height& height) {
-  const Unknowns<3> x = fit_heights<3>(net, i, edges, t1, t2, {ridge_of_forms, ridge_of_forms, 0}, {0, 0, 0}, height,
-                                       [](double u, double v, double square) {
-                                         return Unknowns<3>{u * u - v * v, 2 * u * v, square};
-                                       });
+  auto [a, x] = equations_of_heights<3>(net, i, edges, t1, t2, {ridge_of_forms, ridge_of_forms, 0}, {0, 0, 0}, height,
+                                        [](double u, double v, double square) {
+                                          return Unknowns<3>{u * u - v * v, 2 * u * v, square};
+                                        });
+  solve_in_place(a, x);
   return {x[0], x[1], 0, 0};
 }
 
 /// At a rim, along which t1 goes: not curved across it.
 HeightFit fit_rim(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& normal, const Vector3& t1,
                   const Vector3& t2) {
-  const Unknowns<4> x = fit_heights<4>(
+  auto [a, x] = equations_of_heights<4>(
       net, i, edges, t1, t2, {0, ridge_of_forms, 0, 0}, {0, 0, ridge_of_slopes, ridge_of_slopes},
       [&](std::size_t, const Vector3& e) { return e.dot(normal); },
       [](double u, double v, double) {
         return Unknowns<4>{2 * u * u, 2 * u * v, -u, -v};
       });
+  solve_in_place(a, x);
   return {x[0], x[1], x[2], x[3]};
 }
 
@@ -355,6 +400,87 @@ bool has_one_run(std::span<const Link> links) {
   return std::count_if(links.begin(), links.end(), [](Link link) { return link.start(); }) == 1;
 }
 
+/// Tilts the normal by the slopes. Returns by how much that lengthens it.
+double tilt(Vector3& normal, const HeightFit& fit, const Vector3& t1, const Vector3& t2) {
+  const Vector3 tilted = normal + fit.slope1 * t1 + fit.slope2 * t2;
+  const double length = tilted.norm();
+  normal = tilted / length;
+  return length;
+}
+
+/// Normal, from the guess that it is, and curvature of a node at a rim.
+void update_rim(Net& net, std::size_t i, const LinkEdges& edges) {
+  // Several runs have no line through the node in common that would be the rim.
+  if (!has_one_run(edges.links())) return;
+  Vector3& normal = net.normals[i];
+  const Vector3& before = edges[0];
+  const Vector3& after = edges[edges.size() - 1];
+  const Vector3 chord = after - before;
+  const Vector3 t1 = direction(chord - chord.dot(normal) * normal, chord.norm());
+  if (t1.isZero(0)) return;
+  const Vector3 t2 = normal.cross(t1);
+  (void)tilt(normal, fit_rim(net, i, edges, normal, t1, t2), t1, t2);
+  net.spheres.curvatures[i] = 0.25 * (before.dot(normal) / std::max(before.squaredNorm(), net.tiny) +
+                                      after.dot(normal) / std::max(after.squaredNorm(), net.tiny));
+}
+
+/// Nodes with faces all around, whose equations are solved together. Their normals are guesses at first.
+class SpheresInside {
+ public:
+  SpheresInside() {
+    // What is solved where there are fewer nodes.
+    for (Together& values : a_.values) values.setZero();
+    for (Together& values : b_) values.setZero();
+  }
+
+  /// Of the node that may be added next.
+  const LinkEdges& edges(const Net& net, std::size_t i) { return nodes_[count_].edges.emplace(net, i); }
+
+  void add(const Net& net, std::size_t i) {
+    Node& node = nodes_[count_];
+    node.number = i;
+    std::tie(node.t1, node.t2) = tangents_of(net.normals[i]);
+    const auto [a, b] = equations_inside(net, i, *node.edges, net.normals[i], node.t1, node.t2);
+    const auto place = static_cast<Eigen::Index>(count_++);
+    for (std::size_t k = 0; k < a.values.size(); ++k) a_.values[k][place] = a.values[k];
+    for (std::size_t k = 0; k < b.size(); ++k) b_[k][place] = b[k];
+  }
+
+  /// Finds normals and curvatures.
+  void finish(Net& net) {
+    if (count_ == 0) return;
+    solve_in_place(a_, b_);
+    for (std::size_t k = 0; k < count_; ++k) {
+      const auto place = static_cast<Eigen::Index>(k);
+      finish_node(net, nodes_[k], {b_[0][place], b_[1][place], b_[2][place], b_[3][place]});
+    }
+  }
+
+ private:
+  struct Node {
+    std::size_t number;
+    Vector3 t1;
+    Vector3 t2;
+    std::optional<LinkEdges> edges;
+  };
+
+  static void finish_node(Net& net, const Node& node, HeightFit fit) {
+    const std::size_t i = node.number;
+    Vector3& normal = net.normals[i];
+    const double length = tilt(normal, fit, node.t1, node.t2);
+    fit.q1 /= length;
+    fit.q2 /= length;
+    net.spheres.curvatures[i] = curvature_by_row(net, i, *node.edges, node.t1, node.t2, fit,
+                                                 [&](std::size_t, const Vector3& e) { return e.dot(normal); });
+    if (i < net.spheres.differences.size()) net.spheres.differences[i] = 4 * (fit.q1 * fit.q1 + fit.q2 * fit.q2);
+  }
+
+  std::array<Node, spheres_together> nodes_;
+  std::size_t count_ = 0;
+  Triangle<5, Together> a_;
+  Unknowns<5, Together> b_;
+};
+
 }  // namespace
 
 void use_sphere_springs(Net& net) {
@@ -369,44 +495,23 @@ void use_sphere_springs(Net& net) {
 
 void use_least_bending(Net& net) { net.spheres.differences.assign(net.moving, 0); }
 
-void update_sphere(Net& net, std::size_t i, const Vector3& first) {
-  const LinkEdges edges(net, i);
-  find_row(net, i, edges);
-  find_spread(net, i, edges);
-  if (net.normal_given(i)) return;
-  const auto links = edges.links();
-  net.spheres.curvatures[i] = unknown;
-  net.normals[i] = first;
-  if (first.isZero(0)) return;
-  const auto tilt = [&](const HeightFit& fit, const Vector3& t1, const Vector3& t2) {
-    const Vector3 tilted = first + fit.slope1 * t1 + fit.slope2 * t2;
-    const double length = tilted.norm();
-    net.normals[i] = tilted / length;
-    return length;
-  };
-  const Vector3& normal = net.normals[i];
-  if (has_rim(links)) {
-    // Several runs have no line through the node in common that would be the rim.
-    if (!has_one_run(links)) return;
-    const Vector3& before = edges[0];
-    const Vector3& after = edges[links.size() - 1];
-    const Vector3 chord = after - before;
-    const Vector3 t1 = direction(chord - chord.dot(first) * first, chord.norm());
-    if (t1.isZero(0)) return;
-    const Vector3 t2 = first.cross(t1);
-    (void)tilt(fit_rim(net, i, edges, first, t1, t2), t1, t2);
-    net.spheres.curvatures[i] = 0.25 * (before.dot(normal) / std::max(before.squaredNorm(), net.tiny) +
-                                        after.dot(normal) / std::max(after.squaredNorm(), net.tiny));
-    return;
+void update_spheres(Net& net, std::size_t begin, std::span<const Vector3> first) {
+  SpheresInside inside;
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    const std::size_t i = begin + k;
+    const LinkEdges& edges = inside.edges(net, i);
+    find_row(net, i, edges);
+    find_spread(net, i, edges);
+    if (net.normal_given(i)) continue;
+    net.spheres.curvatures[i] = unknown;
+    net.normals[i] = first[k];
+    if (first[k].isZero(0)) continue;
+    if (has_rim(edges.links()))
+      update_rim(net, i, edges);
+    else
+      inside.add(net, i);
   }
-  const auto [t1, t2] = tangents_of(first);
-  HeightFit fit = fit_inside(net, i, edges, first, t1, t2);
-  const double length = tilt(fit, t1, t2);
-  fit.q1 /= length;
-  fit.q2 /= length;
-  net.spheres.curvatures[i] =
-      curvature_by_row(net, i, edges, t1, t2, fit, [&](std::size_t, const Vector3& e) { return e.dot(normal); });
-  if (i < net.spheres.differences.size()) net.spheres.differences[i] = 4 * (fit.q1 * fit.q1 + fit.q2 * fit.q2);
+  inside.finish(net);
 }
 
 void find_given_curvature(Net& net, std::size_t i) {

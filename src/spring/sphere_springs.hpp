@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "vspring/types.hpp"
@@ -41,9 +42,13 @@ void use_sphere_springs(Net& net);
 /// Makes the equilibrium of a net with sphere springs that of least bending.
 void use_least_bending(Net& net);
 
-/// Normal (where not given; `first` is a guess) and curvature of a node with a ring, from its link by least squares,
-/// and its row of the Laplacian. Curvatures of nodes with given normals are left to find_given_curvature().
-void update_sphere(Net& net, std::size_t i, const Vector3& first);
+/// How many nodes update_spheres() takes at most.
+inline constexpr std::size_t spheres_together = 8;
+
+/// Normals (where not given; `first` has a guess for each) and curvatures of nodes with rings, from node `begin` on,
+/// from their links by least squares, and their rows of the Laplacian. Curvatures of nodes with given normals are left
+/// to find_given_curvature(). The same however nodes are put together.
+void update_spheres(Net& net, std::size_t begin, std::span<const Vector3> first);
 
 /// Of a node whose normal is given; needs normals of its neighbours.
 void find_given_curvature(Net& net, std::size_t i);

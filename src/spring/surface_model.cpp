@@ -1,5 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
+#include <span>
 
 #include "spring/model_of.hpp"
 #include "spring/pseudo_normal.hpp"
@@ -17,14 +19,20 @@ struct SurfaceRules {
 
   static void prepare(Net& /*net*/) {}
 
-  void update_direction(Net& net, std::size_t i) const {
-    if (net.spheres.on()) {
-      update_sphere(
-          net, i,
-          net.normal_given(i) ? Vector3::Zero() : Normal()(net.positions[i], net.rings.links(i), net.positions));
+  void update_directions(Net& net, std::size_t begin, std::size_t end) const {
+    const auto normal = [&](std::size_t i) { return Normal()(net.positions[i], net.rings.links(i), net.positions); };
+    if (!net.spheres.on()) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!net.normal_given(i)) net.normals[i] = normal(i);
+      }
       return;
     }
-    if (!net.normal_given(i)) net.normals[i] = Normal()(net.positions[i], net.rings.links(i), net.positions);
+    std::array<Vector3, spheres_together> first;
+    for (std::size_t i = begin; i < end; i += first.size()) {
+      const std::size_t count = std::min(first.size(), end - i);
+      for (std::size_t k = 0; k < count; ++k) first[k] = net.normal_given(i + k) ? Vector3::Zero() : normal(i + k);
+      update_spheres(net, i, std::span(first).first(count));
+    }
   }
 
   [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const { return surface_force(net, i, forces_); }

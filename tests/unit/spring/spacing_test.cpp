@@ -171,12 +171,12 @@ TEST(Spacing, NoiseOfEdgesIsSweptOutAndOfSeveralEdgesLeavesNothingToKeep) {
     const int cells = 30;
     const PolygonMesh plane = generate::plane({.columns = cells, .rows = cells, .faces = faces});
     const auto disturbed = [&](double edges) { return net_of(generate::add_noise(plane, edges / cells, 5)); };
-    EXPECT_TRUE(tells_spacing(net_of(plane), team));
-    EXPECT_TRUE(tells_spacing(disturbed(0.3), team));
-    EXPECT_FALSE(tells_spacing(disturbed(6), team));
+    EXPECT_TRUE(told_rest_positions(net_of(plane), team));
+    EXPECT_TRUE(told_rest_positions(disturbed(0.3), team));
+    EXPECT_FALSE(told_rest_positions(disturbed(6), team));
     const Net noisy = disturbed(1.4);
-    ASSERT_TRUE(tells_spacing(noisy, team));
     const std::vector<Vector3> places = rest_positions(noisy, team);
+    ASSERT_EQ(told_rest_positions(noisy, team), places);
     double least = 1;
     for (std::size_t i = 0; i < noisy.moving; ++i) {
       for (const Link link : noisy.rings.links(i)) {

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "linear/sparse_sum.hpp"
 
@@ -11,101 +15,175 @@ namespace vspring {
 
 namespace {
 
-using Entry = SparseRows::Entry;
+using Sources = std::span<const FloatRows::Entry>;
 
-void multiply(std::span<const Entry> row, const AssembledMatrix& matrix, SparseSum& image) {
-  image.clear();
-  for (const Entry& outer : row) {
+void multiply(Sources row, const AssembledMatrix& matrix, SparseSum& image) {
+  for (const FloatRows::Entry& outer : row) {
+    const auto factor = static_cast<double>(outer.value);
     matrix.for_row(outer.column, [&](std::size_t column, double value) {
-      image.add(static_cast<std::uint32_t>(column), outer.value * value);
+      image.add(static_cast<std::uint32_t>(column), factor * value);
     });
   }
 }
 
-/// inner: row · Gᵀ.
-void multiply(std::span<const Entry> row, const FactoredMatrix& matrix, SparseSum& inner, SparseSum& image) {
+/// inner: for row · Gᵀ.
+void multiply(Sources row, const FactoredMatrix& matrix, SparseSum& inner, SparseSum& image) {
   inner.clear();
-  for (const Entry& outer : row) {
+  for (const FloatRows::Entry& outer : row) {
+    const auto factor = static_cast<double>(outer.value);
     matrix.for_column(outer.column, [&](std::size_t column, float value) {
-      inner.add(static_cast<std::uint32_t>(column), outer.value * static_cast<double>(value));
+      inner.add(static_cast<std::uint32_t>(column), factor * static_cast<double>(value));
     });
   }
-  image.clear();
-  for (const Entry& outer : inner.entries()) {
-    matrix.for_row(outer.column, [&](std::size_t column, float value) {
-      image.add(static_cast<std::uint32_t>(column), outer.value * static_cast<double>(value));
+  inner.for_each([&](std::uint32_t row_of_factor, double factor) {
+    matrix.for_row(row_of_factor, [&](std::size_t column, float value) {
+      image.add(static_cast<std::uint32_t>(column), factor * static_cast<double>(value));
+    });
+  });
+}
+
+void multiply(Sources row, const GraphLaplacian& matrix, SparseSum& image) {
+  for (const FloatRows::Entry& outer : row) {
+    const auto factor = static_cast<double>(outer.value);
+    image.add(outer.column, factor * matrix.diagonal(outer.column));
+    matrix.for_neighbours(outer.column, [&](std::size_t j) {
+      if (j < matrix.size()) image.add(static_cast<std::uint32_t>(j), -factor);
     });
   }
 }
 
-void multiply(std::span<const Entry> row, const GraphLaplacian& matrix, SparseSum& image) {
-  image.clear();
-  for (const Entry& outer : row) {
-    image.add(outer.column, outer.value * matrix.diagonal(outer.column));
-    matrix.for_neighbours(outer.column, [&](std::size_t j) {
-      if (j < matrix.size()) image.add(static_cast<std::uint32_t>(j), -outer.value);
-    });
-  }
+std::size_t inner_size_of(const LevelMatrix& matrix) {
+  const auto* const factored = std::get_if<FactoredMatrix>(&matrix);
+  return factored ? factored->inner_size() : 0;
 }
 
 /// Rows of upᵀ matrix up, one after the other.
 class GalerkinRow {
  public:
   GalerkinRow(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up)
-      : down_(&down), matrix_(&matrix), up_(&up) {}
+      : down_(&down),
+        matrix_(&matrix),
+        up_(&up),
+        between_(inner_size_of(matrix)),
+        there_(up.rows()),
+        row_(up.columns()) {}
 
   /// Valid until the next one.
-  std::span<const Entry> operator()(std::size_t i) {
-    here_.clear();
-    for (const FloatRows::Entry& entry : down_->row(i)) here_.add(entry.column, static_cast<double>(entry.value));
+  const SparseSum& operator()(std::size_t i) {
+    const Sources here = down_->row(i);
+    there_.clear();
     if (const auto* factored = std::get_if<FactoredMatrix>(matrix_)) {
-      multiply(here_.entries(), *factored, between_, there_);
+      multiply(here, *factored, between_, there_);
     } else if (const auto* whole = std::get_if<AssembledMatrix>(matrix_)) {
-      multiply(here_.entries(), *whole, there_);
+      multiply(here, *whole, there_);
     } else {
-      multiply(here_.entries(), std::get<GraphLaplacian>(*matrix_), there_);
+      multiply(here, std::get<GraphLaplacian>(*matrix_), there_);
     }
-    multiply(there_.entries(), *up_, here_);
-    return here_.entries();
+    row_.clear();
+    there_.for_each([&](std::uint32_t fine, double value) {
+      for (const FloatRows::Entry& entry : up_->row(fine))
+        row_.add(entry.column, value * static_cast<double>(entry.value));
+    });
+    return row_;
   }
 
  private:
   const FloatRows* down_;
   const LevelMatrix* matrix_;
   const FloatRows* up_;
-  SparseSum here_;
   SparseSum between_;
   SparseSum there_;
+  SparseSum row_;
 };
 
-/// Puts the entries beside the diagonal into the row; returns the diagonal that makes up for their rounding.
-double round_row(std::size_t i, std::span<const Entry> entries, FloatRows::Row& row) {
-  double diagonal = 0;
-  for (const Entry& entry : entries) {
-    diagonal += entry.value;
-    if (entry.column == i) continue;
-    const auto value = static_cast<float>(entry.value);
-    diagonal -= static_cast<double>(value);
-    row.push_back({entry.column, value});
+/// As many as work at a time, each for one run of rows after the other: they are as large as a column of the matrix.
+class GalerkinRows {
+ public:
+  GalerkinRows(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up)
+      : make_([&] { return std::make_unique<GalerkinRow>(down, matrix, up); }) {}
+
+  /// One of them until it is destroyed.
+  class Lent {
+   public:
+    explicit Lent(GalerkinRows& from) : from_(&from), row_(from.take()) {}
+    Lent(Lent&&) = default;
+    Lent& operator=(Lent&&) = delete;
+    Lent(const Lent&) = delete;
+    Lent& operator=(const Lent&) = delete;
+    ~Lent() {
+      if (row_) from_->give_back(std::move(row_));
+    }
+    const SparseSum& operator()(std::size_t i) { return (*row_)(i); }
+
+   private:
+    GalerkinRows* from_;
+    std::unique_ptr<GalerkinRow> row_;
+  };
+
+ private:
+  std::unique_ptr<GalerkinRow> take() {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (!idle_.empty()) {
+        auto row = std::move(idle_.back());
+        idle_.pop_back();
+        return row;
+      }
+    }
+    return make_();
   }
-  return diagonal;
-}
+  void give_back(std::unique_ptr<GalerkinRow> row) {
+    const std::scoped_lock lock(mutex_);
+    idle_.push_back(std::move(row));
+  }
+
+  std::function<std::unique_ptr<GalerkinRow>()> make_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<GalerkinRow>> idle_;
+};
+
+/// Takes entries in for row i: those beside the diagonal go into the row, and their rounding onto the diagonal.
+class RoundedRow {
+ public:
+  RoundedRow(std::size_t i, FloatRows::Row& row) : i_(i), row_(&row) {}
+
+  void add(std::uint32_t column, double entry) {
+    diagonal_ += entry;
+    if (column == i_) return;
+    const auto value = static_cast<float>(entry);
+    diagonal_ -= static_cast<double>(value);
+    row_->push_back({column, value});
+  }
+  [[nodiscard]] double diagonal() const noexcept { return diagonal_; }
+
+ private:
+  std::size_t i_;
+  FloatRows::Row* row_;
+  double diagonal_ = 0;
+};
 
 }  // namespace
 
 AssembledMatrix::AssembledMatrix(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up,
                                  ThreadTeam& team)
     : diagonal_(down.rows()) {
+  GalerkinRows rows(down, matrix, up);
   beside_ = FloatRows::build(team, down.rows(), up.columns(), [&] {
-    return [&, galerkin_row = GalerkinRow(down, matrix, up)](std::size_t i, FloatRows::Row& row) mutable {
-      diagonal_[i] = round_row(i, galerkin_row(i), row);
+    return [&, galerkin_row = GalerkinRows::Lent(rows)](std::size_t i, FloatRows::Row& row) mutable {
+      RoundedRow rounded(i, row);
+      galerkin_row(i).for_each([&](std::uint32_t column, double value) { rounded.add(column, value); });
+      diagonal_[i] = rounded.diagonal();
     };
   });
 }
 
 AssembledMatrix::AssembledMatrix(const SparseRows& matrix, ThreadTeam& team) : diagonal_(matrix.rows()) {
   beside_ = FloatRows::build(team, matrix.rows(), matrix.columns(), [&] {
-    return [&](std::size_t i, FloatRows::Row& row) { diagonal_[i] = round_row(i, matrix.row(i), row); };
+    return [&](std::size_t i, FloatRows::Row& row) {
+      RoundedRow rounded(i, row);
+      for (const SparseRows::Entry& entry : matrix.row(i)) rounded.add(entry.column, entry.value);
+      diagonal_[i] = rounded.diagonal();
+    };
   });
 }
 
@@ -121,10 +199,10 @@ FactoredMatrix::FactoredMatrix(const Net& net, EdgeAlignedRows rows, ThreadTeam&
 }
 
 SparseRows galerkin(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up, ThreadTeam& team) {
+  GalerkinRows rows(down, matrix, up);
   return SparseRows::build(team, down.rows(), up.columns(), [&] {
-    return [galerkin_row = GalerkinRow(down, matrix, up)](std::size_t i, SparseRows::Row& row) mutable {
-      const auto entries = galerkin_row(i);
-      row.insert(row.end(), entries.begin(), entries.end());
+    return [galerkin_row = GalerkinRows::Lent(rows)](std::size_t i, SparseRows::Row& row) mutable {
+      galerkin_row(i).for_each([&](std::uint32_t column, double value) { row.push_back({column, value}); });
     };
   });
 }

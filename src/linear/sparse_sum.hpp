@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -10,72 +9,64 @@
 
 namespace vspring {
 
-/// A row while it is summed up: columns in the order in which they came.
+/// A row while it is summed up: columns in the order in which they came. Nothing branches on whether a column is new,
+/// which cannot be foreseen.
 class SparseSum {
  public:
-  using Entry = SparseRows::Entry;
+  /// columns: how many there are. Cost: linear in them, once.
+  explicit SparseSum(std::size_t columns) : place_(columns, none) {}
 
   void add(std::uint32_t column, double value) {
-    std::size_t at = slot(column);
-    while (slots_[at] != none && entries_[slots_[at]].column != column) at = (at + 1) & (slots_.size() - 1);
-    if (slots_[at] != none) {
-      entries_[slots_[at]].value += value;
-      return;
-    }
-    slots_[at] = static_cast<std::uint32_t>(entries_.size());
-    entries_.push_back({column, value});
-    if (2 * entries_.size() > slots_.size()) grow();
+    const std::uint32_t before = place_[column];
+    const bool is_new = before == none;
+    const std::uint32_t at = is_new ? static_cast<std::uint32_t>(size_) : before;
+    place_[column] = at;
+    columns_[size_] = column;
+    values_[at] += value;
+    size_ += is_new ? 1 : 0;
+    if (size_ == columns_.size()) grow();
   }
+  /// Cost: linear in its entries.
   void clear() {
-    if (4 * entries_.size() > slots_.size()) {
-      std::fill(slots_.begin(), slots_.end(), none);
-    } else {
-      // From the last one on, so that a chain of slots is whole until all behind it are gone.
-      for (std::size_t k = entries_.size(); k-- > 0;) {
-        std::size_t at = slot(entries_[k].column);
-        while (slots_[at] != k) at = (at + 1) & (slots_.size() - 1);
-        slots_[at] = none;
-      }
+    for (std::size_t k = 0; k < size_; ++k) {
+      place_[columns_[k]] = none;
+      values_[k] = 0;
     }
-    entries_.clear();
+    size_ = 0;
   }
-  [[nodiscard]] std::span<const Entry> entries() const noexcept { return entries_; }
+
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  /// use(column, value) for every entry.
+  template <typename Use>
+  void for_each(const Use& use) const {
+    for (std::size_t k = 0; k < size_; ++k) use(columns_[k], values_[k]);
+  }
 
  private:
   static constexpr auto none = static_cast<std::uint32_t>(-1);
+  static constexpr std::size_t first_room = 256;
 
-  [[nodiscard]] std::size_t slot(std::uint32_t column) const noexcept {
-    // Knuth's multiplicative hash.
-    return (column * 2654435769U >> 7U) & (slots_.size() - 1);
-  }
   void grow() {
-    slots_.assign(2 * slots_.size(), none);
-    for (std::size_t k = 0; k < entries_.size(); ++k) {
-      std::size_t at = slot(entries_[k].column);
-      while (slots_[at] != none) at = (at + 1) & (slots_.size() - 1);
-      slots_[at] = static_cast<std::uint32_t>(k);
-    }
+    columns_.resize(2 * columns_.size());
+    values_.resize(columns_.size(), 0);
   }
 
-  std::vector<Entry> entries_;
-  std::vector<std::uint32_t> slots_ = std::vector<std::uint32_t>(256, none);
+  std::vector<std::uint32_t> place_;  // of every column among the entries, or none
+  std::size_t size_ = 0;  // of another type than what is stored in between, so that it stays in a register
+  // With room for one more entry; values of those to come are zero.
+  std::vector<std::uint32_t> columns_ = std::vector<std::uint32_t>(first_room);
+  std::vector<double> values_ = std::vector<double>(first_room, 0);
 };
-
-/// image = row · matrix.
-template <typename Scalar>
-void multiply(std::span<const SparseRows::Entry> row, const BasicSparseRows<Scalar>& matrix, SparseSum& image) {
-  image.clear();
-  for (const SparseRows::Entry& outer : row) {
-    for (const auto& inner : matrix.row(outer.column)) image.add(inner.column, outer.value * inner.value);
-  }
-}
 
 /// a b. Cost: the multiplications.
 inline SparseRows product(const SparseRows& a, const SparseRows& b, ThreadTeam& team) {
   return SparseRows::build(team, a.rows(), b.columns(), [&] {
-    return [&, sum = SparseSum()](std::size_t i, SparseRows::Row& row) mutable {
-      multiply(a.row(i), b, sum);
-      row.insert(row.end(), sum.entries().begin(), sum.entries().end());
+    return [&, sum = SparseSum(b.columns())](std::size_t i, SparseRows::Row& row) mutable {
+      sum.clear();
+      for (const SparseRows::Entry& outer : a.row(i)) {
+        for (const SparseRows::Entry& inner : b.row(outer.column)) sum.add(inner.column, outer.value * inner.value);
+      }
+      sum.for_each([&](std::uint32_t column, double value) { row.push_back({column, value}); });
     };
   });
 }

@@ -16,11 +16,8 @@ constexpr int sphere_limit = 30;
 constexpr double sphere_is_near = 1e-4;
 // An expected error, as a share of the diagonal, from which a shape on the coarsest level is no use.
 constexpr double lost_at = 1e-3;
-// What coarse levels may leave undone, as a share of the tolerance. Of surfaces more, as it is little beside what
-// coarse meshes are off by, up to a share of the diagonal: the finer ones have to do it with more nodes.
+// What a coarse level leaves undone, the finer ones have to do with more nodes.
 constexpr double coarse_share = 0.3;
-constexpr double coarse_share_of_surfaces = 3;
-constexpr double greatest_coarse_tolerance = 1e-4;
 constexpr int coarse_changes = 2;
 // Moving nodes up to which a second start costs next to nothing.
 constexpr std::size_t few = 2000;
@@ -67,7 +64,7 @@ void Relaxation::relax(std::size_t level, int max_iterations,
   const auto nodes = static_cast<double>(net.moving);
   const double share = nodes / static_cast<double>(shape().moving);
   EquilibriumTask task;
-  task.tolerance = size_ * (level == last() ? method_.tolerance : tolerance_of_coarse(net));
+  task.tolerance = method_.tolerance * size_ * (level == last() ? 1 : coarse_share);
   task.max_iterations = max_iterations;
   if (net.spheres.on() && !has_limit) {
     task.most_while_far = sphere_limit;
@@ -94,12 +91,6 @@ void Relaxation::relax(std::size_t level, int max_iterations,
   report.outcome = result.outcome;
   report.residual = result.expected_error / size_;
   report.expected_error = report.residual;
-}
-
-double Relaxation::tolerance_of_coarse(const Net& net) const {
-  const double least = coarse_share * method_.tolerance;
-  if (net.is_curve) return least;
-  return std::max(least, std::min(coarse_share_of_surfaces * method_.tolerance, greatest_coarse_tolerance));
 }
 
 void Relaxation::go_back(std::size_t level, const Reached& reached) {

@@ -76,8 +76,6 @@ class Relaxation {
  private:
   void relax(std::size_t level, int max_iterations,
              const std::function<EquilibriumResult(const EquilibriumTask&)>& method);
-  /// As a share of the diagonal.
-  [[nodiscard]] double tolerance_of_coarse(const Net& net) const;
 
   EquilibriumMethod method_;
   SolverCall call_;

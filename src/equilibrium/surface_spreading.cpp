@@ -14,9 +14,11 @@ namespace {
 
 constexpr int most_passes = 6;
 // In edges at a node: steps that are not worth a pass, and steps after which what is left, some quarter of them, is
-// not.
-constexpr double worth_a_pass = 0.25;
-constexpr double last_pass = 1;
+// not; on the coarser level the finer one's passes see to the rest. What is left along the surface makes the first
+// corrections long, and long corrections bend it off its way: that takes longer to mend than passes take.
+constexpr double worth_a_pass = 0.05;
+constexpr double last_pass = 0.15;
+constexpr double last_pass_on_coarser = 1;
 constexpr Accuracy one_cycle = {.share = 1};
 
 /// Calls body(i) for every moving node, side by side.
@@ -100,7 +102,7 @@ bool spread_coarser(Net& coarse, const Net& fine, const Interpolation& between, 
     const double greatest = greatest_in_edges(coarse, steps, team);
     if (!(greatest > worth_a_pass)) return pass > 0;
     slide(coarse, steps, team);
-    if (greatest < last_pass) break;
+    if (greatest < last_pass_on_coarser) break;
     for_moving(fine, team, [&](std::size_t i) {
       Vector3 way = Vector3::Zero();
       for (const auto& entry : between.up.row(i))

@@ -52,7 +52,7 @@ class SparseSum {
   }
 
   std::vector<std::uint32_t> place_;  // of every column among the entries, or none
-  std::size_t size_ = 0;  // of another type than what is stored in between, so that it stays in a register
+  std::size_t size_ = 0;              // of another type than what is stored in between, so that it stays in a register
   // With room for one more entry; values of those to come are zero.
   std::vector<std::uint32_t> columns_ = std::vector<std::uint32_t>(first_room);
   std::vector<double> values_ = std::vector<double>(first_room, 0);

@@ -203,7 +203,8 @@ double inverse_of_pivot(double pivot) { return pivot > 0 ? 1 / pivot : 0; }
 
 Together inverse_of_pivot(const Together& pivots) { return (pivots > 0).select(pivots.inverse(), Together::Zero()); }
 
-/// Puts x of a x = b in the place of b, for a symmetric positive definite a, which is replaced by its factor L of L D Lᵀ.
+/// Puts x of a x = b in the place of b, for a symmetric positive definite a, which is replaced by its factor L of L D
+/// Lᵀ.
 template <std::size_t n, typename Value>
 void solve_in_place(Triangle<n, Value>& a, Unknowns<n, Value>& b) {
   Unknowns<n, Value> inverse;

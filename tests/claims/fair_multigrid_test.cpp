@@ -47,9 +47,9 @@ TEST(Multigrid, GetsNearerWithFinerMeshesWhereTheTestGoesWithTheFourthPowerOfThe
     return distance_from_unit_sphere(result.positions);
   };
   const double coarse = error(127, 1e-3);
-  const double fine = error(1801, 1e-3 / 256);
+  const double fine = error(4921, 1e-3 / 1024);
   EXPECT_LT(fine, 0.5 * coarse);
-  EXPECT_LT(fine, 0.5 * error(1801, 1e-3));
+  EXPECT_LT(fine, 0.5 * error(4921, 1e-3));
 }
 
 TEST(Multigrid, TellsOfEveryLevel) {

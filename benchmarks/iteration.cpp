@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 
+#include "copy_bandwidth.hpp"
 #include "seconds.hpp"
 #include "spring/net.hpp"
 #include "sweep/sweep.hpp"
@@ -17,6 +17,7 @@
 namespace {
 
 using namespace vspring;
+using bench::copy_bandwidth;
 using bench::seconds;
 
 template <typename Call>
@@ -24,19 +25,6 @@ double best_of(int times, const Call& call) {
   double best = seconds(call);
   for (int k = 1; k < times; ++k) best = std::min(best, seconds(call));
   return best;
-}
-
-/// Bytes a second that the machine moves when it copies arrays far larger than its caches, read and write counted.
-double copy_bandwidth(ThreadTeam& team) {
-  const std::size_t doubles = std::size_t{1} << 25;
-  std::vector<double> from(doubles, 1.0);
-  std::vector<double> to(doubles, 0.0);
-  const double time = best_of(5, [&] {
-    parallel_ranges(team, doubles, doubles / 16, [&](std::size_t begin, std::size_t end) {
-      std::memcpy(to.data() + begin, from.data() + begin, (end - begin) * sizeof(double));
-    });
-  });
-  return 2.0 * static_cast<double>(doubles * sizeof(double)) / time;
 }
 
 /// What one iteration cannot avoid moving if everything is read and written once in each of its two passes.

@@ -106,7 +106,7 @@ test('a curve: every control has a name, and Tab reaches it', async () => {
 });
 
 test('the progress bar has a name and so has what ends it', async () => {
-  session.generated('large.ply', 'annulus', '--nodes', '200000', '--noise', '0.01');
+  session.generated('large.ply', 'annulus', '--nodes', '400000', '--noise', '0.01');
   await open('?file=files/large.ply', { wait: false });
   await solving(page);
   assert.ok((await names()).includes('Cancel'));

@@ -105,9 +105,9 @@ test('the shape follows while the button is down', async () => {
 });
 
 test('a long solution is cancelled: the last shape stays, and that is what is saved', async () => {
-  const file = session.generated('large.obj', 'annulus', '--nodes', '60000', '--noise', '0.02');
+  const file = session.generated('large.obj', 'annulus', '--nodes', '120000', '--noise', '0.02');
   await page.goto(`${session.address}?file=files/large.obj`);
-  await page.locator('#size', { hasText: '60,000 nodes' }).waitFor();
+  await page.locator('#size', { hasText: '120,000 nodes' }).waitFor();
   await solving(page);
   await page.getByRole('button', { name: 'Cancel' }).click();
   await settled(page, 'cancelled');

@@ -31,7 +31,7 @@ for (const shared of [true, false]) {
   test(`a file that waits for its shape is given up or written, after a solution was given up; memory is ${shared ? '' : 'not '}shared`, async () => {
     const session = await Session.start({ shared });
     try {
-      const input = session.generated('patch.obj', 'annulus', '--nodes', '100000', '--noise', '0.01');
+      const input = session.generated('patch.obj', 'annulus', '--nodes', '200000', '--noise', '0.01');
       const { page, faults } = await session.open('?file=files/patch.obj');
       const [cancel, save, alert] = [page.getByRole('button', { name: 'Cancel' }), page.getByRole('button', { name: 'Save as' }), page.getByRole('alert')];
       let files = 0;

@@ -299,7 +299,7 @@ void sweep_places(const Net& net, std::span<const double> weights, int times, st
       for (std::size_t i = begin; i < end; ++i) {
         const auto links = net.rings.links(i);
         const auto of_node = weights.subspan(net.rings.begin(i), links.size());
-        const Vector3 place = from[i];
+        const Vector3& place = from[i];
         Vector3 way = Vector3::Zero();
         for (std::size_t k = 0; k < links.size(); ++k) way += of_node[k] * (from[links[k].node()] - place);
         to[i] = place + 0.5 * way;

@@ -199,7 +199,7 @@ export function placesOf(path) {
 
 export function greatestDistance(a, b) {
   if (a.length !== b.length) throw new Error(`${a.length} nodes and ${b.length}`);
-  return Math.max(...a.map((place, n) => Math.hypot(...place.map((part, i) => part - b[n][i]))));
+  return a.reduce((greatest, place, n) => Math.max(greatest, Math.hypot(...place.map((part, i) => part - b[n][i]))), 0);
 }
 
 // format: of the file, or the one that is chosen.

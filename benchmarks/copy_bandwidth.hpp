@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -20,9 +19,7 @@ inline double copy_bandwidth(ThreadTeam& team) {
       std::memcpy(to.data() + begin, from.data() + begin, (end - begin) * sizeof(double));
     });
   };
-  double best = seconds(copy);
-  for (int k = 1; k < 5; ++k) best = std::min(best, seconds(copy));
-  return 2.0 * static_cast<double>(doubles * sizeof(double)) / best;
+  return 2.0 * static_cast<double>(doubles * sizeof(double)) / best_seconds(5, copy);
 }
 
 }  // namespace vspring::bench

@@ -3,14 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <vector>
 
 #include "copy_bandwidth.hpp"
 #include "flat_cap.hpp"
 #include "levels/surface_levels.hpp"
-#include "precondition/bending_operator.hpp"
+#include "linear/interpolation.hpp"
 #include "precondition/surface_systems.hpp"
 #include "seconds.hpp"
 #include "support/surfaces.hpp"
@@ -37,20 +36,14 @@ double bytes_of_cycle(double matrix, double value, double interpolation_entries)
 struct System {
   const char* name;
   double bytes;
-  double ns;
+  double seconds;
 };
 
-void print(const System& system, int threads, double bandwidth) {
+void print(const System& system, std::size_t nodes, int threads, double bandwidth) {
+  const double ns = 1e9 * system.seconds / static_cast<double>(nodes);
   const double copying = 1e9 * system.bytes / bandwidth;
-  fmt::print("| {} | {} | {:.0f} | {:.0f} | {:.1f} | {:.0f} % |\n", system.name, threads, system.ns, system.bytes,
-             copying, 100 * copying / system.ns);
-}
-
-template <typename Call>
-double best_ns(double nodes, const Call& call) {
-  double best = bench::seconds(call);
-  for (int k = 0; k < 5; ++k) best = std::min(best, bench::seconds(call));
-  return 1e9 * best / nodes;
+  fmt::print("| {} | {} | {:.0f} | {:.0f} | {:.1f} | {:.0f} % |\n", system.name, threads, ns, system.bytes, copying,
+             100 * copying / ns);
 }
 
 }  // namespace
@@ -67,24 +60,22 @@ int main(int argc, char** argv) {
     ThreadTeam team(threads);
     const double bandwidth = bench::copy_bandwidth(team);
     Net gathered = gather_net(cap, constraints, true);
-    use_sphere_springs(gathered);
     std::vector<Level> levels = surface_levels(std::move(gathered), *model, Distribution::even, team);
     for (Level& level : levels) update_directions(level.net, *model, team);
     const Net& net = levels.back().net;
     SystemLevels systems = {.net = &net};
     for (std::size_t k = levels.size() - 1; k > 0 && levels[k].net.moving > coarsest_nodes; --k)
       systems.interpolations.push_back(interpolation(levels[k].net, levels[k - 1].net, levels[k - 1].finer, team));
-    const auto moving = static_cast<double>(net.moving);
-    const double links = static_cast<double>(net.rings.begin(net.moving)) / moving;
+    const double links = static_cast<double>(net.rings.begin(net.moving)) / static_cast<double>(net.moving);
     const double entries = 0.25 + 0.75 * 4;  // a quarter of the nodes are coarse ones, the others have four sources
     const double begin = sizeof(std::uint32_t);
 
-    const auto spreading = spreading_multigrid(systems, team);
+    const auto spreading = spreading_solver(systems, team);
     std::vector<Vector3> across(net.moving, Vector3(1e-3, 2e-3, 3e-3));
     const double graph = sizeof(Link) * links + begin;
     print({"across the normals, three columns", bytes_of_cycle(graph, 3 * sizeof(float), entries),
-           best_ns(moving, [&] { spreading->solve(across, one_cycle); })},
-          threads, bandwidth);
+           bench::best_seconds(5, [&] { spreading->solve(across, one_cycle); })},
+          net.moving, threads, bandwidth);
 
     BendingSystem bending(systems, team);
     bending.build();
@@ -92,8 +83,8 @@ int main(int argc, char** argv) {
     // Both factors, and what lies between them.
     const double factors = 2 * ((sizeof(Link) + sizeof(float)) * links + begin + 3 * sizeof(float));
     print({"along the normals", bytes_of_cycle(factors, sizeof(float), entries),
-           best_ns(moving, [&] { bending.solve(along, one_cycle); })},
-          threads, bandwidth);
+           bench::best_seconds(5, [&] { bending.solve(along, one_cycle); })},
+          net.moving, threads, bandwidth);
   }
   return 0;
 }

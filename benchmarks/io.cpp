@@ -2,14 +2,12 @@
 //   bench_io [NODES [RUNS]]       default: 1000000 nodes, 3 runs; files go to the current folder and are removed
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 #include <string>
 
+#include "seconds.hpp"
 #include "vspring/surface_file.hpp"
 
 namespace {
@@ -33,16 +31,6 @@ PolygonMesh grid(Index side) {
     }
   }
   return builder.take();
-}
-
-double best_of(int runs, const std::function<void()>& action) {
-  double best = HUGE_VAL;
-  for (int run = 0; run < runs; ++run) {
-    const auto start = std::chrono::steady_clock::now();
-    action();
-    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  return best;
 }
 
 /// The grid as a text PLY, which the library reads and rewrites but makes from no other format.
@@ -75,10 +63,10 @@ int main(int argc, char** argv) {
       write_surface(path, mesh);
     const double size = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
     SurfaceFile surface;
-    const double read = best_of(runs, [&] { surface = read_surface(path); });
+    const double read = bench::best_seconds(runs, [&] { surface = read_surface(path); });
     std::vector<Vector3> positions = surface.mesh.positions();
     for (Vector3& position : positions) position *= 1.1;
-    const double write = best_of(runs, [&] { write_surface(path, surface, positions); });
+    const double write = bench::best_seconds(runs, [&] { write_surface(path, surface, positions); });
     const double written = static_cast<double>(std::filesystem::file_size(path)) / 1e6;
     fmt::print("{:<12}{:>8.1f}{:>10.3f}{:>8.0f}{:>10.3f}{:>8.0f}{:>10.3f}\n", name, size, read, size / read, write,
                written / write, read + write);

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -17,15 +16,9 @@
 namespace {
 
 using namespace vspring;
+using bench::best_seconds;
 using bench::copy_bandwidth;
 using bench::seconds;
-
-template <typename Call>
-double best_of(int times, const Call& call) {
-  double best = seconds(call);
-  for (int k = 1; k < times; ++k) best = std::min(best, seconds(call));
-  return best;
-}
 
 /// What one iteration cannot avoid moving if everything is read and written once in each of its two passes.
 double bytes_per_node(const Net& net) {
@@ -45,8 +38,8 @@ void print_iterations(const std::string& numbering, Net& net) {
     const double bandwidth = copy_bandwidth(team);
     Sweep sweep(net, *model, team);
     sweep.iterate();
-    const double normals = best_of(5, [&] { update_directions(net, *model, team); });
-    const double iteration = best_of(10, [&] { sweep.iterate(); });
+    const double normals = best_seconds(5, [&] { update_directions(net, *model, team); });
+    const double iteration = best_seconds(10, [&] { sweep.iterate(); });
     const double per_node = 1e9 / static_cast<double>(net.moving);
     const double copying = 1e9 * bytes_per_node(net) / bandwidth;
     fmt::print("| {} | {} | {:.1f} | {:.1f} | {:.0f} | {:.1f} | {:.1f} |\n", numbering, threads, normals * per_node,

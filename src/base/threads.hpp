@@ -66,8 +66,16 @@ void parallel_ranges(ThreadTeam& team, std::size_t count, std::size_t grain, con
   team.run(ranges, [&](std::size_t k) { body(k * grain, k + 1 == ranges ? count : (k + 1) * grain); });
 }
 
-/// The same, where each range has a part of the result: body(begin, end, part). Returns the parts in their order, so
-/// that what is made of them has the same bits for every size of team.
+/// Calls body(i) for i from 0 to count − 1, in such ranges.
+template <typename Body>
+void parallel_each(ThreadTeam& team, std::size_t count, std::size_t grain, const Body& body) {
+  parallel_ranges(team, count, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+}
+
+/// As parallel_ranges(), where each range has a part of the result: body(begin, end, part). Returns the parts in their
+/// order, so that what is made of them has the same bits for every size of team.
 template <typename Part, typename Body>
 std::vector<Part> parallel_parts(ThreadTeam& team, std::size_t count, std::size_t grain, const Part& initial,
                                  const Body& body) {

@@ -16,17 +16,6 @@ void sort_out(std::vector<std::uint32_t>& nodes) {
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
-double mean_edge(const Net& net, std::size_t i) {
-  double lengths = 0;
-  double spokes = 0;
-  for (const Link link : net.rings.links(i)) {
-    if (!link.spoke()) continue;
-    lengths += (net.positions[link.node()] - net.positions[i]).norm();
-    spokes += 1;
-  }
-  return spokes > 0 ? lengths / spokes : 0;
-}
-
 }  // namespace
 
 ForceDerivative::ForceDerivative(Net& net, const Model& model)

@@ -53,15 +53,7 @@ void SurfaceHierarchy::make_systems(std::size_t level) {
     system_levels_.interpolations.push_back(interpolation(levels_[k].net, coarse.net, coarse.finer, *team_));
   }
   rigid_modes_.emplace(levels_[level].net);
-  const bool held = !rigid_modes_->needed();
-  if (system_levels_.interpolations.empty()) {
-    spreading_levels_ = nullptr;
-    spreading_ = spreading_factor(*system_levels_.net, *team_, held);
-  } else {
-    auto levels = spreading_multigrid(system_levels_, *team_, held);
-    spreading_levels_ = levels.get();
-    spreading_ = std::move(levels);
-  }
+  spreading_ = spreading_solver(system_levels_, *team_, !rigid_modes_->needed());
 }
 
 void SurfaceHierarchy::start() {
@@ -90,9 +82,10 @@ void SurfaceHierarchy::prolong_from(std::size_t level) {
   systems_of_.reset();
   const NetState found = coarse.net;
   make_systems(level + 1);
-  if (spreading_levels_ && !rigid_modes_->needed()) {
+  if (!system_levels_.interpolations.empty() && !rigid_modes_->needed()) {
+    // Systems have had the fine shape handed down.
     static_cast<NetState&>(coarse.net) = found;
-    if (spread_coarser(coarse.net, fine.net, system_levels_.interpolations.front(), *spreading_levels_, *team_))
+    if (spread_coarser(coarse.net, fine.net, system_levels_.interpolations.front(), *spreading_, *team_))
       prolong_surface(coarse, fine, *team_);
   }
   spread_along(fine.net, *spreading_, *rigid_modes_, *team_);

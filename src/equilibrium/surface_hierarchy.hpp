@@ -8,7 +8,6 @@
 #include "equilibrium/hierarchy.hpp"
 #include "levels/surface_levels.hpp"
 #include "linear/linear_solver.hpp"
-#include "linear/multigrid_solver.hpp"
 #include "precondition/anderson.hpp"
 #include "precondition/multisecant_predictor.hpp"
 #include "precondition/surface_preconditioner.hpp"
@@ -67,7 +66,6 @@ class SurfaceHierarchy final : public Hierarchy {
   SystemLevels system_levels_;
   std::optional<TangentialRigidModes> rigid_modes_;
   std::unique_ptr<LinearSolver> spreading_;
-  MultigridSolver* spreading_levels_ = nullptr;  ///< the same, where it has coarser levels
   std::optional<SurfacePreconditioner> preconditioner_;
   MultisecantPredictor predictor_;
   /// Of the last update(); none where it tells nothing.

@@ -21,12 +21,9 @@ constexpr double last_pass = 0.15;
 constexpr double last_pass_on_coarser = 1;
 constexpr Accuracy one_cycle = {.share = 1};
 
-/// Calls body(i) for every moving node, side by side.
 template <typename Body>
 void for_moving(const Net& net, ThreadTeam& team, const Body& body) {
-  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) body(i);
-  });
+  parallel_each(team, net.moving, nodes_per_task, body);
 }
 
 /// What the regularisation asks of node i of a net whose nodes are at `places`, times its neighbours: the residual of
@@ -51,20 +48,10 @@ Vector3 across_normal(const Net& net, std::size_t i, const Vector3& vector) {
   return vector - vector.dot(net.normals[i]) * net.normals[i];
 }
 
-double mean_edge_at(const Net& net, std::size_t i) {
-  double lengths = 0;
-  double spokes = 0;
-  for (const Link link : net.rings.links(i)) {
-    if (!link.spoke()) continue;
-    lengths += (net.positions[link.node()] - net.positions[i]).norm();
-    spokes += 1;
-  }
-  return lengths / spokes;
-}
-
 /// The greatest step, in edges at its node.
 double greatest_in_edges(const Net& net, std::span<const Vector3> steps, ThreadTeam& team) {
-  return greatest_over_nodes(net, team, [&](std::size_t i) { return steps[i].norm() / mean_edge_at(net, i); });
+  return greatest_over_nodes(net, team,
+                             [&](std::size_t i) { return steps[i].norm() / (mean_edge(net, i) + net.tiny); });
 }
 
 }  // namespace
@@ -84,7 +71,7 @@ void spread_along(Net& net, LinearSolver& spreading, const TangentialRigidModes&
   }
 }
 
-bool spread_coarser(Net& coarse, const Net& fine, const Interpolation& between, MultigridSolver& spreading,
+bool spread_coarser(Net& coarse, const Net& fine, const Interpolation& between, LinearSolver& spreading,
                     ThreadTeam& team) {
   const std::vector<Vector3> began = coarse.positions;
   std::vector<Vector3> places = fine.positions;
@@ -97,7 +84,7 @@ bool spread_coarser(Net& coarse, const Net& fine, const Interpolation& between, 
       for (const auto& entry : between.down.row(i)) sum += static_cast<double>(entry.value) * pulls[entry.column];
       steps[i] = across_normal(coarse, i, sum);
     });
-    spreading.solve_coarser(steps);
+    if (!spreading.solve_coarser(steps)) return false;
     for_moving(coarse, team, [&](std::size_t i) { steps[i] = across_normal(coarse, i, steps[i]); });
     const double greatest = greatest_in_edges(coarse, steps, team);
     if (!(greatest > worth_a_pass)) return pass > 0;

@@ -4,7 +4,6 @@
 #include "levels/level.hpp"
 #include "linear/interpolation.hpp"
 #include "linear/linear_solver.hpp"
-#include "linear/multigrid_solver.hpp"
 #include "precondition/tangential_rigid_modes.hpp"
 #include "spring/net.hpp"
 
@@ -16,8 +15,9 @@ void spread_along(Net& net, LinearSolver& spreading, const TangentialRigidModes&
 
 /// Moves the nodes of a coarser level along its surface to where they are wanted by the finer one that was handed up
 /// from it, for a quarter of what it takes there. between: of the two; spreading: of the finer one. Needs directions
-/// on the coarser one, and sets them. False where nothing is to be moved. Cost: linear.
-bool spread_coarser(Net& coarse, const Net& fine, const Interpolation& between, MultigridSolver& spreading,
+/// on the coarser one, and sets them. False where nothing is to be moved, or the solver has no coarser level. Cost:
+/// linear.
+bool spread_coarser(Net& coarse, const Net& fine, const Interpolation& between, LinearSolver& spreading,
                     ThreadTeam& team);
 
 }  // namespace vspring

@@ -25,6 +25,8 @@ class LinearSolver {
   /// Puts the solution in the right side's place; of vectors for each coordinate.
   virtual void solve(std::span<double> values, const Accuracy& accuracy) = 0;
   virtual void solve(std::span<Vector3> values, const Accuracy& accuracy) = 0;
+  /// The same, roughly, with the matrix of the next coarser level. False, and nothing is done, where there is none.
+  virtual bool solve_coarser(std::span<Vector3> /*values*/) { return false; }
 };
 
 }  // namespace vspring

@@ -34,9 +34,7 @@ Value zero() {
 
 template <typename Body>
 void for_rows(ThreadTeam& team, std::size_t rows, const Body& body) {
-  parallel_ranges(team, rows, rows_per_task, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) body(i);
-  });
+  parallel_each(team, rows, rows_per_task, body);
 }
 
 /// What is summed up in double precision.
@@ -336,12 +334,16 @@ void MultigridSolver::solve(std::span<Vector3> values, const Accuracy& accuracy)
   solve_any(cycle, values, accuracy);
 }
 
-void MultigridSolver::solve_coarser(std::span<Vector3> values) {
-  if (levels_.size() == 1) return coarsest_.solve(values, {});
+bool MultigridSolver::solve_coarser(std::span<Vector3> values) {
+  if (levels_.size() == 1) {
+    coarsest_.solve(values, {});
+    return true;
+  }
   Cycle<Three> cycle(*this, 1);
   for_rows(*team_, values.size(), [&](std::size_t i) { cycle.right()[i] = narrowed(values[i]); });
   cycle.apply();
   for_rows(*team_, values.size(), [&](std::size_t i) { widen(cycle.solution()[i], values[i]); });
+  return true;
 }
 
 template <typename Value, typename Values>

@@ -27,8 +27,8 @@ class MultigridSolver final : public LinearSolver {
 
   void solve(std::span<double> values, const Accuracy& accuracy) override;
   void solve(std::span<Vector3> values, const Accuracy& accuracy) override;
-  /// One cycle with the matrix of the next coarser level.
-  void solve_coarser(std::span<Vector3> values);
+  /// By one cycle.
+  bool solve_coarser(std::span<Vector3> values) override;
 
  private:
   struct Level {

@@ -138,11 +138,7 @@ void SurfacePreconditioner::update(std::span<const Vector3> moves, double enough
 
 void SurfacePreconditioner::solve(double enough, std::vector<Vector3>& correction) {
   const Net& net = *net_;
-  const auto in_parallel = [&](const auto& body) {
-    parallel_ranges(*team_, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) body(i);
-    });
-  };
+  const auto in_parallel = [&](const auto& body) { parallel_each(*team_, net.moving, nodes_per_task, body); };
   bending_.solve(along_, {.enough = enough, .share = bending_share});
   in_parallel([&](std::size_t i) { correction[i] = asked_across(i, correction[i]); });
   rigid_modes_->hold(correction);

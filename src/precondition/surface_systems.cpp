@@ -48,34 +48,23 @@ void BendingSystem::solve(std::span<double> values, const Accuracy& accuracy) {
 
 double BendingSystem::work_of_building() const { return factor_ ? factor_->work_of_building() : work_of_levels; }
 
-namespace {
-
-SparseRows spreading_form(const Net& net, ThreadTeam& team, bool held) {
-  return held ? tangential_laplacian(net, team) : tangential_laplacian(net, team, shift_of_free);
-}
-
-}  // namespace
-
-std::unique_ptr<CholeskySolver> spreading_factor(const Net& net, ThreadTeam& team, bool held) {
-  auto solver = std::make_unique<CholeskySolver>(team);
-  solver->build(spreading_form(net, team, held));
-  return solver;
-}
-
-std::unique_ptr<MultigridSolver> spreading_multigrid(const SystemLevels& levels, ThreadTeam& team, bool held) {
+std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held) {
   const Net& net = *levels.net;
+  const auto form = [&] {
+    return held ? tangential_laplacian(net, team) : tangential_laplacian(net, team, shift_of_free);
+  };
+  if (levels.interpolations.empty()) {
+    auto solver = std::make_unique<CholeskySolver>(team);
+    solver->build(form());
+    return solver;
+  }
   auto solver = std::make_unique<MultigridSolver>(levels.interpolations, team);
   if (net.laplacian_weights.empty() && held) {
     solver->build(GraphLaplacian(net));
   } else {
-    solver->build(AssembledMatrix(spreading_form(net, team, held), team));
+    solver->build(AssembledMatrix(form(), team));
   }
   return solver;
-}
-
-std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held) {
-  if (levels.interpolations.empty()) return spreading_factor(*levels.net, team, held);
-  return spreading_multigrid(levels, team, held);
 }
 
 }  // namespace vspring

@@ -5,10 +5,8 @@
 #include <vector>
 
 #include "base/threads.hpp"
-#include "linear/cholesky_solver.hpp"
 #include "linear/interpolation.hpp"
 #include "linear/linear_solver.hpp"
-#include "linear/multigrid_solver.hpp"
 #include "spring/net.hpp"
 
 namespace vspring {
@@ -39,15 +37,12 @@ class BendingSystem {
  private:
   const SystemLevels* levels_;
   ThreadTeam* team_;
-  std::unique_ptr<CholeskySolver> factor_;
-  std::unique_ptr<MultigridSolver> multigrid_;
+  std::unique_ptr<class CholeskySolver> factor_;
+  std::unique_ptr<class MultigridSolver> multigrid_;
 };
 
-/// A solver with the Laplacian of the net's graph, see tangential_laplacian(): a sparse factor, multigrid where there
-/// are interpolations, or the one that fits. held: whether all of it hangs together with held nodes; else constants are
-/// damped.
-std::unique_ptr<CholeskySolver> spreading_factor(const Net& net, ThreadTeam& team, bool held = true);
-std::unique_ptr<MultigridSolver> spreading_multigrid(const SystemLevels& levels, ThreadTeam& team, bool held = true);
+/// A solver with the Laplacian of the net's graph, see tangential_laplacian(). held: whether all of it hangs together
+/// with held nodes; else constants are damped.
 std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held = true);
 
 }  // namespace vspring

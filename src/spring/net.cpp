@@ -242,10 +242,12 @@ Vector3 mean_of_neighbours(const Net& net, std::size_t node) {
   return spokes > 0 ? Vector3(mean / spokes) : net.positions[node];
 }
 
-double mean_edge(const Net& net) {
+namespace {
+
+double mean_edge_of(const Net& net, std::size_t begin, std::size_t end) {
   double sum = 0;
   double edges = 0;
-  for (std::size_t i = 0; i < net.moving; ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     for (const Link link : net.rings.links(i)) {
       if (!link.spoke()) continue;
       sum += (net.positions[link.node()] - net.positions[i]).norm();
@@ -254,5 +256,11 @@ double mean_edge(const Net& net) {
   }
   return edges > 0 ? sum / edges : 0;
 }
+
+}  // namespace
+
+double mean_edge(const Net& net) { return mean_edge_of(net, 0, net.moving); }
+
+double mean_edge(const Net& net, std::size_t node) { return mean_edge_of(net, node, node + 1); }
 
 }  // namespace vspring

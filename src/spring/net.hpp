@@ -76,6 +76,8 @@ struct Net : NetProblem, NetState {};
 
 /// The mean length of the edges of the moving nodes, in the coordinates of the net. Cost: linear.
 double mean_edge(const Net& net);
+/// That of one node, 0 without any.
+double mean_edge(const Net& net, std::size_t node);
 
 /// The mean of the places of a node's neighbours; its own where it has none.
 Vector3 mean_of_neighbours(const Net& net, std::size_t node);

@@ -72,7 +72,7 @@ double greatest_way(TwoLevels& surface) {
     for (const Link link : net.rings.links(i)) pull += net.positions[link.node()] - net.positions[i];
     ways[i] = pull - pull.dot(net.normals[i]) * net.normals[i];
   }
-  spreading_factor(net, surface.team)->solve(ways, {});
+  spreading_solver({.net = &net}, surface.team)->solve(ways, {});
   double greatest = 0;
   for (const Vector3& way : ways) greatest = std::max(greatest, way.norm());
   return greatest / mean_edge(net);
@@ -90,7 +90,7 @@ TEST(SurfaceSpreading, TheCoarserLevelDoesTheLongWaysForTheFinerOne) {
   const double before = greatest_way(surface);
   ASSERT_GT(before, 5);
   const SystemLevels systems = surface.systems();
-  const auto spreading = spreading_multigrid(systems, surface.team);
+  const auto spreading = spreading_solver(systems, surface.team);
   ASSERT_TRUE(
       spread_coarser(surface.coarse(), surface.fine(), systems.interpolations.front(), *spreading, surface.team));
   surface.hand_up();
@@ -101,7 +101,7 @@ TEST(SurfaceSpreading, TheCoarserLevelDoesTheLongWaysForTheFinerOne) {
 TEST(SurfaceSpreading, NodesEndAtTheMeanOfTheirNeighbours) {
   TwoLevels surface(2);
   const SystemLevels systems = surface.systems();
-  const auto spreading = spreading_multigrid(systems, surface.team);
+  const auto spreading = spreading_solver(systems, surface.team);
   spread_along(surface.fine(), *spreading, TangentialRigidModes(surface.fine()), surface.team);
   EXPECT_LT(greatest_miss(surface.fine()), 0.02);
   EXPECT_LT(greatest_way(surface), 0.5);
@@ -111,7 +111,7 @@ TEST(SurfaceSpreading, NodesEndAtTheMeanOfTheirNeighbours) {
 TEST(SurfaceSpreading, NothingMovesWhereNodesAreInPlace) {
   TwoLevels surface(1);
   const SystemLevels systems = surface.systems();
-  const auto spreading = spreading_multigrid(systems, surface.team);
+  const auto spreading = spreading_solver(systems, surface.team);
   for (int pass = 0; pass < 3; ++pass) {
     (void)spread_coarser(surface.coarse(), surface.fine(), systems.interpolations.front(), *spreading, surface.team);
     surface.hand_up();
@@ -130,7 +130,7 @@ TEST(SurfaceSpreading, SameBitsOnAnyNumberOfThreads) {
   for (const int threads : {1, 2}) {
     TwoLevels surface(threads);
     const SystemLevels systems = surface.systems();
-    const auto spreading = spreading_multigrid(systems, surface.team);
+    const auto spreading = spreading_solver(systems, surface.team);
     (void)spread_coarser(surface.coarse(), surface.fine(), systems.interpolations.front(), *spreading, surface.team);
     surface.hand_up();
     spread_along(surface.fine(), *spreading, TangentialRigidModes(surface.fine()), surface.team);

@@ -43,8 +43,6 @@ MUTATIONS = {
          "force.regularisation", "Vector3"),
     ],
     "src/spring/sphere_springs.cpp": [
-        ("cotangents", "cotangent Laplacian: the angle opposite", "row[first] += half.at_b;", "row[first] += half.at_a;"),
-        ("polygon-row", "Laplacian of an n-gon", "share * (own - share * sum)", "share * own"),
         ("curvature-form", "curvature: Σ K (height − q)", "2 * fit.q2 * x * y", "-2 * fit.q2 * x * y"),
         ("curvature-of-rim", "curvature at a rim", "0.25", "0.5"),
         ("curvature-of-given", "heights over neighbours' planes", "(1 + of_neighbours) * own + of_neighbours * theirs", "own"),
@@ -55,8 +53,12 @@ MUTATIONS = {
         ("bending-term", "least bending: ΔH + 2H(H² − K) = 0", "2 * spheres.areas[i] * own * spheres.differences[i]",
          "spheres.areas[i] * own * spheres.differences[i]"),
         ("bending-difference", "H² − K = 4|q|²", "4 * (fit.q1 * fit.q1 + fit.q2 * fit.q2)", "4 * (fit.q1 * fit.q1 - fit.q2 * fit.q2)"),
-        ("sphere-area", "a node's third of its triangles", "half.area / 6", "half.area / 2"),
         ("slopes", "normals from heights over the link", "normal + fit.slope1 * t1 + fit.slope2 * t2", "normal", "Vector3"),
+    ],
+    "src/spring/laplacian_row.cpp": [
+        ("cotangents", "cotangent Laplacian: the angle opposite", "row[first] += half.at_b;", "row[first] += half.at_a;"),
+        ("polygon-row", "Laplacian of an n-gon", "share * (own - share * sum)", "share * own"),
+        ("sphere-area", "a node's third of its triangles", "half.area / 6", "half.area / 2"),
     ],
     "src/spring/tangent.hpp": [
         ("circle-tangent", "tangent of the circle: e/ℓ²", "sum += *edge / length2;", "sum += *edge / std::sqrt(length2);"),

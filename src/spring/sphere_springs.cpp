@@ -8,21 +8,20 @@
 #include <optional>
 #include <span>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "shape/direction.hpp"
 #include "spring/bending_factor.hpp"
-#include "spring/near_nodes.hpp"
+#include "spring/height_equations.hpp"
+#include "spring/laplacian_row.hpp"
+#include "spring/link_edges.hpp"
 #include "spring/net.hpp"
 
 namespace vspring {
 
 namespace {
 
-// Of angles of slivers.
-constexpr double greatest_cotangent = 100;
 // Of the normal equations' diagonal: what four neighbours leave open, and slopes that so few nodes tell nothing of.
 constexpr double ridge_of_forms = 1e-4;
 constexpr double ridge_of_slopes = 1e-6;
@@ -32,278 +31,6 @@ constexpr double least_spread = 2;
 // third order out where the neighbours' normals are computed.
 constexpr double of_neighbours = 0.5;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-/// From the cosine and the inverse of the sine, which may be infinite.
-double cotangent(double cosine, double inverse_sine) {
-  const double value = cosine * inverse_sine;
-  if (!(value < greatest_cotangent)) return greatest_cotangent;
-  return std::max(value, -greatest_cotangent);
-}
-
-/// Of a triangle with a corner at 0 and two others: the halves of its angles' cotangents, and twice its area.
-struct HalfCotangents {
-  double at_origin;
-  double at_a;
-  double at_b;
-  double area;
-
-  HalfCotangents(const Vector3& a, const Vector3& b) {
-    const Vector3 side = b - a;
-    area = a.cross(side).norm();
-    const double inverse = 1 / area;
-    at_origin = 0.5 * cotangent(a.dot(b), inverse);
-    at_a = 0.5 * cotangent(-a.dot(side), inverse);
-    at_b = 0.5 * cotangent(b.dot(side), inverse);
-  }
-};
-
-/// A place in a walk around a node, once around at most: a division, as for a remainder, takes as long as a face.
-std::size_t wrapped(std::size_t k, std::size_t count) { return k < count ? k : k - count; }
-
-/// Calls use(first, last) for every face around a node: the places in the walk of its nodes beside the centre, first to
-/// last, from spoke to spoke.
-template <typename Use>
-void for_faces(std::span<const Link> links, const Use& use) {
-  const std::size_t count = links.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    if (!links[k].spoke()) continue;
-    std::size_t last = k;
-    bool is_face = false;
-    do {
-      ++last;
-      const Link link = links[wrapped(last, count)];
-      if (link.start()) break;
-      is_face = link.spoke();
-    } while (!is_face && last < k + count);
-    if (is_face) use(k, last);
-  }
-}
-
-/// The edges from a node to all of its link, gathered once.
-class LinkEdges {
- public:
-  LinkEdges(const Net& net, std::size_t i)
-      : links_(net.rings.links(i)), edges_(few_.data()), squares_(squares_of_few_.data()) {
-    if (links_.size() > few) {
-      many_.resize(links_.size());
-      squares_of_many_.resize(links_.size());
-      edges_ = many_.data();
-      squares_ = squares_of_many_.data();
-    }
-    for (std::size_t k = 0; k < links_.size(); ++k) {
-      edges_[k] = net.positions[links_[k].node()] - net.positions[i];
-      squares_[k] = edges_[k].squaredNorm();
-    }
-  }
-  LinkEdges(const LinkEdges&) = delete;
-  LinkEdges& operator=(const LinkEdges&) = delete;
-
-  [[nodiscard]] std::span<const Link> links() const { return links_; }
-  [[nodiscard]] std::size_t size() const { return links_.size(); }
-  [[nodiscard]] const Vector3& operator[](std::size_t k) const { return edges_[k]; }
-  [[nodiscard]] double square(std::size_t k) const { return squares_[k]; }
-
- private:
-  // Hardly any node has more; room on the stack costs nothing.
-  static constexpr std::size_t few = 24;
-
-  std::span<const Link> links_;
-  std::array<Vector3, few> few_;
-  std::array<double, few> squares_of_few_;
-  std::vector<Vector3> many_;
-  std::vector<double> squares_of_many_;
-  Vector3* edges_;
-  double* squares_;
-};
-
-/// The row of the Laplacian, and the node's share of area.
-void find_row(Net& net, std::size_t i, const LinkEdges& edges) {
-  SphereSprings& spheres = net.spheres;
-  const std::size_t count = edges.size();
-  double* row = spheres.stiffness.data() + net.rings.begin(i);
-  std::fill_n(row, count, 0.0);
-  spheres.areas[i] = 0;
-  const auto edge = [&](std::size_t k) -> const Vector3& { return edges[wrapped(k, count)]; };
-  for_faces(edges.links(), [&](std::size_t first, std::size_t last) {
-    const std::size_t nodes = last - first + 2;
-    const Vector3& a = edge(first);
-    const Vector3& b = edge(last);
-    if (nodes == 3) {
-      const HalfCotangents half(a, b);
-      row[first] += half.at_b;
-      row[wrapped(last, count)] += half.at_a;
-      spheres.areas[i] += half.area / 6;
-      return;
-    }
-    // Nodes of the face: 0 is the centre, k + 1 the place first + k of the walk.
-    const auto place = [&](std::size_t k) -> Vector3 {
-      return k == 0 || k == nodes ? Vector3::Zero() : edge(first + k - 1);
-    };
-    Vector3 middle = Vector3::Zero();
-    Vector3 area = Vector3::Zero();
-    Vector3 before = a;
-    for (std::size_t k = 1; k < nodes; ++k) {
-      const Vector3 after = place(k + 1);
-      middle += before;
-      area += before.cross(after);
-      before = after;
-    }
-    middle /= static_cast<double>(nodes);
-    spheres.areas[i] += 0.5 * area.norm() / static_cast<double>(nodes);
-    // Weights of the edges from each node to the middle go to the node by its share, and their sum to all.
-    const double share = 1 / static_cast<double>(nodes);
-    double sum = 0;
-    double own = 0;
-    const auto add = [&](std::size_t k, double weight) {
-      sum += weight;
-      if (k == 0 || k == nodes)
-        own += weight;
-      else
-        row[wrapped(first + k - 1, count)] += share * weight;
-    };
-    before.setZero();
-    for (std::size_t k = 0; k < nodes; ++k) {
-      const Vector3 after = place(k + 1);
-      const HalfCotangents half(before - middle, after - middle);
-      add(k, half.at_b);
-      add(k + 1, half.at_a);
-      if (k == 0) row[first] += half.at_origin;
-      if (k + 1 == nodes) row[wrapped(last, count)] += half.at_origin;
-      before = after;
-    }
-    for (std::size_t k = first; k <= last; ++k) row[wrapped(k, count)] += share * (own - share * sum);
-  });
-}
-
-/// Calls use(0) … use(n − 1) with numbers that are constants there: what is indexed by them alone stays in registers.
-template <std::size_t n, typename Use>
-void unrolled(const Use& use) {
-  [&]<std::size_t... k>(std::index_sequence<k...>) { (use(std::integral_constant<std::size_t, k>()), ...); }
-  (std::make_index_sequence<n>());
-}
-
-/// value: a number, or one for each of several nodes.
-template <std::size_t n, typename Value = double>
-using Unknowns = std::array<Value, n>;
-
-/// The lower triangle of a symmetric matrix, row by row.
-template <std::size_t n, typename Value = double>
-struct Triangle {
-  std::array<Value, n*(n + 1) / 2> values = {};
-
-  Value& operator()(std::size_t row, std::size_t column) { return values[row * (row + 1) / 2 + column]; }
-};
-
-/// One value for each of the nodes whose equations are solved together: divisions follow on one another, and those of
-/// one node alone would be waited for.
-using Together = Eigen::Array<double, spheres_together, 1>;
-
-// What nothing tells of gets nothing.
-double inverse_of_pivot(double pivot) { return pivot > 0 ? 1 / pivot : 0; }
-
-Together inverse_of_pivot(const Together& pivots) { return (pivots > 0).select(pivots.inverse(), Together::Zero()); }
-
-/// Puts x of a x = b in the place of b, for a symmetric positive definite a, which is replaced by its factor L of L D
-/// Lᵀ.
-template <std::size_t n, typename Value>
-void solve_in_place(Triangle<n, Value>& a, Unknowns<n, Value>& b) {
-  Unknowns<n, Value> inverse;
-  for (std::size_t j = 0; j < n; ++j) {
-    // Row j of L D, then of L.
-    for (std::size_t k = 0; k < j; ++k) {
-      for (std::size_t m = 0; m < k; ++m) a(j, k) -= a(k, m) * a(j, m);
-    }
-    Value pivot = a(j, j);
-    for (std::size_t k = 0; k < j; ++k) {
-      const Value entry = a(j, k) * inverse[k];
-      pivot -= a(j, k) * entry;
-      b[j] -= entry * b[k];
-      a(j, k) = entry;
-    }
-    inverse[j] = inverse_of_pivot(pivot);
-  }
-  for (std::size_t j = n; j-- > 0;) {
-    b[j] *= inverse[j];
-    for (std::size_t m = j + 1; m < n; ++m) b[j] -= a(m, j) * b[m];
-  }
-}
-
-/// Σ r rᵀ of rows r of n numbers and a right side, on and above its diagonal, without the last row: by pairs of
-/// columns, each as fast as one.
-template <std::size_t n>
-class RowProducts {
- public:
-  RowProducts() {
-    for (auto& row : sums_) row.fill(Pair::Zero());
-  }
-
-  /// A row and its right side, both times a weight.
-  void add(const Unknowns<n>& row, double right, double weight) {
-    const auto at = [&](std::size_t c) { return c < n ? row[c] : c == n ? right : 0.0; };
-    std::array<Pair, pairs> weighted;
-    unrolled<pairs>([&](auto p) { weighted[p] = Pair(at(2 * p), at(2 * p + 1)) * weight; });
-    unrolled<n>([&](auto r) {
-      const double left = weighted[r / 2][r % 2];
-      unrolled<pairs - r / 2>([&](auto p) { sums_[r][r / 2 + p] += left * weighted[r / 2 + p]; });
-    });
-  }
-
-  [[nodiscard]] double operator()(std::size_t r, std::size_t c) const {
-    return sums_[r][c / 2][static_cast<Eigen::Index>(c % 2)];
-  }
-
- private:
-  using Pair = Eigen::Array2d;
-  static constexpr std::size_t pairs = n / 2 + 1;
-
-  std::array<std::array<Pair, pairs>, n> sums_;
-};
-
-/// Calls use(node, e, |e|²) for the nodes that heights are fitted to, see for_near_nodes().
-template <typename Use>
-void for_near_edges(const Net& net, std::size_t i, const LinkEdges& edges, const Use& use) {
-  if (edges.size() >= enough_near_nodes) {
-    for (std::size_t k = 0; k < edges.size(); ++k) use(edges.links()[k].node(), edges[k], edges.square(k));
-    return;
-  }
-  for_near_nodes(net, i, [&](std::size_t j) {
-    const Vector3 e = net.positions[j] - net.positions[i];
-    use(j, e, e.squaredNorm());
-  });
-}
-
-/// The equations a x = b of n unknowns.
-template <std::size_t n>
-struct HeightEquations {
-  Triangle<n> a;
-  Unknowns<n> b;
-};
-
-/// Those of least squares of heights over a node's link, by x and y in its tangent plane: height(j, e) for node j
-/// against the n unknowns of row(x, y, |e|²), both weighed by |e|⁻². forms_ridge and slopes_ridge: what is added to the
-/// diagonal for each unknown, times the number of nodes and times Σ |e|⁻², as their units ask.
-template <std::size_t n, typename Height, typename Row>
-HeightEquations<n> equations_of_heights(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& t1,
-                                        const Vector3& t2, const Unknowns<n>& forms_ridge,
-                                        const Unknowns<n>& slopes_ridge, const Height& height, const Row& row_of) {
-  RowProducts<n> products;
-  double inverses = 0;
-  double count = 0;
-  for_near_edges(net, i, edges, [&](std::size_t j, const Vector3& e, double length2) {
-    if (!(length2 > 0)) return;
-    const double inverse = 1 / length2;
-    inverses += inverse;
-    count += 1;
-    products.add(row_of(e.dot(t1), e.dot(t2), length2), height(j, e), inverse);
-  });
-  HeightEquations<n> equations;
-  unrolled<n>([&](auto r) {
-    unrolled<r + 1>([&](auto c) { equations.a(r, c) = products(c, r); });
-    equations.a(r, r) += count * forms_ridge[r] + inverses * slopes_ridge[r];
-    equations.b[r] = products(r, n);
-  });
-  return equations;
-}
 
 /// The form q of heights without its trace, and the slopes by which the plane is to tilt.
 struct HeightFit {
@@ -425,6 +152,10 @@ void update_rim(Net& net, std::size_t i, const LinkEdges& edges) {
                                       after.dot(normal) / std::max(after.squaredNorm(), net.tiny));
 }
 
+/// One value for each of the nodes whose equations are solved together: divisions follow on one another, and those of
+/// one node alone would be waited for.
+using Together = Eigen::Array<double, spheres_together, 1>;
+
 /// Nodes with faces all around, whose equations are solved together. Their normals are guesses at first.
 class SpheresInside {
  public:
@@ -478,7 +209,7 @@ class SpheresInside {
 
   std::array<Node, spheres_together> nodes_;
   std::size_t count_ = 0;
-  Triangle<5, Together> a_;
+  LowerTriangle<5, Together> a_;
   Unknowns<5, Together> b_;
 };
 
@@ -501,7 +232,7 @@ void update_spheres(Net& net, std::size_t begin, std::span<const Vector3> first)
   for (std::size_t k = 0; k < first.size(); ++k) {
     const std::size_t i = begin + k;
     const LinkEdges& edges = inside.edges(net, i);
-    find_row(net, i, edges);
+    find_laplacian_row(net, i, edges);
     find_spread(net, i, edges);
     if (net.normal_given(i)) continue;
     net.spheres.curvatures[i] = unknown;

@@ -113,7 +113,7 @@ class EquilibriumSearch : private Relaxation {
     const std::size_t first = hierarchy_.first_of_use();
     for (std::size_t k = first; k <= last(); ++k) {
       tie_points(k);
-      relax(k, k == first ? std::min(limit, first_try) : limit);
+      relax_on_way(k, k == first ? std::min(limit, first_try) : limit);
       if (k == first && limit > first_try && unfinished()) {
         // Points know better, and may be all that holds it.
         if (lost() && !points_) hierarchy_.start_from_membrane(k);
@@ -135,6 +135,18 @@ class EquilibriumSearch : private Relaxation {
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
     }
+  }
+
+  /// On a coarser level edge springs come second: any start is better than a shape that is none.
+  void relax_on_way(std::size_t level, int limit) {
+    Net& net = hierarchy_.net(level);
+    if (level == last() || !net.spheres.on()) return relax(level, limit);
+    const std::vector<Vector3> start = net.positions;
+    relax(level, limit);
+    if (!unfinished()) return;
+    net.positions = start;
+    net.spheres = {};
+    relax(level, limit);
   }
 
   bool may_keep_spacing() {

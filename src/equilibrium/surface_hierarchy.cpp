@@ -28,6 +28,14 @@ double greatest_length(std::span<const Vector3> vectors) {
   return std::sqrt(square);
 }
 
+/// The springs of another net. Sphere springs give the same shape on every mesh: what comes from a coarser level is then
+/// nearly in place.
+void take_springs_of(const Net& other, Net& net) {
+  if (!other.spheres.on() || net.spheres.on()) return;
+  use_sphere_springs(net);
+  if (!other.spheres.differences.empty()) use_least_bending(net);
+}
+
 }  // namespace
 
 Preconditioner& SurfaceHierarchy::preconditioner(std::size_t level) {
@@ -89,6 +97,8 @@ void SurfaceHierarchy::prolong_from(std::size_t level) {
       prolong_surface(coarse, fine, *team_);
   }
   spread_along(fine.net, *spreading_, *rigid_modes_, *team_);
+  coarse.net.spheres = {};
+  take_springs_of(finest(), fine.net);
 }
 
 std::vector<Vector3> SurfaceHierarchy::step_of_held(const Constraints& constraints) const {

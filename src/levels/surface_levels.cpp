@@ -18,8 +18,7 @@ constexpr std::size_t too_few = 6;
 // A level that keeps more of the nodes than this is not worth having.
 constexpr double worthwhile = 0.85;
 
-/// The nodes of a finer net that a coarser one keeps, in its order: moving ones, held ones whose normal is to be
-/// computed, others.
+/// The nodes of a finer net that a coarser one keeps, in its order: moving ones, held ones with a ring, others.
 struct Selection {
   std::vector<std::uint32_t> nodes;
   std::vector<std::uint32_t> number;  ///< by the finer net's numbers
@@ -27,7 +26,9 @@ struct Selection {
   std::size_t computed = 0;
 };
 
-Selection select(const Net& fine, const Triangulation& triangulation, const std::vector<std::uint8_t>& kept) {
+/// for_spheres: as for gather_net().
+Selection select(const Net& fine, const Triangulation& triangulation, const std::vector<std::uint8_t>& kept,
+                 bool for_spheres) {
   Selection selection;
   selection.number.resize(kept.size(), 0);
   std::vector<std::uint32_t> others;
@@ -39,7 +40,7 @@ Selection select(const Net& fine, const Triangulation& triangulation, const std:
     if (kept[i] == 0) continue;
     bool beside_moving = false;
     triangulation.for_each_neighbour(i, [&](std::size_t j) { beside_moving = beside_moving || j < fine.moving; });
-    (beside_moving && !fine.normal_given(i) ? selection.nodes : others).push_back(static_cast<std::uint32_t>(i));
+    (beside_moving && (for_spheres || !fine.normal_given(i)) ? selection.nodes : others).push_back(static_cast<std::uint32_t>(i));
   }
   selection.computed = selection.nodes.size();
   selection.nodes.insert(selection.nodes.end(), others.begin(), others.end());
@@ -100,7 +101,7 @@ std::vector<Level> surface_levels(Net net, const Model& model, Distribution dist
       constrained[i] = static_cast<std::uint8_t>(i >= fine.moving || fine.given[i] != 0);
     std::vector<std::uint8_t> kept = choose_coarse_nodes(triangulation, constrained, places);
     std::vector<Removals> removals = coarsen(triangulation, kept, team, places);
-    Selection selection = select(fine, triangulation, kept);
+    Selection selection = select(fine, triangulation, kept, levels.front().net.spheres.on());
     const bool smaller = static_cast<double>(selection.nodes.size()) <= worthwhile * static_cast<double>(kept.size());
     if (!smaller || selection.moving < too_few) break;
     triangulation = Triangulation(triangulation, selection.nodes, selection.number, team);

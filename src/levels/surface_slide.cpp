@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -82,16 +81,9 @@ bool weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector
   return missed.squaredNorm() <= greatest_miss * greatest_miss * square;
 }
 
-std::optional<std::size_t> last_spoke(std::span<const Link> links) {
-  for (std::size_t k = links.size(); k-- > 0;) {
-    if (links[k].spoke()) return links[k].node();
-  }
-  return std::nullopt;
-}
-
-/// The corners of the triangle between spokes that a place lies over, looked for from a moving node, with the weights
-/// that put it there. The node nearest to a place is none of them where triangles are wide and uneven. False where the
-/// search ends elsewhere.
+/// The corners of the triangle that a place lies over, looked for from a moving node, with the weights that put it
+/// there: a node and two that follow on one another in the walk around it, so that all of its faces are covered. The
+/// node nearest to a place is none of them where triangles are wide and uneven. False where the search ends elsewhere.
 bool weigh_corners(const Net& net, std::size_t from, const Vector3& place, std::vector<Neighbour>& corners) {
   for (int step = 0; step < longest_walk && from < net.moving; ++step) {
     const Vector3& normal = net.normals[from];
@@ -114,14 +106,9 @@ bool weigh_corners(const Net& net, std::size_t from, const Vector3& place, std::
       return true;
     };
     bool is_found = false;
-    std::optional<std::size_t> before;
-    if (!links.empty() && !links.front().start()) before = last_spoke(links);
-    for (const Link link : links) {
-      if (link.start()) before.reset();
-      if (!link.spoke()) continue;
-      is_found = before && between(*before, link.node());
-      if (is_found) break;
-      before = link.node();
+    for (std::size_t k = 0; k < links.size() && !is_found; ++k) {
+      if (links[k].start()) continue;
+      is_found = between(links[k > 0 ? k - 1 : links.size() - 1].node(), links[k].node());
     }
     if (!is_found) return false;
     if (next == from) return true;

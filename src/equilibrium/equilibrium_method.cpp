@@ -137,13 +137,14 @@ class EquilibriumSearch : private Relaxation {
     }
   }
 
-  /// On a coarser level edge springs come second: any start is better than a shape that is none.
+  /// On a coarser level, which only gives a start, sphere springs need not arrive; where they lead nowhere, edge springs
+  /// come second.
   void relax_on_way(std::size_t level, int limit) {
     Net& net = hierarchy_.net(level);
     if (level == last() || !net.spheres.on()) return relax(level, limit);
     const std::vector<Vector3> start = net.positions;
-    relax(level, limit);
-    if (!unfinished()) return;
+    relax(level, std::min(limit, near_limit));
+    if (!unfinished() || !lost()) return;
     net.positions = start;
     net.spheres = {};
     relax(level, limit);

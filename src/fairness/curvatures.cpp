@@ -151,14 +151,14 @@ void bend(const Jet& jet, double size, const Plane& plane, NodeCurvature& result
 
 }  // namespace
 
-CurvatureFitter::CurvatureFitter(const PolygonMesh& mesh, const Incidence& incidence, const FaceNeighbours& neighbours)
-    : walker_(mesh, incidence), neighbourhood_(neighbours), points_(std::make_unique<Points>()) {}
+CurvatureFitter::CurvatureFitter(const FaceNeighbours& neighbours)
+    : neighbourhood_(neighbours), points_(std::make_unique<Points>()) {}
 
 CurvatureFitter::~CurvatureFitter() = default;
 
-void CurvatureFitter::go_to(Index node) {
+void CurvatureFitter::go_to(Index node, std::span<const Link> links) {
   node_ = node;
-  links_ = walker_.walk(node).links;
+  links_ = links;
   neighbourhood_.go_to(node);
 }
 
@@ -199,9 +199,11 @@ std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Context& co
   std::vector<NodeCurvature> result(mesh.positions().size());
   parallel_ranges(team, result.size(), jets_per_task, [&](std::size_t begin, std::size_t end) {
     if (context.cancelled()) return;
-    CurvatureFitter fitter(mesh, incidence, neighbours);
+    FanWalker walker(mesh, incidence);
+    CurvatureFitter fitter(neighbours);
     for (std::size_t i = begin; i < end; ++i) {
-      fitter.go_to(static_cast<Index>(i));
+      const auto node = static_cast<Index>(i);
+      fitter.go_to(node, walker.walk(node).links);
       result[i] = scaled(fitter.at(positions), 1 / frame.scale());
     }
   });

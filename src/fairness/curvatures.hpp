@@ -26,20 +26,20 @@ class ScaledPositions {
 /// Curvatures at nodes, one by one, of a mesh with any positions. Holds buffers, so use one per task.
 class CurvatureFitter {
  public:
-  CurvatureFitter(const PolygonMesh& mesh, const Incidence& incidence, const FaceNeighbours& neighbours);
+  explicit CurvatureFitter(const FaceNeighbours& neighbours);
   ~CurvatureFitter();
   CurvatureFitter(const CurvatureFitter&) = delete;
   CurvatureFitter& operator=(const CurvatureFitter&) = delete;
 
-  /// Looks around a node: what is the same wherever the nodes are.
-  void go_to(Index node);
+  /// Looks around a node: what is the same wherever the nodes are. links: of the walk around it, which must last as
+  /// long as it is looked at.
+  void go_to(Index node, std::span<const Link> links);
   /// There, of the mesh with these positions, in their units. The bits do not depend, but for its factor, on the scale.
   NodeCurvature at(const ScaledPositions& positions);
 
  private:
   class Points;
 
-  FanWalker walker_;
   Neighbourhood neighbourhood_;
   Index node_ = 0;
   std::span<const Link> links_;

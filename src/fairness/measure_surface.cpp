@@ -19,6 +19,7 @@
 #include "fairness/normal_error.hpp"
 #include "fairness/self_intersections.hpp"
 #include "shape/boundary.hpp"
+#include "shape/fan.hpp"
 #include "vspring/error.hpp"
 #include "vspring/figures.hpp"
 
@@ -208,9 +209,10 @@ class SurfaceMeasurement {
     }
   }
 
-  /// For every shape the sums over runs of nodes. Looks around each node once for all of them.
+  /// For every shape the sums over runs of nodes; sets oriented_. Looks around each node once for all of them.
   std::vector<std::vector<Bending>> add_up(const Incidence& incidence) {
     const std::size_t count = nodes_.size();
+    oriented_.assign(count, 0);
     std::vector<std::vector<Bending>> parts(shapes_.size());
     std::vector<std::vector<double>> areas;
     for (std::size_t s = 0; s < shapes_.size(); ++s) {
@@ -225,11 +227,14 @@ class SurfaceMeasurement {
     if (!all_known) neighbours.emplace(mesh_, incidence, finite_nodes(mesh_), team_);
     parallel_ranges(team_, count, nodes_per_sum, [&](std::size_t begin, std::size_t end) {
       if (context_.cancelled()) return;
+      FanWalker walker(mesh_, incidence);
       std::optional<CurvatureFitter> fitter;
-      if (!all_known) fitter.emplace(mesh_, incidence, *neighbours);
+      if (!all_known) fitter.emplace(*neighbours);
       for (std::size_t i = begin; i < end; ++i) {
         if (nodes_[i] == 0) continue;
-        if (fitter) fitter->go_to(static_cast<Index>(i));
+        const Fan& fan = walker.walk(static_cast<Index>(i));
+        oriented_[i] = fan.manifold() && fan.flipped_neighbour < 0 ? 1 : 0;
+        if (fitter) fitter->go_to(static_cast<Index>(i), fan.links);
         for (std::size_t s = 0; s < shapes_.size(); ++s) {
           Measured& shape = shapes_[s];
           const double scale = shape.frame.scale();
@@ -258,7 +263,7 @@ class SurfaceMeasurement {
   }
 
   void inspect(Measured& shape) {
-    const MeshQuality quality = mesh_quality(mesh_, *incidence_, shape.positions, faces_, team_);
+    const MeshQuality quality = mesh_quality(mesh_, *incidence_, shape.positions, faces_, oriented_, team_);
     SurfaceFigures& figures = shape.figures;
     if (quality.longest_edge > 0) {
       figures.edge_spread = quality.longest_edge / quality.shortest_edge;
@@ -292,6 +297,7 @@ class SurfaceMeasurement {
   ThreadTeam team_;
   std::vector<std::uint8_t> faces_;
   std::vector<std::uint8_t> nodes_;
+  std::vector<std::uint8_t> oriented_;  // nodes around which faces go all in one sense
   std::optional<Incidence> incidence_;
   std::vector<Measured> shapes_;
 };

@@ -282,13 +282,13 @@ class SurfaceMeasurement {
   [[nodiscard]] Index count_intersections(const PolygonMesh& mesh) {
     const auto is_counted = [](std::uint8_t counted) { return counted != 0; };
     if (std::all_of(faces_.begin(), faces_.end(), is_counted))
-      return static_cast<Index>(self_intersections(mesh, context_, team_).size());
+      return static_cast<Index>(count_self_intersections(mesh, context_, team_));
     MeshBuilder builder;
     for (const Vector3& position : mesh.positions()) builder.add_node(position);
     for (Index f = 0; f < mesh.face_count(); ++f) {
       if (is_counted(faces_[static_cast<std::size_t>(f)])) builder.add_face(mesh.face(f));
     }
-    return static_cast<Index>(self_intersections(builder.take(), context_, team_).size());
+    return static_cast<Index>(count_self_intersections(builder.take(), context_, team_));
   }
 
   const PolygonMesh& mesh_;

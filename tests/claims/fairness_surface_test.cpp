@@ -146,6 +146,15 @@ TEST(SelfIntersections, AreThoseThatComparingAllFindsToo) {
   EXPECT_EQ(pairs, expected);
 }
 
+TEST(SelfIntersections, AreCountedAsOftenAsTheyAreListed) {
+  for (const Faces faces : {Faces::triangles, Faces::quads, Faces::hexagons}) {
+    const PolygonMesh crumpled = generate::add_noise(grid(20, faces), 0.1, 5);
+    const std::size_t pairs = self_intersections(crumpled).size();
+    EXPECT_GT(pairs, 20U);
+    EXPECT_EQ(measure_surface(crumpled).self_intersections, static_cast<Index>(pairs));
+  }
+}
+
 TEST(SurfaceFigures, OfTwoShapesAreThoseOfEach) {
   for (const Faces faces : {Faces::triangles, Faces::quads, Faces::hexagons, Faces::mixed}) {
     PolygonMesh before = generate::add_noise(grid(12, faces), 0.03, 3);

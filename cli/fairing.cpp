@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <type_traits>
+#include <utility>
 
 #include "advice.hpp"
 #include "exit_status.hpp"
@@ -52,6 +53,14 @@ Fairing::Fairing(const FairingArguments& arguments)
 
 template <typename Shape>
 void Fairing::measure(std::array<ShownShape<Shape>, 2>& shapes, const Constraints& constraints) {
+  if constexpr (std::is_same_v<Shape, PolygonMesh>) {
+    if (!arguments_->shows_shapes()) {
+      auto figures = figures_of(shapes[0].shape(), shapes[1].shape(), &constraints, context_);
+      for (std::size_t k = 0; k < shapes.size(); ++k) shapes[k].figures = std::move(figures[k]);
+      bar_.clear();
+      return;
+    }
+  }
   progress_share_ = 1.0 / static_cast<double>(shapes.size());
   for (std::size_t k = 0; k < shapes.size() && !context_.cancelled(); ++k) {
     progress_begin_ = static_cast<double>(k) * progress_share_;

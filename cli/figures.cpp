@@ -45,6 +45,12 @@ std::vector<Figure> figures_of(const MeasuredShape<PolygonCurve>& curve, const C
   return list_figures(measure_curve(curve.shape(), constraints));
 }
 
+std::array<std::vector<Figure>, 2> figures_of(const PolygonMesh& before, const PolygonMesh& after,
+                                              const Constraints* constraints, const Context& context) {
+  const std::array<SurfaceFigures, 2> figures = measure_surfaces(before, after, constraints, context);
+  return {list_figures(figures[0]), list_figures(figures[1])};
+}
+
 nlohmann::ordered_json values_of(const std::vector<Figure>& figures) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const Figure& figure : figures) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -59,6 +60,10 @@ struct ShownShape : FigureColumn {
                                              bool shown, const Context& context);
 [[nodiscard]] std::vector<Figure> figures_of(const MeasuredShape<PolygonCurve>& curve, const Constraints* constraints,
                                              bool shown, const Context& context);
+
+/// Those of a shape before and after, by which both keep the same bits as one by one.
+[[nodiscard]] std::array<std::vector<Figure>, 2> figures_of(const PolygonMesh& before, const PolygonMesh& after,
+                                                            const Constraints* constraints, const Context& context);
 
 /// Values by their keys, and by the same keys name, unit and definition of each.
 [[nodiscard]] nlohmann::ordered_json values_of(const std::vector<Figure>& figures);

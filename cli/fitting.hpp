@@ -89,11 +89,13 @@ FairedOrFitted account_for(FitResult fitted, const Shape& shape, const FairingAr
   return {{std::move(fitted.positions), std::move(fitted.report.fair)}, std::move(account)};
 }
 
-/// Fairs a shape, and draws it towards points where that is asked for: its own nodes, as the input has them.
+/// Fairs a shape, and draws it towards points where that is asked for: its own nodes, as the input has them. weights:
+/// of these, empty for 1 each.
 template <typename Shape>
-FairedOrFitted fair_or_fit(const Shape& shape, const Constraints& constraints, const ScatteredPoints& nodes,
+FairedOrFitted fair_or_fit(const Shape& shape, const Constraints& constraints, std::vector<double> weights,
                            const FairingArguments& arguments, const PullArguments& pull, Context& context) {
   if (!asks_to_fit(pull)) return {fair(shape, constraints, arguments.options, context), std::nullopt};
+  const ScatteredPoints nodes{.positions = shape.positions(), .weights = std::move(weights)};
   return account_for(fit(shape, constraints, nodes, fit_options(pull, arguments.options), context), shape, arguments,
                      pull, context);
 }

@@ -241,7 +241,15 @@ MUTATIONS = {
         ("cross-variation", "∫ (∂κ₁/∂e₂)² + (∂κ₂/∂e₁)²", "k.k1_along_2 * k.k1_along_2 + k.k2_along_1 * k.k2_along_1",
          "k.k1_along_2 * k.k1_along_2"),
         ("variation-scale", "the same at every size", "all.area * (all.inline_rates + all.cross_rates)", "(all.inline_rates + all.cross_rates)"),
-        ("gaussian-scale", "the same at every size", "diagonal_ * diagonal_ * all.gaussian.greatest", "diagonal_ * all.gaussian.greatest"),
+        ("gaussian-scale", "the same at every size", "diagonal * diagonal * all.gaussian.greatest", "diagonal * all.gaussian.greatest"),
+    ],
+    "src/fairness/jet.cpp": [
+        ("jet-factors", "elimination: a row by its first entry", "own[c] / pivot", "own[c]"),
+        ("jet-rows-above", "what the rows above take from one", "above < k; ++above", "above + 1 < k; ++above"),
+    ],
+    "src/fairness/extrema.cpp": [
+        ("highest-pass", "hills are joined by their highest pass", "a.value != b.value ? a.value > b.value : a.node < b.node", "a.node < b.node"),
+        ("lowest-of-hills", "a hill that is joined stands over the lowest place of both", "lowest = std::min(lowest, low[static_cast<std::size_t>(lower)]);", ""),
     ],
     "src/fairness/curve_bending.cpp": [
         ("station", "where the curvature of a circle is that of the curve", "(to_before + to_after) / 3", "(to_before + to_after) / 2"),

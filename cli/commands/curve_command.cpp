@@ -63,8 +63,7 @@ int run_curve(CurveArguments arguments) {
 
   const bool resamples = arguments.resampling.nodes || arguments.resampling.spacing;
   FairedOrFitted done = resamples ? resample_and_fair(arguments, file, constraints, fairing.context())
-                                  : fair_or_fit(before, constraints, {.positions = before.positions()}, arguments,
-                                                arguments.pull, fairing.context());
+                                  : fair_or_fit(before, constraints, {}, arguments, arguments.pull, fairing.context());
   std::vector<Vector3>& positions = done.faired.positions;
   if (!resamples) closed.follow(positions);
   PolygonCurve after = file.curve;

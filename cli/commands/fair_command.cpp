@@ -58,8 +58,7 @@ int run_fair(FairArguments arguments) {
   const Constraints constraints = make_constraints(arguments, mesh, welding.rules(file));
 
   const FairedOrFitted done =
-      fair_or_fit(mesh, constraints, {.positions = mesh.positions(), .weights = welding.weights()}, arguments,
-                  arguments.pull, fairing.context());
+      fair_or_fit(mesh, constraints, welding.weights(), arguments, arguments.pull, fairing.context());
   const FairReport& report = done.faired.report;
   PolygonMesh after = mesh;
   after.set_positions(done.faired.positions);

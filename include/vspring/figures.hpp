@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -93,7 +94,13 @@ struct CurveFigures : Fairness {
 [[nodiscard]] SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints,
                                              std::span<const NodeCurvature> curvatures, const Context& context);
 
-/// The same for a curve. Cost: linear.
+/// A surface before and after its nodes moved: to the bit what measure_surface() measures of each, in less than twice
+/// the time of one, as it is looked once which nodes and faces lie around each other. Throws Error(invalid_argument)
+/// where the two have other nodes or faces. Cost: n log n.
+[[nodiscard]] std::array<SurfaceFigures, 2> measure_surfaces(const PolygonMesh& before, const PolygonMesh& after,
+                                                             const Constraints* constraints, const Context& context);
+
+/// Measures a curve, likewise. Cost: linear.
 [[nodiscard]] CurveFigures measure_curve(const PolygonCurve& curve, const Constraints* constraints = nullptr);
 
 /// A figure with its name, unit and definition.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -12,10 +13,13 @@ namespace vspring {
 ///
 /// Connectivity is fixed at construction; positions may change. Only memory safety is checked here: a mesh may have
 /// non-manifold spots, repeated or isolated nodes, or coordinates that are not finite. check() lists these; fair()
-/// refuses them where a node would have to move there.
+/// refuses them where a node would have to move there. A copy shares faces and positions, and takes no time or memory.
 class PolygonMesh {
  public:
-  PolygonMesh() = default;
+  PolygonMesh();
+  PolygonMesh(const PolygonMesh&) = default;
+  PolygonMesh& operator=(const PolygonMesh&) = default;
+  ~PolygonMesh() = default;
 
   /// positions: one per node. face_begin: faces + 1 ascending offsets into corners, the first 0 and the last
   /// corners.size(). corners: the nodes of each face in order around it.
@@ -32,26 +36,31 @@ class PolygonMesh {
   [[nodiscard]] static PolygonMesh from_arrays(std::span<const double> coordinates, std::span<const Index> corners,
                                                Index sides = 3);
 
-  [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(positions_.size()); }
-  [[nodiscard]] Index face_count() const noexcept { return static_cast<Index>(face_begin_.size()) - 1; }
+  [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(positions_->size()); }
+  [[nodiscard]] Index face_count() const noexcept { return static_cast<Index>(faces_->begin.size()) - 1; }
 
-  [[nodiscard]] const std::vector<Vector3>& positions() const noexcept { return positions_; }
-  [[nodiscard]] const Vector3& position(Index node) const { return positions_[static_cast<std::size_t>(node)]; }
-  /// Throws Error(invalid_argument) unless there is one position per node.
+  [[nodiscard]] const std::vector<Vector3>& positions() const noexcept { return *positions_; }
+  [[nodiscard]] const Vector3& position(Index node) const { return (*positions_)[static_cast<std::size_t>(node)]; }
+  /// Copies keep theirs. What positions() returned before must not be used any more. Throws Error(invalid_argument)
+  /// unless there is one position per node.
   void set_positions(std::vector<Vector3> positions);
 
   /// The nodes of a face, in order around it.
   [[nodiscard]] std::span<const Index> face(Index face) const {
     const auto f = static_cast<std::size_t>(face);
-    return {corners_.data() + face_begin_[f], static_cast<std::size_t>(face_begin_[f + 1] - face_begin_[f])};
+    const std::vector<Index>& begin = faces_->begin;
+    return {faces_->corners.data() + begin[f], static_cast<std::size_t>(begin[f + 1] - begin[f])};
   }
-  [[nodiscard]] const std::vector<Index>& face_begin() const noexcept { return face_begin_; }
-  [[nodiscard]] const std::vector<Index>& corners() const noexcept { return corners_; }
+  [[nodiscard]] const std::vector<Index>& face_begin() const noexcept { return faces_->begin; }
+  [[nodiscard]] const std::vector<Index>& corners() const noexcept { return faces_->corners; }
 
  private:
-  std::vector<Vector3> positions_;
-  std::vector<Index> face_begin_ = {0};
-  std::vector<Index> corners_;
+  struct Faces {
+    std::vector<Index> begin;
+    std::vector<Index> corners;
+  };
+  std::shared_ptr<const std::vector<Vector3>> positions_;
+  std::shared_ptr<const Faces> faces_;
 };
 
 /// Collects a mesh node by node and face by face.

@@ -40,7 +40,8 @@ struct SurfaceFile {
 /// `format`, where given, or the extension decide only what the content leaves open.
 ///
 /// Throws Error(unusable_file), naming path and line (or byte), for anything that cannot be read whole and for a file
-/// without nodes. Cost: linear; the bytes of the file stay in memory.
+/// without nodes. Cost: linear; the bytes of the file stay in memory, but for those of a binary
+/// PLY file of nothing but positions and faces.
 [[nodiscard]] SurfaceFile read_surface(const std::string& path, std::optional<SurfaceFormat> format = std::nullopt);
 
 /// The same from the bytes of a file in memory. name: what messages call it; its extension decides as a path's does.

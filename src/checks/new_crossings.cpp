@@ -44,8 +44,11 @@ std::vector<Index> faces_around_what_moved(const PolygonMesh& mesh, const std::v
 
 /// These faces, and all nodes, at `positions`.
 PolygonMesh part_of(const PolygonMesh& mesh, const std::vector<Index>& faces, const std::vector<Vector3>& positions) {
-  if (faces.size() == static_cast<std::size_t>(mesh.face_count()))
-    return {positions, mesh.face_begin(), mesh.corners()};
+  if (faces.size() == static_cast<std::size_t>(mesh.face_count())) {
+    PolygonMesh whole = mesh;
+    whole.set_positions(positions);
+    return whole;
+  }
   std::vector<Index> face_begin = {0};
   std::vector<Index> corners;
   for (const Index f : faces) {

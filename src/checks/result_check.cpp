@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -204,7 +205,8 @@ ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team) : mod
   model.prepare(start);
   update_directions(start, model, team);
   energy_ = spring_energy(start).sum;
-  if (has_directions_ && !has_points_ && defects_.collapsed == 0) start_ = start.positions;
+  if (has_directions_ && !has_points_ && defects_.collapsed == 0)
+    start_ = std::make_shared<const std::vector<Vector3>>(start.positions);
   // Sweeps must do without: they move from the newest positions.
   if (!was_prepared) start.curvatures.clear();
 }
@@ -265,7 +267,7 @@ std::string ResultCheck::fault_of_places(const Net& now) const {
 }
 
 std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const {
-  if (start_.empty() || !now.spheres.differences.empty()) return {};
+  if (!start_ || !now.spheres.differences.empty()) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
   model_->prepare(now);
   update_directions(now, *model_, *team_);
@@ -274,7 +276,7 @@ std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const 
   const auto bending = [&](const std::vector<Vector3>& positions) {
     return defects_of(now, positions, edge_, *team_, true, dragged_nodes).bending;
   };
-  const double before = bending(start_);
+  const double before = bending(*start_);
   const double after = bending(now.positions);
   if (after <= risen_bending * before + unseen) return {};
   return fmt::format(

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ class ResultCheck {
   /// Only nodes whose places are no numbers or far outside the box.
   [[nodiscard]] std::string misplaced(const Net& now) const;
 
+  /// Where directions hold it: the places of all nodes as it went in, with its constraints applied; else null.
+  [[nodiscard]] const std::shared_ptr<const std::vector<Vector3>>& start() const noexcept { return start_; }
+
  private:
   [[nodiscard]] std::vector<std::uint8_t> dragged(const Net& now) const;
   [[nodiscard]] bool looks_at_bending() const;
@@ -68,8 +72,8 @@ class ResultCheck {
   double edge_ = 0;  ///< the mean one
   ShapeDefects defects_;
   std::vector<Vector3> input_;  ///< of a curve that is looked at for crossings: where the input has its nodes
-  std::vector<Vector3> start_;  ///< where directions hold it: as it went in, with its constraints applied
-  std::vector<Vector3> held_;   ///< where the input has the nodes that are held
+  std::shared_ptr<const std::vector<Vector3>> start_;  ///< see start()
+  std::vector<Vector3> held_;                          ///< where the input has the nodes that are held
   double energy_ = 0;
   // Where nothing but positions holds it: with its constraints, and of a surface after rest_positions(); none where
   // constraints put nodes elsewhere than the input has them.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -71,7 +72,7 @@ class EquilibriumSearch : private Relaxation {
     };
     report_.outcome = context_.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
     if (context_.cancelled() || task_.method.max_iterations == 0) return;
-    if (!points_) input_ = shape().positions;
+    if (!points_) keep_input(check);
     displacements_ = greatest_displacements(shape());
     for (const Strategy& strategy : strategies) {
       if (!(this->*strategy.applies)()) continue;
@@ -85,6 +86,13 @@ class EquilibriumSearch : private Relaxation {
   }
 
  private:
+  /// Where the check has the same places, it is these: of a large shape they are many.
+  void keep_input(const ResultCheck* check) {
+    const std::vector<Vector3>& places = shape().positions;
+    const bool is_kept = check != nullptr && check->start() && *check->start() == places;
+    input_ = is_kept ? check->start() : std::make_shared<const std::vector<Vector3>>(places);
+  }
+
   /// Coarser levels do not keep a distribution, and where points are, a start is near.
   [[nodiscard]] bool starts_near() const { return points_ && task_.distribution == Distribution::keep; }
 
@@ -158,7 +166,7 @@ class EquilibriumSearch : private Relaxation {
   void keep_spacing() {
     Net& net = shape();
     const Reached found = reached(last());
-    net.positions = input_;
+    net.positions = *input_;
     update_directions(net, model_, team_);
     hierarchy_.set_laplacian_weights(model_.present_laplacian_weights(net));
     relax(last(), 1);
@@ -167,7 +175,7 @@ class EquilibriumSearch : private Relaxation {
 
   bool may_have_lost_windings() {
     return !points_ && !task_.method.max_iterations && report_.outcome != Outcome::cancelled &&
-           (unfinished() || hierarchy_.lost_winding(input_));
+           (unfinished() || hierarchy_.lost_winding(*input_));
   }
 
   /// A curve whose ends and tangents are held may unwind on coarse levels, where it should not: then from a start that
@@ -176,14 +184,14 @@ class EquilibriumSearch : private Relaxation {
     Net& net = shape();
     has_looked_for_winding_ = true;
     const Reached found = reached(last());
-    net.positions = input_;
+    net.positions = *input_;
     if (hierarchy_.wind()) {
       const std::vector<Vector3> wound = net.positions;
       for (const FlowStart start : {FlowStart::near, FlowStart::anywhere}) {
         net.positions = wound;
         relax_along_flow(start == FlowStart::near ? newton_limit : default_limit, start);
         if (report_.outcome == Outcome::cancelled) break;
-        if (report_.outcome == Outcome::converged && !hierarchy_.lost_winding(input_)) return;
+        if (report_.outcome == Outcome::converged && !hierarchy_.lost_winding(*input_)) return;
       }
     }
     const bool cancelled = report_.outcome == Outcome::cancelled;
@@ -194,7 +202,7 @@ class EquilibriumSearch : private Relaxation {
   /// What is worse with the shape than with the start; empty where nothing is.
   std::string fault(const ResultCheck& check) {
     std::string fault = check.fault(shape());
-    lost_winding_ = fault.empty() && !points_ && hierarchy_.lost_winding(input_);
+    lost_winding_ = fault.empty() && !points_ && hierarchy_.lost_winding(*input_);
     if (lost_winding_)
       fault = has_looked_for_winding_
                   ? "it winds otherwise than the input, as does every fair curve with these ends that was found"
@@ -230,13 +238,13 @@ class EquilibriumSearch : private Relaxation {
                             {"from the input", [] {}},
                             {"from the input, with its spacing", keep_input_spacing}};
     std::optional<Reached> best;
-    net.positions = input_;
+    net.positions = *input_;
     // Where constraints are at odds with the input, that with its constraints is no shape to fall back on.
     const bool input_is_better = check.fault_of_places(net).empty() || is_nowhere;
     double least_energy = input_is_better ? energy_of(net).sum : std::numeric_limits<double>::infinity();
     for (const Start& start : starts) {
       if (was_cancelled || out_of_work(net)) break;
-      net.positions = input_;
+      net.positions = *input_;
       start.go();
       set_strategy(start.name);
       relax(last(), task_.method.max_iterations.value_or(default_limit));
@@ -254,7 +262,7 @@ class EquilibriumSearch : private Relaxation {
     const bool is_input_smoothed =
         !cancelled && !best && input_is_better && net.is_curve && smooth_a_little(start_smooth, check, least_energy);
     if (is_input_smoothed) best = Reached{net.positions, found.outcome, found.residual};
-    go_back(last(), best ? *best : input_is_better ? Reached{input_, found.outcome, found.residual} : found);
+    go_back(last(), best ? *best : input_is_better ? Reached{*input_, found.outcome, found.residual} : found);
     report_.outcome = cancelled ? Outcome::cancelled : Outcome::worse_than_input;
     report_.warnings.push_back(
         {WarningCode::worse_than_input,
@@ -271,11 +279,11 @@ class EquilibriumSearch : private Relaxation {
   /// The input without its noise, where that is little, and the shape then is fairer than such an energy and no worse.
   bool smooth_a_little(const std::function<void()>& start_smooth, const ResultCheck& check, double energy) {
     Net& net = shape();
-    net.positions = input_;
+    net.positions = *input_;
     start_smooth();
     double greatest = 0;
     for (std::size_t i = 0; i < net.moving; ++i)
-      greatest = std::max(greatest, (net.positions[i] - input_[i]).squaredNorm());
+      greatest = std::max(greatest, (net.positions[i] - (*input_)[i]).squaredNorm());
     const double edge = mean_edge(net);
     return greatest < edge * edge && fault(check).empty() && energy_of(net).sum < energy;
   }
@@ -292,7 +300,7 @@ class EquilibriumSearch : private Relaxation {
   void go_along_flow() {
     Net& net = shape();
     const auto sweep_from_start = [&](std::size_t sweeps) {
-      net.positions = input_;
+      net.positions = *input_;
       Sweep sweep(net, model_, team_);
       for (std::size_t k = 0; k < sweeps && !context_.cancelled(); ++k) {
         report_.work += work_of_sweep * static_cast<double>(net.moving);
@@ -381,7 +389,7 @@ class EquilibriumSearch : private Relaxation {
   ThreadTeam& team_;
   Context& context_;
   FairReport& report_;
-  std::vector<Vector3> input_;
+  std::shared_ptr<const std::vector<Vector3>> input_ = std::make_shared<const std::vector<Vector3>>();
   Displacements displacements_;
   bool came_from_coarse_ = false;
   bool has_looked_for_winding_ = false;

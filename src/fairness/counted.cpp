@@ -26,6 +26,13 @@ std::vector<std::uint8_t> counted_nodes(const PolygonMesh& mesh, const std::vect
   return counted;
 }
 
+std::vector<std::uint8_t> finite_nodes(const PolygonMesh& mesh) {
+  std::vector<std::uint8_t> finite;
+  finite.reserve(mesh.positions().size());
+  for (const Vector3& position : mesh.positions()) finite.push_back(position.allFinite() ? 1 : 0);
+  return finite;
+}
+
 Eigen::AlignedBox<double, 3> box_around(const PolygonMesh& mesh, const std::vector<std::uint8_t>& faces) {
   Eigen::AlignedBox<double, 3> box;
   for (Index f = 0; f < mesh.face_count(); ++f) {

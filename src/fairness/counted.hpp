@@ -16,6 +16,9 @@ std::vector<std::uint8_t> counted_faces(const PolygonMesh& mesh, const Constrain
 /// The nodes of these faces: 1, else 0.
 std::vector<std::uint8_t> counted_nodes(const PolygonMesh& mesh, const std::vector<std::uint8_t>& faces);
 
+/// The nodes with finite coordinates: 1, else 0.
+std::vector<std::uint8_t> finite_nodes(const PolygonMesh& mesh);
+
 /// The box around these faces.
 Eigen::AlignedBox<double, 3> box_around(const PolygonMesh& mesh, const std::vector<std::uint8_t>& faces);
 

@@ -3,11 +3,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "fairness/counted.hpp"
 #include "fairness/jet.hpp"
-#include "fairness/neighbourhood.hpp"
-#include "shape/fan.hpp"
 #include "spring/pseudo_normal.hpp"
 
 namespace vspring {
@@ -26,38 +25,70 @@ struct Plane {
   Vector3 v = normal.cross(u);
 };
 
-/// A node around, in the coordinates of the plane.
-struct Point {
-  double u;
-  double v;
-  double height;
-  [[nodiscard]] double along2() const { return u * u + v * v; }
-  [[nodiscard]] bool steep() const { return height * height > steepest * steepest * along2(); }
-};
+constexpr auto most_points = static_cast<int>(JetFit::most_points);
+using Numbers = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_points, 1>;
 
-/// The jet and the length in which it is measured.
-struct ScaledJet {
-  Jet jet;
-  double size = 1;
-};
+}  // namespace
 
-ScaledJet fit(std::vector<Point>& points) {
-  if (points.empty()) return {};
-  const auto steep = std::count_if(points.begin(), points.end(), [](const Point& point) { return point.steep(); });
-  // At a spike everything is steep; it is better seen badly than not at all.
-  if (2 * static_cast<std::size_t>(steep) < points.size())
-    std::erase_if(points, [](const Point& p) { return p.steep(); });
-  double squares = 0;
-  for (const Point& point : points) squares += point.along2();
-  const double size = std::sqrt(squares / static_cast<double>(points.size()));
-  if (!(size > 0)) return {};
-  JetFit fit;
-  for (const Point& point : points) {
-    const double distance2 = point.along2() / (size * size);
-    fit.add(point.u / size, point.v / size, point.height / size, 1 / std::sqrt(0.25 + distance2));
+/// Nodes around, in the coordinates of the plane.
+class CurvatureFitter::Points {
+ public:
+  void clear() noexcept { count_ = 0; }
+  void add(double u, double v, double height) {
+    u_[count_] = u;
+    v_[count_] = v;
+    height_[count_] = height;
+    ++count_;
   }
-  return {fit.solve(), size};
-}
+
+  /// The jet and the length in which it is measured.
+  struct ScaledJet {
+    Jet jet;
+    double size = 1;
+  };
+
+  ScaledJet fit() {
+    if (count_ == 0) return {};
+    leave_steep_ones_out();
+    double squares = 0;
+    for (Eigen::Index k = 0; k < count_; ++k) squares += along2(k);
+    const double size = std::sqrt(squares / static_cast<double>(count_));
+    if (!(size > 0)) return {};
+    const auto u = u_.head(count_);
+    const auto v = v_.head(count_);
+    const Numbers distance2 = (u * u + v * v) / (size * size);
+    const Numbers weight = 1 / (0.25 + distance2).sqrt();
+    const Numbers scaled_u = u / size;
+    const Numbers scaled_v = v / size;
+    const Numbers scaled_height = height_.head(count_) / size;
+    fit_.clear();
+    for (Eigen::Index k = 0; k < count_; ++k) fit_.add(scaled_u[k], scaled_v[k], scaled_height[k], weight[k]);
+    return {fit_.solve(), size};
+  }
+
+ private:
+  [[nodiscard]] double along2(Eigen::Index k) const { return u_[k] * u_[k] + v_[k] * v_[k]; }
+  [[nodiscard]] bool steep(Eigen::Index k) const { return height_[k] * height_[k] > steepest * steepest * along2(k); }
+
+  /// At a spike everything is steep; it is better seen badly than not at all.
+  void leave_steep_ones_out() {
+    Eigen::Index steep_ones = 0;
+    for (Eigen::Index k = 0; k < count_; ++k) steep_ones += steep(k) ? 1 : 0;
+    if (steep_ones == 0 || 2 * steep_ones >= count_) return;
+    const Eigen::Index all = std::exchange(count_, 0);
+    for (Eigen::Index k = 0; k < all; ++k) {
+      if (!steep(k)) add(u_[k], v_[k], height_[k]);
+    }
+  }
+
+  Numbers u_ = Numbers(most_points);
+  Numbers v_ = Numbers(most_points);
+  Numbers height_ = Numbers(most_points);
+  Eigen::Index count_ = 0;
+  JetFit fit_;
+};
+
+namespace {
 
 /// The curvatures of the graph of a height function, and their derivatives, at the origin.
 ///
@@ -118,74 +149,65 @@ void bend(const Jet& jet, double size, const Plane& plane, NodeCurvature& result
   result.k2_along_2 = derivative(1, 1, 1);
 }
 
-/// Looks at nodes one by one; one per task.
-class NodeFitter {
- public:
-  NodeFitter(const PolygonMesh& mesh, const Incidence& incidence, const std::vector<Vector3>& positions)
-      : positions_(&positions), walker_(mesh, incidence), neighbourhood_(mesh, incidence) {}
-
-  NodeCurvature at(Index node) {
-    NodeCurvature result;
-    const Vector3& centre = position(node);
-    if (!centre.allFinite()) return result;
-    const Vector3 normal = LinkNormal()(centre, walker_.walk(node).links, *positions_);
-    if (!normal.allFinite() || normal.isZero(0)) return result;
-    result.normal = normal;
-    const Plane plane{.normal = normal};
-    ScaledJet scaled = look(node, Neighbourhood::enough, plane);
-    if (scaled.jet.degree < 4) scaled = look(node, Neighbourhood::plenty, plane);
-    if (scaled.jet.degree > 0) bend(scaled.jet, scaled.size, plane, result);
-    return result;
-  }
-
- private:
-  ScaledJet look(Index node, std::size_t wanted, const Plane& plane) {
-    points_.clear();
-    for (const Index i : neighbourhood_.around(node, wanted)) {
-      const Vector3 e = position(i) - position(node);
-      if (!e.isZero(0)) points_.push_back({e.dot(plane.u), e.dot(plane.v), e.dot(plane.normal)});
-    }
-    return fit(points_);
-  }
-
-  [[nodiscard]] const Vector3& position(Index node) const { return (*positions_)[static_cast<std::size_t>(node)]; }
-
-  const std::vector<Vector3>* positions_;
-  FanWalker walker_;
-  Neighbourhood neighbourhood_;
-  std::vector<Point> points_;
-};
-
 }  // namespace
 
-std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Incidence& incidence, double scale,
-                                      std::span<const std::uint8_t> marked, const Context& context, ThreadTeam& team) {
-  // Only differences of positions matter. Were they moved to the origin, their last digits would depend on where it is.
-  std::vector<Vector3> positions = mesh.positions();
-  for (Vector3& position : positions) position *= scale;
-  std::vector<NodeCurvature> result(positions.size());
-  parallel_ranges(team, result.size(), jets_per_task, [&](std::size_t begin, std::size_t end) {
-    if (context.cancelled()) return;
-    NodeFitter fitter(mesh, incidence, positions);
-    for (std::size_t i = begin; i < end; ++i) {
-      if (marked.empty() || marked[i] != 0) result[i] = fitter.at(static_cast<Index>(i));
+CurvatureFitter::CurvatureFitter(const FaceNeighbours& neighbours)
+    : neighbourhood_(neighbours), points_(std::make_unique<Points>()) {}
+
+CurvatureFitter::~CurvatureFitter() = default;
+
+void CurvatureFitter::go_to(Index node, std::span<const Link> links) {
+  node_ = node;
+  links_ = links;
+  neighbourhood_.go_to(node);
+}
+
+NodeCurvature CurvatureFitter::at(const ScaledPositions& positions) {
+  NodeCurvature result;
+  const Vector3 centre = positions[static_cast<std::size_t>(node_)];
+  if (!centre.allFinite()) return result;
+  const Vector3 normal = LinkNormal()(centre, links_, positions);
+  if (!normal.allFinite() || normal.isZero(0)) return result;
+  result.normal = normal;
+  const Plane plane{.normal = normal};
+  const auto look = [&](std::size_t wanted) {
+    points_->clear();
+    for (const Index i : neighbourhood_.around(wanted)) {
+      const Vector3 e = positions[static_cast<std::size_t>(i)] - centre;
+      if (!e.isZero(0)) points_->add(e.dot(plane.u), e.dot(plane.v), e.dot(plane.normal));
     }
-  });
+    return points_->fit();
+  };
+  Points::ScaledJet scaled = look(Neighbourhood::enough);
+  if (scaled.jet.degree < 4) scaled = look(Neighbourhood::plenty);
+  if (scaled.jet.degree > 0) bend(scaled.jet, scaled.size, plane, result);
   return result;
 }
 
-std::vector<NodeCurvature> scaled(std::vector<NodeCurvature> values, double scale) {
-  for (NodeCurvature& at : values) {
-    for (double* k : {&at.k1, &at.k2}) *k /= scale;
-    for (double* rate : {&at.k1_along_1, &at.k1_along_2, &at.k2_along_1, &at.k2_along_2}) *rate = *rate / scale / scale;
-  }
-  return values;
+NodeCurvature scaled(NodeCurvature at, double scale) {
+  for (double* k : {&at.k1, &at.k2}) *k /= scale;
+  for (double* rate : {&at.k1_along_1, &at.k1_along_2, &at.k2_along_1, &at.k2_along_2}) *rate = *rate / scale / scale;
+  return at;
 }
 
 std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Context& context) {
   const Frame frame(box_around(mesh, counted_faces(mesh, nullptr)));
   ThreadTeam team(context.thread_count());
-  return scaled(curvatures(mesh, Incidence(mesh), frame.scale(), {}, context, team), 1 / frame.scale());
+  const Incidence incidence(mesh);
+  const FaceNeighbours neighbours(mesh, incidence, finite_nodes(mesh), team);
+  const ScaledPositions positions(mesh.positions(), frame.scale());
+  std::vector<NodeCurvature> result(mesh.positions().size());
+  parallel_ranges(team, result.size(), jets_per_task, [&](std::size_t begin, std::size_t end) {
+    if (context.cancelled()) return;
+    FanWalker walker(mesh, incidence);
+    CurvatureFitter fitter(neighbours);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto node = static_cast<Index>(i);
+      fitter.go_to(node, walker.walk(node).links);
+      result[i] = scaled(fitter.at(positions), 1 / frame.scale());
+    }
+  });
+  return result;
 }
 
 std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh) { return curvatures(mesh, Context()); }

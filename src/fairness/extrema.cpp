@@ -1,33 +1,39 @@
 #include "fairness/extrema.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 #include <vector>
 
 namespace vspring {
 
 namespace {
 
-/// The nodes seen so far, in groups that hang together; each is known by its highest node.
+/// A node from which the way down from a summit goes up to another.
+struct Pass {
+  double value;
+  Index node;
+  Index from;  ///< the summits
+  Index to;
+};
+
+/// Summits, in groups that hang together; each group is known by its highest.
 class PersistenceMerge {
  public:
-  explicit PersistenceMerge(std::size_t nodes) : parent_(nodes, -1) {}
+  explicit PersistenceMerge(std::vector<Index> summits) : above_(std::move(summits)) {}
 
-  [[nodiscard]] bool seen(Index node) const { return parent_[at(node)] >= 0; }
-  void raise(Index node) { parent_[at(node)] = node; }
-  void join(Index lower_summit, Index summit) { parent_[at(lower_summit)] = summit; }
-
+  /// above: for every node one that is higher, or itself where it is a summit.
   [[nodiscard]] Index summit(Index node) {
-    while (parent_[at(node)] != node) {
-      parent_[at(node)] = parent_[at(parent_[at(node)])];
-      node = parent_[at(node)];
+    while (above(node) != node) {
+      above(node) = above(above(node));
+      node = above(node);
     }
     return node;
   }
+  void join(Index lower_summit, Index summit) { above(lower_summit) = summit; }
 
  private:
-  static std::size_t at(Index node) { return static_cast<std::size_t>(node); }
-  std::vector<Index> parent_;
+  Index& above(Index node) { return above_[static_cast<std::size_t>(node)]; }
+  std::vector<Index> above_;
 };
 
 }  // namespace
@@ -35,36 +41,55 @@ class PersistenceMerge {
 Index count_maxima(const NodeGraph& graph, std::span<const double> values, std::span<const std::uint8_t> used,
                    std::span<const std::uint8_t> inside, double threshold) {
   const auto value = [&](Index node) { return values[static_cast<std::size_t>(node)]; };
+  const auto is_used = [&](Index node) { return used[static_cast<std::size_t>(node)] != 0; };
   const auto higher = [&](Index a, Index b) { return value(a) != value(b) ? value(a) > value(b) : a < b; };
-  std::vector<Index> order;
-  order.reserve(values.size());
-  for (Index i = 0; i < graph.size(); ++i) {
-    if (used[static_cast<std::size_t>(i)] != 0) order.push_back(i);
-  }
-  std::sort(order.begin(), order.end(), higher);
-
-  PersistenceMerge hills(values.size());
-  Index count = 0;
   const auto counts = [&](Index summit, double low) {
     return inside[static_cast<std::size_t>(summit)] != 0 && value(summit) - low > threshold;
   };
-  for (const Index node : order) {
-    hills.raise(node);
-    graph.for_each_neighbour(node, [&](Index j) {
-      if (!hills.seen(j)) return;
-      const Index a = hills.summit(node);
-      const Index b = hills.summit(j);
-      if (a == b) return;
-      const Index lower = higher(a, b) ? b : a;
-      hills.join(lower, lower == a ? b : a);
-      if (lower != node && counts(lower, value(node))) ++count;
+  std::vector<Index> above(values.size());
+  for (Index i = 0; i < graph.size(); ++i) {
+    Index highest = i;
+    if (is_used(i)) {
+      graph.for_each_neighbour(i, [&](Index j) {
+        if (is_used(j) && higher(j, highest)) highest = j;
+      });
+    }
+    above[static_cast<std::size_t>(i)] = highest;
+  }
+  // A hill is a summit with the nodes from which the steepest way up leads there. What joins hills are their passes,
+  // the highest first: nodes in between change nothing, and there are far fewer hills than nodes.
+  PersistenceMerge hills(std::move(above));
+  std::vector<Pass> passes;
+  std::vector<double> low(values.begin(), values.end());
+  for (Index i = 0; i < graph.size(); ++i) {
+    if (!is_used(i)) continue;
+    const Index from = hills.summit(i);
+    double& lowest = low[static_cast<std::size_t>(from)];
+    lowest = std::min(lowest, value(i));
+    Index last = from;
+    graph.for_each_neighbour(i, [&](Index j) {
+      if (!is_used(j) || !higher(j, i)) return;
+      const Index to = hills.summit(j);
+      if (to != from && to != last) passes.push_back({value(i), i, from, to});
+      last = to;
     });
   }
+  std::sort(passes.begin(), passes.end(),
+            [](const Pass& a, const Pass& b) { return a.value != b.value ? a.value > b.value : a.node < b.node; });
+  Index count = 0;
+  for (const Pass& pass : passes) {
+    const Index a = hills.summit(pass.from);
+    const Index b = hills.summit(pass.to);
+    if (a == b) continue;
+    const auto [lower, summit] = higher(a, b) ? std::pair(b, a) : std::pair(a, b);
+    hills.join(lower, summit);
+    double& lowest = low[static_cast<std::size_t>(summit)];
+    lowest = std::min(lowest, low[static_cast<std::size_t>(lower)]);
+    if (counts(lower, pass.value)) ++count;
+  }
   // What was never overtopped stands over the lowest node that it leads to.
-  std::vector<double> low(values.begin(), values.end());
-  for (const Index node : order) low[static_cast<std::size_t>(hills.summit(node))] = value(node);
-  for (const Index node : order) {
-    if (hills.summit(node) == node && counts(node, low[static_cast<std::size_t>(node)])) ++count;
+  for (Index i = 0; i < graph.size(); ++i) {
+    if (is_used(i) && hills.summit(i) == i && counts(i, low[static_cast<std::size_t>(i)])) ++count;
   }
   return count;
 }

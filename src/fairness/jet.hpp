@@ -20,19 +20,29 @@ struct Jet {
 /// The normal equations, with the monomials in the order of their degree: as elimination goes, every lower degree is
 /// solved on the way, and where the points cannot tell a degree from those below it, the fit is that of the degree
 /// before. In coordinates of size 1 they lose no more than half of the digits, and cost a third of a QR.
+///
+/// Room for one fit after the other.
 class JetFit {
  public:
-  /// A point at (u, v) with its height; `weight` counts squared. Coordinates of size 1.
-  void add(double u, double v, double height, double weight);
+  static constexpr std::size_t most_points = 96;
 
-  [[nodiscard]] Jet solve() const;
+  void clear() noexcept { points_ = 0; }
+  /// A point at (u, v) with its height; `weight` counts squared. Coordinates of size 1. No more than most_points.
+  void add(double u, double v, double height, double weight) noexcept;
+
+  /// The same bits whatever vector instructions the processor has.
+  [[nodiscard]] Jet solve() const noexcept;
 
  private:
-  static constexpr std::size_t unknowns = 14;
-  static constexpr std::size_t columns = unknowns + 1;  // the last one: heights
-  using Matrix = std::array<std::array<double, columns>, columns>;
+  /// The monomials of a point and its height, all times its weight; filled up to whole vectors.
+  struct alignas(32) Row {
+    std::array<double, 16> entry;
+  };
 
-  Matrix products_{};  // upper triangle
+  template <std::size_t lanes>
+  friend class NormalEquations;
+
+  std::array<Row, most_points> rows_;
   std::size_t points_ = 0;
 };
 

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "base/degrees.hpp"
 #include "base/progress.hpp"
@@ -16,9 +18,10 @@
 #include "fairness/mesh_quality.hpp"
 #include "fairness/normal_error.hpp"
 #include "fairness/self_intersections.hpp"
+#include "shape/boundary.hpp"
+#include "shape/fan.hpp"
 #include "vspring/error.hpp"
 #include "vspring/figures.hpp"
-#include "vspring/topology.hpp"
 
 namespace vspring {
 
@@ -109,143 +112,207 @@ struct Bending {
   }
 };
 
-/// In a frame of size 1; lengths go back to units of the input at the end.
+/// A mesh in a frame of size 1; lengths go back to units of the input at the end.
+struct Measured {
+  /// known: curvatures of the mesh, or none.
+  Measured(const PolygonMesh& given, std::span<const NodeCurvature> known, const std::vector<std::uint8_t>& faces)
+      : mesh(&given), box(box_around(given, faces)), frame(box), positions(placed(given.positions(), frame)) {
+    // Derivatives of curvature of shapes too large or small are no numbers in their units.
+    constexpr int most_doublings = 300;
+    if (std::abs(std::ilogb(frame.scale())) <= most_doublings) curvatures = known;
+  }
+
+  const PolygonMesh* mesh;
+  std::span<const NodeCurvature> curvatures = {};
+  Eigen::AlignedBox<double, 3> box;
+  Frame frame;
+  std::vector<Vector3> positions;
+  double diagonal = 0;
+  std::vector<double> mean_curvatures = {};
+  std::vector<std::uint8_t> used = {};  ///< nodes that have one
+  SurfaceFigures figures = {};
+};
+
+/// Of meshes that differ in their positions only, and are finite at the same nodes.
 class SurfaceMeasurement {
  public:
-  /// known: curvatures of the mesh, or none.
-  SurfaceMeasurement(const PolygonMesh& mesh, const Constraints* constraints, std::span<const NodeCurvature> known,
-                     const Context& context)
+  SurfaceMeasurement(const PolygonMesh& mesh, const Constraints* constraints, const Context& context)
       : mesh_(mesh),
         constraints_(constraints),
-        known_(known),
         context_(context),
         team_(context.thread_count()),
-        incidence_(mesh),
         faces_(counted_faces(mesh, constraints)),
-        nodes_(counted_nodes(mesh, faces_)),
-        box_(box_around(mesh, faces_)),
-        frame_(box_),
-        positions_(placed(mesh.positions(), frame_)) {}
+        nodes_(counted_nodes(mesh, faces_)) {}
 
-  SurfaceFigures measure() {
-    static_cast<Fairness&>(figures_) = vspring::measure(mesh_, constraints_, team_);
-    const Vector3 size =
-        box_.isEmpty() ? Vector3(Vector3::Zero()) : Vector3(frame_.to_local(box_.max()) - frame_.to_local(box_.min()));
-    diagonal_ = size.norm();
-    figures_.diagonal = diagonal_ / frame_.scale();
+  void add(const PolygonMesh& mesh, std::span<const NodeCurvature> known) { shapes_.emplace_back(mesh, known, faces_); }
+
+  /// The figures of those that were added, in their order.
+  std::vector<SurfaceFigures> measure() {
+    {
+      const FairnessMeter meter(mesh_, constraints_, team_);
+      for (Measured& shape : shapes_)
+        static_cast<Fairness&>(shape.figures) = meter.measure(shape.mesh->positions(), constraints_);
+    }
+    for (Measured& shape : shapes_) {
+      const auto& box = shape.box;
+      const Frame& frame = shape.frame;
+      const Vector3 size =
+          box.isEmpty() ? Vector3(Vector3::Zero()) : Vector3(frame.to_local(box.max()) - frame.to_local(box.min()));
+      shape.diagonal = size.norm();
+      shape.figures.diagonal = shape.diagonal / frame.scale();
+    }
     ProgressReporter progress(context_);
     progress.report("measuring", 0.1);
     bend();
     progress.report("measuring", 0.6);
-    inspect();
+    for (Measured& shape : shapes_) inspect(shape);
     progress.report("measuring", 0.7);
-    if (!context_.cancelled())
-      figures_.self_intersections = static_cast<Index>(self_intersections(counted_part(), context_, team_).size());
-    if (constraints_ != nullptr) figures_.normal_error = normal_error(mesh_, *constraints_);
-    return figures_;
+    std::vector<SurfaceFigures> all;
+    for (Measured& shape : shapes_) {
+      shape.positions = {};
+      if (!context_.cancelled()) shape.figures.self_intersections = count_intersections(*shape.mesh);
+      if (constraints_ != nullptr) shape.figures.normal_error = normal_error(*shape.mesh, *constraints_);
+      all.push_back(shape.figures);
+    }
+    return all;
   }
 
  private:
   void bend() {
-    const std::vector<NodeCurvature> curvature = curvature_in_frame();
-    const std::vector<double> areas = node_areas(mesh_, positions_, faces_);
-    std::vector<Bending> parts((areas.size() + nodes_per_sum - 1) / nodes_per_sum);
-    parallel_ranges(team_, areas.size(), nodes_per_sum, [&](std::size_t begin, std::size_t end) {
+    const Incidence& incidence = incidence_.emplace(mesh_);
+    std::vector<std::vector<Bending>> parts = add_up(incidence);
+    std::optional<std::vector<std::uint8_t>> boundary;
+    for (std::size_t s = 0; s < shapes_.size(); ++s) {
+      Measured& shape = shapes_[s];
+      Bending all;
+      for (const Bending& part : parts[s]) all.add(part);
+      SurfaceFigures& figures = shape.figures;
+      figures.area = all.area / shape.frame.scale() / shape.frame.scale();
+      figures.bending_energy = all.squares;
+      figures.mean_curvature_variation = all.area * all.mean_rates;
+      figures.curvature_variation = all.area * all.inline_rates;
+      figures.curvature_variation_cross = all.area * (all.inline_rates + all.cross_rates);
+      figures.nodes_without_curvature = all.without_curvature;
+      figures.nodes_without_variation = all.without_variation;
+      if (!(all.area > 0) || all.curvature.greatest < all.curvature.least) continue;
+      const double diagonal = shape.diagonal;
+      figures.greatest_curvature = diagonal * all.curvature.greatest;
+      figures.least_curvature = diagonal * all.curvature.least;
+      figures.greatest_mean_curvature = diagonal * all.mean.greatest;
+      figures.least_mean_curvature = diagonal * all.mean.least;
+      figures.greatest_gaussian_curvature = diagonal * diagonal * all.gaussian.greatest;
+      figures.least_gaussian_curvature = diagonal * diagonal * all.gaussian.least;
+      const double visible = std::max(visible_share * std::sqrt(all.squares / all.area), visible_curvature / diagonal);
+      if (!(all.mean.greatest - all.mean.least > visible)) continue;
+      if (!boundary) boundary = Boundary(mesh_, incidence).nodes();
+      figures.mean_curvature_extrema = count_mean_extrema(shape, incidence, *boundary, visible);
+    }
+  }
+
+  /// For every shape the sums over runs of nodes; sets oriented_. Looks around each node once for all of them.
+  std::vector<std::vector<Bending>> add_up(const Incidence& incidence) {
+    const std::size_t count = nodes_.size();
+    oriented_.assign(count, 0);
+    std::vector<std::vector<Bending>> parts(shapes_.size());
+    std::vector<std::vector<double>> areas;
+    for (std::size_t s = 0; s < shapes_.size(); ++s) {
+      parts[s].resize((count + nodes_per_sum - 1) / nodes_per_sum);
+      areas.push_back(node_areas(mesh_, shapes_[s].positions, faces_));
+      shapes_[s].mean_curvatures.resize(count);
+      shapes_[s].used.resize(count);
+    }
+    const auto is_known = [](const Measured& shape) { return !shape.curvatures.empty(); };
+    const bool all_known = std::all_of(shapes_.begin(), shapes_.end(), is_known);
+    std::optional<FaceNeighbours> neighbours;
+    if (!all_known) neighbours.emplace(mesh_, incidence, finite_nodes(mesh_), team_);
+    parallel_ranges(team_, count, nodes_per_sum, [&](std::size_t begin, std::size_t end) {
+      if (context_.cancelled()) return;
+      FanWalker walker(mesh_, incidence);
+      std::optional<CurvatureFitter> fitter;
+      if (!all_known) fitter.emplace(*neighbours);
       for (std::size_t i = begin; i < end; ++i) {
-        if (nodes_[i] != 0) parts[begin / nodes_per_sum].add(curvature[i], areas[i]);
+        if (nodes_[i] == 0) continue;
+        const Fan& fan = walker.walk(static_cast<Index>(i));
+        oriented_[i] = fan.manifold() && fan.flipped_neighbour < 0 ? 1 : 0;
+        if (fitter) fitter->go_to(static_cast<Index>(i), fan.links);
+        for (std::size_t s = 0; s < shapes_.size(); ++s) {
+          Measured& shape = shapes_[s];
+          const double scale = shape.frame.scale();
+          const NodeCurvature at = is_known(shape) ? scaled(shape.curvatures[i], scale)
+                                                   : fitter->at(ScaledPositions(shape.mesh->positions(), scale));
+          parts[s][begin / nodes_per_sum].add(at, areas[s][i]);
+          shape.mean_curvatures[i] = at.mean();
+          shape.used[i] = at.degree >= 2 ? 1 : 0;
+        }
       }
     });
-    Bending all;
-    for (const Bending& part : parts) all.add(part);
-
-    figures_.area = all.area / frame_.scale() / frame_.scale();
-    figures_.bending_energy = all.squares;
-    figures_.mean_curvature_variation = all.area * all.mean_rates;
-    figures_.curvature_variation = all.area * all.inline_rates;
-    figures_.curvature_variation_cross = all.area * (all.inline_rates + all.cross_rates);
-    figures_.nodes_without_curvature = all.without_curvature;
-    figures_.nodes_without_variation = all.without_variation;
-    if (!(all.area > 0) || all.curvature.greatest < all.curvature.least) return;
-    figures_.greatest_curvature = diagonal_ * all.curvature.greatest;
-    figures_.least_curvature = diagonal_ * all.curvature.least;
-    figures_.greatest_mean_curvature = diagonal_ * all.mean.greatest;
-    figures_.least_mean_curvature = diagonal_ * all.mean.least;
-    figures_.greatest_gaussian_curvature = diagonal_ * diagonal_ * all.gaussian.greatest;
-    figures_.least_gaussian_curvature = diagonal_ * diagonal_ * all.gaussian.least;
-    const double visible = std::max(visible_share * std::sqrt(all.squares / all.area), visible_curvature / diagonal_);
-    figures_.mean_curvature_extrema = count_mean_extrema(curvature, visible);
+    return parts;
   }
 
-  /// Those that are known, but for shapes so large or small that derivatives of curvature are no numbers in their
-  /// units.
-  [[nodiscard]] std::vector<NodeCurvature> curvature_in_frame() {
-    constexpr int most_doublings = 300;
-    if (known_.empty() || std::abs(std::ilogb(frame_.scale())) > most_doublings)
-      return curvatures(mesh_, incidence_, frame_.scale(), nodes_, context_, team_);
-    return scaled(std::vector<NodeCurvature>(known_.begin(), known_.end()), frame_.scale());
-  }
-
-  [[nodiscard]] Index count_mean_extrema(const std::vector<NodeCurvature>& curvature, double visible) const {
-    const auto boundary = boundary_nodes(mesh_);
-    std::vector<std::uint8_t> used(curvature.size());
-    std::vector<std::uint8_t> inside(curvature.size());
-    std::vector<double> mean(curvature.size());
-    for (std::size_t i = 0; i < curvature.size(); ++i) {
-      used[i] = nodes_[i] != 0 && curvature[i].degree >= 2 ? 1 : 0;
-      inside[i] = used[i] != 0 && boundary[i] == 0 ? 1 : 0;
-      mean[i] = curvature[i].mean();
+  [[nodiscard]] Index count_mean_extrema(Measured& shape, const Incidence& incidence,
+                                         const std::vector<std::uint8_t>& boundary, double visible) const {
+    std::vector<std::uint8_t> inside = shape.used;
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+      if (boundary[i] != 0) inside[i] = 0;
     }
-    const NodeGraph graph(mesh_, incidence_);
-    const Index maxima = count_maxima(graph, mean, used, inside, visible);
+    const NodeGraph graph(mesh_, incidence);
+    std::vector<double>& mean = shape.mean_curvatures;
+    const Index maxima = count_maxima(graph, mean, shape.used, inside, visible);
     for (double& value : mean) value = -value;
-    return maxima + count_maxima(graph, mean, used, inside, visible);
+    return maxima + count_maxima(graph, mean, shape.used, inside, visible);
   }
 
-  void inspect() {
-    const MeshQuality quality = mesh_quality(mesh_, incidence_, positions_, faces_, team_);
+  void inspect(Measured& shape) {
+    const MeshQuality quality = mesh_quality(mesh_, *incidence_, shape.positions, faces_, oriented_, team_);
+    SurfaceFigures& figures = shape.figures;
     if (quality.longest_edge > 0) {
-      figures_.edge_spread = quality.longest_edge / quality.shortest_edge;
-      figures_.neighbouring_edge_spread = quality.neighbouring_edge_spread;
+      figures.edge_spread = quality.longest_edge / quality.shortest_edge;
+      figures.neighbouring_edge_spread = quality.neighbouring_edge_spread;
     }
     if (quality.smallest_angle <= quality.greatest_angle) {
-      figures_.smallest_angle = degrees_per_radian * quality.smallest_angle;
-      figures_.greatest_angle = degrees_per_radian * quality.greatest_angle;
+      figures.smallest_angle = degrees_per_radian * quality.smallest_angle;
+      figures.greatest_angle = degrees_per_radian * quality.greatest_angle;
     }
-    figures_.flipped_faces = quality.flipped_faces;
-    figures_.zero_length_edges = quality.zero_length_edges;
-    figures_.zero_area_faces = quality.zero_area_faces;
+    figures.flipped_faces = quality.flipped_faces;
+    figures.zero_length_edges = quality.zero_length_edges;
+    figures.zero_area_faces = quality.zero_area_faces;
   }
 
-  /// The mesh without the faces that are not measured.
-  [[nodiscard]] PolygonMesh counted_part() const {
-    if (constraints_ == nullptr) return mesh_;
+  /// Among the faces that are measured.
+  [[nodiscard]] Index count_intersections(const PolygonMesh& mesh) {
+    const auto is_counted = [](std::uint8_t counted) { return counted != 0; };
+    if (std::all_of(faces_.begin(), faces_.end(), is_counted))
+      return static_cast<Index>(count_self_intersections(mesh, context_, team_));
     MeshBuilder builder;
-    for (const Vector3& position : mesh_.positions()) builder.add_node(position);
-    for (Index f = 0; f < mesh_.face_count(); ++f) {
-      if (faces_[static_cast<std::size_t>(f)] != 0) builder.add_face(mesh_.face(f));
+    for (const Vector3& position : mesh.positions()) builder.add_node(position);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      if (is_counted(faces_[static_cast<std::size_t>(f)])) builder.add_face(mesh.face(f));
     }
-    return builder.take();
+    return static_cast<Index>(count_self_intersections(builder.take(), context_, team_));
   }
 
   const PolygonMesh& mesh_;
   const Constraints* constraints_;
-  std::span<const NodeCurvature> known_;
   const Context& context_;
   ThreadTeam team_;
-  Incidence incidence_;
   std::vector<std::uint8_t> faces_;
   std::vector<std::uint8_t> nodes_;
-  Eigen::AlignedBox<double, 3> box_;
-  Frame frame_;
-  std::vector<Vector3> positions_;
-  double diagonal_ = 0;
-  SurfaceFigures figures_;
+  std::vector<std::uint8_t> oriented_;  // nodes around which faces go all in one sense
+  std::optional<Incidence> incidence_;
+  std::vector<Measured> shapes_;
 };
+
+SurfaceFigures measure_one(const PolygonMesh& mesh, const Constraints* constraints,
+                           std::span<const NodeCurvature> curvatures, const Context& context) {
+  SurfaceMeasurement measurement(mesh, constraints, context);
+  measurement.add(mesh, curvatures);
+  return measurement.measure().front();
+}
 
 }  // namespace
 
 SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints, const Context& context) {
-  return SurfaceMeasurement(mesh, constraints, {}, context).measure();
+  return measure_one(mesh, constraints, {}, context);
 }
 
 SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints,
@@ -253,11 +320,25 @@ SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* const
   if (curvatures.size() != mesh.positions().size())
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("{} curvatures for {} nodes: give one for each", curvatures.size(), mesh.node_count()));
-  return SurfaceMeasurement(mesh, constraints, curvatures, context).measure();
+  return measure_one(mesh, constraints, curvatures, context);
 }
 
 SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints) {
   return measure_surface(mesh, constraints, Context());
+}
+
+std::array<SurfaceFigures, 2> measure_surfaces(const PolygonMesh& before, const PolygonMesh& after,
+                                               const Constraints* constraints, const Context& context) {
+  if (before.node_count() != after.node_count() || before.face_begin() != after.face_begin() ||
+      before.corners() != after.corners())
+    throw Error(ErrorCode::invalid_argument, "the two surfaces have other nodes or faces; measure each by itself");
+  if (finite_nodes(before) != finite_nodes(after))
+    return {measure_surface(before, constraints, context), measure_surface(after, constraints, context)};
+  SurfaceMeasurement measurement(before, constraints, context);
+  measurement.add(before, {});
+  measurement.add(after, {});
+  const std::vector<SurfaceFigures> figures = measurement.measure();
+  return {figures[0], figures[1]};
 }
 
 }  // namespace vspring

@@ -7,7 +7,6 @@
 
 #include "shape/edges.hpp"
 #include "shape/face_geometry.hpp"
-#include "shape/fan.hpp"
 
 namespace vspring {
 
@@ -16,11 +15,12 @@ namespace {
 class Inspection {
  public:
   Inspection(const PolygonMesh& mesh, const Incidence& incidence, const std::vector<Vector3>& positions,
-             const std::vector<std::uint8_t>& marked)
+             const std::vector<std::uint8_t>& marked, const std::vector<std::uint8_t>& oriented)
       : mesh_(mesh),
         incidence_(incidence),
         positions_(positions),
         marked_(marked),
+        oriented_(oriented),
         vector_areas_(marked.size(), Vector3::Zero()),
         against_(mesh.corners().size(), 0) {}
 
@@ -29,11 +29,10 @@ class Inspection {
     over_faces(team, all, [&](Index f, MeshQuality& part) { look_at_face(f, part); });
     const auto nodes = static_cast<std::size_t>(mesh_.node_count());
     const auto look = [&](std::size_t begin, std::size_t end, MeshQuality& part) {
-      FanWalker walker(mesh_, incidence_);
       EdgeFinder edges(mesh_, incidence_);
       for (std::size_t i = begin; i < end; ++i) {
         look_at_edges(static_cast<Index>(i), edges, part);
-        judge_faces(static_cast<Index>(i), walker);
+        if (oriented_[i] != 0) judge_faces(static_cast<Index>(i));
       }
     };
     for (const MeshQuality& part : parallel_parts(team, nodes, nodes_per_task, MeshQuality(), look)) all.add(part);
@@ -95,9 +94,7 @@ class Inspection {
     part.neighbouring_edge_spread = std::max(part.neighbouring_edge_spread, longest / shortest);
   }
 
-  void judge_faces(Index node, FanWalker& walker) {
-    const Fan& fan = walker.walk(node);
-    if (!fan.manifold() || fan.flipped_neighbour >= 0) return;
+  void judge_faces(Index node) {
     Vector3 around = Vector3::Zero();
     for (const Corner corner : incidence_.corners(node)) around += vector_area(corner);
     for (const Corner corner : incidence_.corners(node)) {
@@ -123,6 +120,7 @@ class Inspection {
   const Incidence& incidence_;
   const std::vector<Vector3>& positions_;
   const std::vector<std::uint8_t>& marked_;
+  const std::vector<std::uint8_t>& oriented_;
   std::vector<Vector3> vector_areas_;  // doubled; of marked faces
   std::vector<std::uint8_t> against_;  // one per corner
 };
@@ -141,8 +139,9 @@ void MeshQuality::add(const MeshQuality& other) {
 }
 
 MeshQuality mesh_quality(const PolygonMesh& mesh, const Incidence& incidence, const std::vector<Vector3>& positions,
-                         const std::vector<std::uint8_t>& marked_faces, ThreadTeam& team) {
-  return Inspection(mesh, incidence, positions, marked_faces).inspect(team);
+                         const std::vector<std::uint8_t>& marked_faces, const std::vector<std::uint8_t>& oriented_nodes,
+                         ThreadTeam& team) {
+  return Inspection(mesh, incidence, positions, marked_faces, oriented_nodes).inspect(team);
 }
 
 }  // namespace vspring

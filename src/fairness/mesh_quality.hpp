@@ -23,9 +23,11 @@ struct MeshQuality {
 };
 
 /// Of the faces with a mark. A face is flipped where at each of its nodes it points against the vector area of the
-/// faces around that node, which stays the same wherever the node lies within a closed fan. Nodes that are non-manifold
-/// or where faces disagree in their sense have no say, so no face there is called flipped.
+/// faces around that node, which stays the same wherever the node lies within a closed fan. Nodes that are not
+/// oriented, being non-manifold or between faces that disagree in their sense, have no say, so no face there is called
+/// flipped.
 MeshQuality mesh_quality(const PolygonMesh& mesh, const Incidence& incidence, const std::vector<Vector3>& positions,
-                         const std::vector<std::uint8_t>& marked_faces, ThreadTeam& team);
+                         const std::vector<std::uint8_t>& marked_faces, const std::vector<std::uint8_t>& oriented_nodes,
+                         ThreadTeam& team);
 
 }  // namespace vspring

@@ -1,42 +1,72 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "base/threads.hpp"
 #include "shape/incidence.hpp"
 
 namespace vspring {
+
+/// For every node the other nodes of its faces, in a fixed order and each once: what neighbourhoods are gathered from.
+class FaceNeighbours {
+ public:
+  /// usable: one entry per node, 0 for nodes that are left out. At hubs of many faces and in large faces only some
+  /// nodes are taken, so that memory stays linear. Cost: linear.
+  FaceNeighbours(const PolygonMesh& mesh, const Incidence& incidence, std::span<const std::uint8_t> usable,
+                 ThreadTeam& team);
+
+  [[nodiscard]] std::span<const Index> of(Index node) const {
+    const auto i = static_cast<std::size_t>(node);
+    const Part& part = parts_[i / nodes_per_task];
+    const std::size_t k = i % nodes_per_task;
+    return {part.nodes.data() + part.begin[k], part.begin[k + 1] - part.begin[k]};
+  }
+
+ private:
+  struct Part {
+    std::vector<std::uint32_t> begin = {0};
+    std::vector<Index> nodes;
+  };
+  std::vector<Part> parts_;
+};
 
 /// Gathers the nodes around a node, ring by ring over the faces, until there are enough of them for a polynomial of
 /// fourth degree. Work per node is bounded whatever the mesh. Holds a buffer, so use one per task.
 class Neighbourhood {
  public:
-  Neighbourhood(const PolygonMesh& mesh, const Incidence& incidence) : mesh_(&mesh), incidence_(&incidence) {}
+  explicit Neighbourhood(const FaceNeighbours& neighbours) : neighbours_(&neighbours) {}
 
   /// Fourteen coefficients, and some to spare: three rings of triangles (36 nodes), two of quads (24); at boundaries
   /// one or two rings more.
   static constexpr std::size_t enough = 20;
   /// Where these lie badly.
   static constexpr std::size_t plenty = 40;
+  /// There are never more.
+  static constexpr std::size_t most_nodes = 96;
 
-  /// At least `wanted` nodes around where a few rings have them, without the node itself, with finite positions; valid
-  /// until the next call.
-  std::span<const Index> around(Index node, std::size_t wanted);
+  void go_to(Index node);
+  /// At least `wanted` nodes around where a few rings have them, without the node itself; valid until the next call.
+  std::span<const Index> around(std::size_t wanted);
 
  private:
+  static constexpr std::size_t fewest_rings = 2;
+  static constexpr std::size_t most_rings = 5;
   // More than 64 nodes are looked up in it, so that runs stay short.
   static constexpr std::size_t slots = 256;
   struct Slot {
     Index node = -1;
     std::uint32_t round = 0;
   };
-  void add_face(Corner corner);
   void add(Index node);
+  void add_ring();
 
-  const PolygonMesh* mesh_;
-  const Incidence* incidence_;
+  const FaceNeighbours* neighbours_;
   std::vector<Index> nodes_;
+  std::array<std::size_t, most_rings + 1> end_{};  // of each ring that was gathered, the node itself the first
+  std::size_t rings_ = 0;
   std::array<Slot, slots> seen_;
   std::uint32_t round_ = 0;
 };

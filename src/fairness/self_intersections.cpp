@@ -111,10 +111,9 @@ class Crossings {
   std::vector<Vector3> positions_;
 };
 
-}  // namespace
-
-std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh, const Context& context,
-                                                        ThreadTeam& team) {
+/// use(a, b, part) for every pair of faces of which two triangles cross, a < b, as often as they do. Returns parts.
+template <typename Part, typename Use>
+std::vector<Part> for_crossings(const PolygonMesh& mesh, const Context& context, ThreadTeam& team, const Use& use) {
   const Crossings crossings(mesh);
   const auto& triangles = crossings.triangles();
   if (is_height_field(triangles, crossings.positions(), team)) return {};
@@ -123,29 +122,48 @@ std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh,
   for (const Triangle& triangle : triangles) boxes.push_back(crossings.box(triangle));
   const BoxTree tree(std::move(boxes), team);
 
-  using Pairs = std::vector<std::pair<Index, Index>>;
-  const auto test = [&](Index i, Index j, Pairs& pairs) {
+  const auto test = [&](Index i, Index j, Part& part) {
     const Triangle& a = triangles[static_cast<std::size_t>(i)];
     const Triangle& b = triangles[static_cast<std::size_t>(j)];
     if (a.face == b.face || !tree.box(i).intersects(tree.box(j))) return;
-    if (crossings.cross(a, b)) pairs.emplace_back(std::minmax(a.face, b.face));
+    if (crossings.cross(a, b)) use(std::min(a.face, b.face), std::max(a.face, b.face), part);
   };
-  const auto test_leaves = [&](std::size_t begin, std::size_t end, Pairs& pairs) {
+  const auto test_leaves = [&](std::size_t begin, std::size_t end, Part& part) {
     for (std::size_t leaf = begin; leaf < end && !context.cancelled(); ++leaf) {
       const auto items = tree.leaf_items(leaf);
       tree.for_each_overlapping_leaf(tree.leaf_box(leaf), leaf, [&](std::size_t other_leaf) {
         const auto others = tree.leaf_items(other_leaf);
         for (std::size_t a = 0; a < items.size(); ++a) {
-          for (std::size_t b = other_leaf == leaf ? a + 1 : 0; b < others.size(); ++b) test(items[a], others[b], pairs);
+          for (std::size_t b = other_leaf == leaf ? a + 1 : 0; b < others.size(); ++b) test(items[a], others[b], part);
         }
       });
     }
   };
+  return parallel_parts(team, tree.leaf_count(), leaves_per_task, Part(), test_leaves);
+}
+
+}  // namespace
+
+std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh, const Context& context,
+                                                        ThreadTeam& team) {
+  using Pairs = std::vector<std::pair<Index, Index>>;
+  const auto add = [](Index a, Index b, Pairs& pairs) { pairs.emplace_back(a, b); };
   Pairs all;
-  for (const Pairs& pairs : parallel_parts(team, tree.leaf_count(), leaves_per_task, Pairs(), test_leaves))
+  for (const Pairs& pairs : for_crossings<Pairs>(mesh, context, team, add))
     all.insert(all.end(), pairs.begin(), pairs.end());
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+std::size_t count_self_intersections(const PolygonMesh& mesh, const Context& context, ThreadTeam& team) {
+  const std::vector<Index>& begin = mesh.face_begin();
+  const auto is_larger = [](Index first, Index next) { return next - first > 3; };
+  if (std::adjacent_find(begin.begin(), begin.end(), is_larger) != begin.end())
+    return self_intersections(mesh, context, team).size();
+  std::size_t all = 0;
+  const auto count = [](Index, Index, std::size_t& part) { ++part; };
+  for (const std::size_t part : for_crossings<std::size_t>(mesh, context, team, count)) all += part;
   return all;
 }
 

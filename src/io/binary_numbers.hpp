@@ -34,11 +34,11 @@ constexpr bool swapped_here(std::endian order) { return order != std::endian::na
 /// Of numbers in little-endian order, which binary STL has and fresh files get.
 inline constexpr bool little_swapped = swapped_here(std::endian::little);
 
-/// Appends a number in little-endian order.
+/// Appends a number, in little-endian order where nothing else is said.
 template <typename Number>
-void append_bytes(std::string& bytes, Number number) {
+void append_bytes(std::string& bytes, Number number, bool swapped = little_swapped) {
   std::array<char, sizeof(Number)> room;
-  store(room.data(), number, little_swapped);
+  store(room.data(), number, swapped);
   bytes.append(room.data(), room.size());
 }
 

@@ -35,7 +35,8 @@ class ObjSource : public SurfaceSource {
 std::string ObjSource::rewritten(Rewrite& rewrite) const {
   NewNormals fresh;
   if (!corner_normals.empty())
-    fresh = compute_normals(rewrite.surface.mesh, corner_normals, normals, positions, rewrite.positions, rewrite.moved);
+    fresh = compute_normals(rewrite.surface.mesh, corner_normals, normals, mesh.positions(), rewrite.positions,
+                            rewrite.moved);
   TextRewriter out(file.bytes);
   std::size_t normal = 0;
   const auto normals_before = [&](std::size_t offset) {
@@ -160,10 +161,8 @@ SurfaceFile ObjReader::take(InputFile file) {
   surface.format = SurfaceFormat::obj;
   surface.warnings = take_warnings(file);
   source_->node_rows = std::move(node_rows_);
-  source_->positions = positions_;
-  source_->corner_count = elements_.corner_count();
   source_->carried.assign(carried_.begin(), carried_.end());
-  surface.mesh = elements_.take(std::move(positions_));
+  surface.mesh = source_->mesh = elements_.take(std::move(positions_));
   surface.groups = groups_.take(surface.mesh.face_begin(), surface.mesh.corners(), surface.mesh.node_count());
   if (!source_->corner_normals.empty())
     surface.normals = node_normals(surface.mesh, source_->corner_normals, source_->normals);

@@ -246,10 +246,8 @@ SurfaceFile OffBody::take(InputFile file) {
   source->rows = std::move(rows_);
   source->in_stream = in_stream_;
   source->normal_column = normal_column_;
-  source->positions = positions_;
-  source->corner_count = faces_.corner_count();
   source->carried.assign(carried.begin(), carried.end());
-  surface.mesh = faces_.take(std::move(positions_));
+  surface.mesh = source->mesh = faces_.take(std::move(positions_));
   source->file = std::move(file);
   surface.source = source;
   return surface;
@@ -281,7 +279,7 @@ std::string OffSource::rewritten(Rewrite& rewrite) const {
   const SurfaceFile& surface = rewrite.surface;
   NewNormals fresh;
   if (normal_column > 0 && surface.normals.size() == rows.size())
-    fresh = compute_normals(surface.mesh, surface.mesh.corners(), surface.normals, positions, rewrite.positions,
+    fresh = compute_normals(surface.mesh, surface.mesh.corners(), surface.normals, mesh.positions(), rewrite.positions,
                             rewrite.moved);
   TextRewriter out(file.bytes, /*commented=*/true);
   std::vector<NewNumber> numbers;

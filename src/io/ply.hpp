@@ -72,15 +72,24 @@ class PlySource : public SurfaceSource {
   std::array<int, 6> fields = {-1, -1, -1, -1, -1, -1};
   [[nodiscard]] bool has_normals() const { return fields[3] >= 0; }
   [[nodiscard]] const PlyElement& node_element() const { return *header.find("vertex"); }
+  /// Lets go of the bytes of data that can be made again to the last one.
+  void forget_plain_data();
 
   PlyHeader header;
-  std::size_t first_row = 0;      ///< where the first node begins
+  std::size_t first_row = 0;  ///< where the first node begins
+  /// There is nothing but positions and faces, which the mesh has: the bytes of the file are those of its header.
+  bool is_plain = false;
   std::vector<std::size_t> rows;  ///< where each begins; empty where all are of one length
 
  private:
   /// Where the fields of the row that begins here are: in text their columns, else their bytes from its beginning.
   [[nodiscard]] std::array<int, 6> places_in(std::size_t row) const;
   [[nodiscard]] bool any_whole(int first_field) const;
+  [[nodiscard]] bool has_plain_elements() const;
+  /// Whether numbers are in the other order than this machine's.
+  [[nodiscard]] bool swapped() const;
+  /// The header, and plain data with these positions.
+  [[nodiscard]] std::string with_plain_data(const std::vector<Vector3>& new_positions) const;
   void widen_header(TextRewriter& out) const;
   [[nodiscard]] std::string patched(const Rewrite& rewrite, const NewNormals& normals) const;
   [[nodiscard]] std::string rebuilt(const Rewrite& rewrite, const NewNormals& normals) const;

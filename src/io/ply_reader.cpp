@@ -204,9 +204,7 @@ template <typename Data>
 void read_data(const InputFile& file, PlySource& source, SurfaceFile& surface) {
   PlyReader<Data> reader(file, source);
   reader.read();
-  source.positions = reader.positions;
-  source.corner_count = reader.faces.corner_count();
-  surface.mesh = reader.faces.take(std::move(reader.positions));
+  surface.mesh = source.mesh = reader.faces.take(std::move(reader.positions));
   surface.normals = std::move(reader.normals);
 }
 
@@ -278,6 +276,7 @@ SurfaceFile read_ply(InputFile file) {
     read_data<PlyBinary>(file, *source, surface);
   source->carried = carried_by(*source);
   source->file = std::move(file);
+  source->forget_plain_data();
   surface.source = source;
   return surface;
 }

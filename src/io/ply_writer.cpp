@@ -18,6 +18,22 @@
 
 namespace vspring {
 
+namespace {
+
+void append_whole_number(std::string& out, PlyType type, std::int64_t number, bool swapped) {
+  // Both signs have the same bytes.
+  switch (size_of(type)) {
+    case 1:
+      return append_bytes(out, static_cast<std::uint8_t>(number), swapped);
+    case 2:
+      return append_bytes(out, static_cast<std::uint16_t>(number), swapped);
+    default:
+      return append_bytes(out, static_cast<std::uint32_t>(number), swapped);
+  }
+}
+
+}  // namespace
+
 std::array<int, 6> PlySource::places_in(std::size_t row) const {
   const PlyElement& element = node_element();
   const bool text = header.encoding == PlyEncoding::text;
@@ -59,16 +75,66 @@ bool PlySource::any_whole(int first_field) const {
   return false;
 }
 
+bool PlySource::has_plain_elements() const {
+  if (header.encoding == PlyEncoding::text || header.elements.size() != 2) return false;
+  const PlyElement& nodes = header.elements[0];
+  const PlyElement& faces = header.elements[1];
+  return nodes.name == "vertex" && nodes.properties.size() == 3 && !nodes.has_lists() && !any_whole(0) &&
+         faces.name == "face" && faces.properties.size() == 1 && faces.has_lists();
+}
+
+bool PlySource::swapped() const {
+  return swapped_here(header.encoding == PlyEncoding::big_endian ? std::endian::big : std::endian::little);
+}
+
+void PlySource::forget_plain_data() {
+  if (!has_plain_elements()) return;
+  std::string header_alone = file.bytes.substr(0, header.end);
+  std::swap(file.bytes, header_alone);
+  is_plain = with_plain_data(mesh.positions()) == header_alone;
+  if (!is_plain) std::swap(file.bytes, header_alone);
+}
+
+std::string PlySource::with_plain_data(const std::vector<Vector3>& new_positions) const {
+  const bool is_swapped = swapped();
+  const std::vector<PlyProperty>& coordinates = node_element().properties;
+  const PlyProperty& list = header.elements[1].properties.front();
+  std::size_t size = new_positions.size() * node_element().least_size(header.encoding);
+  size += static_cast<std::size_t>(mesh.face_count()) * size_of(*list.count_type);
+  size += mesh.corners().size() * size_of(list.type);
+  std::string out;
+  out.reserve(file.bytes.size() + size);
+  out = file.bytes;
+  std::array<int, 3> axis_of{};
+  for (int k = 0; k < 3; ++k) axis_of[static_cast<std::size_t>(fields[static_cast<std::size_t>(k)])] = k;
+  for (std::size_t node = 0; node < new_positions.size(); ++node) {
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      const double value = new_positions[node][axis_of[k]];
+      if (coordinates[k].type == PlyType::float32)
+        append_bytes(out, single(value, node), is_swapped);
+      else
+        append_bytes(out, value, is_swapped);
+    }
+  }
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const std::span<const Index> face = mesh.face(f);
+    append_whole_number(out, *list.count_type, static_cast<std::int64_t>(face.size()), is_swapped);
+    for (const Index node : face) append_whole_number(out, list.type, node, is_swapped);
+  }
+  return out;
+}
+
 std::string PlySource::rewritten(Rewrite& rewrite) const {
+  if (is_plain) return with_plain_data(rewrite.positions);
   const SurfaceFile& surface = rewrite.surface;
   const bool any_moved = std::any_of(rewrite.moved.begin(), rewrite.moved.end(), [](auto moved) { return moved != 0; });
   if (!any_moved) return file.bytes;
   NewNormals normals;
   if (has_normals() && any_whole(3))
     rewrite.remarks.emplace_back("normals that fit the moved nodes: the file holds whole numbers, kept as they were");
-  else if (has_normals() && surface.normals.size() == positions.size())
-    normals = compute_normals(surface.mesh, surface.mesh.corners(), surface.normals, positions, rewrite.positions,
-                              rewrite.moved);
+  else if (has_normals() && surface.normals.size() == mesh.positions().size())
+    normals = compute_normals(surface.mesh, surface.mesh.corners(), surface.normals, mesh.positions(),
+                              rewrite.positions, rewrite.moved);
   if (any_whole(0))
     rewrite.remarks.emplace_back("the whole-number type of the coordinates: they are written in double precision");
   return header.encoding == PlyEncoding::text || any_whole(0) ? rebuilt(rewrite, normals) : patched(rewrite, normals);
@@ -76,19 +142,18 @@ std::string PlySource::rewritten(Rewrite& rewrite) const {
 
 /// Binary with floating-point coordinates: every number keeps its place.
 std::string PlySource::patched(const Rewrite& rewrite, const NewNormals& normals) const {
-  const bool swapped =
-      swapped_here(header.encoding == PlyEncoding::big_endian ? std::endian::big : std::endian::little);
   const PlyElement& element = node_element();
+  const bool is_swapped = swapped();
   std::string out = file.bytes;
   const auto put = [&](std::size_t at, int field, double value, std::size_t node) {
     if (element.properties[fields[field]].type == PlyType::float32)
-      store(out.data() + at, single(value, node), swapped);
+      store(out.data() + at, single(value, node), is_swapped);
     else
-      store(out.data() + at, value, swapped);
+      store(out.data() + at, value, is_swapped);
   };
   const std::size_t size = element.least_size(header.encoding);
   std::array<int, 6> places = places_in(first_row);
-  for (std::size_t node = 0; node < positions.size(); ++node) {
+  for (std::size_t node = 0; node < mesh.positions().size(); ++node) {
     const bool moved = rewrite.moved[node] != 0;
     const bool turned = !normals.due.empty() && normals.due[node] != 0;
     if (!moved && !turned) continue;
@@ -116,13 +181,12 @@ void PlySource::widen_header(TextRewriter& out) const {
 std::string PlySource::rebuilt(const Rewrite& rewrite, const NewNormals& normals) const {
   const PlyElement& element = node_element();
   const bool text = header.encoding == PlyEncoding::text;
-  const bool swapped =
-      swapped_here(header.encoding == PlyEncoding::big_endian ? std::endian::big : std::endian::little);
+  const bool is_swapped = swapped();
   TextRewriter out(file.bytes);
   widen_header(out);
   std::vector<NewNumber> numbers;
   std::array<int, 6> places = places_in(rows.empty() ? first_row : rows.front());
-  for (std::size_t node = 0; node < positions.size(); ++node) {
+  for (std::size_t node = 0; node < mesh.positions().size(); ++node) {
     const bool turned = !normals.due.empty() && normals.due[node] != 0;
     // In text only what changes is written; in binary every coordinate of the old type has to go.
     const bool moved = rewrite.moved[node] != 0 || !text;
@@ -148,9 +212,9 @@ std::string PlySource::rebuilt(const Rewrite& rewrite, const NewNormals& normals
       const PlyType type = element.properties[fields[field]].type;
       std::array<char, sizeof(double)> bytes{};
       if (number.single)
-        store(bytes.data(), static_cast<float>(number.value), swapped);
+        store(bytes.data(), static_cast<float>(number.value), is_swapped);
       else
-        store(bytes.data(), number.value, swapped);
+        store(bytes.data(), number.value, is_swapped);
       out.replace(begin, begin + size_of(type), {bytes.data(), number.single ? sizeof(float) : sizeof(double)});
     }
   }

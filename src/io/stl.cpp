@@ -208,9 +208,7 @@ SurfaceFile Facets::take(InputFile file, std::shared_ptr<StlSource> source) {
         "{}: {} triangles, the first of them number {}, have two corners at one place; they are no faces of the "
         "surface, and are written again with the others",
         file.name, collapsed, first_collapsed));
-  source->positions = weld_.positions;
-  source->corner_count = faces.corner_count();
-  surface.mesh = faces.take(std::move(weld_.positions));
+  surface.mesh = source->mesh = faces.take(std::move(weld_.positions));
   source->corner_nodes = std::move(nodes_);
   source->file = std::move(file);
   surface.source = std::move(source);

@@ -23,7 +23,7 @@ std::string converted(SurfaceFormat format, const Rewrite& rewrite, std::vector<
   std::vector<Vector3> normals;
   if (surface.normals.size() == rewrite.positions.size()) {
     normals = surface.normals;
-    const std::vector<Vector3>& before = surface.source ? surface.source->positions : surface.mesh.positions();
+    const std::vector<Vector3>& before = (surface.source ? surface.source->mesh : surface.mesh).positions();
     const NewNormals fresh = compute_normals(surface.mesh, surface.mesh.corners(), surface.normals, before,
                                              rewrite.positions, rewrite.moved);
     for (std::size_t node = 0; node < normals.size(); ++node) {
@@ -75,13 +75,13 @@ FileBytes surface_bytes(const std::string& name, const SurfaceFile& surface, con
                 fmt::format("{} positions given for {} nodes", positions.size(), surface.mesh.node_count()));
   const SurfaceFormat target = surface_formats.to_write(name, format, surface.format);
   const SurfaceSource* source = surface.source.get();
-  if (source != nullptr &&
-      (source->positions.size() != positions.size() || source->corner_count != surface.mesh.corners().size()))
+  if (source != nullptr && (source->mesh.node_count() != surface.mesh.node_count() ||
+                            source->mesh.corners().size() != surface.mesh.corners().size()))
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("the mesh is not the one that {} gave; reset the source to write it on its own",
                             source->file.name));
   Rewrite rewrite{
-      surface, positions, moved_nodes(source != nullptr ? source->positions : surface.mesh.positions(), positions), {}};
+      surface, positions, moved_nodes((source != nullptr ? source->mesh : surface.mesh).positions(), positions), {}};
   FileBytes file;
   if (source != nullptr && target == surface.format) {
     file.bytes = source->rewritten(rewrite);

@@ -32,8 +32,7 @@ class SurfaceSource {
   [[nodiscard]] virtual std::string rewritten(Rewrite& rewrite) const = 0;
 
   InputFile file;
-  std::vector<Vector3> positions;    ///< as the file gives them
-  std::size_t corner_count = 0;      ///< of the mesh
+  PolygonMesh mesh;                  ///< as the file gives it
   std::vector<std::string> carried;  ///< what other formats are not given, one line each
 };
 

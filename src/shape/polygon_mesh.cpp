@@ -2,17 +2,25 @@
 
 #include <fmt/format.h>
 
+#include <memory>
+#include <utility>
+
 #include "vspring/error.hpp"
 
 namespace vspring {
 
+PolygonMesh::PolygonMesh() : PolygonMesh({}, {0}, {}) {}
+
 PolygonMesh::PolygonMesh(std::vector<Vector3> positions, std::vector<Index> face_begin, std::vector<Index> corners)
-    : positions_(std::move(positions)), face_begin_(std::move(face_begin)), corners_(std::move(corners)) {
-  if (face_begin_.empty() || face_begin_.front() != 0 || face_begin_.back() != static_cast<Index>(corners_.size()))
+    : positions_(std::make_shared<const std::vector<Vector3>>(std::move(positions))),
+      faces_(std::make_shared<const Faces>(Faces{std::move(face_begin), std::move(corners)})) {
+  const std::vector<Index>& begin = faces_->begin;
+  const std::size_t count = faces_->corners.size();
+  if (begin.empty() || begin.front() != 0 || begin.back() != static_cast<Index>(count))
     throw Error(ErrorCode::unusable_shape,
-                fmt::format("face offsets must begin with 0 and end with the number of corners, {}", corners_.size()));
-  for (std::size_t f = 0; f + 1 < face_begin_.size(); ++f) {
-    if (face_begin_[f] > face_begin_[f + 1])
+                fmt::format("face offsets must begin with 0 and end with the number of corners, {}", count));
+  for (std::size_t f = 0; f + 1 < begin.size(); ++f) {
+    if (begin[f] > begin[f + 1])
       throw Error(ErrorCode::unusable_shape, fmt::format("face {}: its offset lies behind that of the next face", f));
   }
   for (Index f = 0; f < face_count(); ++f) {
@@ -54,10 +62,10 @@ std::vector<Vector3> positions_of(std::span<const double> coordinates) {
 }
 
 void PolygonMesh::set_positions(std::vector<Vector3> positions) {
-  if (positions.size() != positions_.size())
+  if (positions.size() != positions_->size())
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} positions given for {} nodes", positions.size(), positions_.size()));
-  positions_ = std::move(positions);
+                fmt::format("{} positions given for {} nodes", positions.size(), positions_->size()));
+  positions_ = std::make_shared<const std::vector<Vector3>>(std::move(positions));
 }
 
 }  // namespace vspring

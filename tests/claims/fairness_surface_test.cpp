@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "vspring/vspring.hpp"
 
@@ -142,6 +144,50 @@ TEST(SelfIntersections, AreThoseThatComparingAllFindsToo) {
     }
   }
   EXPECT_EQ(pairs, expected);
+}
+
+TEST(SelfIntersections, AreCountedAsOftenAsTheyAreListed) {
+  for (const Faces faces : {Faces::triangles, Faces::quads, Faces::hexagons}) {
+    const PolygonMesh crumpled = generate::add_noise(grid(20, faces), 0.1, 5);
+    const std::size_t pairs = self_intersections(crumpled).size();
+    EXPECT_GT(pairs, 20U);
+    EXPECT_EQ(measure_surface(crumpled).self_intersections, static_cast<Index>(pairs));
+  }
+}
+
+TEST(SurfaceFigures, OfTwoShapesAreThoseOfEach) {
+  for (const Faces faces : {Faces::triangles, Faces::quads, Faces::hexagons, Faces::mixed}) {
+    PolygonMesh before = generate::add_noise(grid(12, faces), 0.03, 3);
+    PolygonMesh after = moved(
+        grid(12, faces), [](const Vector3& p) { return Vector3(p.x(), p.y(), 0.1 * std::sin(9 * p.x()) * p.y()); });
+    Constraints constraints(before.node_count());
+    fix_boundary_positions(constraints, before);
+    constraints.fix_normal(0, Vector3(0, 0, 1));
+    // Where both have the same nodes to look at, and where they do not.
+    for (const bool is_broken : {false, true}) {
+      if (is_broken) {
+        std::vector<Vector3> positions = before.positions();
+        positions[40].x() = std::nan("");
+        before.set_positions(positions);
+      }
+      for (const Constraints* held : {static_cast<const Constraints*>(nullptr), &std::as_const(constraints)}) {
+        const auto both = measure_surfaces(before, after, held, Context());
+        const std::array<const PolygonMesh*, 2> meshes = {&before, &after};
+        for (std::size_t k = 0; k < 2; ++k) {
+          const auto figures = list_figures(both[k]);
+          const auto alone = list_figures(measure_surface(*meshes[k], held));
+          ASSERT_EQ(figures.size(), alone.size());
+          for (std::size_t f = 0; f < figures.size(); ++f)
+            EXPECT_EQ(figures[f].value, alone[f].value) << figures[f].key;
+        }
+      }
+    }
+  }
+}
+
+TEST(SurfaceFigures, OfTwoShapesNeedOneMesh) {
+  EXPECT_THROW((void)measure_surfaces(grid(3), grid(4), nullptr, Context()), Error);
+  EXPECT_THROW((void)measure_surfaces(grid(3), grid(3, Faces::quads), nullptr, Context()), Error);
 }
 
 TEST(SurfaceFigures, ExtremesOfMeanCurvature) {

@@ -178,6 +178,51 @@ TEST_F(PlyFile, SinglePrecisionStaysSingle) {
   }
 }
 
+/// Nothing but positions and faces, in types and an order of their own; after: what else may follow.
+template <typename Real, typename Count, typename Node>
+std::string plain(Ply::Encoding encoding, const std::array<std::string, 3>& types, const std::vector<Vector3>& nodes,
+                  const std::vector<std::vector<int>>& faces, const std::string& after = "") {
+  Ply ply(encoding);
+  ply.line("comment made by hand").line(fmt::format("element vertex {}", nodes.size()));
+  for (const std::string axis : {"z", "x", "y"}) ply.line(fmt::format("property {} {}", types[0], axis));
+  ply.line(fmt::format("element face {}", faces.size()));
+  ply.line(fmt::format("property list {} {} vertex_index", types[1], types[2])).line("end_header");
+  for (const Vector3& node : nodes) {
+    for (const double value : {node.z(), node.x(), node.y()}) ply.put(static_cast<Real>(value));
+  }
+  for (const auto& face : faces) {
+    ply.put(static_cast<Count>(face.size()));
+    for (const int node : face) ply.put(static_cast<Node>(node));
+  }
+  return ply.bytes + after;
+}
+
+TEST_F(PlyFile, OfNothingButAMeshComesOutByteForByte) {
+  const std::vector<std::vector<int>> faces = {{0, 1, 2}, {3, 2, 1, 0}, {4, 3, 0}};
+  const std::vector<Vector3> nodes = {{0, 0, -0.0}, {1, 0.5, 0}, {1, 2, 0.25}, {0, 1, 3}, {-1, 7, 0}};
+  std::vector<Vector3> moved = nodes;
+  moved[3].y() = 1.25;
+  for (const Ply::Encoding encoding : {Ply::little, Ply::big}) {
+    const auto check = [&](const auto& make) {
+      const SurfaceFile surface = read(make(nodes));
+      write_surface(path("out.ply"), surface, nodes);
+      EXPECT_EQ(get("out.ply"), make(nodes));
+      write_surface(path("out.ply"), surface, moved);
+      EXPECT_EQ(get("out.ply"), make(moved));
+    };
+    check([&](const std::vector<Vector3>& places) {
+      return plain<double, std::uint8_t, std::int32_t>(encoding, {"double", "uchar", "int"}, places, faces);
+    });
+    check([&](const std::vector<Vector3>& places) {
+      return plain<float, std::int32_t, std::uint16_t>(encoding, {"float", "int", "ushort"}, places, faces);
+    });
+    // Something follows that no mesh has.
+    check([&](const std::vector<Vector3>& places) {
+      return plain<float, std::uint16_t, std::int8_t>(encoding, {"float", "ushort", "char"}, places, faces, "\n");
+    });
+  }
+}
+
 TEST_F(PlyFile, WholeNumbersBecomeDoublesWhenNodesMove) {
   for (const Ply::Encoding encoding : encodings) {
     const std::string before = triangle(encoding, "short", std::array<std::int16_t, 9>{0, 0, 0, 300, 0, 0, 0, -7, 0});

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "support/refusal.hpp"
@@ -33,6 +34,23 @@ TEST(PolygonMesh, GivesItsCoordinatesWhereTheyLie) {
   EXPECT_EQ(std::vector<double>(flat.begin(), flat.end()), square);
   EXPECT_EQ(flat.data(), quad.positions().front().data());
   EXPECT_TRUE(coordinates({}).empty());
+}
+
+TEST(PolygonMesh, SharesWhatItHasWithCopiesUntilTheyAreMoved) {
+  const PolygonMesh quad = PolygonMesh::from_arrays(square, std::vector<Index>{0, 1, 2, 3}, 4);
+  PolygonMesh copy = quad;
+  EXPECT_EQ(copy.positions().data(), quad.positions().data());
+  std::vector<Vector3> positions = quad.positions();
+  positions[2].z() = 7;
+  copy.set_positions(positions);
+  EXPECT_EQ(copy.position(2).z(), 7);
+  EXPECT_EQ(quad.position(2).z(), 0.5);
+  EXPECT_EQ(copy.corners().data(), quad.corners().data());
+  PolygonMesh taken = std::move(copy);
+  EXPECT_EQ(taken.node_count(), 4);
+  taken = PolygonMesh();
+  EXPECT_EQ(taken.node_count(), 0);
+  EXPECT_EQ(taken.face_count(), 0);
 }
 
 TEST(PolygonMesh, RefusesArraysThatDoNotFit) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "base/cancellation.hpp"
 #include "vspring/context.hpp"
 
 namespace vspring {
@@ -19,6 +20,7 @@ class ProgressReporter {
     if (reported_ && now - last_ < std::chrono::milliseconds(50)) return;
     reported_ = true;
     last_ = now;
+    const UncancelledScope of_others;
     context_->on_progress({stage, fraction_, iteration, residual});
   }
 

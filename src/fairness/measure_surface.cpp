@@ -7,6 +7,7 @@
 #include <numbers>
 #include <span>
 
+#include "base/cancellation.hpp"
 #include "base/degrees.hpp"
 #include "base/progress.hpp"
 #include "fairness/counted.hpp"
@@ -128,6 +129,7 @@ class SurfaceMeasurement {
         positions_(placed(mesh.positions(), frame_)) {}
 
   SurfaceFigures measure() {
+    const CancellationScope cancellation(context_);
     static_cast<Fairness&>(figures_) = vspring::measure(mesh_, constraints_, team_);
     const Vector3 size =
         box_.isEmpty() ? Vector3(Vector3::Zero()) : Vector3(frame_.to_local(box_.max()) - frame_.to_local(box_.min()));
@@ -242,10 +244,20 @@ class SurfaceMeasurement {
   SurfaceFigures figures_;
 };
 
+/// None where somebody cancels.
+SurfaceFigures figures_of(const PolygonMesh& mesh, const Constraints* constraints,
+                          std::span<const NodeCurvature> curvatures, const Context& context) {
+  try {
+    return SurfaceMeasurement(mesh, constraints, curvatures, context).measure();
+  } catch (const Cancelled&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints, const Context& context) {
-  return SurfaceMeasurement(mesh, constraints, {}, context).measure();
+  return figures_of(mesh, constraints, {}, context);
 }
 
 SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints,
@@ -253,7 +265,7 @@ SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* const
   if (curvatures.size() != mesh.positions().size())
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("{} curvatures for {} nodes: give one for each", curvatures.size(), mesh.node_count()));
-  return SurfaceMeasurement(mesh, constraints, curvatures, context).measure();
+  return figures_of(mesh, constraints, curvatures, context);
 }
 
 SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* constraints) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -14,6 +15,9 @@
 namespace vspring::cli {
 
 namespace {
+
+// Nodes of a shape that is measured though somebody waits for the end.
+constexpr Index most_when_interrupted = 200'000;
 
 double diagonal_of(const std::vector<Vector3>& positions) {
   Eigen::AlignedBox<double, 3> box;
@@ -40,7 +44,7 @@ Fairing::Fairing(const FairingArguments& arguments)
     : arguments_(&arguments),
       errors_(2, arguments.colour),
       messages_(arguments.output == "-" || arguments.html == "-" ? 2 : 1, arguments.colour),
-      cancelling_(context_),
+      cancelling_(context_, CancelOnSignal::While::reading),
       time_limit_(context_, arguments.time_limit),
       bar_(errors_) {
   context_.threads = arguments.threads;
@@ -86,15 +90,16 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
       {{{"before", {}}, MeasuredShape(faired.before)}, {{"after", {}}, MeasuredShape(faired.after)}}};
   if (is_reported && !context_.cancelled()) measure(shapes, faired.constraints);
   const bool is_measured = is_reported && !context_.cancelled();
-  BeforeAndAfter fairness;
+  std::optional<BeforeAndAfter> fairness;
   if (is_measured)
     fairness = fairness_of(shapes[0].figures, shapes[1].figures);
-  else if (is_reported || !arguments_->quiet)
+  else if ((is_reported || !arguments_->quiet) && !(context_.cancelled() && report.nodes > most_when_interrupted))
     fairness = fairness_of(faired.before, faired.after, faired.constraints, context_);
   nlohmann::ordered_json json;
   if (is_reported) {
     json = to_json(report);
-    json["fairness"] = to_json(fairness);
+    const nlohmann::ordered_json none = nlohmann::ordered_json::object();
+    json["fairness"] = fairness ? to_json(*fairness) : nlohmann::ordered_json({{"before", none}, {"after", none}});
     if constexpr (std::is_same_v<Shape, PolygonMesh>) {
       if (report.boundary)
         json["boundary"]["fairness"] = to_json(fairness_of_boundary(faired.before, faired.after, faired.constraints));

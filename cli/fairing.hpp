@@ -27,6 +27,9 @@ class Fairing {
  public:
   explicit Fairing(const FairingArguments& arguments);
 
+  /// From here on there is a shape to save when the run is interrupted.
+  void input_is_read() noexcept { cancelling_.input_is_read(); }
+
   /// For the calls that this run makes.
   [[nodiscard]] Context& context() noexcept { return context_; }
 
@@ -57,8 +60,8 @@ class Fairing {
   };
 
   /// Writes the files, says what happened, and returns the exit status. input: the nodes that were read. A run that was
-  /// interrupted gets no page, no picture and no scalars, and its report only the figures of measure(): of a large
-  /// shape the others take long.
+  /// interrupted gets no page, no picture and no scalars, and its report only the figures of measure(), of a very large
+  /// shape none: they would take long.
   template <typename Shape>
   int finish(const Faired<Shape>& faired, const std::vector<Vector3>& input, std::vector<std::string> warnings,
              const Made& made);

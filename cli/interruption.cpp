@@ -1,10 +1,13 @@
 #include "interruption.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <csignal>
+
+#include "exit_status.hpp"
 
 namespace vspring::cli {
 
@@ -12,9 +15,11 @@ namespace {
 
 std::atomic<Context*> cancelled_by_signal = nullptr;
 std::atomic<bool> interrupted = false;
+std::atomic<bool> nothing_to_write = false;
 static_assert(std::atomic<Context*>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 extern "C" void cancel(int signal) {
+  if (nothing_to_write.load()) ::_exit(exit_interrupted);
   interrupted.store(true);
   if (Context* context = cancelled_by_signal.load()) context->cancel();
   std::signal(signal, SIG_DFL);
@@ -22,7 +27,8 @@ extern "C" void cancel(int signal) {
 
 }  // namespace
 
-CancelOnSignal::CancelOnSignal(Context& context) {
+CancelOnSignal::CancelOnSignal(Context& context, While now) {
+  nothing_to_write.store(now == While::reading);
   cancelled_by_signal.store(&context);
   std::signal(SIGINT, cancel);
   std::signal(SIGTERM, cancel);
@@ -31,8 +37,11 @@ CancelOnSignal::CancelOnSignal(Context& context) {
 CancelOnSignal::~CancelOnSignal() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
+  nothing_to_write.store(false);
   cancelled_by_signal.store(nullptr);
 }
+
+void CancelOnSignal::input_is_read() noexcept { nothing_to_write.store(false); }
 
 bool was_interrupted() noexcept { return interrupted.load(); }
 

@@ -15,10 +15,16 @@ namespace vspring::cli {
 /// ends the program at once.
 class CancelOnSignal {
  public:
-  explicit CancelOnSignal(Context& context);
+  enum class While { reading, working };
+
+  /// While the input is read there is nothing to write, and the first one ends the program at once, too, with the exit
+  /// status of an interrupted run: until input_is_read().
+  explicit CancelOnSignal(Context& context, While now = While::working);
   ~CancelOnSignal();
   CancelOnSignal(const CancelOnSignal&) = delete;
   CancelOnSignal& operator=(const CancelOnSignal&) = delete;
+
+  void input_is_read() noexcept;
 };
 
 /// Whether Ctrl-C or SIGTERM has come while one of these lived.

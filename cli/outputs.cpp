@@ -92,6 +92,8 @@ void check_outputs(const FairingArguments& arguments, const std::vector<std::pai
                                                        {"--picture", arguments.picture.path},
                                                        {"--html", arguments.html},
                                                        {"--deviation", arguments.deviation}};
+  // Who tries whether a file can be written makes one.
+  const UninterruptedWhileWriting guard;
   for (const auto& view : views) {
     const std::string& path = view.second;
     if (path.empty()) continue;

@@ -129,9 +129,8 @@ nlohmann::ordered_json to_json(const BeforeAndAfter& fairness) {
   return {{"before", to_json(fairness.before)}, {"after", to_json(fairness.after)}};
 }
 
-std::string summary(const FairReport& report, const BeforeAndAfter& fairness, double diagonal,
+std::string summary(const FairReport& report, const std::optional<BeforeAndAfter>& fairness, double diagonal,
                     const FairOptions& options, const Terminal& terminal) {
-  const auto& [before, after] = fairness;
   std::string text = outcome_line(report, options, terminal);
   if (report.iterations > 0) text += fmt::format(" after {} iterations", report.iterations);
   text += fmt::format(", {:.2f} s", report.seconds);
@@ -145,6 +144,8 @@ std::string summary(const FairReport& report, const BeforeAndAfter& fairness, do
       fmt::format("{} of {} nodes moved, by up to {:.4g} ({:.2g} % of the size), root mean square {:.4g} ({:.2g} %)\n",
                   report.moving_nodes, report.nodes, report.greatest_move, report.greatest_move * share,
                   report.rms_move, report.rms_move * share);
+  if (!fairness) return text;
+  const auto& [before, after] = *fairness;
   text += fmt::format("V-Spring energy  {:.4g} → {:.4g}\n", before.vspring_energy, after.vspring_energy);
   text += fmt::format("greatest turn    {:.1f}° → {:.1f}°\n", before.greatest_turn, after.greatest_turn);
   text += fmt::format("rms turn         {:.2f}° → {:.2f}°\n", before.rms_turn, after.rms_turn);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,8 @@ struct BeforeAndAfter {
 [[nodiscard]] nlohmann::ordered_json to_json(const BeforeAndAfter& fairness);
 
 /// What a person wants to know of a run, some lines. diagonal: of the box around the shape, for moves relative to it.
-/// options: that it was given.
-[[nodiscard]] std::string summary(const FairReport& report, const BeforeAndAfter& fairness, double diagonal,
-                                  const FairOptions& options, const Terminal& terminal);
+/// options: that it was given. fairness: none where nobody has looked.
+[[nodiscard]] std::string summary(const FairReport& report, const std::optional<BeforeAndAfter>& fairness,
+                                  double diagonal, const FairOptions& options, const Terminal& terminal);
 
 }  // namespace vspring::cli

@@ -37,6 +37,9 @@ MUTATIONS = {
         ("angle-of-face", "the angle is that of one face", "first_edge = edge;", ""),
         ("face-closing", "the last face of a closed link", "if (!links.front().start()) step(closing_edge, true);", ""),
     ],
+    "src/fairness/hubs.cpp": [
+        ("hub-arc-rise", "an arc with a chord c rises above it by up to c²/4", "(to_b - to_a).squaredNorm() / 4 + margin_on_sphere", "margin_on_sphere"),
+    ],
     "src/spring/surface_force.hpp": [
         ("targets", "places of their own count as much as all neighbours", "target - target.dot(net.normals[i]) * net.normals[i]", "target", "Vector3"),
         ("targets-forgotten", "regularisation to places of their own", "(force.regularisation + across) / regularisation_divisor(net)",

@@ -60,6 +60,7 @@ int run_curve(CurveArguments arguments) {
   settle_by_noise(arguments.pull, before, fairing.context());
   Constraints constraints = make_constraints(arguments, before, {.groups = &file.groups});
   closed.hold(constraints);
+  fairing.input_is_read();
 
   const bool resamples = arguments.resampling.nodes || arguments.resampling.spacing;
   FairedOrFitted done = resamples ? resample_and_fair(arguments, file, constraints, fairing.context())

@@ -56,6 +56,7 @@ int run_fair(FairArguments arguments) {
   const PolygonMesh& mesh = welding.shape(file);
   settle_by_noise(arguments.pull, mesh, fairing.context());
   const Constraints constraints = make_constraints(arguments, mesh, welding.rules(file));
+  fairing.input_is_read();
 
   const FairedOrFitted done =
       fair_or_fit(mesh, constraints, welding.weights(), arguments, arguments.pull, fairing.context());

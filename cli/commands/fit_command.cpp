@@ -78,6 +78,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   std::ranges::copy(points.warnings, std::back_inserter(warnings));
   const bool points_face = !points.normals.empty();
   if (arguments.ignore_normals) points.normals.clear();
+  fairing.input_is_read();
 
   FitResult result = fit(shape, constraints, points, fit_options(arguments.pull, arguments.options), fairing.context());
   const FitAccount account(result.report, arguments.pull, arguments.points, points);

@@ -14,8 +14,8 @@ namespace vspring {
 ///
 /// Each pair once, the smaller face first, in ascending order; the same for every number of threads. Cost: linear
 /// where one direction sees every point once, as of most caps and patches; otherwise n log n, and the number of pairs
-/// of faces with overlapping boxes, which around a node is the square of its faces. When cancelled, only the pairs
-/// found so far.
+/// of faces with overlapping boxes, around a node of very many faces of those whose far edges, seen from it, have. When
+/// cancelled, only the pairs found so far.
 [[nodiscard]] std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh, const Context& context);
 [[nodiscard]] std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh);
 

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
+#include <string_view>
 
+#include "base/cancellation.hpp"
 #include "vspring/context.hpp"
 
 namespace vspring {
 
-/// Tells a context how far a call has come, at most some 20 times a second and never backwards.
+/// Tells a context how far a call has come, when a stage begins and at most some 20 times a second, and never backwards.
 class ProgressReporter {
  public:
   explicit ProgressReporter(const Context& context) : context_(&context) {}
@@ -16,16 +19,17 @@ class ProgressReporter {
     if (!context_->on_progress) return;
     fraction_ = std::max(fraction_, std::clamp(fraction, 0.0, 1.0));
     const auto now = std::chrono::steady_clock::now();
-    if (reported_ && now - last_ < std::chrono::milliseconds(50)) return;
-    reported_ = true;
+    if (stage == stage_ && now - last_ < std::chrono::milliseconds(50)) return;
+    stage_ = stage;
     last_ = now;
+    const UncancelledScope of_others;
     context_->on_progress({stage, fraction_, iteration, residual});
   }
 
  private:
   const Context* context_;
   double fraction_ = 0;
-  bool reported_ = false;
+  std::string stage_;
   std::chrono::steady_clock::time_point last_;
 };
 

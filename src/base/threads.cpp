@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "vspring/context.hpp"
 
 namespace vspring {
@@ -113,7 +114,10 @@ ThreadTeam::~ThreadTeam() {
 
 void ThreadTeam::run(std::size_t count, const std::function<void(std::size_t)>& task) {
   if (size_ < 2 || count < 2) {
-    for (std::size_t k = 0; k < count; ++k) task(k);
+    for (std::size_t k = 0; k < count; ++k) {
+      end_if_cancelled();
+      task(k);
+    }
     return;
   }
   int missing = 0;
@@ -150,6 +154,7 @@ void ThreadTeam::take_tasks(const std::function<void(std::size_t)>& task, std::s
     const std::size_t k = next_.fetch_add(1, std::memory_order_relaxed);
     if (k >= count) return;
     try {
+      end_if_cancelled();
       task(k);
     } catch (...) {
       // Others are still at their tasks, and what these read must stay until they are done.

@@ -29,7 +29,8 @@ class ThreadTeam {
   [[nodiscard]] static std::size_t calls_for_help() noexcept;
 
   /// Calls task(k) for k from 0 to count − 1 and returns when all are done. Where one throws, those that have not begun
-  /// are left out, and what it threw, or another did, is thrown here when nobody works any more.
+  /// are left out, and what it threw, or another did, is thrown here when nobody works any more. Before each of its
+  /// tasks the calling thread looks whether it is to end (end_if_cancelled()).
   void run(std::size_t count, const std::function<void(std::size_t)>& task);
 
  private:

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "fairness/self_intersections.hpp"
 #include "shape/box_tree.hpp"
 
@@ -63,17 +64,22 @@ PolygonMesh part_of(const PolygonMesh& mesh, const std::vector<Index>& faces, co
 
 std::string new_crossings(const PolygonMesh& mesh, const std::vector<Vector3>& positions, const Context& context,
                           ThreadTeam& team) {
-  if (context.cancelled()) return {};
-  const std::vector<Index> numbers = faces_around_what_moved(mesh, positions, team);
-  PolygonMesh part = part_of(mesh, numbers, positions);
-  const auto now = self_intersections(part, context, team);
-  if (now.empty() || context.cancelled()) return {};
-  part.set_positions(mesh.positions());
-  const std::size_t before = self_intersections(part, context, team).size();
-  if (now.size() <= before || context.cancelled()) return {};
-  const auto number = [&](Index face) { return numbers[static_cast<std::size_t>(face)]; };
-  return fmt::format("{} pairs of faces cross each other ({} and {}, for one), {} did before", now.size(),
-                     number(now.front().first), number(now.front().second), before);
+  try {
+    const CancellationScope cancellation(context);
+    end_if_cancelled();
+    const std::vector<Index> numbers = faces_around_what_moved(mesh, positions, team);
+    PolygonMesh part = part_of(mesh, numbers, positions);
+    const auto now = self_intersections(part, context, team);
+    if (now.empty() || context.cancelled()) return {};
+    part.set_positions(mesh.positions());
+    const std::size_t before = self_intersections(part, context, team).size();
+    if (now.size() <= before || context.cancelled()) return {};
+    const auto number = [&](Index face) { return numbers[static_cast<std::size_t>(face)]; };
+    return fmt::format("{} pairs of faces cross each other ({} and {}, for one), {} did before", now.size(),
+                       number(now.front().first), number(now.front().second), before);
+  } catch (const Cancelled&) {
+    return {};
+  }
 }
 
 }  // namespace vspring

@@ -41,7 +41,8 @@ class ResultCheck {
   /// three times the V-Spring energy (but where bending is to be least), 1.5 times that of a curve that is bent more,
   /// or of a surface over 1.3 times the bending, or 2.5 times that without noise; where directions hold it, over 1.3
   /// times of both. Updates directions. Cost: linear.
-  [[nodiscard]] std::string fault(Net& now) const;
+  /// in_haste: without a look at the bending without noise, which takes as long as all else.
+  [[nodiscard]] std::string fault(Net& now, bool in_haste = false) const;
 
   /// The same where what is held has been moved since, which the energy depends on: without a look at that. Updates
   /// nothing.

@@ -19,9 +19,9 @@ std::string distance_from_equilibrium(const FairReport& report) {
   return fmt::format("expected to be {:.2g} % of the size away from one", 100 * *report.expected_error);
 }
 
-void count_nodes(const Net& net, const Constraints& constraints, FairReport& report) {
+void count_nodes(std::size_t moving, const Constraints& constraints, FairReport& report) {
   report.nodes = constraints.node_count();
-  report.moving_nodes = static_cast<Index>(net.moving);
+  report.moving_nodes = static_cast<Index>(moving);
   for (Index i = 0; i < constraints.node_count(); ++i) {
     report.fixed_positions += constraints.position_fixed(i) ? 1 : 0;
     report.fixed_normals += constraints.normal_fixed(i) ? 1 : 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "spring/net.hpp"
@@ -10,8 +11,8 @@ namespace vspring {
 /// Of the box around the net, in its coordinates.
 double diagonal(const Net& net);
 
-/// Fills the counts of a report.
-void count_nodes(const Net& net, const Constraints& constraints, FairReport& report);
+/// Fills the counts of a report on a shape of which so many nodes move.
+void count_nodes(std::size_t moving, const Constraints& constraints, FairReport& report);
 
 /// Fills how far nodes moved between the shape that went in and the one that comes out.
 void measure_moves(const Net& net, const std::vector<Vector3>& before, const std::vector<Vector3>& after,

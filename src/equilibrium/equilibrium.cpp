@@ -5,6 +5,7 @@
 #include <limits>
 #include <variant>
 
+#include "base/cancellation.hpp"
 #include "equilibrium/account.hpp"
 #include "equilibrium/best_iterate.hpp"
 #include "equilibrium/largest_turn.hpp"
@@ -57,6 +58,23 @@ class Solver {
   EquilibriumResult run(const EquilibriumTask& task, Context& context) {
     EquilibriumResult result;
     BestIterate best(net_, 1);
+    try {
+      const CancellationScope cancellation(context);
+      iterate(task, context, result, best);
+    } catch (const Cancelled&) {
+      forget();
+      result.outcome = Outcome::cancelled;
+    }
+    if (result.outcome == Outcome::converged) return result;
+    if (result.outcome == Outcome::iteration_limit && result.work + 1 > task.most_work)
+      result.outcome = Outcome::work_limit;
+    result.expected_error = std::min(best.restore(), expected_);
+    return result;
+  }
+
+ private:
+  /// Leaves what was found in the net and in the result, and the shape of the smallest residual in `best`.
+  void iterate(const EquilibriumTask& task, Context& context, EquilibriumResult& result, BestIterate& best) {
     double before = 0;
     double rate_before = 0;
     double last_step = 0;
@@ -64,12 +82,14 @@ class Solver {
     int lost = 0;
     const double shape_size = diagonal(net_);
     const int most_lost = net_.moving < few_nodes ? lost_patience_of_few : lost_patience;
-    double expected = std::numeric_limits<double>::infinity();
     // Where points change over to other nodes, what was found before does not hold any more.
     int changes = 0;
     int changes_from_far = 0;
     const auto renew_ties = [&](bool far) {
-      if (!task.renew_ties || !task.renew_ties(margin_after(changes))) return false;
+      if (!task.renew_ties) return false;
+      // Ties that are half made would belong to no shape.
+      const UncancelledScope whole;
+      if (!task.renew_ties(margin_after(changes))) return false;
       if (far) ++changes_from_far;
       if (!far || changes_from_far > free_changes) ++changes;
       forget();
@@ -101,15 +121,15 @@ class Solver {
       // Corrections shrink about geometrically. Never by less than half: then a shape that was once near enough still
       // is when it is looked at without its history.
       const double rate = std::clamp(before > 0 ? size / before : 0, 0.5, 0.75);
-      expected = size / (1 - rate);
-      without_gain = expected < 0.7 * best.residual() ? 0 : without_gain + 1;
-      best.look(expected);
-      if (task.on_iteration) task.on_iteration(expected);
+      expected_ = size / (1 - rate);
+      without_gain = expected_ < 0.7 * best.residual() ? 0 : without_gain + 1;
+      best.look(expected_);
+      if (task.on_iteration) task.on_iteration(expected_);
       const double turn = largest_turn(net_, correction_, team_);
       accelerate(turn);
       const double step = largest_correction();
       // The last step is not taken: what it says of the shape is true of the shape before it.
-      if (expected < task.tolerance && turn <= greatest_turn) {
+      if (expected_ < task.tolerance && turn <= greatest_turn) {
         const double left = last_step > 0 ? std::min(step / last_step, greatest_rate) : greatest_rate;
         // Corrections that shrink by fits and starts are as slow as the slower one.
         const double slower = size / (1 - std::max(rate, rate_before));
@@ -122,13 +142,13 @@ class Solver {
           }
           result.outcome = Outcome::converged;
           result.expected_error = error;
-          return result;
+          return;
         }
       }
       limited = take_step(turn);
       last_step = limited ? 0 : step;
       if (limited) without_gain = 0;
-      lost = expected > shape_size ? lost + 1 : 0;
+      lost = expected_ > shape_size ? lost + 1 : 0;
       before = limited ? 0 : size;
       rate_before = limited ? 0 : rate;
       if (without_gain >= patience || lost >= most_lost) {
@@ -136,13 +156,8 @@ class Solver {
         break;
       }
     }
-    if (result.outcome == Outcome::iteration_limit && result.work + 1 > task.most_work)
-      result.outcome = Outcome::work_limit;
-    result.expected_error = std::min(best.restore(), expected);
-    return result;
   }
 
- private:
   /// Curves are taken nearer to where rounding has the last word; surfaces may be large.
   static std::variant<Anderson<float>, Anderson<double>> history(const Net& net, ThreadTeam& team) {
     if (!net.is_curve) return Anderson<float>(acceleration_depth, net.moving, team);
@@ -202,6 +217,7 @@ class Solver {
   std::variant<Anderson<float>, Anderson<double>> anderson_;
   Anderson<float>* memory_;
   std::vector<Vector3> correction_;
+  double expected_ = std::numeric_limits<double>::infinity();  ///< error of the last shape looked at
 };
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "equilibrium/relaxation.hpp"
 #include "equilibrium/sweep_method.hpp"
 #include "spring/spacing.hpp"
@@ -74,12 +75,23 @@ class EquilibriumSearch : private Relaxation {
     if (context_.cancelled() || task_.method.max_iterations == 0) return;
     if (!points_) keep_input(check);
     displacements_ = greatest_displacements(shape());
-    for (const Strategy& strategy : strategies) {
-      if (!(this->*strategy.applies)()) continue;
-      set_strategy(strategy.name);
-      (this->*strategy.run)();
+    try {
+      for (const Strategy& strategy : strategies) {
+        if (!(this->*strategy.applies)()) continue;
+        set_strategy(strategy.name);
+        (this->*strategy.run)();
+      }
+    } catch (const Cancelled&) {
+      report_.outcome = Outcome::cancelled;
     }
-    if (check) stay_sound(*check);
+    if (report_.outcome == Outcome::cancelled) hand_up_roughly();
+    if (check && !(task_.is_try && report_.outcome == Outcome::cancelled)) {
+      try {
+        stay_sound(*check);
+      } catch (const Cancelled&) {
+        report_.outcome = Outcome::cancelled;
+      }
+    }
     // Limits that nobody gave.
     if (!task_.method.max_iterations && report_.outcome == Outcome::iteration_limit)
       report_.outcome = Outcome::work_limit;
@@ -120,6 +132,7 @@ class EquilibriumSearch : private Relaxation {
     std::vector<Eigen::Vector3f> own_start;
     const std::size_t first = hierarchy_.first_of_use();
     for (std::size_t k = first; k <= last(); ++k) {
+      level_ = k;
       tie_points(k);
       relax_on_way(k, k == first ? std::min(limit, first_try) : limit);
       if (k == first && limit > first_try && unfinished()) {
@@ -129,9 +142,10 @@ class EquilibriumSearch : private Relaxation {
         relax(k, limit);
       }
       if (!own_start.empty() && ((unfinished() && lost()) || has_crease(k))) try_own_start(k, own_start, limit);
-      if (k == last()) break;
+      if (k == last() || report_.outcome == Outcome::cancelled) break;
       if (points_ && unfinished() && lost()) {
         // Points too far out for this level: finer ones do better from the start itself.
+        level_.reset();
         tie_points(last());
         relax(last(), limit);
         break;
@@ -142,6 +156,16 @@ class EquilibriumSearch : private Relaxation {
         own_start = rounded(finer, k + 1 == last() && is_folded ? rest_positions(finer, team_) : finer.positions);
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
+    }
+    if (report_.outcome != Outcome::cancelled) level_.reset();
+  }
+
+  /// What was found before somebody cancelled, on the shape itself.
+  void hand_up_roughly() {
+    if (!level_) return;
+    for (std::size_t k = *level_; k < last(); ++k) {
+      update_directions(hierarchy_.net(k), model_, team_);
+      hierarchy_.prolong_roughly_from(k);
     }
   }
 
@@ -201,7 +225,7 @@ class EquilibriumSearch : private Relaxation {
 
   /// What is worse with the shape than with the start; empty where nothing is.
   std::string fault(const ResultCheck& check) {
-    std::string fault = check.fault(shape());
+    std::string fault = check.fault(shape(), report_.outcome == Outcome::cancelled);
     lost_winding_ = fault.empty() && !points_ && hierarchy_.lost_winding(*input_);
     if (lost_winding_)
       fault = has_looked_for_winding_
@@ -245,7 +269,12 @@ class EquilibriumSearch : private Relaxation {
     for (const Start& start : starts) {
       if (was_cancelled || out_of_work(net)) break;
       net.positions = *input_;
-      start.go();
+      try {
+        start.go();
+      } catch (const Cancelled&) {
+        report_.outcome = Outcome::cancelled;
+        break;
+      }
       set_strategy(start.name);
       relax(last(), task_.method.max_iterations.value_or(default_limit));
       if (report_.outcome == Outcome::cancelled) break;
@@ -391,6 +420,7 @@ class EquilibriumSearch : private Relaxation {
   FairReport& report_;
   std::shared_ptr<const std::vector<Vector3>> input_ = std::make_shared<const std::vector<Vector3>>();
   Displacements displacements_;
+  std::optional<std::size_t> level_;  ///< while coarser ones are worked on, the one that the shape was handed up to
   bool came_from_coarse_ = false;
   bool has_looked_for_winding_ = false;
   bool lost_winding_ = false;  ///< what fault() found last

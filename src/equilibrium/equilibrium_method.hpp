@@ -18,6 +18,7 @@ struct SearchTask {
   EquilibriumMethod method;
   std::optional<Distribution> distribution;  ///< as in FairOptions
   bool as_found = false;                     ///< likewise
+  bool is_try = false;  ///< whoever asks looks at what there is when it is cancelled, which is not looked at here
 };
 
 /// By the options of a shape whose method is EquilibriumMethod.

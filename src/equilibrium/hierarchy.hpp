@@ -45,6 +45,8 @@ class Hierarchy {
   void restrict_from(std::size_t level) { restrict_shape(levels_[level], levels_[level - 1]); }
   /// Hands the shape of a level up to the next finer one. Needs directions on it.
   virtual void prolong_from(std::size_t level) = 0;
+  /// The same in a hurry.
+  virtual void prolong_roughly_from(std::size_t level) { prolong_from(level); }
 
   /// Hands the start down to all levels without its noise, and makes it fit to start from on the coarsest.
   virtual void start() = 0;

@@ -50,7 +50,10 @@ class Cycle {
       if (result.lost) lost_ = true;
       if (k == finest) break;
       update_directions(hierarchy_.net(k), model_, team_);
-      hierarchy_.prolong_from(k);
+      if (context_.cancelled())
+        hierarchy_.prolong_roughly_from(k);
+      else
+        hierarchy_.prolong_from(k);
     }
     if (lost_) warn_of_growing_steps(report_);
     say_if_cut_short(limit);

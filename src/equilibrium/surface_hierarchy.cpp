@@ -51,7 +51,7 @@ Preconditioner& SurfaceHierarchy::kept_preconditioner() {
 void SurfaceHierarchy::make_systems(std::size_t level) {
   // Nodes that slide take their neighbours with them: shares hold for as long as the level is worked on.
   if (systems_of_ == level) return;
-  systems_of_ = level;
+  systems_of_.reset();
   preconditioner_.reset();
   spreading_.reset();
   system_levels_ = {.net = &levels_[level].net};
@@ -62,6 +62,7 @@ void SurfaceHierarchy::make_systems(std::size_t level) {
   }
   rigid_modes_.emplace(levels_[level].net);
   spreading_ = spreading_solver(system_levels_, *team_, !rigid_modes_->needed());
+  systems_of_ = level;
 }
 
 void SurfaceHierarchy::start() {
@@ -99,6 +100,11 @@ void SurfaceHierarchy::prolong_from(std::size_t level) {
   spread_along(fine.net, *spreading_, *rigid_modes_, *team_);
   coarse.net.spheres = {};
   take_springs_of(finest(), fine.net);
+}
+
+void SurfaceHierarchy::prolong_roughly_from(std::size_t level) {
+  systems_of_.reset();
+  prolong_surface(levels_[level], levels_[level + 1], *team_);
 }
 
 std::vector<Vector3> SurfaceHierarchy::step_of_held(const Constraints& constraints) const {

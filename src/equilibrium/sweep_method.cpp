@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/cancellation.hpp"
 #include "equilibrium/best_iterate.hpp"
 #include "sweep/sweep.hpp"
 
@@ -47,7 +48,14 @@ SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& tas
     }
     const bool fresh = !task.renew_ties || at_rest || result.iterations % sweeps_per_tie == 0;
     if (task.renew_ties && fresh) task.renew_ties();
-    result.residual = sweep.iterate();
+    try {
+      const CancellationScope cancellation(context);
+      result.residual = sweep.iterate();
+    } catch (const Cancelled&) {
+      // Nodes that the sweep has not come to stay, as in any shape on the way.
+      result.outcome = Outcome::cancelled;
+      break;
+    }
     ++result.iterations;
     best.look(result.residual);
     if (task.on_iteration) task.on_iteration(result.residual);

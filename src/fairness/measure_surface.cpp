@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "base/degrees.hpp"
 #include "base/progress.hpp"
 #include "fairness/counted.hpp"
@@ -148,6 +149,7 @@ class SurfaceMeasurement {
 
   /// The figures of those that were added, in their order.
   std::vector<SurfaceFigures> measure() {
+    const CancellationScope cancellation(context_);
     {
       const FairnessMeter meter(mesh_, constraints_, team_);
       for (Measured& shape : shapes_)
@@ -302,11 +304,16 @@ class SurfaceMeasurement {
   std::vector<Measured> shapes_;
 };
 
+/// None where somebody cancels.
 SurfaceFigures measure_one(const PolygonMesh& mesh, const Constraints* constraints,
                            std::span<const NodeCurvature> curvatures, const Context& context) {
-  SurfaceMeasurement measurement(mesh, constraints, context);
-  measurement.add(mesh, curvatures);
-  return measurement.measure().front();
+  try {
+    SurfaceMeasurement measurement(mesh, constraints, context);
+    measurement.add(mesh, curvatures);
+    return measurement.measure().front();
+  } catch (const Cancelled&) {
+    return {};
+  }
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ class FitRun {
 
   Net gather() {
     Net net = subject.gather();
-    count_nodes(net, subject.constraints(), result.report.fair);
+    count_nodes(net.moving, subject.constraints(), result.report.fair);
     return net;
   }
 

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/fit_to_tolerance.hpp"
 #include "scan/denoise.hpp"
@@ -99,8 +100,13 @@ class NoisyNodes {
   [[nodiscard]] Net without(double noise) const {
     Net result = net_;
     const double deviation = std::clamp(noise * net_.frame.scale(), least_deviation, most_deviation);
-    result.positions = without_noise(
-        mesh_, net_.positions, known_, deviation, [&] { return run_.context.cancelled(); }, run_.team);
+    try {
+      const CancellationScope cancellation(run_.context);
+      result.positions = without_noise(
+          mesh_, net_.positions, known_, deviation, [&] { return run_.context.cancelled(); }, run_.team);
+    } catch (const Cancelled&) {
+      // As it came: of one that is half filtered nobody knows what it is.
+    }
     return result;
   }
 

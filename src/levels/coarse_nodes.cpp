@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <limits>
 
+#include "base/cancellation.hpp"
+
 namespace vspring {
 
 namespace {
@@ -102,6 +104,7 @@ class IndependentSet {
       const bool later = next_ == front_.size();
       if (later && next_later_ == later_.size()) return;
       const std::uint32_t i = later ? later_[next_later_++] : front_[next_++];
+      end_if_cancelled_at(i);
       if (state_[i] == State::waiting) keep(i);
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/cancellation.hpp"
 #include "levels/coarse_nodes.hpp"
 
 namespace vspring {
@@ -46,6 +47,7 @@ class Coarsening {
     for (int pass = 0; pass < most_passes; ++pass) {
       std::size_t flips = 0;
       for (std::size_t i = 0; i < triangulation_.size(); ++i) {
+        end_if_cancelled_at(i);
         if (kept_[i] != 0 && triangulation_.kind(i) != Triangulation::Kind::fixed) flips += flip_around(i);
       }
       if (flips == 0) return;
@@ -59,6 +61,7 @@ class Coarsening {
       std::size_t left = 0;
       const std::size_t before = waiting.size();
       for (const std::uint32_t i : waiting) {
+        end_if_cancelled_at(i);
         if (!allowed(i)) continue;
         const std::size_t place = best_place(i, pass > 0);
         if (place == none) {

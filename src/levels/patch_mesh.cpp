@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/cancellation.hpp"
+
 namespace vspring {
 
 namespace {
@@ -157,6 +159,7 @@ PolygonMesh triangulated_patch(const Net& net) {
     add_triangles(net, triangles);
   else
     cut_polygons(net, triangles);
+  end_if_cancelled();
   return std::move(triangles).take(net.positions);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/cancellation.hpp"
 #include "levels/coarse_nodes.hpp"
 #include "levels/patch_mesh.hpp"
 #include "spring/spacing.hpp"
@@ -66,7 +67,10 @@ Net coarse_net(const Net& fine, const Selection& selection, const Triangulation&
   }
   net.rings.reserve(net.computed, 7 * net.computed);
   std::vector<Link> links;
-  for (std::size_t i = 0; i < net.computed; ++i) coarse.add_links(i, links, net.rings);
+  for (std::size_t i = 0; i < net.computed; ++i) {
+    end_if_cancelled_at(i);
+    coarse.add_links(i, links, net.rings);
+  }
   net.frame = fine.frame;
   net.tiny = fine.tiny;
   return net;
@@ -100,7 +104,9 @@ std::vector<Level> surface_levels(Net net, const Model& model, Distribution dist
     for (std::size_t i = 0; i < constrained.size(); ++i)
       constrained[i] = static_cast<std::uint8_t>(i >= fine.moving || fine.given[i] != 0);
     std::vector<std::uint8_t> kept = choose_coarse_nodes(triangulation, constrained, places);
+    end_if_cancelled();
     std::vector<Removals> removals = coarsen(triangulation, kept, team, places);
+    end_if_cancelled();
     Selection selection = select(fine, triangulation, kept, levels.front().net.spheres.on());
     const bool smaller = static_cast<double>(selection.nodes.size()) <= worthwhile * static_cast<double>(kept.size());
     if (!smaller || selection.moving < too_few) break;

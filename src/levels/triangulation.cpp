@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/cancellation.hpp"
+
 namespace vspring {
 
 namespace {
@@ -27,6 +29,7 @@ Triangulation::Triangulation(const PolygonMesh& mesh, ThreadTeam& team) {
   // Every chain of faces has one more link than it has faces.
   for (std::size_t i = 0; i < nodes; ++i)
     needed[i] = 2 * static_cast<std::uint32_t>(incidence.corners(static_cast<Index>(i)).size());
+  end_if_cancelled();
   make_room(needed);
   parallel_ranges(team, nodes, light_nodes_per_task, [&](std::size_t begin, std::size_t end) {
     FanWalker walker(mesh, incidence);

@@ -2,6 +2,9 @@
 
 #include <limits>
 #include <utility>
+#include <vector>
+
+#include "base/cancellation.hpp"
 
 namespace vspring {
 
@@ -15,8 +18,61 @@ constexpr double work_of_entries = 5e-3;
 
 }  // namespace
 
+// Row by row of L, each a solution with what there is of it, the columns in the order of the elimination tree: T. A.
+// Davis, "Algorithm 849: a concise sparse Cholesky factorization package", ACM Transactions on Mathematical Software
+// 31(4), 2005. Eigen's own does the same operations in the same order.
+void CholeskySolver::Factor::factorize(const Matrix& matrix) {
+  const auto size = static_cast<int>(matrix.rows());
+  Matrix permuted(size, size);
+  permuted.selfadjointView<Eigen::Upper>() = matrix.selfadjointView<Eigen::Lower>().twistedBy(m_P);
+  const int* const begin = m_matrix.outerIndexPtr();
+  int* const rows = m_matrix.innerIndexPtr();
+  double* const values = m_matrix.valuePtr();
+  std::vector<double> row(static_cast<std::size_t>(size), 0);
+  std::vector<int> pattern(static_cast<std::size_t>(size));
+  std::vector<int> reached_from(static_cast<std::size_t>(size), -1);
+  m_diag.resize(size);
+  m_info = Eigen::Success;
+  for (int k = 0; k < size; ++k) {
+    end_if_cancelled();
+    std::size_t top = pattern.size();
+    reached_from[static_cast<std::size_t>(k)] = k;
+    m_nonZerosPerCol[k] = 0;
+    for (Matrix::InnerIterator entry(permuted, k); entry; ++entry) {
+      auto column = static_cast<int>(entry.index());
+      row[static_cast<std::size_t>(column)] += entry.value();
+      std::size_t length = 0;
+      for (; reached_from[static_cast<std::size_t>(column)] != k; column = m_parent[column]) {
+        pattern[length++] = column;
+        reached_from[static_cast<std::size_t>(column)] = k;
+      }
+      while (length > 0) pattern[--top] = pattern[--length];
+    }
+    double pivot = row[static_cast<std::size_t>(k)] + m_shiftOffset;
+    row[static_cast<std::size_t>(k)] = 0;
+    for (; top < pattern.size(); ++top) {
+      const int column = pattern[top];
+      const double above = std::exchange(row[static_cast<std::size_t>(column)], 0);
+      const double entry = above / m_diag[column];
+      const int end = begin[column] + m_nonZerosPerCol[column];
+      for (int place = begin[column]; place < end; ++place)
+        row[static_cast<std::size_t>(rows[place])] -= values[place] * above;
+      pivot -= entry * above;
+      rows[end] = k;
+      values[end] = entry;
+      ++m_nonZerosPerCol[column];
+    }
+    m_diag[k] = pivot;
+    if (pivot == 0) {
+      m_info = Eigen::NumericalIssue;
+      break;
+    }
+  }
+  m_factorizationIsOk = true;
+}
+
 void CholeskySolver::build(const SparseRows& rows) {
-  const Eigen::SparseMatrix<double> matrix = rows.to_eigen();
+  const Matrix matrix = rows.to_eigen();
   // As many entries at other places would be written beyond the factor's memory.
   std::vector<int> pattern(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1);
   pattern.insert(pattern.end(), matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
@@ -34,7 +90,7 @@ void CholeskySolver::build(const SparseRows& rows) {
 
 double CholeskySolver::work_of_building() const {
   if (factor_.info() != Eigen::Success || factor_.rows() == 0) return 0;
-  const Eigen::SparseMatrix<double>& factor = factor_.matrixL().nestedExpression();
+  const Matrix& factor = factor_.matrixL().nestedExpression();
   const double per_node = static_cast<double>(factor.nonZeros()) / static_cast<double>(factor.rows());
   return per_node * per_node * work_of_products + per_node * work_of_entries;
 }

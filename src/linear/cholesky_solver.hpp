@@ -28,8 +28,15 @@ class CholeskySolver final : public LinearSolver {
   /// Not numbers where there is no factor.
   [[nodiscard]] Eigen::VectorXd solution(const Eigen::VectorXd& column) const;
 
+  using Matrix = Eigen::SparseMatrix<double>;
+  /// Eigen's, but that factorising ends where it is cancelled: of rows with very many entries that takes long.
+  class Factor : public Eigen::SimplicialLDLT<Matrix, Eigen::Lower, Eigen::AMDOrdering<int>> {
+   public:
+    void factorize(const Matrix& matrix);
+  };
+
   ThreadTeam* team_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> factor_;
+  Factor factor_;
   std::vector<int> ordered_pattern_;  ///< where columns begin, and rows
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "base/threads.hpp"
 
 namespace vspring {
@@ -36,6 +37,8 @@ class BasicSparseRows {
     const auto make = [&](std::size_t begin, std::size_t end, Row& run) {
       auto worker = make_worker();
       for (std::size_t i = begin; i < end; ++i) {
+        // At a node of very many neighbours a row takes long.
+        end_if_cancelled();
         const std::size_t before = run.size();
         worker(i, run);
         matrix.begin_[i + 1] = static_cast<std::uint32_t>(run.size() - before);

@@ -86,11 +86,13 @@ bool SurfacePreconditioner::refresh(const Model& model) {
   }
   const bool pulled_otherwise = stiffness_.renew(*net_, model, *team_);
   if (fits && !pulled_otherwise) return false;
-  built_weight_ = weight_;
+  // What is not built to its end is built anew the next time.
+  built_weight_.clear();
   std::vector<double> pull(stiffness_.values().begin(), stiffness_.values().end());
   for (std::size_t i = 0; i < pull.size(); ++i)
     pull[i] = static_cast<double>(weight_[i]) / factor_ * std::min(pull[i], stiffest);
   bending_.build(pull, pulled_otherwise);
+  built_weight_ = weight_;
   return true;
 }
 

@@ -34,8 +34,9 @@ void BendingSystem::build(std::span<const double> pull, bool pulled_otherwise) {
     multigrid_->replace_finest(std::move(matrix));
     return;
   }
-  multigrid_ = std::make_unique<MultigridSolver>(levels_->interpolations, *team_);
-  multigrid_->build(std::move(matrix));
+  auto solver = std::make_unique<MultigridSolver>(levels_->interpolations, *team_);
+  solver->build(std::move(matrix));
+  multigrid_ = std::move(solver);
 }
 
 void BendingSystem::solve(std::span<double> values, const Accuracy& accuracy) {

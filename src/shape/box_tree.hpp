@@ -39,16 +39,25 @@ class BoxTree {
   [[nodiscard]] const Box& leaf_box(std::size_t leaf) const { return tree_[leaves_ - 1 + leaf]; }
   [[nodiscard]] const Box& box(Index item) const { return boxes_[static_cast<std::size_t>(item)]; }
 
+  /// Around all of them.
+  [[nodiscard]] const Box& whole() const { return tree_.front(); }
+
   /// use(leaf) for every leaf from `first_leaf` on whose box overlaps `box`, in ascending order.
   template <typename Use>
   void for_each_overlapping_leaf(const Box& box, std::size_t first_leaf, const Use& use) const {
+    for_each_leaf([&](const Box& other) { return other.intersects(box); }, first_leaf, use);
+  }
+
+  /// The same for leaves whose box meets something. meets(box): false only where nothing in the box meets it.
+  template <typename Meets, typename Use>
+  void for_each_leaf(const Meets& meets, std::size_t first_leaf, const Use& use) const {
     if (boxes_.empty()) return;
     std::array<Place, most_levels> stack;
     std::size_t height = 0;
     stack[height++] = {0, 0, leaves_};
     while (height > 0) {
       const Place place = stack[--height];
-      if (place.leaf + place.leaves <= first_leaf || !tree_[place.node].intersects(box)) continue;
+      if (place.leaf + place.leaves <= first_leaf || !meets(tree_[place.node])) continue;
       if (place.leaves == 1) {
         use(place.leaf);
       } else {

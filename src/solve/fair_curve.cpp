@@ -30,7 +30,7 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
   ThreadTeam team(context.thread_count());
   report.threads = team.size();
   Net net = gather_net(curve, constraints);
-  count_nodes(net, constraints, report);
+  count_nodes(net.moving, constraints, report);
 
   const auto model = model_of(net, options);
   const ResultCheck check(net, *model, team);

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 
+#include "base/cancellation.hpp"
 #include "base/stopwatch.hpp"
 #include "checks/new_crossings.hpp"
 #include "checks/spring_energy.hpp"
@@ -75,7 +77,9 @@ SurfaceFairing::SurfaceFairing(const PolygonMesh& mesh, const FairOptions& optio
 FairResult SurfaceFairing::fair_once(const Constraints& constraints, Context& context) {
   const Stopwatch stopwatch;
   FairResult result;
-  Net net = run(constraints, context, result.report, options_);
+  std::optional<Net> made = run(constraints, context, result.report, options_);
+  if (!made) return unchanged(constraints, result, stopwatch);
+  Net net = std::move(*made);
   if (hierarchy_) net = std::move(*hierarchy_).take();
   hierarchy_.reset();
   if (crosses_itself(net, constraints, context, result.report)) {
@@ -98,11 +102,12 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
     result = {};
     last_.reset();
     hierarchy_.reset();
-    const Net net = run(constraints, context, result.report, tolerance ? in_a_hurry(options_) : options_);
+    const auto net = run(constraints, context, result.report, tolerance ? in_a_hurry(options_) : options_);
+    if (!net) return unchanged(constraints, result, stopwatch);
     if (!hierarchy_) {
       went_astray_ = false;
-      (void)crosses_itself(net, constraints, context, result.report);
-      finish(net, constraints, result);
+      (void)crosses_itself(*net, constraints, context, result.report);
+      finish(*net, constraints, result);
       result.report.seconds = stopwatch.seconds();
       return result;
     }
@@ -148,8 +153,8 @@ bool SurfaceFairing::fits_last(const Constraints& constraints) const {
   return true;
 }
 
-Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report,
-                        const FairOptions& options) {
+std::optional<Net> SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report,
+                                       const FairOptions& options) {
   part_ = active_submesh(*whole_, constraints);
   report.warnings = check_part(*whole_, part_, constraints);
   report.method = options.method_kind();
@@ -157,13 +162,39 @@ Net SurfaceFairing::run(const Constraints& constraints, Context& context, FairRe
   progress.report("preparing", 0);
   report.threads = team_.size();
   const SolverCall call{team_, context, progress, report};
-  if (const auto* const method = std::get_if<EquilibriumMethod>(&options.method)) {
-    run_to_equilibrium(constraints, {call, options, *method});
-    return {};
+  try {
+    const CancellationScope cancellation(context);
+    if (const auto* const method = std::get_if<EquilibriumMethod>(&options.method)) {
+      run_to_equilibrium(constraints, {call, options, *method});
+      return Net();
+    }
+    Net net = gather_part(*whole_, part_, constraints);
+    check_.emplace(net, *model_, team_);
+    return run_papers_method(std::move(net), *model_, *check_, options, call);
+  } catch (const Cancelled&) {
+    hierarchy_.reset();
+    report.outcome = Outcome::cancelled;
+    return std::nullopt;
   }
-  Net net = gather_part(*whole_, part_, constraints);
-  check_.emplace(net, *model_, team_);
-  return run_papers_method(std::move(net), *model_, *check_, options, call);
+}
+
+FairResult SurfaceFairing::unchanged(const Constraints& constraints, FairResult& result,
+                                     const Stopwatch& stopwatch) const {
+  std::vector<std::uint8_t> in_faces(whole_->positions().size(), 0);
+  for (const Index i : whole_->corners()) in_faces[static_cast<std::size_t>(i)] = 1;
+  std::size_t moving = 0;
+  result.positions = whole_->positions();
+  for (Index i = 0; i < constraints.node_count(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (constraints.position_fixed(i))
+      result.positions[k] = constraints.position(i);
+    else
+      moving += in_faces[k];
+  }
+  count_nodes(moving, constraints, result.report);
+  result.report.faces = whole_->face_count();
+  result.report.seconds = stopwatch.seconds();
+  return std::move(result);
 }
 
 void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const EquilibriumCall& call) {
@@ -215,10 +246,10 @@ void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constr
     // Whoever gives a number of iterations, or asks for what is found, gets that; edge springs come second else, and
     // after least bending curvature does.
     const bool is_try = is_sphere && !call.method.max_iterations && !options.as_found;
-    const SearchTask task = {call.method, options.distribution, is_try || options.as_found};
+    const SearchTask task = {call.method, options.distribution, is_try || options.as_found, is_try};
     FairReport one = report;
     run_equilibrium(*hierarchy_, *model_, task, {team_, call.context, call.progress, one}, &*check_);
-    if (is_try && one.outcome == Outcome::cancelled) go_back_if_worse(constraints, one);
+    if (is_try && one.outcome == Outcome::cancelled) go_back_if_worse(one);
     one.springs = springs;
     one.fair_by = by_bending ? FairBy::bending : FairBy::curvature;
     if (!is_try || by_bending || is_final(one)) {
@@ -234,15 +265,20 @@ void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constr
         {WarningCode::other_springs, "sphere springs have no equilibrium here: these are edge springs"});
 }
 
-void SurfaceFairing::go_back_if_worse(const Constraints& constraints, FairReport& report) {
-  Net& found = hierarchy_->finest();
-  Net input = gather_part(*whole_, part_, constraints, true);
-  if (found.positions == input.positions) return;
-  const std::string fault = check_->fault(found);
-  if (fault.empty() || (!check_->fault_of_places(input).empty() && check_->misplaced(found).empty())) return;
-  found.positions = std::move(input.positions);
-  // In place of what is said of the shape that was found.
-  std::erase_if(report.warnings, [](const Warning& warning) { return warning.code == WarningCode::worse_than_input; });
+void SurfaceFairing::go_back_if_worse(FairReport& report) {
+  Net& net = hierarchy_->finest();
+  std::vector<Vector3> others = net.positions;
+  for (std::size_t i = 0; i < net.moving; ++i) others[i] = net.frame.to_local(whole_->position(net.node[i]));
+  if (net.positions == others) return;
+  const std::string fault = check_->fault(net, true);
+  if (fault.empty()) return;
+  const bool is_nowhere = !check_->misplaced(net).empty();
+  std::swap(net.positions, others);
+  if (!is_nowhere && !check_->fault_of_places(net).empty()) {
+    std::swap(net.positions, others);
+    report.warnings.push_back({WarningCode::worse_than_input, "what was found is worse than the input: " + fault});
+    return;
+  }
   report.warnings.push_back({WarningCode::worse_than_input, "what was found so far is worse than the input (" + fault +
                                                                 "): this is the input with its constraints"});
 }
@@ -263,7 +299,11 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
   const double beyond = std::max(0.0, report.work - (1 - work_of_a_try) * report.most_work);
   even.work = report.work - beyond;
   even.most_work = report.most_work;
-  find_with_springs(fair_by, constraints, {{team_, call.context, call.progress, even}, options, method});
+  try {
+    find_with_springs(fair_by, constraints, {{team_, call.context, call.progress, even}, options, method});
+  } catch (const Cancelled&) {
+    even.outcome = Outcome::cancelled;
+  }
   even.work += beyond;
   if (even.outcome == Outcome::converged) {
     report = std::move(even);
@@ -279,9 +319,15 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
   if (fair_by == FairBy::bending && !was_cancelled) return false;
   // Nets with sphere springs have other nodes.
   Net net = gather_part(*whole_, part_, constraints, was_with_spheres);
-  check_.emplace(net, *model_, team_);
   hierarchy_.reset();
-  hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
+  if (was_cancelled) {
+    std::vector<Level> only(1);
+    only[0].net = std::move(net);
+    hierarchy_.emplace(std::move(only), team_);
+  } else {
+    check_.emplace(net, *model_, team_);
+    hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
+  }
   hierarchy_->finest().positions = nearest;
   return was_cancelled;
 }
@@ -357,7 +403,7 @@ bool SurfaceFairing::crosses_itself(const Net& net, const Constraints& constrain
 
 void SurfaceFairing::finish(const Net& net, const Constraints& constraints, FairResult& result) {
   FairReport& report = result.report;
-  count_nodes(net, constraints, report);
+  count_nodes(net.moving, constraints, report);
   report.faces = whole_->face_count();
   result.positions = scatter_positions(net, whole_->positions(), constraints, options_.strength);
   measure_moves(net, whole_->positions(), result.positions, report);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/stopwatch.hpp"
 #include "base/threads.hpp"
 #include "checks/result_check.hpp"
 #include "constraints/active_submesh.hpp"
@@ -41,8 +42,10 @@ class SurfaceFairing {
 
   /// Whether it can go on from the last shape.
   [[nodiscard]] bool fits_last(const Constraints& constraints) const;
-  /// Leaves the shape in the net that it returns, or in hierarchy_.
-  Net run(const Constraints& constraints, Context& context, FairReport& report, const FairOptions& options);
+  /// Leaves the shape in the net that it returns, or in hierarchy_. None where it was cancelled before there was any
+  /// but the input.
+  std::optional<Net> run(const Constraints& constraints, Context& context, FairReport& report,
+                         const FairOptions& options);
   /// The same by the method equilibrium. Where no shape of least bending is found that by curvature comes next.
   void run_to_equilibrium(const Constraints& constraints, const EquilibriumCall& call);
   /// The same, made fair by that; with other distributions and, by curvature, the plain iteration if need be.
@@ -51,7 +54,7 @@ class SurfaceFairing {
   /// equilibrium. Iterations and work are added to those that the report has.
   void find_with_springs(FairBy fair_by, const Constraints& constraints, const EquilibriumCall& call);
   /// A try that was cancelled: the input with its constraints, where the shape so far is worse.
-  void go_back_if_worse(const Constraints& constraints, FairReport& report);
+  void go_back_if_worse(FairReport& report);
   /// Where no equilibrium was found: one with another distribution may be. Else the nearest shape stays. at_first: the
   /// report before anything was tried.
   bool try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first,
@@ -63,6 +66,8 @@ class SurfaceFairing {
   /// Says where faces cross each other that did not before. True where they do, and that is not wanted as found.
   bool crosses_itself(const Net& net, const Constraints& constraints, Context& context, FairReport& report);
   void finish(const Net& net, const Constraints& constraints, FairResult& result);
+  /// With the input, which its constraints may have changed.
+  FairResult unchanged(const Constraints& constraints, FairResult& result, const Stopwatch& stopwatch) const;
 
   const PolygonMesh* whole_;
   std::optional<ActiveSubmesh> part_;

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include "base/cancellation.hpp"
 #include "shape/large_faces.hpp"
 #include "spring/node_order.hpp"
 #include "spring/pseudo_normal.hpp"
@@ -85,6 +86,7 @@ void agree_on_sides(Net& net) {
     reached[first] = 1;
     queue.assign(1, first);
     for (std::size_t head = 0; head < queue.size(); ++head) {
+      end_if_cancelled_at(head);
       const std::size_t i = queue[head];
       const auto links = net.rings.links(i);
       for (std::size_t k = 0; k < links.size(); ++k) {
@@ -114,6 +116,7 @@ bool add_rings(Net& net, const NodeGraph& graph, FanWalker& walker, Numbering& n
                bool for_spheres) {
   bool flipped = false;
   const auto add_ring = [&](Index node) {
+    end_if_cancelled_at(static_cast<std::size_t>(node));
     const Fan& fan = walker.walk(node);
     flipped = flipped || fan.flipped_neighbour >= 0;
     net.rings.add(fan.links);
@@ -145,10 +148,12 @@ Net gather_net_of(const PolygonMesh& mesh, const CutMesh* cut, const Constraints
   for (Index i = 0; i < mesh.node_count(); ++i) {
     if (!constraints.position_fixed(i) && !incidence.corners(i).empty()) moving.push_back(i);
   }
+  end_if_cancelled();
   const NodeGraph graph(mesh, incidence);
   Numbering number(order_for_locality(graph, moving), mesh.node_count());
   const bool flipped = add_rings(net, graph, walker, number, constraints, for_spheres);
   for (std::size_t i = 0; i < net.computed; ++i) {
+    end_if_cancelled_at(i);
     const auto links = net.rings.mutable_links(i);
     if (cut) cut->mark(number.node(i), links);
     for (Link& link : links) {
@@ -158,6 +163,7 @@ Net gather_net_of(const PolygonMesh& mesh, const CutMesh* cut, const Constraints
   }
   net.node = std::move(number).take();
   if (flipped) agree_on_sides(net);
+  end_if_cancelled();
   place_net(net, mesh.positions(), constraints);
   agree_on_given_normals(net);
   if (for_spheres) use_sphere_springs(net);

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "base/cancellation.hpp"
+
 namespace vspring {
 
 namespace {
@@ -15,6 +17,7 @@ void append_component(const NodeGraph& graph, Index first, State from, State to,
   order.push_back(first);
   state[static_cast<std::size_t>(first)] = to;
   for (; next < order.size(); ++next) {
+    end_if_cancelled_at(next);
     graph.for_each_neighbour(order[next], [&](Index j) {
       State& reached = state[static_cast<std::size_t>(j)];
       if (reached != from) return;

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -130,20 +132,72 @@ TEST(SelfIntersections, AreTheSameForEveryNumberOfThreads) {
   for (std::size_t k = 0; k < figures.size(); ++k) EXPECT_EQ(figures[k].value, again[k].value) << figures[k].key;
 }
 
-TEST(SelfIntersections, AreThoseThatComparingAllFindsToo) {
-  const PolygonMesh crumpled = generate::add_noise(grid(9), 0.1, 5);
-  const auto pairs = self_intersections(crumpled);
-  std::vector<std::pair<Index, Index>> expected;
-  for (Index a = 0; a < crumpled.face_count(); ++a) {
-    for (Index b = a + 1; b < crumpled.face_count(); ++b) {
+/// What comparing all faces by twos finds.
+std::vector<std::pair<Index, Index>> crossings_by_twos(const PolygonMesh& mesh) {
+  std::vector<std::pair<Index, Index>> pairs;
+  for (Index a = 0; a < mesh.face_count(); ++a) {
+    for (Index b = a + 1; b < mesh.face_count(); ++b) {
       MeshBuilder two;
-      for (const Vector3& position : crumpled.positions()) two.add_node(position);
-      two.add_face(crumpled.face(a));
-      two.add_face(crumpled.face(b));
-      if (!self_intersections(two.take()).empty()) expected.emplace_back(a, b);
+      for (const Vector3& position : mesh.positions()) two.add_node(position);
+      two.add_face(mesh.face(a));
+      two.add_face(mesh.face(b));
+      if (!self_intersections(two.take()).empty()) pairs.emplace_back(a, b);
     }
   }
-  EXPECT_EQ(pairs, expected);
+  return pairs;
+}
+
+TEST(SelfIntersections, AreThoseThatComparingAllFindsToo) {
+  const PolygonMesh crumpled = generate::add_noise(grid(9), 0.1, 5);
+  EXPECT_EQ(self_intersections(crumpled), crossings_by_twos(crumpled));
+}
+
+TEST(SelfIntersections, AroundNodesOfManyFacesAreThoseThatComparingAllFindsToo) {
+  // Triangles at random places, at nodes 0 and 1, some at both, and elsewhere.
+  constexpr Index nodes = 60;
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    std::mt19937_64 random(seed);
+    const auto number = [&](Index from) { return from + static_cast<Index>(random() % (nodes - from)); };
+    const auto coordinate = [&] { return 2 * static_cast<double>(random() >> 11U) * 0x1p-53 - 1; };
+    MeshBuilder builder;
+    for (Index i = 0; i < nodes; ++i) builder.add_node({coordinate(), coordinate(), coordinate()});
+    for (int k = 0; k < 210; ++k) {
+      const Index first = k < 90 ? 0 : k < 180 ? 1 : number(2);
+      const Index second = number(k % 30 == 0 ? 0 : 2);
+      const Index third = number(2);
+      if (first != second && second != third && third != first) builder.add_face({first, second, third});
+    }
+    const PolygonMesh mesh = builder.take();
+    const auto pairs = self_intersections(mesh);
+    EXPECT_GT(pairs.size(), 500U);
+    EXPECT_EQ(pairs, crossings_by_twos(mesh));
+  }
+}
+
+TEST(SelfIntersections, OfFansAreThoseWhereTheirRimIsPushedThroughThem) {
+  // A cone on a disc, each a fan of thin triangles.
+  constexpr Index sides = 200;
+  const auto cone = [](Index pushed) {
+    MeshBuilder builder;
+    builder.add_node({0, 0, 1});
+    builder.add_node({0, 0, 0});
+    for (Index k = 0; k < sides; ++k) {
+      const double angle = 2 * pi * (k == pushed ? k + 2.5 : k) / sides;
+      const double height = k == pushed ? 0.01 : 0;
+      builder.add_node({std::cos(angle), std::sin(angle), height});
+    }
+    for (Index k = 0; k < sides; ++k) {
+      const Index next = (k + 1) % sides;
+      builder.add_face({0, 2 + k, 2 + next});
+      builder.add_face({1, 2 + next, 2 + k});
+    }
+    return builder.take();
+  };
+  EXPECT_TRUE(self_intersections(cone(-1)).empty());
+  const PolygonMesh crossed = cone(7);
+  const auto pairs = self_intersections(crossed);
+  EXPECT_FALSE(pairs.empty());
+  EXPECT_EQ(pairs, crossings_by_twos(crossed));
 }
 
 TEST(SelfIntersections, AreCountedAsOftenAsTheyAreListed) {

@@ -239,6 +239,20 @@ class Fair(Case):
             self.assertEqual(len(vertex_lines((self.folder / "out.obj").read_text())), 121 * 121)
             self.assertEqual(self.files(), ["in.obj", "out.obj", "report.json"])
 
+    def test_ctrl_c_while_the_input_is_read_ends_at_once_and_writes_nothing(self):
+        pipe, out = self.folder / "in.obj", self.folder / "out.obj"
+        os.mkfifo(pipe)
+        for name in (signal.SIGINT, signal.SIGTERM):
+            process = subprocess.Popen([PROGRAM, "fair", pipe, "-o", out, "--format", "obj"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            # Which is open once the program reads it, and has no end.
+            with pipe.open("wb") as writer:
+                writer.write(b"v 0 0 0\n")
+                writer.flush()
+                process.send_signal(name)
+                output, errors = process.communicate(timeout=60)
+            self.assertEqual((process.returncode, output, errors), (130, b"", b""))
+            self.assertEqual(self.files(), ["in.obj"])
+
     def test_ctrl_c_ends_measuring(self):
         path, out, page = self.write("in.obj", grid(250)), self.folder / "out.obj", self.folder / "page.html"
         process = subprocess.Popen([PROGRAM, "fair", path, "-o", out, "--max-iterations", "1", "--threads", "1", "--html", page,

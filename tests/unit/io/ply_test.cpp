@@ -210,15 +210,15 @@ TEST_F(PlyFile, OfNothingButAMeshComesOutByteForByte) {
       write_surface(path("out.ply"), surface, moved);
       EXPECT_EQ(get("out.ply"), make(moved));
     };
-    check([&](const std::vector<Vector3>& places) {
-      return plain<double, std::uint8_t, std::int32_t>(encoding, {"double", "uchar", "int"}, places, faces);
+    check([&](const std::vector<Vector3>& at) {
+      return plain<double, std::uint8_t, std::int32_t>(encoding, {"double", "uchar", "int"}, at, faces);
     });
-    check([&](const std::vector<Vector3>& places) {
-      return plain<float, std::int32_t, std::uint16_t>(encoding, {"float", "int", "ushort"}, places, faces);
+    check([&](const std::vector<Vector3>& at) {
+      return plain<float, std::int32_t, std::uint16_t>(encoding, {"float", "int", "ushort"}, at, faces);
     });
     // Something follows that no mesh has.
-    check([&](const std::vector<Vector3>& places) {
-      return plain<float, std::uint16_t, std::int8_t>(encoding, {"float", "ushort", "char"}, places, faces, "\n");
+    check([&](const std::vector<Vector3>& at) {
+      return plain<float, std::uint16_t, std::int8_t>(encoding, {"float", "ushort", "char"}, at, faces, "\n");
     });
   }
 }

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "base/random.hpp"
 #include "levels/surface_levels.hpp"
 #include "levels/surface_slide.hpp"
@@ -87,6 +89,41 @@ TEST(SparseRows, ProductAndTransposeAreThoseOfDenseMatrices) {
   const SparseRows both = product(a, b, team);
   EXPECT_LT((dense(both) - dense(a) * dense(b)).norm(), 1e-10 * dense(b).norm());
   EXPECT_EQ(dense(both.transposed()), dense(both).transpose());
+}
+
+TEST(Cholesky, HasTheBitsOfEigensFactor) {
+  ThreadTeam team(1);
+  const SparseRows rows = bending_operator(disc_net(300, true, team), team);
+  const std::vector<double> right = first_column(right_sides(rows.rows()));
+  CholeskySolver solver(team);
+  solver.build(rows);
+  std::vector<double> values = right;
+  solver.solve(values, {});
+  const Eigen::SparseMatrix<double> matrix = rows.to_eigen();
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>> factor(matrix);
+  const Eigen::VectorXd column = as_matrix(right);
+  const Eigen::VectorXd expected = factor.solve(column);
+  EXPECT_EQ(as_matrix(values), expected);
+}
+
+TEST(Cholesky, EndsWhereItIsCancelledAndIsBuiltAnew) {
+  ThreadTeam team(1);
+  const SparseRows rows = bending_operator(disc_net(300, true, team), team);
+  const std::vector<double> right = first_column(right_sides(rows.rows()));
+  CholeskySolver solver(team);
+  solver.build(rows);
+  std::vector<double> expected = right;
+  solver.solve(expected, {});
+  Context context;
+  context.cancel();
+  {
+    const CancellationScope scope(context);
+    EXPECT_THROW(solver.build(rows), Cancelled);
+  }
+  solver.build(rows);
+  std::vector<double> values = right;
+  solver.solve(values, {});
+  EXPECT_EQ(values, expected);
 }
 
 TEST(BendingForm, IsSymmetricAndPositiveDefinite) {

@@ -10,7 +10,8 @@
 
 namespace vspring {
 
-/// Tells a context how far a call has come, when a stage begins and at most some 20 times a second, and never backwards.
+/// Tells a context how far a call has come, when a stage begins and at most some 20 times a second, and never
+/// backwards.
 class ProgressReporter {
  public:
   explicit ProgressReporter(const Context& context) : context_(&context) {}

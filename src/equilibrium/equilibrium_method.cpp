@@ -169,8 +169,8 @@ class EquilibriumSearch : private Relaxation {
     }
   }
 
-  /// On a coarser level, which only gives a start, sphere springs need not arrive; where they lead nowhere, edge springs
-  /// come second.
+  /// On a coarser level, which only gives a start, sphere springs need not arrive; where they lead nowhere, edge
+  /// springs come second.
   void relax_on_way(std::size_t level, int limit) {
     Net& net = hierarchy_.net(level);
     if (level == last() || !net.spheres.on()) return relax(level, limit);

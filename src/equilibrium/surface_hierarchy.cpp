@@ -28,8 +28,8 @@ double greatest_length(std::span<const Vector3> vectors) {
   return std::sqrt(square);
 }
 
-/// The springs of another net. Sphere springs give the same shape on every mesh: what comes from a coarser level is then
-/// nearly in place.
+/// The springs of another net. Sphere springs give the same shape on every mesh: what comes from a coarser level is
+/// then nearly in place.
 void take_springs_of(const Net& other, Net& net) {
   if (!other.spheres.on() || net.spheres.on()) return;
   use_sphere_springs(net);

@@ -41,7 +41,8 @@ Selection select(const Net& fine, const Triangulation& triangulation, const std:
     if (kept[i] == 0) continue;
     bool beside_moving = false;
     triangulation.for_each_neighbour(i, [&](std::size_t j) { beside_moving = beside_moving || j < fine.moving; });
-    (beside_moving && (for_spheres || !fine.normal_given(i)) ? selection.nodes : others).push_back(static_cast<std::uint32_t>(i));
+    (beside_moving && (for_spheres || !fine.normal_given(i)) ? selection.nodes : others)
+        .push_back(static_cast<std::uint32_t>(i));
   }
   selection.computed = selection.nodes.size();
   selection.nodes.insert(selection.nodes.end(), others.begin(), others.end());

@@ -80,6 +80,16 @@ TEST(SurfaceEquilibrium, IterationsHardlyGrowWithTheNodes) {
   }
 }
 
+TEST(SurfaceEquilibrium, CoarserLevelsHaveNearlyTheShapeOfTheFinest) {
+  // No sphere: edge springs would have another shape on every mesh.
+  const PolygonMesh annulus = generate::annulus({.nodes = 14962, .boundary_nodes = 608});
+  const FairReport report = fair(annulus, clamped_boundary(annulus), {}).report;
+  EXPECT_EQ(report.outcome, Outcome::converged);
+  ASSERT_GE(report.levels.size(), 4U);
+  EXPECT_LE(report.levels.back().iterations, 4);
+  EXPECT_LE(report.iterations, 40);
+}
+
 TEST(SurfaceEquilibrium, KeepsTheDistributionOfTheNodes) {
   const PolygonMesh cap = generate::cap({.nodes = 3000, .half_angle = 60, .jitter = 0.4});
   FairOptions options = to_equilibrium(1e-10);

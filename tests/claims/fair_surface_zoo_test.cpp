@@ -125,6 +125,19 @@ TEST(Zoo, CylindersOfGradedAndJitteredGrids) {
   }
 }
 
+TEST(Zoo, FineMeshesOfMixedFacesNeedFewIterations) {
+  // What comes from coarser levels is nearly in place, with nodes where the regularisation wants them.
+  const Normal up = [](const Vector3&) { return Vector3::UnitZ(); };
+  for (const double noise : {0.0, 1.0 / 130}) {
+    const Specimen funnel =
+        on_chart("", funnel_chart, true, {.columns = 260, .rows = 65, .faces = Faces::mixed}, {.noise = noise}, up);
+    const FairReport report = fair(funnel.start, funnel.constraints, {}).report;
+    EXPECT_EQ(report.outcome, Outcome::converged);
+    EXPECT_EQ(report.springs, Springs::sphere);
+    EXPECT_LE(report.levels.back().iterations, 8);
+  }
+}
+
 TEST(Zoo, TheTrueErrorIsWithinAFactorOfThreeOfTheExpectedOne) {
   for (const Specimen& specimen : specimens(12)) {
     if (specimen.hard) continue;

@@ -11,16 +11,13 @@
 #include <vector>
 
 #include "base/cancellation.hpp"
-#include "base/random.hpp"
 #include "levels/surface_levels.hpp"
-#include "levels/surface_slide.hpp"
 #include "linear/cholesky_solver.hpp"
 #include "linear/interpolation.hpp"
 #include "linear/multigrid_solver.hpp"
 #include "linear/sparse_sum.hpp"
 #include "precondition/bending_operator.hpp"
 #include "precondition/surface_systems.hpp"
-#include "support/surfaces.hpp"
 #include "vspring/generate.hpp"
 
 namespace vspring::linear_solvers_test {
@@ -403,68 +400,6 @@ TEST(SurfaceSystems, ThreadsGiveTheSameBits) {
   EXPECT_EQ(solutions[0], solutions[2]);
   EXPECT_EQ(spread[0], spread[1]);
   EXPECT_EQ(spread[0], spread[2]);
-}
-
-TEST(Slide, StaysOnTheSphere) {
-  ThreadTeam team(2);
-  const PolygonMesh cap = generate::cap({.nodes = 4000, .half_angle = 70, .jitter = 0.3});
-  Constraints constraints(cap.node_count());
-  fix_boundary_positions(constraints, cap);
-  for (Index i = 0; i < cap.node_count(); ++i) {
-    if (constraints.position_fixed(i)) constraints.fix_normal(i, cap.position(i));
-  }
-  Net net = gather_net(cap, constraints);
-  update_directions(net, *surface_model(PseudoNormals::link), team);
-  const Vector3 centre = net.frame.to_local(Vector3::Zero());
-  const double radius = net.frame.scale();
-  std::vector<Vector3> steps;
-  for (std::size_t i = 0; i < net.moving; ++i) {
-    const Vector3 from = (net.positions[i] - centre) / radius;
-    const Vector3 push(0.2 * (from.z() - 0.4), 0.1 * from.x() * (from.z() - 0.4), 0);
-    steps.emplace_back(radius * (push - push.dot(from) * from));
-  }
-  const std::vector<Vector3> before = net.positions;
-  slide(net, steps, team);
-  for (std::size_t i = 0; i < net.moving; ++i) {
-    EXPECT_NEAR((net.positions[i] - centre).norm(), radius, 1e-12);
-    EXPECT_LT((net.positions[i] - before[i] - steps[i]).norm(), 0.02 * radius);
-  }
-}
-
-TEST(Slide, AcrossUnevenRowsOfWideTriangles) {
-  // The triangle that a place lies in is none of those around the node that is nearest to it.
-  ThreadTeam team(1);
-  Random random(3);
-  const generate::Grid wide{.columns = 40, .rows = 30, .faces = generate::Faces::triangles};
-  const PolygonMesh tube = generate::tube(wide, 1, 1);
-  const auto on_sphere = [](double along, double angle) -> Vector3 {
-    const double off_pole = 0.6 + 0.6 * along;
-    return {std::sin(off_pole) * std::cos(angle), std::sin(off_pole) * std::sin(angle), std::cos(off_pole)};
-  };
-  std::vector<Vector3> places;
-  for (const Vector3& p : tube.positions()) {
-    const bool inside = p.z() > 0.5 / wide.rows && p.z() < 1 - 0.5 / wide.rows;
-    const Vector3 off = inside ? random.in_ball() : Vector3::Zero();
-    places.push_back(on_sphere(p.z() + 0.2 * off.x() / wide.rows,
-                               std::atan2(p.y(), p.x()) + 0.2 * off.y() * 2 * std::numbers::pi / wide.columns));
-  }
-  const PolygonMesh band = support::with_positions(tube, std::move(places));
-  Net net = gather_net(band, support::held_boundary(band, support::radial));
-  update_directions(net, *surface_model(PseudoNormals::link), team);
-  const Vector3 centre = net.frame.to_local(Vector3::Zero());
-  const double row = 0.6 * net.frame.scale() / wide.rows;
-  std::vector<Vector3> steps;
-  std::vector<Vector3> wanted;
-  for (std::size_t i = 0; i < net.moving; ++i) {
-    const Vector3 from = (net.positions[i] - centre).normalized();
-    const double along = (std::acos(from.z()) - 0.6) / 0.6;
-    const double rows = 3 * std::sin(std::numbers::pi * along);
-    const Vector3 to = on_sphere(along + rows / wide.rows, std::atan2(from.y(), from.x()));
-    steps.push_back(net.frame.scale() * (to - to.dot(from) * from));
-    wanted.push_back(centre + net.frame.scale() * to);
-  }
-  slide(net, steps, team);
-  for (std::size_t i = 0; i < net.moving; ++i) EXPECT_LT((net.positions[i] - wanted[i]).norm(), 0.25 * row);
 }
 
 }  // namespace

@@ -156,6 +156,8 @@ class EquilibriumSearch : private Relaxation {
         own_start = rounded(finer, k + 1 == last() && is_folded ? rest_positions(finer, team_) : finer.positions);
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_from(k);
+      // Where points are, it may be asked for again with other ties.
+      if (!points_) hierarchy_.forget(k);
     }
     if (report_.outcome != Outcome::cancelled) level_.reset();
   }

@@ -48,6 +48,9 @@ class Hierarchy {
   /// The same in a hurry.
   virtual void prolong_roughly_from(std::size_t level) { prolong_from(level); }
 
+  /// Gives back what a level needs to be worked on and handed up, where that is not to be done again.
+  virtual void forget(std::size_t /*level*/) {}
+
   /// Hands the start down to all levels without its noise, and makes it fit to start from on the coarsest.
   virtual void start() = 0;
   /// Other shares (§4.4) for the shape itself.

@@ -107,6 +107,13 @@ void SurfaceHierarchy::prolong_roughly_from(std::size_t level) {
   prolong_surface(levels_[level], levels_[level + 1], *team_);
 }
 
+void SurfaceHierarchy::forget(std::size_t level) {
+  Level& coarse = levels_[level];
+  coarse.removals = {};
+  coarse.places = {};
+  coarse.net.laplacian_weights = {};
+}
+
 std::vector<Vector3> SurfaceHierarchy::step_of_held(const Constraints& constraints) const {
   const Net& net = finest();
   std::vector<Vector3> step(net.positions.size() - net.moving, Vector3::Zero());

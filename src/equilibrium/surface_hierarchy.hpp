@@ -24,6 +24,7 @@ class SurfaceHierarchy final : public Hierarchy {
   [[nodiscard]] std::size_t fewest_nodes() const override { return 60; }
   /// Nodes go along the shape that was handed up to where the finer level wants them.
   void prolong_from(std::size_t level) override;
+  void forget(std::size_t level) override;
   /// Nodes stay where they come to lie.
   void prolong_roughly_from(std::size_t level) override;
   /// Noise is not a shape: coarser levels start from rest_positions(); with an even distribution, nodes take half of

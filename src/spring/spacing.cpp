@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/dense_algebra.hpp"
+#include "base/linear_precision.hpp"
 #include "spring/pseudo_normal.hpp"
 
 namespace vspring {
@@ -33,6 +34,10 @@ constexpr double least_share = 0.25;
 constexpr double least_share_of_coarse = 0.8;
 // The sine of an angle that is as good as none.
 constexpr double least_sine = 1e-9;
+// Of what inverse squares make it, where a node lies outside its neighbours.
+constexpr double least_mean_value = 0.01;
+// Of the sum of shares, what has to be left where they are made to leave a node in its place.
+constexpr double least_left = 0.2;
 
 bool is_open(std::span<const Link> links) { return links.front().start(); }
 
@@ -394,6 +399,30 @@ void find_mean_value_shares(std::span<const Vector3> ways, const Vector3& normal
   for (double& share : shares) share /= sum;
 }
 
+/// Of a node among its neighbours, see laplacian_weights_at(). tiny: see Net. least: the least one, of what inverse
+/// squares would make it.
+void find_shares(std::span<const Vector3> ways, const Vector3& normal, double tiny, double least,
+                 std::vector<double>& shares) {
+  double inverse_squares = 0;
+  for (const Vector3& way : ways) inverse_squares += 1 / (way.squaredNorm() + tiny);
+  const auto by_distance = [&](const Vector3& way) { return 1 / ((way.squaredNorm() + tiny) * inverse_squares); };
+  find_mean_value_shares(ways, normal, shares);
+  LinearPrecision linear;
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    const double by = by_distance(ways[k]);
+    shares[k] = std::sqrt(by * std::max(shares[k], least_mean_value * by));
+    linear.add(shares[k], ways[k]);
+  }
+  const Vector3 slope =
+      linear.size() > 0 ? linear.leaving(least_left, linear.slope_across(normal)) : Vector3(Vector3::Zero());
+  double sum = 0;
+  for (std::size_t k = 0; k < ways.size(); ++k) sum += shares[k] *= 1 - slope.dot(ways[k]);
+  double raised_sum = 0;
+  for (std::size_t k = 0; k < ways.size(); ++k)
+    raised_sum += shares[k] = std::max(shares[k] / sum, least * by_distance(ways[k]));
+  for (double& share : shares) share /= raised_sum;
+}
+
 }  // namespace
 
 std::vector<double> laplacian_weights_at(const Net& net, std::span<const Vector3> places, ThreadTeam& team,
@@ -423,17 +452,10 @@ std::vector<double> laplacian_weights_at(const Net& net, std::span<const Vector3
         const Vector3 d = places[link.node()] - places[i];
         ways.push_back(d - d.dot(normal) * normal);
       }
-      double inverse_squares = 0;
-      for (const Vector3& way : ways) inverse_squares += 1 / (way.squaredNorm() + net.tiny);
-      find_mean_value_shares(ways, normal, shares);
-      double sum = 0;
-      for (std::size_t k = 0; k < ways.size(); ++k) {
-        const double by_distance = 1 / ((ways[k].squaredNorm() + net.tiny) * inverse_squares);
-        sum += shares[k] = std::max(shares[k], least * by_distance);
-      }
+      find_shares(ways, normal, net.tiny, least, shares);
       std::size_t next = 0;
       for (std::size_t k = 0; k < links.size(); ++k) {
-        if (links[k].spoke()) of_node[k] = shares[next++] / sum;
+        if (links[k].spoke()) of_node[k] = shares[next++];
       }
     }
   });

@@ -31,11 +31,13 @@ void even_shares(const Net& net, std::size_t i, const Vector3& normal, std::span
 void share_by_length(const Net& net, std::size_t i, std::span<const Vector3> places, std::span<double> shares);
 
 /// What every link counts in the regularisation (§4.4) so that all nodes are where they are sent when they lie as at
-/// `places`, in the plane across their normal there: mean value coordinates (M. S. Floater, "Mean value coordinates",
-/// Comput. Aided Geom. Des. 20(1), 2003), none of them below a quarter, on a coarse level 0.8, of what the inverse
-/// squares of distances would make it. Aligned with the links of the net, of sum 1 over the spokes. Nodes on a free
-/// boundary, which lie outside their neighbours, have the shares nearest to even ones. Cost: linear; the same result on
-/// any number of threads.
+/// `places`, in the plane across their normal there: the geometric mean of mean value coordinates (M. S. Floater, "Mean
+/// value coordinates", Comput. Aided Geom. Des. 20(1), 2003) and of shares by the inverse squares of distances, made to
+/// leave nodes in their places, none below a quarter, on a coarse level 0.8, of what the inverse squares would make it.
+/// By mean value coordinates alone neighbours along the long side of wide cells count so much that a row that is bent
+/// otherwise than at `places` pulls its nodes off by many rows. Aligned with the links of the net, of sum 1 over the
+/// spokes. Nodes on a free boundary, which lie outside their neighbours, have the shares nearest to even ones. Cost:
+/// linear; the same result on any number of threads.
 std::vector<double> laplacian_weights_at(const Net& net, std::span<const Vector3> places, ThreadTeam& team,
                                          bool coarse = false);
 

@@ -166,7 +166,7 @@ TEST(Starts, AnEvenSpacingIsTriedWhereAllElseHasTakenTheWorkThatIsAllowed) {
   std::vector<Vector3> ear = plane.positions();
   for (Vector3& p : ear) {
     const double height = 3 * std::exp(-18.75 * (p - Vector3(0.5, 0.5, 0)).squaredNorm());
-    p += Vector3(2.2 / 3 * height * height, 0, height);
+    p += Vector3(2.6 / 3 * height * height, 0, height);
   }
   const PolygonMesh mesh = generate::add_noise(with_positions(plane, ear), 0.1, 5);
   Constraints constraints(mesh.node_count());

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/methods.hpp"
@@ -135,6 +136,22 @@ TEST(Zoo, FineMeshesOfMixedFacesNeedFewIterations) {
     EXPECT_EQ(report.outcome, Outcome::converged);
     EXPECT_EQ(report.springs, Springs::sphere);
     EXPECT_LE(report.levels.back().iterations, 8);
+  }
+}
+
+TEST(Zoo, BandsOfCellsManyTimesAsWideAsHighBecomeSpheresFromFarOff) {
+  // 8 to 13 times as wide, lifted in the middle by a fifth of the radius.
+  for (const Faces faces : {Faces::triangles, Faces::quads}) {
+    for (const auto& [columns, rows] : {std::pair<Index, Index>(24, 24), {24, 30}, {18, 30}, {64, 64}}) {
+      SCOPED_TRACE(fmt::format("{}, {} x {}", name_of(faces), columns, rows));
+      const Specimen band =
+          on_chart("", band_chart, true, {.columns = columns, .rows = rows, .faces = faces}, {}, radial);
+      ASSERT_GT(distance_from_unit_sphere(band.start.positions()), 0.19);
+      const FairResult result = fair(band.start, band.constraints, {});
+      EXPECT_EQ(result.report.outcome, Outcome::converged);
+      EXPECT_EQ(result.report.springs, Springs::sphere);
+      EXPECT_LT(distance_from_unit_sphere(result.positions), 1e-5);
+    }
   }
 }
 

@@ -95,7 +95,9 @@ template <typename Shape>
 FairedOrFitted fair_or_fit(const Shape& shape, const Constraints& constraints, std::vector<double> weights,
                            const FairingArguments& arguments, const PullArguments& pull, Context& context) {
   if (!asks_to_fit(pull)) return {fair(shape, constraints, arguments.options, context), std::nullopt};
-  const ScatteredPoints nodes{.positions = shape.positions(), .weights = std::move(weights)};
+  ScatteredPoints nodes;
+  nodes.positions = shape.positions();
+  nodes.weights = std::move(weights);
   return account_for(fit(shape, constraints, nodes, fit_options(pull, arguments.options), context), shape, arguments,
                      pull, context);
 }

@@ -19,6 +19,9 @@ class PolygonMesh {
   PolygonMesh();
   PolygonMesh(const PolygonMesh&) = default;
   PolygonMesh& operator=(const PolygonMesh&) = default;
+  /// What is moved from stays as it was.
+  PolygonMesh(PolygonMesh&& other) noexcept : PolygonMesh(static_cast<const PolygonMesh&>(other)) {}
+  PolygonMesh& operator=(PolygonMesh&& other) noexcept { return *this = static_cast<const PolygonMesh&>(other); }
   ~PolygonMesh() = default;
 
   /// positions: one per node. face_begin: faces + 1 ascending offsets into corners, the first 0 and the last

@@ -126,12 +126,12 @@ class NormalEquations {
     ((factors[c] = own[c] / pivot), ...);
   }
 
-  const Row* points_;
-  std::size_t count_;
   std::array<Row, unknowns> rows_;     // the upper triangle, the last column for heights
   std::array<Row, unknowns> factors_;  // rows divided by their first entry
-  int degree_ = 0;
+  const Row* points_;
+  std::size_t count_;
   std::size_t solved_ = 0;
+  int degree_ = 0;
 };
 
 namespace {

@@ -14,6 +14,7 @@ Triangle triangle(Index a, Index b, Index c) { return {{a, b, c}, 0}; }
 TEST(Hubs, EachTriangleBelongsToTheBusiestOfItsNodes) {
   // 70 at node 0, 80 at node 1, of them one at both; three at neither.
   std::vector<Triangle> triangles;
+  triangles.reserve(152);
   for (Index k = 0; k < 69; ++k) triangles.push_back(triangle(2 + k, 0, 3 + k));
   for (Index k = 0; k < 79; ++k) triangles.push_back(triangle(2 + k, 3 + k, 1));
   triangles.push_back(triangle(0, 1, 2));

@@ -85,6 +85,7 @@ TEST(JetFit, HasTheDegreeThatPointsTell) {
   for (const auto& [count, degree] : degrees) EXPECT_EQ(fitted(scattered(count, random)).degree, degree) << count;
   // On a circle u² + v² is no unknown of its own.
   std::vector<Point> circle;
+  circle.reserve(40);
   for (int k = 0; k < 40; ++k) circle.push_back({std::cos(0.15 * k), std::sin(0.15 * k), 0.1 * k, 1});
   EXPECT_LT(fitted(circle).degree, 4);
 }

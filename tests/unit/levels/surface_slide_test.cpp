@@ -94,7 +94,7 @@ TEST(Slide, ToAnyPlaceInFacesOfEveryKind) {
     std::vector<Vector3> steps;
     for (std::size_t i = 0; i < net.moving; ++i) {
       // What lies behind held nodes is not known.
-      const Vector3 at = plane.position(net.node[i]);
+      const Vector3& at = plane.position(net.node[i]);
       const double room = std::min({at.x(), at.y(), 1 - at.x(), 1 - at.y()}) * grid.columns;
       const Vector3 way = random.in_ball();
       steps.push_back(room > 3 ? 2 * cell * Vector3(way.x(), way.y(), 0) : Vector3(Vector3::Zero()));

@@ -117,10 +117,20 @@ MUTATIONS = {
         ("relative-step", "§4.6: displacement over the mean edge", "displacement.norm() / force.mean_edge", "displacement.norm()"),
         ("step-not-finite", "§4.6: what is no number is no end", "std::isfinite(step) ? step : std::numeric_limits<double>::infinity()", "step"),
     ],
-    "src/spring/spacing.cpp": [
+    "src/spring/shares.cpp": [
         ("even-shares", "share_j = 1/m − (d_j − mean)·a", "1 / spokes - (across(links[k]) - mean).dot(a)", "1 / spokes + (across(links[k]) - mean).dot(a)"),
         ("length-shares", "each edge as the other is long", "1 - shares[k] / whole", "shares[k] / whole"),
         ("mean-value-shares", "mean value coordinates: over ‖d_j‖", "shares[k] /= ways[k].norm()", "shares[k]"),
+        ("wide-cells", "neighbours along the long side of a cell count less", "std::sqrt(by * std::max(shares[k], least_mean_value * by))",
+         "std::max(shares[k], least_mean_value * by)"),
+    ],
+    "src/equilibrium/surface_hierarchy.cpp": [
+        ("coarse-springs", "coarser levels have nearly the shape of the finest", "  take_springs_of(finest(), fine.net);\n", ""),
+    ],
+    "src/levels/surface_slide.cpp": [
+        ("slide-in-faces", "triangles between all nodes of faces cover these", "if (links[k].start()) continue;", "if (links[k].start() || !links[k].spoke()) continue;"),
+    ],
+    "src/spring/spacing.cpp": [
         ("sweep-stretch", "weights by inverse squares", "std::exp(-square)", "std::exp(square)"),
         ("bricks", "half way to the mean of three", "way / 6", "way / 3", "Vector3"),
     ],

@@ -6,6 +6,7 @@
 #include "base/cancellation.hpp"
 #include "levels/coarse_nodes.hpp"
 #include "levels/patch_mesh.hpp"
+#include "spring/shares.hpp"
 #include "spring/spacing.hpp"
 
 namespace vspring {

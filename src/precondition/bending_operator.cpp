@@ -125,8 +125,6 @@ bool has_spokes_only(std::span<const Link> links) {
   return std::all_of(links.begin(), links.end(), [](Link link) { return link.spoke(); });
 }
 
-bool on_boundary(std::span<const Link> links) { return !links.empty() && links.front().start(); }
-
 }  // namespace
 
 void sum_edge_weights(const Net& net, ThreadTeam& team, std::vector<float>& sums) {

@@ -3,7 +3,7 @@
 #include "shape/planarity.hpp"
 #include "spring/curve_force.hpp"
 #include "spring/model_of.hpp"
-#include "spring/spacing.hpp"
+#include "spring/shares.hpp"
 #include "spring/tangent.hpp"
 
 namespace vspring {

@@ -1,5 +1,6 @@
 #include "spring/model.hpp"
 
+#include "spring/shares.hpp"
 #include "spring/spacing.hpp"
 
 namespace vspring {

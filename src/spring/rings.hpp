@@ -9,6 +9,9 @@
 
 namespace vspring {
 
+/// Whether the faces around a node leave a gap, so that the walk around it begins with one.
+inline bool on_boundary(std::span<const Link> links) { return !links.empty() && links.front().start(); }
+
 /// The links of many nodes, one after the other (CSR).
 class Rings {
  public:

@@ -121,8 +121,6 @@ double curvature_by_row(const Net& net, std::size_t i, const LinkEdges& edges, c
   return spheres.spreads[i] > 0 ? sum / spheres.spreads[i] : unknown;
 }
 
-bool has_rim(std::span<const Link> links) { return !links.empty() && links.front().start(); }
-
 /// Whether faces lie around a node in one run, from rim to rim.
 bool has_one_run(std::span<const Link> links) {
   return std::count_if(links.begin(), links.end(), [](Link link) { return link.start(); }) == 1;
@@ -238,7 +236,7 @@ void update_spheres(Net& net, std::size_t begin, std::span<const Vector3> first)
     net.spheres.curvatures[i] = unknown;
     net.normals[i] = first[k];
     if (first[k].isZero(0)) continue;
-    if (has_rim(edges.links()))
+    if (on_boundary(edges.links()))
       update_rim(net, i, edges);
     else
       inside.add(net, i);

@@ -5,7 +5,7 @@
 
 #include "spring/model_of.hpp"
 #include "spring/pseudo_normal.hpp"
-#include "spring/spacing.hpp"
+#include "spring/shares.hpp"
 #include "spring/surface_force.hpp"
 
 namespace vspring {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "spring/model.hpp"
+#include "spring/shares.hpp"
 #include "spring/surface_force.hpp"
 #include "support/surfaces.hpp"
 

@@ -40,8 +40,9 @@ bool was_found(const FairReport& report) {
   return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
 }
 
-// As a share of the diagonal: for smaller tolerances rounding may have the last word.
-constexpr double as_near_as_rounding = 1e-9;
+// As a share of the diagonal: for smaller tolerances rounding may have the last word, that of single precision in what
+// the acceleration remembers, too. Other springs would then have another shape, for next to nothing.
+constexpr double as_near_as_rounding = 1e-8;
 
 /// Whether nothing else need be tried: it was found, or as nearly as rounding lets it be.
 bool is_final(const FairReport& report) {

@@ -155,6 +155,20 @@ TEST(Zoo, BandsOfCellsManyTimesAsWideAsHighBecomeSpheresFromFarOff) {
   }
 }
 
+TEST(Zoo, ATighterToleranceDoesNotChangeTheSprings) {
+  // Cells 100 : 1, where sphere springs come to 2e-9 of the size and no nearer.
+  const Normal up = [](const Vector3&) { return Vector3::UnitZ(); };
+  const Specimen funnel =
+      on_chart("", funnel_chart, true, {.columns = 96, .rows = 24, .faces = Faces::quads}, {.ratio = 100}, up);
+  const double size = diagonal(funnel.start, funnel.constraints);
+  const FairResult loose = fair(funnel.start, funnel.constraints, {.method = EquilibriumMethod{.tolerance = 1e-5}});
+  const FairResult tight = fair(funnel.start, funnel.constraints, {.method = EquilibriumMethod{.tolerance = 1e-9}});
+  EXPECT_EQ(loose.report.outcome, Outcome::converged);
+  EXPECT_EQ(tight.report.springs, Springs::sphere);
+  EXPECT_LT(tight.report.expected_error.value_or(1), 1e-8);
+  EXPECT_LT(greatest_distance(loose.positions, tight.positions), 1e-5 * size);
+}
+
 TEST(Zoo, TheTrueErrorIsWithinAFactorOfThreeOfTheExpectedOne) {
   for (const Specimen& specimen : specimens(12)) {
     if (specimen.hard) continue;

@@ -128,10 +128,16 @@ double bending_at(const Net& net, const std::vector<Vector3>& positions, std::si
   return (sum * sum - 2 * product) * share;
 }
 
+/// What to find besides what is counted; the rest is 0.
+struct Sums {
+  bool bending = false;
+  bool turns = false;
+};
+
 /// positions: of the nodes, those of the net or others. edge: the mean one. dragged: 1 for nodes that are held
-/// elsewhere than the input has them: what turns beside them is wanted; or empty. Without with_bending, bending is 0.
-ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team,
-                        bool with_bending, std::span<const std::uint8_t> dragged = {}) {
+/// elsewhere than the input has them: what turns beside them is wanted; or empty.
+ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team, Sums sums,
+                        std::span<const std::uint8_t> dragged = {}) {
   const double tiny = collapsed_size * edge;
   const auto is_dragged = [&](std::size_t node) { return !dragged.empty() && dragged[node] != 0; };
   if (net.is_curve) {
@@ -143,7 +149,7 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
       const Vector3 after = positions[links[1].node()] - positions[i];
       if (turns_back(before, after)) ++(i < net.moving ? defects.turned : defects.turned_at_held);
       defects.collapsed += after.squaredNorm() < tiny * tiny ? 1 : 0;
-      if (!with_bending) continue;
+      if (!sums.bending) continue;
       const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
       const double length = (before.norm() + after.norm()) / 2;
       if (length > 0) defects.bending += turn * turn / length;
@@ -165,9 +171,13 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
         if (faces[s].norm() < 2 * tiny * tiny) ++part.collapsed;
         if (j < i && j < net.computed) continue;
         const std::size_t last = place_before(s, count);
-        if (turns_back(faces[last], faces[s]) && !is_dragged(neighbour(last))) ++part.turned;
+        if (is_dragged(neighbour(last))) continue;
+        if (turns_back(faces[last], faces[s])) ++part.turned;
+        const double turn = sums.turns ? std::atan2(faces[last].cross(faces[s]).norm(), faces[last].dot(faces[s])) : 0;
+        // Beside a rim there is one face.
+        if (turn == turn) part.turns += turn * turn;
       }
-      if (with_bending && std::none_of(links.begin(), links.end(), [&](Link link) { return is_dragged(link.node()); }))
+      if (sums.bending && std::none_of(links.begin(), links.end(), [&](Link link) { return is_dragged(link.node()); }))
         part.bending += bending_at(net, positions, i, spokes, faces);
     }
   };
@@ -176,6 +186,7 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
     defects.turned += part.turned;
     defects.collapsed += part.collapsed;
     defects.bending += part.bending;
+    defects.turns += part.turns;
   }
   return defects;
 }
@@ -183,7 +194,7 @@ ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, d
 }  // namespace
 
 std::size_t turned_edges(const Net& net, ThreadTeam& team) {
-  return defects_of(net, net.positions, mean_edge(net), team, false).turned;
+  return defects_of(net, net.positions, mean_edge(net), team, {}).turned;
 }
 
 ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team) : model_(&model), team_(&team) {
@@ -194,11 +205,15 @@ ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team) : mod
   is_surface_ = !start.is_curve;
   edge_ = mean_edge(start);
   const std::vector<Vector3>& input = start.input.empty() ? start.positions : start.input;
-  defects_ = defects_of(start, input, edge_, team, start.input.empty() && looks_at_bending());
+  constexpr Sums all = {.bending = true, .turns = true};
+  const bool at_once = start.input.empty() && looks_at_bending();
+  defects_ = defects_of(start, input, edge_, team, at_once ? all : Sums());
   held_.assign(input.begin() + static_cast<std::ptrdiff_t>(start.moving), input.end());
   if (looks_at_crossings(start)) input_ = input;
   if (looks_at_bending()) {
-    bending_ = start.input.empty() ? defects_.bending : defects_of(start, start.positions, edge_, team, true).bending;
+    const ShapeDefects held = at_once ? defects_ : defects_of(start, start.positions, edge_, team, all);
+    bending_ = held.bending;
+    turns_ = held.turns;
     if (start.input.empty() && !start.is_curve) smooth_bending_ = bending_without_noise(start);
   }
   const bool was_prepared = !start.curvatures.empty();
@@ -231,7 +246,7 @@ bool ResultCheck::looks_at_bending() const {
 bool ResultCheck::looks_at_crossings(const Net& net) const { return !has_directions_ && net.is_curve; }
 
 double ResultCheck::bending_without_noise(const Net& net) const {
-  return defects_of(net, rest_positions(net, *team_), edge_, *team_, true).bending;
+  return defects_of(net, rest_positions(net, *team_), edge_, *team_, {.bending = true}).bending;
 }
 
 std::string ResultCheck::misplaced(const Net& now) const {
@@ -263,7 +278,7 @@ std::string ResultCheck::more_of(const ShapeDefects& defects, bool of_surface) c
 std::string ResultCheck::fault_of_places(const Net& now) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
-  return more_of(defects_of(now, now.positions, edge_, *team_, false, dragged(now)), !now.is_curve);
+  return more_of(defects_of(now, now.positions, edge_, *team_, {}, dragged(now)), !now.is_curve);
 }
 
 std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const {
@@ -274,7 +289,7 @@ std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const 
   const double energy = spring_energy(now).sum;
   if (energy <= risen_energy_if_bent * energy_ + unseen) return {};
   const auto bending = [&](const std::vector<Vector3>& positions) {
-    return defects_of(now, positions, edge_, *team_, true, dragged_nodes).bending;
+    return defects_of(now, positions, edge_, *team_, {.bending = true}, dragged_nodes).bending;
   };
   const double before = bending(*start_);
   const double after = bending(now.positions);
@@ -288,7 +303,9 @@ std::string ResultCheck::fault(Net& now, bool in_haste) const {
   std::string misplaced_node = misplaced(now);
   if (!misplaced_node.empty()) return misplaced_node;
   const std::vector<std::uint8_t> dragged_nodes = dragged(now);
-  const ShapeDefects defects = defects_of(now, now.positions, edge_, *team_, looks_at_bending(), dragged_nodes);
+  const bool by_turns = in_haste && !now.is_curve;
+  const Sums sums = {.bending = looks_at_bending() && !by_turns, .turns = looks_at_bending() && by_turns};
+  const ShapeDefects defects = defects_of(now, now.positions, edge_, *team_, sums, dragged_nodes);
   std::string more = more_of(defects, !now.is_curve);
   if (!more.empty()) return more;
   if (has_directions_) return has_points_ ? std::string() : disagreement_with_directions(now, dragged_nodes);
@@ -299,11 +316,13 @@ std::string ResultCheck::fault(Net& now, bool in_haste) const {
   }
   if (has_points_) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
-  // Fair shapes may be bent more. One on the way that is, and is not looked at without noise, may as well be crumpled.
-  const bool is_bent_more = defects.bending > (in_haste ? 1 : risen_bending) * bending_ + unseen;
-  if (!now.is_curve) {
+  const bool is_bent_more = defects.bending > risen_bending * bending_ + unseen;
+  if (by_turns) {
+    // Fair shapes may be bent more. One on the way that is may as well be crumpled.
+    if (sums.turns && defects.turns > turns_ + unseen) return "its faces turn more from one to the next";
+  } else if (!now.is_curve) {
     if (is_bent_more) return fmt::format("it is bent more, by {:.3g} in place of {:.3g}", defects.bending, bending_);
-    const double smooth = smooth_bending_ && !in_haste ? bending_without_noise(now) : 0;
+    const double smooth = smooth_bending_ ? bending_without_noise(now) : 0;
     if (smooth > risen_smooth_bending * smooth_bending_.value_or(0) + unseen)
       return fmt::format("it is bent more, by {:.3g} in place of {:.3g} without the noise of either", smooth,
                          *smooth_bending_);
@@ -313,7 +332,7 @@ std::string ResultCheck::fault(Net& now, bool in_haste) const {
   model_->prepare(now);
   update_directions(now, *model_, *team_);
   const double energy = spring_energy(now).sum;
-  const double rise = !is_surface_ && is_bent_more ? noticed_rise_of_curves : noticed_rise;
+  const double rise = by_turns ? 1 : !is_surface_ && is_bent_more ? noticed_rise_of_curves : noticed_rise;
   if (!(energy <= rise * energy_ + unseen))
     return fmt::format("the V-Spring energy rose from {:.3g} to {:.3g}", energy_, energy);
   return {};

@@ -95,6 +95,11 @@ TEST(ResultCheck, TellsWhatIsBentMoreFromNoise) {
     EXPECT_EQ(check.fault(same), "") << "without the noise";
     Net more = bowed(0.3, 0);
     EXPECT_TRUE(contains(check.fault(more), "bent more")) << check.fault(more);
+    EXPECT_EQ(check.fault(start, true), "");
+    EXPECT_EQ(check.fault(same, true), "");
+    Net little_more = bowed(0.108, noise);
+    EXPECT_EQ(check.fault(little_more), "") << "fair shapes may be bent more";
+    EXPECT_TRUE(contains(check.fault(little_more, true), "turn more")) << "those on their way may not";
   }
 }
 

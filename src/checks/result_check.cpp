@@ -288,11 +288,11 @@ std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const 
   update_directions(now, *model_, *team_);
   const double energy = spring_energy(now).sum;
   if (energy <= risen_energy_if_bent * energy_ + unseen) return {};
-  const auto bending = [&](const std::vector<Vector3>& positions) {
+  const auto bending_of = [&](const std::vector<Vector3>& positions) {
     return defects_of(now, positions, edge_, *team_, {.bending = true}, dragged_nodes).bending;
   };
-  const double before = bending(*start_);
-  const double after = bending(now.positions);
+  const double before = bending_of(*start_);
+  const double after = bending_of(now.positions);
   if (after <= risen_bending * before + unseen) return {};
   return fmt::format(
       "it is bent more, by {:.3g} in place of {:.3g}, and the V-Spring energy rose from {:.3g} to {:.3g}", after,

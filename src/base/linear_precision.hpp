@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "base/definite3.hpp"
 #include "vspring/types.hpp"
 
@@ -15,7 +13,7 @@ class LinearPrecision {
   void add(double weight, const Vector3& offset) {
     sum_ += weight;
     mean_ += weight * offset;
-    spread_ += weight * offset * offset.transpose();
+    spread_.add_square(weight, offset);
   }
 
   /// Of the weights before.
@@ -25,16 +23,18 @@ class LinearPrecision {
 
   /// g, for offsets in the plane across a unit normal.
   [[nodiscard]] Vector3 slope_across(const Vector3& normal) const {
-    Eigen::Matrix3d spread = spread_;
-    spread += size() * normal * normal.transpose() + 1e-9 * size() * Eigen::Matrix3d::Identity();
+    Symmetric3 spread;
+    spread.add_square(size(), normal);
+    spread.add_to_diagonal(1e-9 * size());
+    spread += spread_;
     return solve_definite(spread, mean_);
   }
 
   /// g, for offsets that lie about in a plane, which need not be known: across it, where there is little to be
   /// reproduced, a ridge, as a share of the size, keeps that from being tried.
   [[nodiscard]] Vector3 slope(double ridge) const {
-    Eigen::Matrix3d spread = spread_;
-    spread += ridge * size() * Eigen::Matrix3d::Identity();
+    Symmetric3 spread = spread_;
+    spread.add_to_diagonal(ridge * size());
     return solve_definite(spread, mean_);
   }
 
@@ -49,7 +49,7 @@ class LinearPrecision {
  private:
   double sum_ = 0;
   Vector3 mean_ = Vector3::Zero();
-  Eigen::Matrix3d spread_ = Eigen::Matrix3d::Zero();
+  Symmetric3 spread_;
 };
 
 }  // namespace vspring

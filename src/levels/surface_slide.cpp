@@ -42,8 +42,9 @@ struct Neighbour {
 };
 
 /// A node and its neighbours, with weights of sum 1 near those of inverse squared distances from a place that put it in
-/// its place between them. False where no weights from zero on do.
-bool weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector<Neighbour>& neighbours) {
+/// its place between them. False where no weights from zero on do. ways: room for the ways there, in the tangent plane.
+bool weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector<Neighbour>& neighbours,
+           std::vector<Vector3>& ways) {
   neighbours.assign(1, {centre, 0});
   double square = 0;
   for (const Link link : net.rings.links(centre)) {
@@ -51,17 +52,16 @@ bool weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector
     neighbours.push_back({link.node(), 0});
     square += (net.positions[link.node()] - net.positions[centre]).squaredNorm();
   }
-  square *= blur / static_cast<double>(neighbours.size());
+  const std::size_t count = neighbours.size();
+  square *= blur / static_cast<double>(count);
   LinearPrecision linear;
   const Vector3& normal = net.normals[centre];
-  const auto across = [&](std::size_t j) -> Vector3 {
-    const Vector3 d = net.positions[j] - place;
-    return d - d.dot(normal) * normal;
-  };
-  for (Neighbour& one : neighbours) {
-    const Vector3 d = across(one.node);
-    one.weight = 1 / (d.squaredNorm() + square + net.tiny);
-    linear.add(one.weight, d);
+  ways.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vector3 d = net.positions[neighbours[k].node] - place;
+    ways[k] = d - d.dot(normal) * normal;
+    neighbours[k].weight = 1 / (ways[k].squaredNorm() + square + net.tiny);
+    linear.add(neighbours[k].weight, ways[k]);
   }
   if (!(linear.size() > 0)) {
     for (Neighbour& one : neighbours) one.weight /= linear.sum();
@@ -69,14 +69,15 @@ bool weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector
   }
   const Vector3 slope = linear.slope_across(normal);
   double total = 0;
-  for (Neighbour& one : neighbours) {
-    one.weight = std::max(0.0, one.weight * (1 - slope.dot(across(one.node))));
-    total += one.weight;
+  for (std::size_t k = 0; k < count; ++k) {
+    double& weight = neighbours[k].weight;
+    weight = std::max(0.0, weight * (1 - slope.dot(ways[k])));
+    total += weight;
   }
   Vector3 missed = Vector3::Zero();
-  for (Neighbour& one : neighbours) {
-    one.weight /= total;
-    missed += one.weight * across(one.node);
+  for (std::size_t k = 0; k < count; ++k) {
+    neighbours[k].weight /= total;
+    missed += neighbours[k].weight * ways[k];
   }
   return missed.squaredNorm() <= greatest_miss * greatest_miss * square;
 }
@@ -124,12 +125,13 @@ void slide(Net& net, std::span<const Vector3> steps, ThreadTeam& team) {
   parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
     std::vector<Neighbour> neighbours;
     std::vector<Neighbour> corners;
+    std::vector<Vector3> ways;
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3 to = net.positions[i] + steps[i];
       const std::size_t there = walk(net, i, to);
       // Beside what is held the walk may end there; what lies behind is not known.
       const std::size_t centre = there < net.moving ? there : i;
-      if (!weigh(net, centre, to, neighbours) && weigh_corners(net, i, to, corners)) neighbours.swap(corners);
+      if (!weigh(net, centre, to, neighbours, ways) && weigh_corners(net, i, to, corners)) neighbours.swap(corners);
       places[i] = balance(net, [&](const auto& use) {
         for (const Neighbour& one : neighbours) use(one.node, one.weight);
       });

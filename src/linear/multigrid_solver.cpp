@@ -58,21 +58,24 @@ Value narrow(const Sum<Value>& value) {
 }
 
 template <typename Value>
-Value row_times(const FloatRows& matrix, std::size_t i, const std::vector<Value>& values) {
+__attribute__((always_inline)) inline Value row_times(const FloatRows& matrix, std::size_t i,
+                                                      const std::vector<Value>& values) {
   Value sum = zero<Value>();
   for (const FloatRows::Entry& entry : matrix.row(i)) sum += entry.value * values[entry.column];
   return sum;
 }
 
 template <typename Value>
-Value row_times(const AssembledMatrix& matrix, std::size_t i, const std::vector<Value>& values) {
+__attribute__((always_inline)) inline Value row_times(const AssembledMatrix& matrix, std::size_t i,
+                                                      const std::vector<Value>& values) {
   Sum<Value> sum = wide<Value>(zero<Value>());
   matrix.for_row(i, [&](std::size_t column, double value) { sum += value * wide<Value>(values[column]); });
   return narrow<Value>(sum);
 }
 
 template <typename Value>
-Value row_times(const GraphLaplacian& matrix, std::size_t i, const std::vector<Value>& values) {
+__attribute__((always_inline)) inline Value row_times(const GraphLaplacian& matrix, std::size_t i,
+                                                      const std::vector<Value>& values) {
   Value sum = zero<Value>();
   float spokes = 0;
   matrix.for_neighbours(i, [&](std::size_t j) {

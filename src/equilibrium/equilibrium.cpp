@@ -160,7 +160,7 @@ class Solver {
 
   /// Curves are taken nearer to where rounding has the last word; surfaces may be large.
   static std::variant<Anderson<float>, Anderson<double>> history(const Net& net, ThreadTeam& team) {
-    if (!net.is_curve) return Anderson<float>(acceleration_depth, net.moving, team);
+    if (!net.is_curve) return Anderson<float>(surface_acceleration_depth(net.moving), net.moving, team);
     return Anderson<double>(acceleration_depth, net.moving, team);
   }
 

@@ -166,7 +166,7 @@ void SurfaceHierarchy::update(const Constraints& constraints, const Model& model
     if (net.normal_given(i)) net.normals[i] += *step++;
   }
   if (greatest_length(held_step_) < telling_move * tolerance) held_step_.clear();
-  if (!memory_) memory_.emplace(acceleration_depth, net.moving, *team_);
+  if (!memory_) memory_.emplace(surface_acceleration_depth(net.moving), net.moving, *team_);
   memory_->begin_anew();
 }
 

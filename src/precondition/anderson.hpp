@@ -12,6 +12,12 @@ namespace vspring {
 /// Earlier iterates that are worth looking at.
 constexpr std::size_t acceleration_depth = 6;
 
+/// The same of surfaces: large ones arrive in a few iterations, half as many cost them none, and 4,000,000 nodes stay
+/// within 3 GiB.
+constexpr std::size_t surface_acceleration_depth(std::size_t moving) {
+  return moving > 500'000 ? acceleration_depth / 2 : acceleration_depth;
+}
+
 /// Anderson acceleration (D. G. Anderson, "Iterative procedures for nonlinear integral equations", J. ACM 12(4), 1965;
 /// H. Walker, P. Ni, SIAM J. Numer. Anal. 49(4), 2011): of an iteration x ← x + c(x) it takes the combination of the
 /// last iterates whose c is smallest, so that for nearly linear c it converges as conjugate-residual methods do.

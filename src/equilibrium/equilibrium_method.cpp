@@ -165,6 +165,7 @@ class EquilibriumSearch : private Relaxation {
   /// What was found before somebody cancelled, on the shape itself.
   void hand_up_roughly() {
     if (!level_) return;
+    const UncancelledScope whole;
     for (std::size_t k = *level_; k < last(); ++k) {
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_roughly_from(k);

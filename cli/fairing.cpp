@@ -124,7 +124,7 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
                               .scalars = made.scalars,
                               .welding = made.welding};
   const std::string missing = write_views(*arguments_, shown, json, context_);
-  if (!missing.empty()) warnings.push_back(output_name(missing) + ": not written, as the run was interrupted");
+  if (!missing.empty()) warnings.push_back(not_written(missing));
   errors_.warn(warnings);
   if (!arguments_->quiet &&
       !messages_.write(summary(report, fairness, diagonal_of(input), arguments_->options, messages_) + made.lines))

@@ -16,7 +16,9 @@ using Json = nlohmann::ordered_json;
 // Of the points that hold a shape.
 constexpr std::ptrdiff_t most_named = 1000;
 
+/// Empty where they were not measured.
 Json to_json(const PointDistances& distances) {
+  if (distances.all.count == 0) return Json::object();
   return {{"greatest", distances.all.greatest},
           {"point", distances.all.node},
           {"rms", distances.all.rms},
@@ -126,31 +128,33 @@ FitAccount::FitAccount(const FitReport& report, const PullArguments& arguments, 
 }
 
 Json FitAccount::figures() const {
-  return {
-      {"points",
-       {{"file", file_},
-        {"weight", optional(arguments_.weight)},
-        {"smoothing_length", optional(report_.smoothing_length)},
-        {"within", optional(arguments_.within)},
-        {"rms", optional(arguments_.rms)},
-        {"noise", optional(arguments_.noise)},
-        {"estimated_noise", arguments_.estimate ? Json(arguments_.estimate->deviation) : Json()},
-        {"weights", weights_ ? Json{{"least", weights_->first}, {"greatest", weights_->second}} : Json()},
-        {"normals", normals_},
-        {"count", report_.points},
-        {"outliers", report_.outliers},
-        {"outside", asks_for_distance() ? Json{{"count", report_.outside_points}, {"share", outside_share()}} : Json()},
-        {"active", report_.active_points.size()},
-        {"active_points", std::vector(report_.active_points.begin(),
-                                      report_.active_points.begin() +
-                                          std::min<std::ptrdiff_t>(std::ssize(report_.active_points), most_named))},
-        {"pulling", report_.pulling_points},
-        {"nodes_with_points", report_.pulled_nodes},
-        {"most_on_a_node", report_.most_points},
-        {"distance", {{"before", to_json(report_.before)}, {"after", to_json(report_.after)}}}}}};
+  return {{"points",
+           {{"file", file_},
+            {"weight", optional(arguments_.weight)},
+            {"smoothing_length", optional(report_.smoothing_length)},
+            {"within", optional(arguments_.within)},
+            {"rms", optional(arguments_.rms)},
+            {"noise", optional(arguments_.noise)},
+            {"estimated_noise", arguments_.estimate ? Json(arguments_.estimate->deviation) : Json()},
+            {"weights", weights_ ? Json{{"least", weights_->first}, {"greatest", weights_->second}} : Json()},
+            {"normals", normals_},
+            {"count", report_.points},
+            {"outliers", report_.outliers},
+            {"outside",
+             tells_who_is_outside() ? Json{{"count", report_.outside_points}, {"share", outside_share()}} : Json()},
+            {"active", report_.active_points.size()},
+            {"active_points", std::vector(report_.active_points.begin(),
+                                          report_.active_points.begin() +
+                                              std::min<std::ptrdiff_t>(std::ssize(report_.active_points), most_named))},
+            {"pulling", report_.pulling_points},
+            {"nodes_with_points", report_.pulled_nodes},
+            {"most_on_a_node", report_.most_points},
+            {"distance", {{"before", to_json(report_.before)}, {"after", to_json(report_.after)}}}}}};
 }
 
-bool FitAccount::asks_for_distance() const { return arguments_.within || arguments_.rms; }
+bool FitAccount::is_measured() const { return report_.after.all.count > 0; }
+
+bool FitAccount::tells_who_is_outside() const { return is_measured() && (arguments_.within || arguments_.rms); }
 
 double FitAccount::outside_share() const {
   return static_cast<double>(report_.outside_points) / static_cast<double>(report_.after.all.count);
@@ -167,10 +171,12 @@ std::string FitAccount::lines() const {
   if (arguments_.estimate)
     text += fmt::format("noise estimated  {:.4g} units ({:.2g} median edges) in each coordinate\n",
                         arguments_.estimate->deviation, arguments_.estimate->edges);
-  line("rms distance     ", report_.before.all.rms, report_.after.all.rms);
-  line("99 % within      ", report_.before.percentile99, report_.after.percentile99);
-  line("greatest         ", report_.before.all.greatest, report_.after.all.greatest);
-  if (asks_for_distance())
+  if (is_measured()) {
+    line("rms distance     ", report_.before.all.rms, report_.after.all.rms);
+    line("99 % within      ", report_.before.percentile99, report_.after.percentile99);
+    line("greatest         ", report_.before.all.greatest, report_.after.all.greatest);
+  }
+  if (tells_who_is_outside())
     text += fmt::format("further away     {} ({:.3g} %) than {:.4g} units\n", report_.outside_points,
                         100 * outside_share(), arguments_.within ? *arguments_.within : *arguments_.rms);
   if (report_.smoothing_length) text += fmt::format("smoothing length {:.4g} units\n", *report_.smoothing_length);

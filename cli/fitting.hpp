@@ -56,7 +56,8 @@ class FitAccount {
   [[nodiscard]] std::string lines() const;
 
  private:
-  [[nodiscard]] bool asks_for_distance() const;
+  [[nodiscard]] bool is_measured() const;
+  [[nodiscard]] bool tells_who_is_outside() const;
   [[nodiscard]] double outside_share() const;
 
   FitReport report_;

@@ -124,6 +124,10 @@ void write_uninterrupted(const std::string& path, const std::string& bytes) {
   write_file(path, bytes);
 }
 
+std::string not_written(const std::string& path) {
+  return output_name(path) + ": not written, as the run was interrupted";
+}
+
 std::vector<std::string> written_without(const std::string& path, const std::vector<std::string>& losses) {
   std::vector<std::string> warnings;
   warnings.reserve(losses.size());

@@ -28,6 +28,9 @@ void refuse_views(const FairingArguments& arguments, bool curve);
 /// Writes a file that Ctrl-C does not interrupt.
 void write_uninterrupted(const std::string& path, const std::string& bytes);
 
+/// The warning of an output that an interrupted run leaves out.
+[[nodiscard]] std::string not_written(const std::string& path);
+
 /// A warning for each of the losses that a file was written with.
 [[nodiscard]] std::vector<std::string> written_without(const std::string& path, const std::vector<std::string>& losses);
 

@@ -45,7 +45,8 @@ val to_val(const FitResult& result) {
   figures.set("rms", report.after.all.rms);
   val all = to_val(report.fair);
   all.set("fit", figures);
-  all.set("distances", array_of("Float64Array", result.distances.size(), result.distances.data()));
+  if (!result.distances.empty())
+    all.set("distances", array_of("Float64Array", result.distances.size(), result.distances.data()));
   return all;
 }
 

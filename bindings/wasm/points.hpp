@@ -32,7 +32,7 @@ class Points {
 /// `keep`, whether nodes keep their distribution.
 FitOptions options_of(const val& settings);
 
-/// The report of fairing with `fit`, figures of the points, and `distances`.
+/// The report of fairing with `fit`, figures of the points, and `distances` where these were measured.
 val to_val(const FitResult& result);
 
 /// From the file's shape, drawn towards points: the new positions. With the report come `fit`, its figures, and

@@ -88,15 +88,24 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   after.set_positions(result.positions);
   const std::vector<Vector3> nodes = welding.positions(result.positions);
 
+  // Those that were not measured as a time limit came, unless somebody waits for the end.
+  const auto distances = [&] {
+    const bool are_missing = result.distances.empty() && !fairing.context().cancelled();
+    return are_missing ? point_distances(cloud.positions(), after, fairing.context()) : result.distances;
+  };
   const auto write_shape = [&] {
     std::vector<std::string> lost = written_without(arguments.output, write(arguments, file, nodes));
-    if (!arguments.deviation.empty())
-      write_scalars(arguments.deviation, cloud, std::vector<NodeScalar>{{"deviation", result.distances}});
+    if (arguments.deviation.empty()) return lost;
+    std::vector<double> deviations = distances();
+    if (deviations.empty())
+      lost.push_back(not_written(arguments.deviation));
+    else
+      write_scalars(arguments.deviation, cloud, std::vector<NodeScalar>{{"deviation", std::move(deviations)}});
     return lost;
   };
   const auto point_deviation = [&]() -> std::vector<NodeScalar> {
     return {{"point_deviation",
-             welding.greatest(node_deviations(nodes, cloud.positions(), result.distances, fairing.context()))}};
+             welding.greatest(node_deviations(nodes, cloud.positions(), distances(), fairing.context()))}};
   };
   auto figures = account.figures();
   figures.update(welding.figures());

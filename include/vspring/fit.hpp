@@ -104,13 +104,16 @@ struct FitReport {
   /// With Within: the points at that distance, to 1 %, in order. They keep the shape from becoming fairer.
   std::vector<Index> active_points;
   Index outside_points = 0;  ///< with Within or RootMeanSquare: those further away than that, of the points that count
+  /// Both without a count where the fit was cancelled and had too many points to measure them then.
   PointDistances before;
   PointDistances after;
 };
 
 struct FitResult {
   std::vector<Vector3> positions;  ///< one per node; fixed nodes bit for bit
-  std::vector<double> distances;   ///< of every point from the new shape, in the units of the input; outliers too
+  /// Of every point from the new shape, in the units of the input; outliers too. Empty where the fit was cancelled and
+  /// points and nodes are more than 40,000 together: see point_distances().
+  std::vector<double> distances;
   FitReport report;
 };
 

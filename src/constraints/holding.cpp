@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "base/cancellation.hpp"
 #include "base/dense_algebra.hpp"
 #include "base/disjoint_sets.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
@@ -46,6 +47,7 @@ class Holding {
     // Held nodes beside moving ones, whose normals and spheres follow from all faces around them.
     std::vector<std::uint8_t> is_rim(are_lost ? static_cast<std::size_t>(mesh_.node_count()) : 0, 0);
     for (Index f = 0; f < mesh_.face_count(); ++f) {
+      look(f);
       const auto face = mesh_.face(f);
       if (std::none_of(face.begin(), face.end(), [&](Index i) { return !constraints_.position_fixed(i); })) continue;
       if (face.size() < 3) add_fault(Defect{.kind = Defect::Kind::too_few_nodes, .face = f}, face[0]);
@@ -62,6 +64,7 @@ class Holding {
     }
     FanWalker walker(mesh_, incidence_);
     for (Index i = 0; i < mesh_.node_count(); ++i) {
+      look(i);
       if (!moves(i)) continue;
       const Fan& fan = walker.walk(i);
       check_fan(i, fan);
@@ -85,6 +88,7 @@ class Holding {
     std::vector<Index> held(nodes, 0);
     std::vector<Index> size(nodes, 0);
     for (Index i = 0; i < mesh_.node_count(); ++i) {
+      look(i);
       if (!moves(i)) continue;
       ++size[static_cast<std::size_t>(find(i))];
       if (pulled(i)) held[static_cast<std::size_t>(find(i))] = 1;
@@ -170,6 +174,7 @@ class Holding {
     const auto add_place = [&](std::size_t k, const Vector3& p) { add(k, p.dot(p), p, 1); };
     std::vector<std::size_t> met;
     for (Index j = 0; j < mesh_.node_count(); ++j) {
+      look(j);
       met.clear();
       if (moves(j)) {
         if (on_boundary[static_cast<std::size_t>(j)] != 0) bounded[system(j)] = 1;
@@ -208,6 +213,8 @@ class Holding {
   }
 
  private:
+  static void look(Index step) { end_if_cancelled_at(static_cast<std::size_t>(step)); }
+
   [[nodiscard]] bool is_lost(Index i) const {
     return !(constraints_.position_fixed(i) ? constraints_.position(i) : mesh_.position(i)).allFinite();
   }
@@ -272,6 +279,7 @@ class Holding {
 
   void join_parts() {
     for (Index i = 0; i < mesh_.node_count(); ++i) {
+      look(i);
       if (!moves(i)) continue;
       graph_.for_each_neighbour(i, [&](Index j) {
         // The other way round it is the same edge.

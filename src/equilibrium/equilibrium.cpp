@@ -60,7 +60,7 @@ class Solver {
     BestIterate best(net_, 1);
     try {
       const CancellationScope cancellation(context);
-      iterate(task, context, result, best);
+      iterate(task, result, best);
     } catch (const Cancelled&) {
       forget();
       result.outcome = Outcome::cancelled;
@@ -74,7 +74,7 @@ class Solver {
 
  private:
   /// Leaves what was found in the net and in the result, and the shape of the smallest residual in `best`.
-  void iterate(const EquilibriumTask& task, Context& context, EquilibriumResult& result, BestIterate& best) {
+  void iterate(const EquilibriumTask& task, EquilibriumResult& result, BestIterate& best) {
     double before = 0;
     double rate_before = 0;
     double last_step = 0;
@@ -87,8 +87,6 @@ class Solver {
     int changes_from_far = 0;
     const auto renew_ties = [&](bool far) {
       if (!task.renew_ties) return false;
-      // Ties that are half made would belong to no shape.
-      const UncancelledScope whole;
       if (!task.renew_ties(margin_after(changes))) return false;
       if (far) ++changes_from_far;
       if (!far || changes_from_far > free_changes) ++changes;
@@ -105,10 +103,7 @@ class Solver {
     const int most_while_far = task.most_while_far.value_or(task.max_iterations);
     while (result.iterations < task.max_iterations && result.work + 1 <= task.most_work &&
            (result.iterations < most_while_far || best.residual() < task.near)) {
-      if (context.cancelled()) {
-        result.outcome = Outcome::cancelled;
-        break;
-      }
+      end_if_cancelled();
       if (last_changes == 0 && result.iterations > 0 && (limited || result.iterations % iterations_per_tie == 0))
         (void)renew_ties(limited);
       result.work += 1 + find_correction(negligible * task.tolerance);

@@ -165,6 +165,7 @@ class EquilibriumSearch : private Relaxation {
   /// What was found before somebody cancelled, on the shape itself.
   void hand_up_roughly() {
     if (!level_) return;
+    const UncancelledScope whole;
     for (std::size_t k = *level_; k < last(); ++k) {
       update_directions(hierarchy_.net(k), model_, team_);
       hierarchy_.prolong_roughly_from(k);
@@ -211,14 +212,18 @@ class EquilibriumSearch : private Relaxation {
     has_looked_for_winding_ = true;
     const Reached found = reached(last());
     net.positions = *input_;
-    if (hierarchy_.wind()) {
-      const std::vector<Vector3> wound = net.positions;
-      for (const FlowStart start : {FlowStart::near, FlowStart::anywhere}) {
-        net.positions = wound;
-        relax_along_flow(start == FlowStart::near ? newton_limit : default_limit, start);
-        if (report_.outcome == Outcome::cancelled) break;
-        if (report_.outcome == Outcome::converged && !hierarchy_.lost_winding(*input_)) return;
+    try {
+      if (hierarchy_.wind()) {
+        const std::vector<Vector3> wound = net.positions;
+        for (const FlowStart start : {FlowStart::near, FlowStart::anywhere}) {
+          net.positions = wound;
+          relax_along_flow(start == FlowStart::near ? newton_limit : default_limit, start);
+          if (report_.outcome == Outcome::cancelled) break;
+          if (report_.outcome == Outcome::converged && !hierarchy_.lost_winding(*input_)) return;
+        }
       }
+    } catch (const Cancelled&) {
+      report_.outcome = Outcome::cancelled;
     }
     const bool cancelled = report_.outcome == Outcome::cancelled;
     go_back(last(), found);
@@ -359,8 +364,12 @@ class EquilibriumSearch : private Relaxation {
   /// False, and what there was before, where that leads nowhere.
   bool follow_flow_from(const std::function<void()>& go_to_start, int steps) {
     const Reached best = reached(last());
-    go_to_start();
-    relax_along_flow(steps, FlowStart::anywhere);
+    try {
+      go_to_start();
+      relax_along_flow(steps, FlowStart::anywhere);
+    } catch (const Cancelled&) {
+      report_.outcome = Outcome::cancelled;
+    }
     if (report_.outcome == Outcome::converged) return true;
     const bool cancelled = report_.outcome == Outcome::cancelled;
     go_back(last(), best);

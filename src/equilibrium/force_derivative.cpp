@@ -4,6 +4,8 @@
 #include <cmath>
 #include <span>
 
+#include "base/cancellation.hpp"
+
 namespace vspring {
 
 namespace {
@@ -33,6 +35,7 @@ ForceDerivative::ForceDerivative(Net& net, const Model& model)
   std::vector<int> begin = {0};
   std::vector<int> rows;
   for (std::size_t j = 0; j < net.moving; ++j) {
+    end_if_cancelled();
     sort_out(normals_[j]);
     std::vector<std::uint32_t>& forces = forces_[j];
     for (const std::uint32_t i : normals_[j]) {
@@ -58,6 +61,7 @@ const Eigen::SparseMatrix<double>& ForceDerivative::find() {
   std::vector<Vector3> ahead;
   double* value = matrix_.valuePtr();
   for (std::size_t j = 0; j < net.moving; ++j) {
+    end_if_cancelled();
     const double step = std::max(difference_step * mean_edge(net, j), std::sqrt(net.tiny));
     const Vector3 place = net.positions[j];
     const auto turn_normals = [&] {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 
+#include "base/cancellation.hpp"
 #include "base/stopwatch.hpp"
 #include "equilibrium/sweep_method.hpp"
 
@@ -88,7 +89,12 @@ class Cycle {
       progress_.report("fairing", step_tolerance > 0 ? share * 0.7 : 0, report_.iterations, residual);
     };
     if (points_) {
-      points_->tie(level);
+      try {
+        // What is handed up after somebody has cancelled needs no ties.
+        if (!context_.cancelled()) points_->tie(level);
+      } catch (const Cancelled&) {
+        // Sweeps end at once.
+      }
       task.renew_ties = [&] { (void)points_->renew(0); };
     }
     const SweepResult result = sweep_until_still(hierarchy_.net(level), model_, task, team_, context_);

@@ -1,13 +1,13 @@
 #include "equilibrium/pseudo_transient.hpp"
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "equilibrium/force_derivative.hpp"
 #include "equilibrium/largest_turn.hpp"
+#include "linear/lu_factor.hpp"
 
 namespace vspring {
 
@@ -28,16 +28,6 @@ constexpr double near_by = 0.003;
 // Steps of that many tolerances are near enough to try Newton's.
 constexpr double near = 10;
 
-/// What SparseLU expects of an ordering is the inverse of Eigen's own by minimum degree.
-struct MinimumDegree {
-  using PermutationType = Eigen::AMDOrdering<int>::PermutationType;
-  void operator()(const Matrix& matrix, PermutationType& permutation) const {
-    PermutationType inverse;
-    Eigen::AMDOrdering<int>()(matrix, inverse);
-    permutation = inverse.inverse();
-  }
-};
-
 class Flow {
  public:
   Flow(Net& net, const Model& model, ThreadTeam& team)
@@ -47,16 +37,24 @@ class Flow {
 
   EquilibriumResult run(const EquilibriumTask& task, FlowStart start, Context& context) {
     EquilibriumResult result;
+    try {
+      const CancellationScope cancellation(context);
+      follow(task, start, result);
+    } catch (const Cancelled&) {
+      result.outcome = Outcome::cancelled;
+    }
+    return result;
+  }
+
+ private:
+  void follow(const EquilibriumTask& task, FlowStart start, EquilibriumResult& result) {
     find_forces();
     double length = start == FlowStart::near ? longest : std::max(shortest, near_by / forces_.norm());
     bool newton = false;
     for (; result.iterations < task.max_iterations && result.work + work_of_flow_step <= task.most_work;
          ++result.iterations) {
       result.work += work_of_flow_step;
-      if (context.cancelled()) {
-        result.outcome = Outcome::cancelled;
-        return result;
-      }
+      end_if_cancelled();
       const bool solved = find_step(newton ? 0 : 1 / length);
       const double size =
           solved ? std::sqrt(greatest_over_nodes(net_, team_, [&](std::size_t i) { return step_[i].squaredNorm(); }))
@@ -73,7 +71,7 @@ class Flow {
         ++result.iterations;
         result.outcome = Outcome::converged;
         result.expected_error = size;
-        return result;
+        return;
       }
       const double share = std::min(1.0, greatest_flow_turn / turn);
       const double before = forces_.norm();
@@ -97,10 +95,8 @@ class Flow {
       }
     }
     if (result.iterations < task.max_iterations) result.outcome = Outcome::work_limit;
-    return result;
   }
 
- private:
   void find_forces() {
     update_directions(net_, model_, team_);
     std::vector<NodeForce> forces(net_.moving);
@@ -128,7 +124,7 @@ class Flow {
   const Model& model_;
   ThreadTeam& team_;
   ForceDerivative derivative_;
-  Eigen::SparseLU<Matrix, MinimumDegree> factor_;
+  LuFactor factor_;
   bool analysed_ = false;
   Eigen::VectorXd forces_;
   std::vector<Vector3> step_;

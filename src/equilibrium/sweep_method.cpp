@@ -47,9 +47,9 @@ SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& tas
       break;
     }
     const bool fresh = !task.renew_ties || at_rest || result.iterations % sweeps_per_tie == 0;
-    if (task.renew_ties && fresh) task.renew_ties();
     try {
       const CancellationScope cancellation(context);
+      if (task.renew_ties && fresh) task.renew_ties();
       result.residual = sweep.iterate();
     } catch (const Cancelled&) {
       // Nodes that the sweep has not come to stay, as in any shape on the way.

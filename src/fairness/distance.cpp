@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "base/threads.hpp"
 #include "fairness/counted.hpp"
 #include "shape/box_tree.hpp"
@@ -120,6 +121,7 @@ Squares squares_to(std::span<const Vector3> points, const Elements& elements, st
   const std::vector<Vector3> to = placed(positions, frame);
   std::vector<Box> boxes(elements.size());
   for (std::size_t k = 0; k < elements.size(); ++k) {
+    end_if_cancelled_at(k);
     for (const Index node : elements[k]) boxes[k].extend(to[static_cast<std::size_t>(node)]);
   }
   ThreadTeam team(context.thread_count());

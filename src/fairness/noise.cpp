@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "base/dense_algebra.hpp"
 #include "base/threads.hpp"
 #include "shape/face_geometry.hpp"
@@ -111,6 +112,7 @@ double deviation_of(const std::vector<Place>& places) {
   double least = std::numeric_limits<double>::infinity();
   std::vector<double> deviations(places.size());
   for (const Share& one : shares) {
+    end_if_cancelled();
     for (std::size_t k = 0; k < places.size(); ++k)
       deviations[k] = places[k].deviation / std::sqrt(expected_square(places[k].freedom, one.quantile));
     least = std::min(least, at_share(deviations, one.of_places));
@@ -158,6 +160,7 @@ std::vector<Vector3> smooth_normals(const PolygonMesh& mesh, const NodeGraph& gr
   }
   std::vector<Vector3> normals(nodes, Vector3::Zero());
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    end_if_cancelled_at(static_cast<std::size_t>(f));
     const auto face = mesh.face(f);
     const Vector3 area = twice_vector_area(face, now);
     for (const Index node : face) normals[static_cast<std::size_t>(node)] += area;
@@ -212,6 +215,7 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
   });
   std::vector<double> edges;
   for (Index i = 0; i < mesh.node_count(); ++i) {
+    end_if_cancelled_at(static_cast<std::size_t>(i));
     graph.for_each_neighbour(i, [&](Index j) {
       if (j > i) edges.push_back((mesh.position(j) - mesh.position(i)).norm());
     });

@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "base/stopwatch.hpp"
 #include "checks/result_check.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
@@ -24,6 +25,7 @@
 #include "fit/fit_points.hpp"
 #include "fit/fit_run.hpp"
 #include "fit/fit_to_tolerance.hpp"
+#include "fit/fit_warnings.hpp"
 #include "fit/noise_fit.hpp"
 #include "points/point_factors.hpp"
 #include "points/point_ties.hpp"
@@ -40,16 +42,12 @@ constexpr double step_share = 0.1;
 constexpr int most_turns_of_outliers = 12;
 // Where nodes are drawn to places of their own, waves are short and decay soon.
 constexpr int most_sweeps_with_targets = 2000;
-// In standard deviations of the noise that is to be taken off.
-constexpr double far_off = 1.5;
-// Points without a tolerance that end so far from the shape, root mean square, as a share of their box, and so many
-// times as far as before, are hardly what was asked for: springs that they hardly pull at make a balloon of few nodes.
-constexpr double left_behind = 0.02;
-constexpr double left_times = 10;
 // Nodes that went so far, root mean square, as a share of the size, to a shape so many times as far from the points,
 // are such a balloon for certain.
 constexpr double balloon_move = 0.1;
 constexpr double balloon_times = 3;
+// Nodes and points of a fit whose distances are measured though somebody waits for the end.
+constexpr std::size_t most_measured_in_haste = 40'000;
 // An expected error, as a share of the size, from which a curve on its way to an equilibrium is no use.
 constexpr double curve_is_lost_at = 1e-2;
 
@@ -67,57 +65,55 @@ class Fitting {
     if (constraints.node_count() != shape.node_count()) (void)check_constraints(shape, constraints);
     ProgressReporter progress(run_.context);
     progress.report("preparing", 0);
-    FitResult& result = run_.result;
-    FitReport& report = result.report;
-    if (options_.outliers > 0) {
-      leave_outliers_out(progress);
-    } else {
-      fit(progress, false);
+    try {
+      const CancellationScope cancellation(run_.context);
+      if (options_.outliers > 0) {
+        leave_outliers_out(progress);
+      } else {
+        fit(progress, false);
+      }
+      if constexpr (std::is_same_v<Subject, FitCurve>) go_gently();
+      stay_sound();
+      measure_distances();
+    } catch (const Cancelled&) {
+      end_early();
     }
-    if constexpr (std::is_same_v<Subject, FitCurve>) go_gently();
-    stay_sound();
-
-    report.before = summary(run_.subject.distances_before(), run_.counted);
-    result.distances = run_.distances();
-    report.after = summary(result.distances, run_.kept);
-    report.outliers = report.points - report.after.all.count;
-    if (options_.noise()) say_if_far_off();
-    say_if_left_behind();
-    report.outside_points = count_outside(result.distances);
-    if (options_.within()) report.active_points = active_points(result.distances, run_.kept, *options_.within());
-    report.fair.seconds = stopwatch.seconds();
-    return std::move(result);
+    run_.result.report.fair.seconds = stopwatch.seconds();
+    return std::move(run_.result);
   }
 
  private:
-  /// A shape that is further from its nodes than noise explains is not what was asked for.
-  void say_if_far_off() {
-    FairReport& report = run_.result.report.fair;
-    const double distance = run_.result.report.after.all.rms;
-    if (report.outcome != Outcome::converged || !(distance > far_off * *options_.noise())) return;
-    report.outcome = Outcome::stalled;
-    report.warnings.push_back(
-        {WarningCode::far_from_nodes,
-         fmt::format(
-             "nodes were {:.2g} times the noise away from the shape in the root mean square: it could not follow "
-             "them everywhere; they may be too few for their features, or faces folded without noise",
-             distance / *options_.noise())});
+  /// With what was finished before somebody cancelled.
+  void end_early() {
+    run_.result.report.fair.outcome = Outcome::cancelled;
+    if (run_.result.positions.empty()) {
+      run_.finish_unchanged();
+      is_sound_ = true;
+    }
+    if (!is_sound_) stay_sound();
+    measure_distances();
   }
 
-  void say_if_left_behind() {
-    FairReport& report = run_.result.report.fair;
-    if (report.outcome != Outcome::converged || options_.tolerance() || options_.noise()) return;
-    const double before = run_.result.report.before.all.rms;
-    const double after = run_.result.report.after.all.rms;
-    Eigen::AlignedBox3d box;
-    for (const Vector3& point : run_.points.positions) box.extend(point);
-    // The nodes themselves are no further away than smoothing takes them.
-    if (!(before > 0) || after < left_behind * box.diagonal().norm() || after < left_times * before) return;
-    report.warnings.push_back(
-        {WarningCode::points_left_behind,
-         fmt::format("points are {:.2g} times as far from the shape as before, in the root mean square: give them "
-                     "a greater weight, a shorter smoothing length, or a tolerance to stay within",
-                     after / before)});
+  /// And says what follows from them.
+  void measure_distances() {
+    FitResult& result = run_.result;
+    FitReport& report = result.report;
+    report.outliers = report.points - static_cast<Index>(std::count(run_.kept.begin(), run_.kept.end(), 1));
+    if (run_.context.cancelled()) {
+      if (report.fair.outcome == Outcome::converged) report.fair.outcome = Outcome::cancelled;
+      const auto size = static_cast<std::size_t>(run_.subject.shape().node_count()) + run_.points.positions.size();
+      if (size > most_measured_in_haste) return;
+    }
+    const PointDistances before = summary(run_.subject.distances_before(), run_.counted);
+    result.distances = run_.distances();
+    report.before = before;
+    report.after = summary(result.distances, run_.kept);
+    if (options_.noise())
+      warn_if_far_off(report, *options_.noise());
+    else if (!options_.tolerance())
+      warn_if_left_behind(report, run_.points.positions);
+    report.outside_points = count_outside(result.distances);
+    if (options_.within()) report.active_points = active_points(result.distances, run_.kept, *options_.within());
   }
 
   /// In words, where nodes went far, and away from the points; empty where not.
@@ -180,7 +176,7 @@ class Fitting {
       for (std::size_t i = 0; i < input.moving; ++i)
         found.positions[i] = input.frame.to_local(run.result.positions[static_cast<std::size_t>(input.node[i])]);
       fault = check->fault(found);
-      if (fault.empty()) fault = run.subject.crossings(run.result.positions);
+      if (fault.empty()) fault = run.subject.crossings(run.result.positions, run.context);
       if (fault.empty()) fault = fitting.balloon(input, found);
     }
 
@@ -194,8 +190,10 @@ class Fitting {
   /// Where the shape is worse than it came, it stays as it came, unless it is wanted as found.
   void stay_sound() {
     FairReport& report = run_.result.report.fair;
-    if (report.outcome == Outcome::worse_than_input) return;
+    is_sound_ = report.outcome == Outcome::worse_than_input || (run_.context.cancelled() && run_.is_unchanged());
+    if (is_sound_) return;
     const InputAndFound shapes(*this);
+    is_sound_ = true;
     const std::string& fault = shapes.fault;
     if (fault.empty()) return;
     const bool input_is_faulty = !shapes.check->fault_of_places(shapes.input).empty();
@@ -234,7 +232,7 @@ class Fitting {
 
   /// smooth: by some edges, instead of to a tolerance.
   void fit(ProgressReporter& progress, bool smooth) {
-    run_.start_report(options_.fair.method_kind());
+    run_.start(options_.fair.method_kind());
     FairReport& report = run_.result.report.fair;
     UntiedPoints points = run_.untied_points();
     const auto has_weight = [](double weight) { return weight > 0; };
@@ -287,7 +285,7 @@ class Fitting {
     const double work = report.work;
     const double limit = report.most_work;
     const Index nodes = report.moving_nodes;
-    run_.start_report(Method::sweep);
+    run_.start(Method::sweep);
     SweepMethod method = {.step_tolerance = fallbacks->step_tolerance,
                           .max_iterations = sweeps_of_last_resort(static_cast<std::size_t>(nodes))};
     if (options_.weight()) method.step_tolerance = std::min(method.step_tolerance, step_share * *options_.weight());
@@ -380,6 +378,7 @@ class Fitting {
 
   FitRun<Subject> run_;
   const FitOptions& options_;
+  bool is_sound_ = false;  ///< the result, as stay_sound() leaves it
 };
 
 template <typename Subject>

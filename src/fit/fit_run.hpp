@@ -39,9 +39,9 @@ class FitRun {
     kept = counted;
   }
 
-  /// The report of a fit that begins.
-  void start_report(Method method) {
-    result.report = {};
+  /// The result of a fit that begins.
+  void start(Method method) {
+    result = {};
     FairReport& fair = result.report.fair;
     fair.method = method;
     fair.threads = team.size();
@@ -87,15 +87,41 @@ class FitRun {
   /// Of the points from the result.
   std::vector<double> distances() { return subject.distances(result.positions); }
 
-  void finish_positions(const Net& net) {
-    result.positions =
-        scatter_positions(net, subject.shape().positions(), subject.constraints(), options.fair.strength);
+  /// Of all nodes.
+  [[nodiscard]] std::vector<Vector3> positions_of(const Net& net) const {
+    return scatter_positions(net, subject.shape().positions(), subject.constraints(), options.fair.strength);
   }
 
   void finish(const Net& net) {
     count_points(net);
-    finish_positions(net);
+    result.positions = positions_of(net);
     measure_moves(net, subject.shape().positions(), result.positions, result.report.fair);
+  }
+
+  /// Makes the input with its constraints the result.
+  void finish_unchanged() {
+    const Constraints& constraints = subject.constraints();
+    const std::vector<std::uint8_t> usable = subject.usable();
+    std::size_t moving = 0;
+    result.positions = subject.shape().positions();
+    for (Index i = 0; i < constraints.node_count(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (constraints.position_fixed(i))
+        result.positions[k] = constraints.position(i);
+      else
+        moving += usable[k];
+    }
+    count_nodes(moving, constraints, result.report.fair);
+  }
+
+  /// Whether it is that, and no shape that was found.
+  [[nodiscard]] bool is_unchanged() const {
+    const Constraints& constraints = subject.constraints();
+    for (Index i = 0; i < constraints.node_count(); ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if (!constraints.position_fixed(i) && result.positions[k] != subject.shape().positions()[k]) return false;
+    }
+    return true;
   }
 
   const ScatteredPoints& points;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/cancellation.hpp"
 #include "checks/new_crossings.hpp"
 #include "constraints/holding.hpp"
 #include "fairness/measure.hpp"
@@ -23,6 +24,7 @@ PolygonMesh rest_of(const PolygonMesh& mesh, const Constraints& constraints) {
   std::vector<Index> face_begin = {0};
   std::vector<Index> corners;
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    end_if_cancelled_at(static_cast<std::size_t>(f));
     const auto face = mesh.face(f);
     if (!std::all_of(face.begin(), face.end(), [&](Index i) { return constraints.position_fixed(i); })) continue;
     corners.insert(corners.end(), face.begin(), face.end());
@@ -94,14 +96,15 @@ std::vector<std::uint8_t> FitSurface::usable() const {
   return usable;
 }
 
-std::string FitSurface::crossings(const std::vector<Vector3>& positions) const {
-  return new_crossings(*whole_, positions, *measuring_, *team_);
+std::string FitSurface::crossings(const std::vector<Vector3>& positions, const Context& context) const {
+  return new_crossings(*whole_, positions, context, *team_);
 }
 
 SurfaceSides FitSurface::sides() const {
   SurfaceSides sides{.normals = std::vector<Vector3>(static_cast<std::size_t>(whole_->node_count()), Vector3::Zero())};
   double edges = 0;
   for (Index f = 0; f < whole_->face_count(); ++f) {
+    end_if_cancelled_at(static_cast<std::size_t>(f));
     const auto face = whole_->face(f);
     Vector3 area = Vector3::Zero();
     for (std::size_t k = 0; k < face.size(); ++k) {

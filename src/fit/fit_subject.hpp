@@ -38,7 +38,7 @@ class FitSurface {
   [[nodiscard]] std::vector<std::uint8_t> usable() const;
   [[nodiscard]] SurfaceSides sides() const;
   /// As new_crossings().
-  [[nodiscard]] std::string crossings(const std::vector<Vector3>& positions) const;
+  [[nodiscard]] std::string crossings(const std::vector<Vector3>& positions, const Context& context) const;
 
  private:
   const PolygonMesh* whole_;
@@ -71,7 +71,9 @@ class FitCurve {
   /// None: curves face nowhere.
   [[nodiscard]] static SurfaceSides sides() { return {}; }
   /// None are looked for.
-  [[nodiscard]] static std::string crossings(const std::vector<Vector3>& /*positions*/) { return {}; }
+  [[nodiscard]] static std::string crossings(const std::vector<Vector3>& /*positions*/, const Context& /*context*/) {
+    return {};
+  }
 
  private:
   [[nodiscard]] PolygonCurve with(const std::vector<Vector3>& positions) const;

@@ -32,7 +32,6 @@ class FitToTolerance {
       auto& limit = std::get<EquilibriumMethod>(options.method).max_iterations;
       limit = std::min(limit.value_or(few_steps), few_steps);
     }
-    FitResult& result = run_.result;
     try {
       (void)run_.subject.check({});
     } catch (const Error&) {
@@ -41,9 +40,9 @@ class FitToTolerance {
     }
     FairResult plain = vspring::fair(run_.subject.shape(), run_.subject.constraints(), options, run_.context);
     if (plain.report.outcome != Outcome::converged && !run_.context.cancelled()) return false;
-    result.positions = std::move(plain.positions);
-    if (!run_.context.cancelled() && !is_within()) return false;
-    result.report.fair = std::move(plain.report);
+    if (!run_.context.cancelled() && !is_within(plain.positions)) return false;
+    run_.result.positions = std::move(plain.positions);
+    run_.result.report.fair = std::move(plain.report);
     return true;
   }
 
@@ -101,13 +100,14 @@ class FitToTolerance {
     task.ended = [&] {
       return context.cancelled() || (report.fair.most_work > 0 && report.fair.work >= report.fair.most_work);
     };
+    std::vector<Vector3> measured;
     task.measure = [&] {
-      run_.finish_positions(shape.net());
-      std::vector<double> all = run_.distances();
+      measured = run_.positions_of(shape.net());
+      std::vector<double> all = run_.subject.distances(measured);
       for (std::size_t j = 0; j < all.size(); ++j) all[j] = run_.kept[j] != 0 ? all[j] * scale : 0;
       return all;
     };
-    task.energy = [&] { return run_.subject.fairness(run_.result.positions).vspring_energy; };
+    task.energy = [&] { return run_.subject.fairness(measured).vspring_energy; };
     ToleranceFitResult found =
         run_.options.within() ? fit_within(task, tolerance_ * scale) : smooth(task, tolerance_ * scale);
     // Tries that led nowhere tell nothing of the shape that is kept.
@@ -177,9 +177,9 @@ class FitToTolerance {
     return run_.options.within() ? greatest : std::sqrt(squares / count);
   }
 
-  /// Whether the shape is that is handed out, by the points that count.
-  [[nodiscard]] bool is_within() {
-    std::vector<double> all = run_.distances();
+  /// By the points that count.
+  [[nodiscard]] bool is_within(const std::vector<Vector3>& positions) {
+    std::vector<double> all = run_.subject.distances(positions);
     for (std::size_t j = 0; j < all.size(); ++j) all[j] *= run_.kept[j];
     return figure_of(all) <= tolerance_;
   }
@@ -192,7 +192,7 @@ class FitToTolerance {
     }
     const Outcome limit = fair.most_work > 0 ? Outcome::work_limit : Outcome::iteration_limit;
     fair.outcome = found.settled ? Outcome::converged : found.within ? limit : Outcome::stalled;
-    if (!found.within && is_within())
+    if (!found.within && is_within(run_.result.positions))
       fair.warnings.push_back(
           {WarningCode::no_equilibrium,
            "the shape is within the tolerance, but no equilibrium was found there: more that is held, or other "

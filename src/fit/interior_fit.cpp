@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "shape/planarity.hpp"
 
 namespace vspring {
@@ -62,6 +63,20 @@ class InteriorFit {
   ToleranceFitResult run(ToleranceFitResult result) {
     best_ = net_.positions;
     result.within = result.settled = false;
+    try {
+      approach(result);
+    } catch (const Cancelled&) {
+      // The best so far stays.
+    }
+    let_go();
+    net_.positions = best_;
+    result.settled = result.settled && result.within;
+    return result;
+  }
+
+ private:
+  /// Step by step, barriers falling.
+  void approach(ToleranceFitResult& result) {
     measure();
     look(result);
     double barrier = 0;
@@ -115,13 +130,8 @@ class InteriorFit {
         break;
       }
     }
-    let_go();
-    net_.positions = best_;
-    result.settled = result.settled && result.within;
-    return result;
   }
 
- private:
   /// Heights of all points that pull, over the shape as it is.
   void measure() {
     distances_ = task_.measure();

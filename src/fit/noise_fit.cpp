@@ -112,11 +112,11 @@ class NoisyNodes {
 
   /// Takes nodes that are further than the tolerance from where they were back to within it, and what is near along.
   /// Outliers stay. off: distances of all nodes of the input from the shape, as it is then, 0 for outliers. Returns
-  /// those at the end. Cost of a turn: linear.
+  /// those at the end. Where somebody cancels, the shape has gone so far. Cost of a turn: linear.
   std::vector<double> take_back(Net& found, double tolerance, const std::function<std::vector<double>()>& off) const {
     std::vector<double> now = off();
     for (const int rings : rings_taken_back) {
-      if (*std::max_element(now.begin(), now.end()) <= tolerance || run_.context.cancelled()) break;
+      if (*std::max_element(now.begin(), now.end()) <= tolerance) break;
       std::vector<Vector3> moves(net_.moving, Vector3::Zero());
       std::vector<double> weights(net_.moving, 0);
       std::vector<std::pair<std::size_t, Vector3>> beyond;
@@ -139,7 +139,7 @@ class NoisyNodes {
     return now;
   }
 
-  /// Makes a shape the result.
+  /// Makes a shape the result, be it on its way or not.
   void finish(const Net& found) const {
     run_.finish(found);
     FitReport& report = run_.result.report;
@@ -196,19 +196,23 @@ bool fit_to_rms_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   if (noisy.has_normals()) return false;
   const double tolerance = *run.options.rms();
   Net found = noisy.without(tolerance);
-  const auto distance = [&] {
-    run.finish_positions(found);
-    return summary(run.distances(), run.kept).all.rms;
+  const auto distance = [&] { return summary(run.subject.distances(run.positions_of(found)), run.kept).all.rms; };
+  const auto go_back = [&] {
+    double now = run.context.cancelled() ? tolerance : distance();
+    if (now < least_rms_taken * tolerance) return false;
+    const std::vector<Vector3>& nodes = noisy.net().positions;
+    for (int turn = 0; turn < most_turns_back && now > tolerance; ++turn) {
+      for (std::size_t i = 0; i < found.moving; ++i)
+        found.positions[i] = nodes[i] + aimed_rms * tolerance / now * (found.positions[i] - nodes[i]);
+      now = distance();
+    }
+    return now <= tolerance;
   };
-  double now = run.context.cancelled() ? tolerance : distance();
-  if (now < least_rms_taken * tolerance) return false;
-  const std::vector<Vector3>& nodes = noisy.net().positions;
-  for (int turn = 0; turn < most_turns_back && now > tolerance; ++turn) {
-    for (std::size_t i = 0; i < found.moving; ++i)
-      found.positions[i] = nodes[i] + aimed_rms * tolerance / now * (found.positions[i] - nodes[i]);
-    now = distance();
+  try {
+    if (!go_back()) return false;
+  } catch (const Cancelled&) {
+    // What has come so far has its noise off.
   }
-  if (now > tolerance) return false;
   noisy.finish(found);
   return true;
 }
@@ -228,13 +232,16 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
   progress.report("taking noise off", 0);
   Net found = noisy.without(noise > allowed_noise_at_most * tolerance ? noise : allowed_noise * tolerance);
   const auto distances = [&] {
-    run.finish_positions(found);
-    std::vector<double> all = run.distances();
+    std::vector<double> all = run.subject.distances(run.positions_of(found));
     for (std::size_t j = 0; j < all.size(); ++j) all[j] *= run.kept[j];
     return all;
   };
   std::vector<double> off;
-  if (!only_smooth) off = noisy.take_back(found, tolerance, distances);
+  try {
+    if (!only_smooth && !run.context.cancelled()) off = noisy.take_back(found, tolerance, distances);
+  } catch (const Cancelled&) {
+    // What has come so far is nearer to the nodes than the one without noise.
+  }
   noisy.finish(found);
   if (only_smooth || run.context.cancelled()) return true;
   FitReport& report = run.result.report;

@@ -2,6 +2,7 @@
 
 #include "fit/tolerance_fit.hpp"
 
+#include "base/cancellation.hpp"
 #include "equilibrium/account.hpp"
 
 namespace vspring {
@@ -73,38 +74,42 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
     }
     least = std::min(least, figure);
   };
-  look(task.found);
-  int lost = 0;
-  double step = stride;
-  for (int turn = 0; turn < most_trials; ++turn) {
-    if (!outside) {
-      if (*task.length >= longest) break;
-      *task.length *= stride;
-    } else if (!inside) {
-      if (*task.length <= shortest || lost == most_lost ||
-          (task.takes_nearest && without_gain == halvings_without_gain))
-        break;
-      // Nearer to the last one that was found.
-      if (lost > 0) *task.length *= step;
-      step = lost > 0 ? std::sqrt(step) : stride;
-      *task.length /= step;
-    } else {
-      const auto& [a, at_a] = *inside;
-      const auto& [b, at_b] = *outside;
-      if (at_a >= (1 - task.close_share) * tolerance || b < (1 + task.close_share) * a) break;
-      // Between both by the logarithms, a little to the side that is within; kept off the ends.
-      const double share = at_b > at_a && at_a > 0 && std::isfinite(at_b)
-                               ? std::log(tolerance / at_a) / std::log(at_b / at_a) - 0.02
-                               : 0.5;
-      *task.length = a * std::pow(b / a, std::clamp(share, 0.1, 0.9));
+  try {
+    look(task.found);
+    int lost = 0;
+    double step = stride;
+    for (int turn = 0; turn < most_trials; ++turn) {
+      if (!outside) {
+        if (*task.length >= longest) break;
+        *task.length *= stride;
+      } else if (!inside) {
+        if (*task.length <= shortest || lost == most_lost ||
+            (task.takes_nearest && without_gain == halvings_without_gain))
+          break;
+        // Nearer to the last one that was found.
+        if (lost > 0) *task.length *= step;
+        step = lost > 0 ? std::sqrt(step) : stride;
+        *task.length /= step;
+      } else {
+        const auto& [a, at_a] = *inside;
+        const auto& [b, at_b] = *outside;
+        if (at_a >= (1 - task.close_share) * tolerance || b < (1 + task.close_share) * a) break;
+        // Between both by the logarithms, a little to the side that is within; kept off the ends.
+        const double share = at_b > at_a && at_a > 0 && std::isfinite(at_b)
+                                 ? std::log(tolerance / at_a) / std::log(at_b / at_a) - 0.02
+                                 : 0.5;
+        *task.length = a * std::pow(b / a, std::clamp(share, 0.1, 0.9));
+      }
+      if (inside) net.positions = best;
+      const std::vector<Vector3> start = net.positions;
+      const bool found = task.update(true);
+      if (!found && net.points.are_nodes) net.positions = start;
+      if (task.ended()) break;
+      lost = found ? 0 : lost + 1;
+      look(found);
     }
-    if (inside) net.positions = best;
-    const std::vector<Vector3> start = net.positions;
-    const bool found = task.update(true);
-    if (!found && net.points.are_nodes) net.positions = start;
-    if (task.ended()) break;
-    lost = found ? 0 : lost + 1;
-    look(found);
+  } catch (const Cancelled&) {
+    // The best so far stays.
   }
   net.positions = best;
   result.within = inside.has_value();
@@ -127,37 +132,41 @@ ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, T
   // The least energy some turns ago.
   double before = least_energy;
   result.within = false;
-  for (int turn = 0; turn < most_turns_of_points; ++turn) {
-    const std::vector<double> distances = task.measure();
-    const double greatest = *std::max_element(distances.begin(), distances.end());
-    const bool within = greatest <= tolerance;
-    const double energy = within ? task.energy() : 0;
-    if (within ? energy < least_energy : !result.within && greatest < least_greatest) {
-      best = net.positions;
-      if (within) least_energy = energy;
-    }
-    least_greatest = std::min(least_greatest, greatest);
-    result.within = result.within || within;
-    if (turn % turns_per_look == turns_per_look - 1) {
-      if (result.within && least_energy > (1 - settled_share) * before) {
-        result.settled = true;
-        break;
+  try {
+    for (int turn = 0; turn < most_turns_of_points; ++turn) {
+      const std::vector<double> distances = task.measure();
+      const double greatest = *std::max_element(distances.begin(), distances.end());
+      const bool within = greatest <= tolerance;
+      const double energy = within ? task.energy() : 0;
+      if (within ? energy < least_energy : !result.within && greatest < least_greatest) {
+        best = net.positions;
+        if (within) least_energy = energy;
       }
-      if (!result.within && turn + 1 >= hopeless_turns) break;
-      before = least_energy;
+      least_greatest = std::min(least_greatest, greatest);
+      result.within = result.within || within;
+      if (turn % turns_per_look == turns_per_look - 1) {
+        if (result.within && least_energy > (1 - settled_share) * before) {
+          result.settled = true;
+          break;
+        }
+        if (!result.within && turn + 1 >= hopeless_turns) break;
+        before = least_energy;
+      }
+      // All together by as much as the furthest asks: so shapes on the way stay about within, once one has been.
+      const double all =
+          result.within ? std::pow(std::clamp(greatest / aim, 1 / greatest_step, greatest_step), pace_of_all) : 1;
+      const double power = result.within ? pace : 1;
+      for (std::size_t k = 0; k < weights.size(); ++k) {
+        const double share = std::clamp(distances[points.numbers[k]] / aim, 1 / greatest_step, greatest_step);
+        const double change = all * std::pow(share, power);
+        points.weights[k] =
+            std::clamp(points.weights[k] * change, least_point_weight * weights[k], most_weight * weights[k]);
+      }
+      (void)task.update(false);
+      if (task.ended()) break;
     }
-    // All together by as much as the furthest asks: so shapes on the way stay about within, once one has been.
-    const double all =
-        result.within ? std::pow(std::clamp(greatest / aim, 1 / greatest_step, greatest_step), pace_of_all) : 1;
-    const double power = result.within ? pace : 1;
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-      const double share = std::clamp(distances[points.numbers[k]] / aim, 1 / greatest_step, greatest_step);
-      const double change = all * std::pow(share, power);
-      points.weights[k] =
-          std::clamp(points.weights[k] * change, least_point_weight * weights[k], most_weight * weights[k]);
-    }
-    (void)task.update(false);
-    if (task.ended()) break;
+  } catch (const Cancelled&) {
+    // The best so far stays.
   }
   points.weights = weights;
   net.positions = best;

@@ -22,8 +22,8 @@ struct ToleranceFitTask {
   std::shared_ptr<double> length;  ///< the smoothing length that points pull by, in the coordinates of the net
   /// or_find: where nothing is found from there, it may be looked for anew. False where that leads nowhere.
   std::function<bool(bool or_find)> update;
-  std::function<bool()> ended;  ///< cancelled, or out of work: the best so far stays
-  std::function<std::vector<double>()> measure;
+  std::function<bool()> ended;                   ///< cancelled, or out of work: the best so far stays
+  std::function<std::vector<double>()> measure;  ///< may throw Cancelled: the best so far stays
   std::function<double()> energy;
   bool found = true;          ///< whether the net is at an equilibrium
   double close_share = 0.01;  ///< of the tolerance: smooth_within() need not come nearer

@@ -112,6 +112,7 @@ class EarClipper {
 
 bool has_triangles_alone(const Net& net) {
   for (std::size_t i = 0; i < net.computed; ++i) {
+    end_if_cancelled_at(i);
     const auto links = net.rings.links(i);
     if (!std::all_of(links.begin(), links.end(), [](Link link) { return link.spoke(); })) return false;
   }
@@ -123,6 +124,7 @@ bool has_triangles_alone(const Net& net) {
 
 void add_triangles(const Net& net, TriangleList& triangles) {
   for (std::size_t i = 0; i < net.computed; ++i) {
+    end_if_cancelled_at(i);
     const auto links = net.rings.links(i);
     const auto add = [&](std::size_t a, std::size_t b) {
       if (i < a && i < b) triangles.add(static_cast<Index>(i), static_cast<Index>(a), static_cast<Index>(b));
@@ -139,6 +141,7 @@ void cut_polygons(const Net& net, TriangleList& triangles) {
   std::vector<std::uint32_t> faces_at(net.positions.size(), 0);
   const auto for_each_own_face = [&](const auto& use) {
     for (std::size_t i = 0; i < net.computed; ++i) {
+      end_if_cancelled_at(i);
       for_each_face(net, i, face, [&](std::vector<Index>& own) {
         if (own.size() >= 3 && *std::min_element(own.begin(), own.end()) == own.front()) use(own);
       });

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/cancellation.hpp"
 #include "shape/box_tree.hpp"
 #include "shape/frame.hpp"
 #include "vspring/error.hpp"
@@ -22,6 +23,7 @@ std::vector<Index> nearest_in(const Frame& frame, std::span<const Vector3> point
   std::vector<Vector3> places;
   std::vector<Box> boxes;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
+    end_if_cancelled_at(i);
     if (usable[i] == 0 || !nodes[i].allFinite()) continue;
     number.push_back(static_cast<Index>(i));
     boxes.emplace_back(places.emplace_back(frame.to_local(nodes[i])));
@@ -60,6 +62,7 @@ std::vector<Index> nearest_nodes(std::span<const Vector3> points, std::span<cons
   }
   const Frame frame(around);
   for (std::size_t j = 0; j < points.size(); ++j) {
+    end_if_cancelled_at(j);
     if (!(frame.to_local(points[j]).cwiseAbs().maxCoeff() <= furthest_point))
       throw Error(ErrorCode::invalid_argument,
                   fmt::format("point {} lies more than {:g} times the size of the shape away from it; leave it out, or "

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "base/cancellation.hpp"
+
 namespace vspring {
 
 namespace {
@@ -45,9 +47,11 @@ PointClusters cluster_points(const TiedPoints& points, double cell) {
   std::vector<Place> by_cell(points.positions.size());
   for (std::size_t j = 0; j < by_cell.size(); ++j)
     by_cell[j] = {cell_of(points.positions[j], cell), way_of(points, j), static_cast<std::uint32_t>(j)};
+  end_if_cancelled();
   std::sort(by_cell.begin(), by_cell.end());
   PointClusters clusters;
   for (auto begin = by_cell.begin(); begin != by_cell.end();) {
+    end_if_cancelled_at(clusters.counts.size());
     const auto end = std::find_if(
         begin, by_cell.end(), [&](const Place& other) { return other.cell != begin->cell || other.way != begin->way; });
     double sum = 0;

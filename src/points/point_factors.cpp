@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/cancellation.hpp"
 #include "spring/bending_factor.hpp"
 
 namespace vspring {
@@ -32,6 +33,7 @@ void set_factors(Net& net, const Factor& factor) {
   net.points.factors.assign(net.moving, 0);
   if (net.points.empty()) return;
   for (std::size_t i = 0; i < net.moving; ++i) {
+    end_if_cancelled_at(i);
     if (net.points.of(i).empty()) continue;
     const double value = factor(i, static_cast<double>(net.points.of(i).size()));
     net.points.factors[i] = value < greatest_factor ? value : greatest_factor;
@@ -98,6 +100,7 @@ PointFactors pull_by_smoothing(std::shared_ptr<const double> length, std::size_t
     double size = 0;
     double tied = 0;
     for (std::size_t i = 0; i < net.moving; ++i) {
+      end_if_cancelled_at(i);
       size += surface ? area_at(net, i) : length_at(net, i);
       tied += net.points.empty() ? 0.0 : static_cast<double>(net.points.of(i).size());
     }

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/cancellation.hpp"
 #include "points/facing.hpp"
 #include "points/nearest_nodes.hpp"
 #include "points/point_clusters.hpp"
@@ -22,8 +23,9 @@ constexpr double notable_change = 1e-3;
 constexpr std::uint32_t none = UINT32_MAX;
 
 /// Places for the members of groups, from their numbers: each group's begin, and at last the end.
-void add_up(std::vector<std::uint32_t>& counts) {
-  std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), std::uint32_t{0});
+template <typename Count>
+void add_up(std::vector<Count>& counts) {
+  std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), Count{0});
 }
 
 /// The first local node of every node of the shape.
@@ -51,6 +53,7 @@ PointTies::PointTies(Net& net, std::span<const Vector3> points, std::span<const 
   // Points of one node, and of nodes that are close in memory, lie together.
   std::vector<std::uint32_t> place(net.node.size() + 1, 0);
   for (std::size_t j = 0; j < points.size(); ++j) {
+    end_if_cancelled_at(j);
     if (tied_to(j) != none) ++place[tied_to(j)];
   }
   add_up(place);
@@ -61,6 +64,7 @@ PointTies::PointTies(Net& net, std::span<const Vector3> points, std::span<const 
   tied.normals.resize(normals.empty() ? 0 : place.back());
   node_.resize(place.back());
   for (std::size_t j = 0; j < points.size(); ++j) {
+    end_if_cancelled_at(j);
     const std::uint32_t node = tied_to(j);
     if (node == none) continue;
     const std::uint32_t k = place[node]++;
@@ -128,23 +132,33 @@ void PointTies::look_for_turned() {
 
 void PointTies::join_neighbours() {
   const std::size_t nodes = net_->node.size();
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  edges.reserve(2 * net_->rings.link_count());
-  for (std::size_t i = 0; i < net_->computed; ++i) {
-    for (const Link link : net_->rings.links(i)) {
-      edges.emplace_back(same_[i], same_[link.node()]);
-      edges.emplace_back(same_[link.node()], same_[i]);
+  const auto for_each_link = [&](const auto& use) {
+    for (std::size_t i = 0; i < net_->computed; ++i) {
+      end_if_cancelled_at(i);
+      for (const Link link : net_->rings.links(i)) {
+        use(same_[i], same_[link.node()]);
+        use(same_[link.node()], same_[i]);
+      }
     }
+  };
+  std::vector<std::size_t> end(nodes + 1, 0);
+  for_each_link([&](std::uint32_t from, std::uint32_t /*to*/) { ++end[from]; });
+  add_up(end);
+  std::vector<std::uint32_t> all(end.back());
+  for_each_link([&](std::uint32_t from, std::uint32_t to) { all[end[from]++] = to; });
+  // Those inside come twice, once from each of their nodes.
+  neighbours_.reserve(all.size() / 2);
+  first_neighbour_.reserve(nodes + 1);
+  auto begin = all.begin();
+  for (std::size_t i = 0; i < nodes; ++i) {
+    end_if_cancelled_at(i);
+    first_neighbour_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
+    const auto next = all.begin() + static_cast<std::ptrdiff_t>(end[i]);
+    std::sort(begin, next);
+    neighbours_.insert(neighbours_.end(), begin, std::unique(begin, next));
+    begin = next;
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  first_neighbour_.assign(nodes + 1, 0);
-  neighbours_.reserve(edges.size());
-  for (const auto& [from, to] : edges) {
-    ++first_neighbour_[from];
-    neighbours_.push_back(to);
-  }
-  add_up(first_neighbour_);
+  first_neighbour_.push_back(static_cast<std::uint32_t>(neighbours_.size()));
 }
 
 void PointTies::gather_around(std::size_t node, std::vector<std::uint32_t>& around) const {
@@ -200,7 +214,12 @@ bool PointTies::reassign(ThreadTeam& team, double margin) {
 bool PointTies::renew_factors() {
   if (!factors_) return false;
   std::vector<double> before = std::move(net_->points.factors);
-  factors_(*net_);
+  try {
+    factors_(*net_);
+  } catch (const Cancelled&) {
+    net_->points.factors = std::move(before);
+    throw;
+  }
   const std::vector<double>& now = net_->points.factors;
   const auto alike = [](double a, double b) { return std::abs(a - b) <= notable_change * std::min(a, b); };
   if (!std::equal(before.begin(), before.end(), now.begin(), now.end(), alike)) return true;

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/cancellation.hpp"
 #include "base/random.hpp"
 #include "scan/flat_faces.hpp"
 #include "scan/low_pass.hpp"
@@ -56,9 +57,13 @@ constexpr double most_unfolding = 1;
 std::vector<std::pair<std::uint32_t, std::uint32_t>> turned_pairs(const ScanMesh& mesh, const Places& places,
                                                                   double cosine, ThreadTeam& team) {
   std::vector<Vector3> normals = face_areas(mesh, places, team);
-  for (Vector3& normal : normals) normal.stableNormalize();
+  for (std::size_t f = 0; f < normals.size(); ++f) {
+    end_if_cancelled_at(f);
+    normals[f].stableNormalize();
+  }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (std::uint32_t f = 0; f < mesh.faces.size(); ++f) {
+    end_if_cancelled_at(f);
     for (const std::uint32_t g : mesh.around.of(f)) {
       if (g <= f || normals[f].dot(normals[g]) > cosine) continue;
       const auto corners = mesh.faces.of(g);
@@ -115,6 +120,7 @@ void unfold(const ScanMesh& mesh, Places& places, double deviation, ThreadTeam& 
     for (int step = 0; step < steps_of_round; ++step) {
       const Places before = places;
       for (std::size_t i = 0; i < mesh.moving; ++i) {
+        end_if_cancelled_at(i);
         const auto neighbours = mesh.neighbours.of(i);
         if (found[i] == 0 || neighbours.empty()) continue;
         Vector3 mean = Vector3::Zero();
@@ -178,6 +184,7 @@ class Denoiser {
   void place_unknown() {
     for (int step = 0; step < steps_of_unknown; ++step) {
       for (std::size_t i = 0; i < known_.size(); ++i) {
+        end_if_cancelled_at(i);
         const auto neighbours = mesh_.neighbours.of(i);
         if (known_[i] != 0 || neighbours.empty()) continue;
         noisy_[i].setZero();
@@ -193,10 +200,12 @@ class Denoiser {
     for (int k = 0; k < fields_of_bands; ++k) {
       std::vector<Four> signs(mesh_.nodes, Four::Zero());
       for (std::size_t i = 0; i < mesh_.moving; ++i) {
+        end_if_cancelled_at(i);
         for (double& sign : signs[i]) sign = random_.below(2) == 0 ? -1 : 1;
       }
       const auto filtered = low_pass_.filter(mesh_, signs, team_);
       for (std::size_t i = 0; i < mesh_.moving; ++i) {
+        end_if_cancelled_at(i);
         followed_[i * width] = 1;
         for (std::size_t band = 0; band < filtered.size(); ++band)
           followed_[i * width + 1 + band] += (signs[i] * filtered[band][i]).mean() / fields_of_bands;
@@ -221,6 +230,7 @@ class Denoiser {
     std::vector<double> signs(mesh_.moving);
     Places places(mesh_.nodes, Vector3::Zero());
     for (std::size_t i = 0; i < mesh_.moving; ++i) {
+      end_if_cancelled_at(i);
       signs[i] = random_.normal();
       places[i] = length * signs[i] * normals_[i];
     }
@@ -229,6 +239,7 @@ class Denoiser {
     add(places, noisy_);
     const std::vector<Places> others = shapes_of(places, low);
     for (std::size_t i = 0; i < mesh_.moving; ++i) {
+      end_if_cancelled_at(i);
       for (std::size_t k = 0; k < shapes.size(); ++k)
         followed[i * shapes.size() + k] +=
             signs[i] * (others[k][i] - shapes[k][i]).dot(normals_[i]) / (length * fields_of_choices);
@@ -236,6 +247,7 @@ class Denoiser {
   }
 
   static void add(Places& places, const Places& others) {
+    end_if_cancelled();
     for (std::size_t i = 0; i < places.size(); ++i) places[i] += others[i];
   }
 

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/cancellation.hpp"
+
 namespace vspring {
 
 namespace {
@@ -32,6 +34,7 @@ std::vector<double> weights_of(const ScanMesh& mesh, const std::vector<Vector3>&
   const std::vector<Vector3> centres = centres_of(mesh, places, team);
   std::vector<double> squares(mesh.faces.size(), 0);
   for (std::size_t f = 0; f < squares.size(); ++f) {
+    end_if_cancelled_at(f);
     const auto face = mesh.faces.of(f);
     for (std::size_t k = 0; k < face.size(); ++k)
       squares[f] += (places[face[(k + 1) % face.size()]] - places[face[k]]).squaredNorm();
@@ -77,7 +80,10 @@ std::vector<std::vector<Vector3>> with_flat_faces(const ScanMesh& mesh, const st
   const std::vector<Vector3> areas = face_areas(mesh, places, team);
   const std::vector<double> weights = weights_of(mesh, places, areas, team);
   std::vector<Vector3> normals = areas;
-  for (Vector3& normal : normals) normal.stableNormalize();
+  for (std::size_t f = 0; f < normals.size(); ++f) {
+    end_if_cancelled_at(f);
+    normals[f].stableNormalize();
+  }
   std::vector<Vector3> next = normals;
   std::vector<std::vector<Vector3>> shapes;
   int turn = 0;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "base/threads.hpp"
 #include "scan/scan_mesh.hpp"
 
@@ -29,7 +30,12 @@ class LowPass {
   template <typename Value>
   std::vector<std::vector<Value>> filter(const ScanMesh& mesh, const std::vector<Value>& field,
                                          ThreadTeam& team) const {
-    std::vector<std::vector<Value>> results(coefficients_.size(), field);
+    std::vector<std::vector<Value>> results;
+    results.reserve(coefficients_.size());
+    while (results.size() < coefficients_.size()) {
+      end_if_cancelled();
+      results.push_back(field);
+    }
     std::vector<Value> before = field;
     std::vector<Value> now = field;
     std::vector<Value> next = field;

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "base/cancellation.hpp"
+
 namespace vspring {
 
 namespace {
@@ -48,8 +50,10 @@ Risks risks_of(const ScanMesh& mesh, const std::vector<const Places*>& shapes, c
     }
   });
   risks.means.assign(shapes.size(), 0);
-  for (std::size_t place = 0; place < risks.values.size(); ++place)
+  for (std::size_t place = 0; place < risks.values.size(); ++place) {
+    end_if_cancelled_at(place);
     risks.means[place % shapes.size()] += risks.values[place] / static_cast<double>(mesh.moving);
+  }
   return risks;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "base/cancellation.hpp"
 #include "shape/face_geometry.hpp"
 
 namespace vspring {
@@ -27,6 +28,7 @@ ScanMesh scan_mesh(const Net& net, const PolygonMesh& mesh) {
   scan.nodes = net.positions.size();
   scan.moving = net.moving;
   for (std::size_t i = 0; i < net.moving; ++i) {
+    end_if_cancelled_at(i);
     for (const Link link : net.rings.links(i)) {
       if (link.spoke()) scan.neighbours.items.push_back(static_cast<std::uint32_t>(link.node()));
     }
@@ -41,6 +43,7 @@ ScanMesh scan_mesh(const Net& net, const PolygonMesh& mesh) {
     local[static_cast<std::size_t>(net.node[i])] = static_cast<std::uint32_t>(i);
   const auto moves = [&](Index node) { return local[static_cast<std::size_t>(node)] < net.moving; };
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    end_if_cancelled_at(static_cast<std::size_t>(f));
     const auto face = mesh.face(f);
     if (std::none_of(face.begin(), face.end(), moves)) continue;
     for (const Index node : face) scan.faces.items.push_back(local[static_cast<std::size_t>(node)]);
@@ -55,11 +58,13 @@ ScanMesh scan_mesh(const Net& net, const PolygonMesh& mesh) {
   scan.faces_of.items.resize(scan.faces_of.begin.back());
   std::vector<std::uint32_t> next(scan.faces_of.begin.begin(), scan.faces_of.begin.end() - 1);
   for (std::size_t f = 0; f < scan.faces.size(); ++f) {
+    end_if_cancelled_at(f);
     for (const std::uint32_t i : scan.faces.of(f)) {
       if (i < net.moving) scan.faces_of.items[next[i]++] = static_cast<std::uint32_t>(f);
     }
   }
   for (std::size_t f = 0; f < scan.faces.size(); ++f) {
+    end_if_cancelled_at(f);
     scan.around.items.push_back(static_cast<std::uint32_t>(f));
     for (const std::uint32_t i : scan.faces.of(f)) {
       if (i >= net.moving || scan.faces_of.of(i).size() > most_faces) continue;

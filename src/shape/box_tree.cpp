@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/cancellation.hpp"
+
 namespace vspring {
 
 BoxTree::BoxTree(std::vector<Box> boxes, ThreadTeam& team) : boxes_(std::move(boxes)), items_(boxes_.size()) {
@@ -28,6 +30,7 @@ void BoxTree::split(std::size_t part, std::size_t parts) {
   if (centres.isEmpty()) return;
   Eigen::Index axis = 0;
   centres.sizes().maxCoeff(&axis);
+  end_if_cancelled();
   // Places beside their items: what is sorted lies side by side.
   std::vector<std::pair<double, Index>> order(end - begin);
   for (std::size_t k = begin; k < end; ++k)

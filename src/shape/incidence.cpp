@@ -1,10 +1,13 @@
 #include "shape/incidence.hpp"
 
+#include "base/cancellation.hpp"
+
 namespace vspring {
 
 Incidence::Incidence(const PolygonMesh& mesh) : begin_(static_cast<std::size_t>(mesh.node_count()) + 2, 0) {
   const auto for_each_corner = [&](const auto& use) {
     for (Index f = 0; f < mesh.face_count(); ++f) {
+      end_if_cancelled_at(static_cast<std::size_t>(f));
       const auto face = mesh.face(f);
       if (face.size() < 3) continue;
       for (std::size_t k = 0; k < face.size(); ++k)

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "base/cancellation.hpp"
+
 namespace vspring {
 
 namespace {
@@ -31,6 +33,7 @@ std::vector<Triangle> cut_into_triangles(const PolygonMesh& mesh) {
   std::vector<Triangle> triangles;
   triangles.reserve(mesh.corners().size());
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    end_if_cancelled_at(static_cast<std::size_t>(f));
     const auto face = mesh.face(f);
     const bool finite = std::all_of(face.begin(), face.end(), [&](Index i) { return mesh.position(i).allFinite(); });
     if (face.size() < 3 || !finite) continue;

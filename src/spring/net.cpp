@@ -104,6 +104,7 @@ void agree_on_sides(Net& net) {
 /// their own.
 void agree_on_given_normals(Net& net) {
   for (std::size_t i = 0; i < net.moving; ++i) {
+    end_if_cancelled_at(i);
     if (!net.normal_given(i)) continue;
     const Vector3 normal = AreaNormal()(net.positions[i], net.rings.links(i), net.positions);
     if (net.normals[i].dot(normal) < 0) net.normals[i] = -net.normals[i];
@@ -129,6 +130,7 @@ bool add_rings(Net& net, const NodeGraph& graph, FanWalker& walker, Numbering& n
     for (const Link link : net.rings.links(i)) number(static_cast<Index>(link.node()));
   }
   for (std::size_t i = 0; i < net.moving && !for_spheres; ++i) {
+    end_if_cancelled_at(i);
     graph.for_each_neighbour(number.node(i), [&](Index j) {
       if (constraints.position_fixed(j) && !constraints.normal_fixed(j)) number(j);
     });
@@ -208,6 +210,7 @@ void place_net(Net& net, const std::vector<Vector3>& positions, const Constraint
   double lengths = 0;
   std::size_t spokes = 0;
   for (std::size_t i = 0; i < net.computed; ++i) {
+    end_if_cancelled_at(i);
     for (const Link link : net.rings.links(i)) {
       if (!link.spoke()) continue;
       lengths += (net.positions[link.node()] - net.positions[i]).norm();

@@ -1,9 +1,15 @@
 """What `vspring fit` does."""
+import contextlib
 import math
+import os
+import pty
 import random
+import signal
 import struct
+import subprocess
+import threading
 
-from support import EXAMPLES, OCTAHEDRON, Case, grid, run, sphere, vertex_lines
+from support import EXAMPLES, OCTAHEDRON, PROGRAM, Case, grid, run, sphere, vertex_lines
 
 
 def xyz(points):
@@ -40,6 +46,47 @@ class Fit(Case):
         self.assertLessEqual(distance["after"]["percentile99"], distance["after"]["greatest"])
         self.assertIn("rms distance", result.stdout.decode())
         self.assertIn("rms_turn", report["fairness"]["after"])
+
+    def test_a_time_limit_leaves_deviations_of_many_points_to_who_asks_for_them(self):
+        shape, cloud = self.write("flat.obj", grid(150, lambda x, y: 0)), self.cloud(20000)
+        points = self.write("points.xyz", xyz(cloud))
+        result = self.fit(shape, points, "--weight", "0.1", "--time-limit", "1e-9", "--report", self.folder / "r.json",
+                          "--deviation", self.folder / "deviation.ply", "--threads", "1", status=3)
+        figures = self.read_json("r.json")["points"]
+        self.assertEqual((figures["count"], figures["distance"]), (20000, {"before": {}, "after": {}}))
+        self.assertNotIn("distance", result.stdout.decode())
+        self.assertIn("20000 points", result.stdout.decode())
+        self.assertNotIn("nan", result.stdout.decode())
+        data = (self.folder / "deviation.ply").read_bytes().partition(b"end_header\n")[2]
+        deviations = [row[3] for row in struct.iter_unpack("<4d", data)]
+        for (_, _, height), deviation in zip(cloud, deviations, strict=True):
+            self.assertAlmostEqual(deviation, abs(height), delta=1e-6)
+
+    def test_ctrl_c_measures_no_deviations_of_many_points(self):
+        shape, points = self.write("flat.obj", grid(150, lambda x, y: 0)), self.write("points.xyz", xyz(self.cloud(20000)))
+        terminal, of_program = pty.openpty()
+        process = subprocess.Popen([PROGRAM, "fit", shape, "--points", points, "-o", self.folder / "out.obj", "--weight", "0.1",
+                                    "--method", "sweep", "--step-tolerance", "1e-30", "--max-iterations", "1000000000",
+                                    "--report", self.folder / "r.json", "--deviation", self.folder / "deviation.ply"],
+                                   stdout=subprocess.PIPE, stderr=of_program, env={**os.environ, "TERM": "xterm"})
+        os.close(of_program)
+        limit = threading.Timer(60, process.kill)
+        limit.start()
+        shown = b""
+        with contextlib.suppress(OSError):  # at the end of what the program shows
+            while piece := os.read(terminal, 65536):
+                if b"iteration" not in shown and b"iteration" in shown + piece:
+                    process.send_signal(signal.SIGINT)
+                shown += piece
+        limit.cancel()
+        os.close(terminal)
+        output, _ = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, shown)
+        self.assertIn(b"deviation.ply: not written, as the run was interrupted", shown)
+        self.assertEqual(self.read_json("r.json")["points"]["distance"], {"before": {}, "after": {}})
+        self.assertNotIn("distance", output.decode())
+        self.assertTrue(any(heights(self.folder / "out.obj")), "the shape so far")
+        self.assertEqual(self.files(), ["flat.obj", "out.obj", "points.xyz", "r.json"])
 
     def test_points_of_every_format(self):
         shape = self.write("flat.obj", grid(6, lambda x, y: 0))

@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "base/random.hpp"
+#include "equilibrium/pseudo_transient.hpp"
 #include "support/surfaces.hpp"
 
 namespace vspring::force_derivative_test {
@@ -50,6 +52,40 @@ TEST(ForceDerivative, TellsHowAllDisplacementsChange) {
     };
     const Eigen::VectorXd change = (there(step) - there(-step)) / (2 * step);
     EXPECT_LT((derivative * way - change).norm(), 1e-6 * change.norm());
+  }
+}
+
+TEST(ForceDerivative, IsBrokenOffAndLeavesTheNet) {
+  const auto model = surface_model(PseudoNormals::link);
+  const PolygonMesh patch = generate::sphere_patch({.columns = 8, .rows = 8}, 1, 60);
+  Net net = gather_net(patch, held_boundary(patch));
+  ForceDerivative derivative(net, *model);
+  const std::vector<Vector3> positions = net.positions;
+  Context context;
+  context.cancel();
+  const CancellationScope scope(context);
+  EXPECT_THROW((void)derivative.find(), Cancelled);
+  EXPECT_EQ(net.positions, positions);
+}
+
+TEST(Flow, EndsWithTheStepInWhichItIsCancelled) {
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  const PolygonMesh patch = generate::add_noise(generate::sphere_patch({.columns = 8, .rows = 8}, 1, 60), 0.02, 3);
+  for (const int step : {1, 3}) {
+    Net net = gather_net(patch, held_boundary(patch));
+    Context context;
+    int steps = 0;
+    EquilibriumTask task;
+    task.tolerance = 1e-9;
+    task.max_iterations = 100;
+    task.on_iteration = [&](double /*size*/) {
+      if (++steps == step) context.cancel();
+    };
+    const EquilibriumResult result = follow_flow(net, *model, task, FlowStart::anywhere, team, context);
+    EXPECT_EQ(result.outcome, Outcome::cancelled);
+    EXPECT_EQ(steps, step);
+    for (const Vector3& position : net.positions) EXPECT_TRUE(position.allFinite());
   }
 }
 

@@ -1,0 +1,48 @@
+#include "fit/fit_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+namespace vspring {
+
+namespace {
+
+// In standard deviations of the noise that is to be taken off.
+constexpr double far_off = 1.5;
+// Points without a tolerance that end so far from the shape, root mean square, as a share of their box, and so many
+// times as far as before, are hardly what was asked for: springs that they hardly pull at make a balloon of few nodes.
+constexpr double left_behind = 0.02;
+constexpr double left_times = 10;
+
+}  // namespace
+
+void warn_if_far_off(FitReport& report, double noise) {
+  FairReport& fair = report.fair;
+  const double distance = report.after.all.rms;
+  if (fair.outcome != Outcome::converged || !(distance > far_off * noise)) return;
+  fair.outcome = Outcome::stalled;
+  fair.warnings.push_back(
+      {WarningCode::far_from_nodes,
+       fmt::format("nodes were {:.2g} times the noise away from the shape in the root mean square: it could not follow "
+                   "them everywhere; they may be too few for their features, or faces folded without noise",
+                   distance / noise)});
+}
+
+void warn_if_left_behind(FitReport& report, std::span<const Vector3> points) {
+  FairReport& fair = report.fair;
+  if (fair.outcome != Outcome::converged) return;
+  const double before = report.before.all.rms;
+  const double after = report.after.all.rms;
+  Eigen::AlignedBox3d box;
+  for (const Vector3& point : points) box.extend(point);
+  // The nodes themselves are no further away than smoothing takes them.
+  if (!(before > 0) || after < left_behind * box.diagonal().norm() || after < left_times * before) return;
+  fair.warnings.push_back(
+      {WarningCode::points_left_behind,
+       fmt::format("points are {:.2g} times as far from the shape as before, in the root mean square: give them "
+                   "a greater weight, a shorter smoothing length, or a tolerance to stay within",
+                   after / before)});
+}
+
+}  // namespace vspring

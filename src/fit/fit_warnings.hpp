@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+
+#include "vspring/fit.hpp"
+
+namespace vspring {
+
+// What the distances of points, once they are measured, say against a shape that has converged.
+
+/// noise: that was taken off. A shape that is further from its nodes than that explains is not what was asked for.
+void warn_if_far_off(FitReport& report, double noise);
+
+/// points: that pulled without a tolerance.
+void warn_if_left_behind(FitReport& report, std::span<const Vector3> points);
+
+}  // namespace vspring

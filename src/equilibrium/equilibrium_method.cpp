@@ -89,7 +89,9 @@ class EquilibriumSearch : private Relaxation {
       try {
         stay_sound(*check);
       } catch (const Cancelled&) {
+        // That is thrown once. What was only half looked at is looked at whole.
         report_.outcome = Outcome::cancelled;
+        stay_sound(*check);
       }
     }
     // Limits that nobody gave.

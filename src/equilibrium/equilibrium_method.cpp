@@ -152,7 +152,7 @@ class EquilibriumSearch : private Relaxation {
         relax(last(), limit);
         break;
       }
-      own_start = {};
+      own_start = std::vector<Eigen::Vector3f>();
       const Net& finer = hierarchy_.net(k + 1);
       if (finer.moving <= not_too_many)
         own_start = rounded(finer, k + 1 == last() && is_folded ? rest_positions(finer, team_) : finer.positions);

@@ -109,9 +109,10 @@ void SurfaceHierarchy::prolong_roughly_from(std::size_t level) {
 
 void SurfaceHierarchy::forget(std::size_t level) {
   Level& coarse = levels_[level];
-  coarse.removals = {};
-  coarse.places = {};
-  coarse.net.laplacian_weights = {};
+  // In braces alone a vector would keep its memory.
+  coarse.removals = std::vector<Removals>();
+  coarse.places = std::vector<Vector3>();
+  coarse.net.laplacian_weights = std::vector<double>();
 }
 
 std::vector<Vector3> SurfaceHierarchy::step_of_held(const Constraints& constraints) const {

@@ -171,7 +171,7 @@ class SurfaceMeasurement {
     progress.report("measuring", 0.7);
     std::vector<SurfaceFigures> all;
     for (Measured& shape : shapes_) {
-      shape.positions = {};
+      shape.positions = std::vector<Vector3>();
       if (!context_.cancelled()) shape.figures.self_intersections = count_intersections(*shape.mesh);
       if (constraints_ != nullptr) shape.figures.normal_error = normal_error(*shape.mesh, *constraints_);
       all.push_back(shape.figures);

@@ -17,7 +17,8 @@ namespace {
 
 using Sources = std::span<const FloatRows::Entry>;
 
-void multiply(Sources row, const AssembledMatrix& matrix, SparseSum& image) {
+template <typename Matrix>
+void multiply(Sources row, const Matrix& matrix, SparseSum& image) {
   for (const FloatRows::Entry& outer : row) {
     const auto factor = static_cast<double>(outer.value);
     matrix.for_row(outer.column, [&](std::size_t column, double value) {
@@ -76,6 +77,8 @@ class GalerkinRow {
       multiply(here, *factored, between_, there_);
     } else if (const auto* whole = std::get_if<AssembledMatrix>(matrix_)) {
       multiply(here, *whole, there_);
+    } else if (const auto* links = std::get_if<LinkMatrix>(matrix_)) {
+      multiply(here, *links, there_);
     } else {
       multiply(here, std::get<GraphLaplacian>(*matrix_), there_);
     }
@@ -142,24 +145,40 @@ class GalerkinRows {
   std::vector<std::unique_ptr<GalerkinRow>> idle_;
 };
 
+/// The diagonal of a row whose other entries are rounded.
+class RoundedDiagonal {
+ public:
+  void add(double entry) { value_ += entry; }
+  /// Rounds an entry beside it, and takes in what that changes.
+  float add_rounding(double entry) {
+    const auto rounded = static_cast<float>(entry);
+    value_ += entry;
+    value_ -= static_cast<double>(rounded);
+    return rounded;
+  }
+  [[nodiscard]] double value() const noexcept { return value_; }
+
+ private:
+  double value_ = 0;
+};
+
 /// Takes entries in for row i: those beside the diagonal go into the row, and their rounding onto the diagonal.
 class RoundedRow {
  public:
   RoundedRow(std::size_t i, FloatRows::Row& row) : i_(i), row_(&row) {}
 
   void add(std::uint32_t column, double entry) {
-    diagonal_ += entry;
-    if (column == i_) return;
-    const auto value = static_cast<float>(entry);
-    diagonal_ -= static_cast<double>(value);
-    row_->push_back({column, value});
+    if (column == i_)
+      diagonal_.add(entry);
+    else
+      row_->push_back({column, diagonal_.add_rounding(entry)});
   }
-  [[nodiscard]] double diagonal() const noexcept { return diagonal_; }
+  [[nodiscard]] double diagonal() const noexcept { return diagonal_.value(); }
 
  private:
   std::size_t i_;
   FloatRows::Row* row_;
-  double diagonal_ = 0;
+  RoundedDiagonal diagonal_;
 };
 
 }  // namespace
@@ -177,13 +196,22 @@ AssembledMatrix::AssembledMatrix(const FloatRows& down, const LevelMatrix& matri
   });
 }
 
-AssembledMatrix::AssembledMatrix(const SparseRows& matrix, ThreadTeam& team) : diagonal_(matrix.rows()) {
-  beside_ = FloatRows::build(team, matrix.rows(), matrix.columns(), [&] {
-    return [&](std::size_t i, FloatRows::Row& row) {
-      RoundedRow rounded(i, row);
-      for (const SparseRows::Entry& entry : matrix.row(i)) rounded.add(entry.column, entry.value);
-      diagonal_[i] = rounded.diagonal();
-    };
+LinkMatrix::LinkMatrix(const Net& net, const SparseRows& matrix, ThreadTeam& team)
+    : net_(&net), beside_(net.rings.begin(net.moving), 0.0F), diagonal_(net.moving) {
+  parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto links = net.rings.links(i);
+      const auto row = matrix.row(i);
+      RoundedDiagonal diagonal;
+      auto entry = row.begin();
+      for (std::size_t k = 0; k < links.size(); ++k) {
+        if (!links[k].spoke() || links[k].node() >= net.moving) continue;
+        beside_[net.rings.begin(i) + k] = diagonal.add_rounding(entry->value);
+        ++entry;
+      }
+      diagonal.add(entry->value);
+      diagonal_[i] = diagonal.value();
+    }
   });
 }
 

@@ -13,7 +13,8 @@ namespace vspring {
 class AssembledMatrix;
 class FactoredMatrix;
 class GraphLaplacian;
-using LevelMatrix = std::variant<AssembledMatrix, FactoredMatrix, GraphLaplacian>;
+class LinkMatrix;
+using LevelMatrix = std::variant<AssembledMatrix, LinkMatrix, FactoredMatrix, GraphLaplacian>;
 
 /// Symmetric, in single precision but for the diagonal, which makes up for the rounding of the entries beside it: what
 /// the matrix makes of a constant stays exact.
@@ -21,8 +22,6 @@ class AssembledMatrix {
  public:
   /// upᵀ matrix up. Cost: linear; nothing between is kept.
   AssembledMatrix(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up, ThreadTeam& team);
-  /// From all entries, in double precision.
-  AssembledMatrix(const SparseRows& matrix, ThreadTeam& team);
 
   [[nodiscard]] std::size_t size() const noexcept { return diagonal_.size(); }
   [[nodiscard]] double diagonal(std::size_t i) const { return diagonal_[i]; }
@@ -35,6 +34,33 @@ class AssembledMatrix {
 
  private:
   FloatRows beside_;
+  std::vector<double> diagonal_;
+};
+
+/// The same where entries beside the diagonal are between neighbours: as the net says where they are, it takes half the
+/// memory.
+class LinkMatrix {
+ public:
+  /// From all entries: of row i those of its neighbours, in the order of its links, and the diagonal last. The net must
+  /// outlive it.
+  LinkMatrix(const Net& net, const SparseRows& matrix, ThreadTeam& team);
+
+  [[nodiscard]] std::size_t size() const noexcept { return diagonal_.size(); }
+  [[nodiscard]] double diagonal(std::size_t i) const { return diagonal_[i]; }
+  /// use(column, value) for the entries of row i.
+  template <typename Use>
+  void for_row(std::size_t i, const Use& use) const {
+    use(i, diagonal_[i]);
+    const float* value = beside_.data() + net_->rings.begin(i);
+    for (const Link link : net_->rings.links(i)) {
+      const auto one = static_cast<double>(*value++);
+      if (link.spoke() && link.node() < size()) use(link.node(), one);
+    }
+  }
+
+ private:
+  const Net* net_;
+  std::vector<float> beside_;  // one for every link of a moving node
   std::vector<double> diagonal_;
 };
 

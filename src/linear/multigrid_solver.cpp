@@ -65,8 +65,8 @@ __attribute__((always_inline)) inline Value row_times(const FloatRows& matrix, s
   return sum;
 }
 
-template <typename Value>
-__attribute__((always_inline)) inline Value row_times(const AssembledMatrix& matrix, std::size_t i,
+template <typename Value, typename Matrix>
+__attribute__((always_inline)) inline Value row_times(const Matrix& matrix, std::size_t i,
                                                       const std::vector<Value>& values) {
   Sum<Value> sum = wide<Value>(zero<Value>());
   matrix.for_row(i, [&](std::size_t column, double value) { sum += value * wide<Value>(values[column]); });
@@ -143,6 +143,8 @@ void multiply(ThreadTeam& team, const LevelMatrix& matrix, const std::vector<Val
     });
   } else if (const auto* whole = std::get_if<AssembledMatrix>(&matrix)) {
     for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(*whole, i, values)); });
+  } else if (const auto* links = std::get_if<LinkMatrix>(&matrix)) {
+    for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(*links, i, values)); });
   } else {
     const auto& graph = std::get<GraphLaplacian>(matrix);
     for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(graph, i, values)); });

@@ -63,7 +63,7 @@ std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, Threa
   if (net.laplacian_weights.empty() && held) {
     solver->build(GraphLaplacian(net));
   } else {
-    solver->build(AssembledMatrix(form(), team));
+    solver->build(LinkMatrix(net, form(), team));
   }
   return solver;
 }

@@ -73,7 +73,7 @@ bool LuFactor::eliminate(Workspace& work, Eigen::Index column, Eigen::Index plac
 }
 
 void LuFactor::factorize(const Eigen::SparseMatrix<double>& matrix) {
-  constexpr auto none = Eigen::internal::emptyIdxLU;
+  constexpr auto nothing = Eigen::internal::emptyIdxLU;
   const Eigen::Index size = matrix.cols();
   m_isInitialized = true;
   m_factorizationIsOk = false;
@@ -83,17 +83,17 @@ void LuFactor::factorize(const Eigen::SparseMatrix<double>& matrix) {
     throw std::bad_alloc();
   Workspace work(size, m_perfv, m_perm_c);
   relax_snode(size, m_etree, m_perfv.relax, work.marks, work.relaxed_end);
-  work.marks.setConstant(none);
+  work.marks.setConstant(nothing);
   m_perm_r.resize(size);
-  m_perm_r.indices().setConstant(none);
-  m_glu.supno(0) = none;
+  m_perm_r.indices().setConstant(nothing);
+  m_glu.supno(0) = nothing;
   m_glu.xsup.setZero();
   m_glu.xlsub(0) = m_glu.xusub(0) = m_glu.xlusup(0) = 0;
   for (Eigen::Index first = 0; first < size;) {
     end_if_cancelled();
     // It ends before the next relaxed supernode begins.
     Eigen::Index end = first + 1;
-    while (end < std::min(first + m_perfv.panel_size, size) && work.relaxed_end(end) == none) ++end;
+    while (end < std::min(first + m_perfv.panel_size, size) && work.relaxed_end(end) == nothing) ++end;
     begin_panel(work, first, end - first);
     for (Eigen::Index column = first; column < end; ++column) {
       end_if_cancelled();

@@ -107,8 +107,9 @@ export async function freeForm(page) {
 // A file that stays as it is, and what is then solved, from its first moment.
 export async function solving(page) {
   await settled(page);
-  await page.getByRole('button', { name: 'Free form' }).click();
-  await page.getByRole('progressbar', { name: 'Solving' }).waitFor();
+  // Looked for from before the click: on a busy machine it may be over when that has returned.
+  const begun = page.getByRole('progressbar', { name: 'Solving' }).waitFor();
+  await Promise.all([begun, page.getByRole('button', { name: 'Free form' }).click()]);
 }
 
 // What a way of the start shows is kept.

@@ -35,7 +35,8 @@ Matrix grid_with_hub(int side, int unknowns) {
     if (i > side + 1) couple(0, i);
     if (i > side + 1) couple(i, 0);
   }
-  Matrix matrix(unknowns * side * side, unknowns * side * side);
+  const Eigen::Index size = Eigen::Index{unknowns} * side * side;
+  Matrix matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }

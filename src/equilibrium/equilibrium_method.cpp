@@ -87,11 +87,12 @@ class EquilibriumSearch : private Relaxation {
     if (report_.outcome == Outcome::cancelled) hand_up_roughly();
     if (check && !(task_.is_try && report_.outcome == Outcome::cancelled)) {
       try {
+        report_check();
         stay_sound(*check);
       } catch (const Cancelled&) {
-        // That is thrown once. What was only half looked at is looked at whole.
+        // That is thrown once. What was only half looked at is looked at whole, here or by whoever tries it.
         report_.outcome = Outcome::cancelled;
-        stay_sound(*check);
+        if (!task_.is_try) stay_sound(*check);
       }
     }
     // Limits that nobody gave.

@@ -35,6 +35,8 @@ class Relaxation {
     memory_ = memory;
     take_last_ = take_last;
   }
+  /// Tells the caller that the result is looked at.
+  void report_check() { call_.progress.report("checking", 0.5); }
   /// What levels in the report are said to be part of.
   void set_strategy(const char* name) { strategy_ = name; }
 

@@ -240,5 +240,20 @@ TEST(FairRings, AnEvenDistributionWouldFoldThem) {
   EXPECT_EQ(folds(with_positions(one.start, sane.positions)), 0);
 }
 
+TEST(FairRings, CancelledWhileTheyAreCheckedTheyAreNotFoldedEither) {
+  const Lathe one = lathe(flat(0.5), {.columns = 32, .rows = 16});
+  for (const Springs springs : {Springs::edge, Springs::sphere}) {
+    FairOptions even{.springs = springs};
+    even.distribution = Distribution::even;
+    Context context;
+    context.on_progress = [&](const Progress& progress) {
+      if (progress.stage == "checking") context.cancel();
+    };
+    const FairResult result = fair(one.start, one.constraints, even, context);
+    EXPECT_EQ(result.report.outcome, Outcome::cancelled);
+    EXPECT_EQ(folds(with_positions(one.start, result.positions)), 0);
+  }
+}
+
 }  // namespace
 }  // namespace vspring::fair_rings_test

@@ -30,6 +30,13 @@ void count_nodes(std::size_t moving, const Constraints& constraints, FairReport&
   }
 }
 
+void count_nodes(std::span<const std::uint8_t> usable, const Constraints& constraints, FairReport& report) {
+  std::size_t moving = 0;
+  for (Index i = 0; i < constraints.node_count(); ++i)
+    moving += constraints.position_fixed(i) ? 0U : usable[static_cast<std::size_t>(i)];
+  count_nodes(moving, constraints, report);
+}
+
 void measure_moves(const Net& net, const std::vector<Vector3>& before, const std::vector<Vector3>& after,
                    FairReport& report) {
   double squares = 0;

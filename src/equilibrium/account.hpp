@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 
 #include "spring/net.hpp"
@@ -13,6 +15,8 @@ double diagonal(const Net& net);
 
 /// Fills the counts of a report on a shape of which so many nodes move.
 void count_nodes(std::size_t moving, const Constraints& constraints, FairReport& report);
+/// The same where all usable nodes move that no constraint holds.
+void count_nodes(std::span<const std::uint8_t> usable, const Constraints& constraints, FairReport& report);
 
 /// Fills how far nodes moved between the shape that went in and the one that comes out.
 void measure_moves(const Net& net, const std::vector<Vector3>& before, const std::vector<Vector3>& after,

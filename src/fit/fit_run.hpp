@@ -100,28 +100,13 @@ class FitRun {
 
   /// Makes the input with its constraints the result.
   void finish_unchanged() {
-    const Constraints& constraints = subject.constraints();
-    const std::vector<std::uint8_t> usable = subject.usable();
-    std::size_t moving = 0;
-    result.positions = subject.shape().positions();
-    for (Index i = 0; i < constraints.node_count(); ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      if (constraints.position_fixed(i))
-        result.positions[k] = constraints.position(i);
-      else
-        moving += usable[k];
-    }
-    count_nodes(moving, constraints, result.report.fair);
+    result.positions = positions_as_held(subject.shape().positions(), subject.constraints());
+    count_nodes(subject.usable(), subject.constraints(), result.report.fair);
   }
 
   /// Whether it is that, and no shape that was found.
   [[nodiscard]] bool is_unchanged() const {
-    const Constraints& constraints = subject.constraints();
-    for (Index i = 0; i < constraints.node_count(); ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      if (!constraints.position_fixed(i) && result.positions[k] != subject.shape().positions()[k]) return false;
-    }
-    return true;
+    return result.positions == positions_as_held(subject.shape().positions(), subject.constraints());
   }
 
   const ScatteredPoints& points;

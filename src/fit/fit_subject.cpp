@@ -17,10 +17,6 @@ namespace {
 
 /// Faces of which no node moves, where they are held.
 PolygonMesh rest_of(const PolygonMesh& mesh, const Constraints& constraints) {
-  std::vector<Vector3> positions = mesh.positions();
-  for (Index i = 0; i < mesh.node_count(); ++i) {
-    if (constraints.position_fixed(i)) positions[static_cast<std::size_t>(i)] = constraints.position(i);
-  }
   std::vector<Index> face_begin = {0};
   std::vector<Index> corners;
   for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -30,7 +26,7 @@ PolygonMesh rest_of(const PolygonMesh& mesh, const Constraints& constraints) {
     corners.insert(corners.end(), face.begin(), face.end());
     face_begin.push_back(static_cast<Index>(corners.size()));
   }
-  return {std::move(positions), std::move(face_begin), std::move(corners)};
+  return {positions_as_held(mesh.positions(), constraints), std::move(face_begin), std::move(corners)};
 }
 
 bool held_in_place(const PolygonMesh& mesh, const Constraints& constraints) {

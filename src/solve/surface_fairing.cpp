@@ -183,16 +183,8 @@ FairResult SurfaceFairing::unchanged(const Constraints& constraints, FairResult&
                                      const Stopwatch& stopwatch) const {
   std::vector<std::uint8_t> in_faces(whole_->positions().size(), 0);
   for (const Index i : whole_->corners()) in_faces[static_cast<std::size_t>(i)] = 1;
-  std::size_t moving = 0;
-  result.positions = whole_->positions();
-  for (Index i = 0; i < constraints.node_count(); ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (constraints.position_fixed(i))
-      result.positions[k] = constraints.position(i);
-    else
-      moving += in_faces[k];
-  }
-  count_nodes(moving, constraints, result.report);
+  result.positions = positions_as_held(whole_->positions(), constraints);
+  count_nodes(in_faces, constraints, result.report);
   result.report.faces = whole_->face_count();
   result.report.seconds = stopwatch.seconds();
   return std::move(result);

@@ -222,6 +222,13 @@ void place_net(Net& net, const std::vector<Vector3>& positions, const Constraint
   net.tiny = std::max(shortest * shortest, 1e-280);
 }
 
+std::vector<Vector3> positions_as_held(std::vector<Vector3> positions, const Constraints& constraints) {
+  for (Index i = 0; i < constraints.node_count(); ++i) {
+    if (constraints.position_fixed(i)) positions[static_cast<std::size_t>(i)] = constraints.position(i);
+  }
+  return positions;
+}
+
 std::vector<Vector3> scatter_positions(const Net& net, std::vector<Vector3> positions, const Constraints& constraints,
                                        double strength) {
   return scatter_places(net, net.positions, std::move(positions), constraints, strength);
@@ -229,9 +236,7 @@ std::vector<Vector3> scatter_positions(const Net& net, std::vector<Vector3> posi
 
 std::vector<Vector3> scatter_places(const Net& net, std::span<const Vector3> places, std::vector<Vector3> positions,
                                     const Constraints& constraints, double strength) {
-  for (Index i = 0; i < constraints.node_count(); ++i) {
-    if (constraints.position_fixed(i)) positions[static_cast<std::size_t>(i)] = constraints.position(i);
-  }
+  positions = positions_as_held(std::move(positions), constraints);
   const double share = strength / net.frame.scale();
   for (std::size_t i = 0; i < net.moving; ++i) {
     Vector3& position = positions[static_cast<std::size_t>(net.node[i])];

@@ -92,6 +92,9 @@ Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for
 /// `tiny`. Needs node, rings, moving and computed.
 void place_net(Net& net, const std::vector<Vector3>& positions, const Constraints& constraints);
 
+/// The positions of a shape, with those of held nodes where constraints have them.
+std::vector<Vector3> positions_as_held(std::vector<Vector3> positions, const Constraints& constraints);
+
 /// The shape's positions with those of the net in place: moving nodes go the share `strength` of their way, fixed nodes
 /// are exactly where the constraints say, all others untouched.
 std::vector<Vector3> scatter_positions(const Net& net, std::vector<Vector3> positions, const Constraints& constraints,

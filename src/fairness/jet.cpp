@@ -3,8 +3,7 @@
 #include <tuple>
 #include <utility>
 
-// What is to be inlined lest vectors be handed from one function to another.
-#define VSPRING_INLINE __attribute__((always_inline)) inline
+#include "base/inlined.hpp"
 
 namespace vspring {
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -73,15 +74,13 @@ class GalerkinRow {
   const SparseSum& operator()(std::size_t i) {
     const Sources here = down_->row(i);
     there_.clear();
-    if (const auto* factored = std::get_if<FactoredMatrix>(matrix_)) {
-      multiply(here, *factored, between_, there_);
-    } else if (const auto* whole = std::get_if<AssembledMatrix>(matrix_)) {
-      multiply(here, *whole, there_);
-    } else if (const auto* links = std::get_if<LinkMatrix>(matrix_)) {
-      multiply(here, *links, there_);
-    } else {
-      multiply(here, std::get<GraphLaplacian>(*matrix_), there_);
-    }
+    const auto multiply_by = [&](const auto& one) {
+      if constexpr (std::is_same_v<decltype(one), const FactoredMatrix&>)
+        multiply(here, one, between_, there_);
+      else
+        multiply(here, one, there_);
+    };
+    std::visit(multiply_by, *matrix_);
     row_.clear();
     there_.for_each([&](std::uint32_t fine, double value) {
       for (const FloatRows::Entry& entry : up_->row(fine))

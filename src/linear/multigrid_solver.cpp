@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/inlined.hpp"
+
 namespace vspring {
 
 namespace {
@@ -58,24 +60,21 @@ Value narrow(const Sum<Value>& value) {
 }
 
 template <typename Value>
-__attribute__((always_inline)) inline Value row_times(const FloatRows& matrix, std::size_t i,
-                                                      const std::vector<Value>& values) {
+VSPRING_INLINE Value row_times(const FloatRows& matrix, std::size_t i, const std::vector<Value>& values) {
   Value sum = zero<Value>();
   for (const FloatRows::Entry& entry : matrix.row(i)) sum += entry.value * values[entry.column];
   return sum;
 }
 
 template <typename Value, typename Matrix>
-__attribute__((always_inline)) inline Value row_times(const Matrix& matrix, std::size_t i,
-                                                      const std::vector<Value>& values) {
+VSPRING_INLINE Value row_times(const Matrix& matrix, std::size_t i, const std::vector<Value>& values) {
   Sum<Value> sum = wide<Value>(zero<Value>());
   matrix.for_row(i, [&](std::size_t column, double value) { sum += value * wide<Value>(values[column]); });
   return narrow<Value>(sum);
 }
 
 template <typename Value>
-__attribute__((always_inline)) inline Value row_times(const GraphLaplacian& matrix, std::size_t i,
-                                                      const std::vector<Value>& values) {
+VSPRING_INLINE Value row_times(const GraphLaplacian& matrix, std::size_t i, const std::vector<Value>& values) {
   Value sum = zero<Value>();
   float spokes = 0;
   matrix.for_neighbours(i, [&](std::size_t j) {
@@ -129,26 +128,24 @@ Sum<Value> ratio(const Sum<Value>& a, const Sum<Value>& b) {
 template <typename Value, typename Then>
 void multiply(ThreadTeam& team, const LevelMatrix& matrix, const std::vector<Value>& values, std::vector<Value>& room,
               const Then& then) {
-  if (const auto* factored = std::get_if<FactoredMatrix>(&matrix)) {
-    room.resize(factored->inner_size());
-    for_rows(team, room.size(), [&](std::size_t i) {
-      Value sum = zero<Value>();
-      factored->for_row(i, [&](std::size_t j, float value) { sum += value * values[j]; });
-      room[i] = sum;
-    });
-    for_rows(team, values.size(), [&](std::size_t i) {
-      Value sum = zero<Value>();
-      factored->for_column(i, [&](std::size_t j, float value) { sum += value * room[j]; });
-      then(i, sum);
-    });
-  } else if (const auto* whole = std::get_if<AssembledMatrix>(&matrix)) {
-    for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(*whole, i, values)); });
-  } else if (const auto* links = std::get_if<LinkMatrix>(&matrix)) {
-    for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(*links, i, values)); });
-  } else {
-    const auto& graph = std::get<GraphLaplacian>(matrix);
-    for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(graph, i, values)); });
-  }
+  const auto multiply_by = [&](const auto& one) {
+    if constexpr (std::is_same_v<decltype(one), const FactoredMatrix&>) {
+      room.resize(one.inner_size());
+      for_rows(team, room.size(), [&](std::size_t i) {
+        Value sum = zero<Value>();
+        one.for_row(i, [&](std::size_t j, float value) { sum += value * values[j]; });
+        room[i] = sum;
+      });
+      for_rows(team, values.size(), [&](std::size_t i) {
+        Value sum = zero<Value>();
+        one.for_column(i, [&](std::size_t j, float value) { sum += value * room[j]; });
+        then(i, sum);
+      });
+    } else {
+      for_rows(team, values.size(), [&](std::size_t i) { then(i, row_times(one, i, values)); });
+    }
+  };
+  std::visit(multiply_by, matrix);
 }
 
 std::size_t size_of(const LevelMatrix& matrix) {

@@ -88,19 +88,20 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   after.set_positions(result.positions);
   const std::vector<Vector3> nodes = welding.positions(result.positions);
 
-  // Those that were not measured as a time limit came, unless somebody waits for the end.
-  const auto distances = [&] {
-    const bool are_missing = result.distances.empty() && !fairing.context().cancelled();
-    return are_missing ? point_distances(cloud.positions(), after, fairing.context()) : result.distances;
+  // Where they were not measured as a time limit came they are now, once, unless somebody waits for the end.
+  const auto distances = [&]() -> const std::vector<double>& {
+    if (result.distances.empty() && !fairing.context().cancelled())
+      result.distances = point_distances(cloud.positions(), after, fairing.context());
+    return result.distances;
   };
   const auto write_shape = [&] {
     std::vector<std::string> lost = written_without(arguments.output, write(arguments, file, nodes));
     if (arguments.deviation.empty()) return lost;
-    std::vector<double> deviations = distances();
+    const std::vector<double>& deviations = distances();
     if (deviations.empty())
       lost.push_back(not_written(arguments.deviation));
     else
-      write_scalars(arguments.deviation, cloud, std::vector<NodeScalar>{{"deviation", std::move(deviations)}});
+      write_scalars(arguments.deviation, cloud, std::vector<NodeScalar>{{"deviation", deviations}});
     return lost;
   };
   const auto point_deviation = [&]() -> std::vector<NodeScalar> {

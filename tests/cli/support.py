@@ -1,12 +1,16 @@
 """Small inputs, and a way to run the program."""
+import contextlib
 import itertools
 import json
 import math
 import os
 import pathlib
+import pty
 import random
+import signal
 import subprocess
 import tempfile
+import threading
 import unittest
 
 PROGRAM = os.environ["VSPRING"]
@@ -17,6 +21,26 @@ def run(*arguments, stdin=None, environment=None, timeout=120, before=None):
     """before: what the new process calls first."""
     return subprocess.run([PROGRAM, *map(str, arguments)], input=stdin, capture_output=True, timeout=timeout,
                           env={**os.environ, **(environment or {})}, preexec_fn=before)
+
+
+def run_interrupted(*arguments, by=signal.SIGINT, timeout=60):
+    """Signals the program as soon as its progress bar tells of an iteration. What it then did, `stderr` as a terminal shows it."""
+    terminal, of_program = pty.openpty()
+    process = subprocess.Popen([PROGRAM, *map(str, arguments)], stdout=subprocess.PIPE, stderr=of_program,
+                               env={**os.environ, "TERM": "xterm"})
+    os.close(of_program)
+    limit = threading.Timer(timeout, process.kill)
+    limit.start()
+    shown = b""
+    with contextlib.suppress(OSError):  # at the end of what the program shows
+        while piece := os.read(terminal, 65536):
+            if b"iteration" not in shown and b"iteration" in shown + piece:
+                process.send_signal(by)
+            shown += piece
+    limit.cancel()
+    os.close(terminal)
+    output, _ = process.communicate(timeout=timeout)
+    return subprocess.CompletedProcess(arguments, process.returncode, output, shown)
 
 
 def hat(rings=4, sides=12):

@@ -1,12 +1,9 @@
 """What `vspring fair` does with good input."""
-import contextlib
 import json
 import math
 import os
-import pty
 import signal
 import subprocess
-import threading
 import time
 
 import support
@@ -217,24 +214,10 @@ class Fair(Case):
     def test_ctrl_c_writes_the_shape_so_far_whole(self):
         path = self.write("in.obj", grid(120))
         for name in (signal.SIGINT, signal.SIGTERM):
-            terminal, of_program = pty.openpty()
-            process = subprocess.Popen([PROGRAM, "fair", path, "-o", self.folder / "out.obj", "--method", "sweep",
-                                        "--step-tolerance", "1e-30", "--max-iterations", "1000000000", "--report", self.folder / "report.json"],
-                                       stdout=subprocess.PIPE, stderr=of_program, env={**os.environ, "TERM": "xterm"})
-            os.close(of_program)
-            limit = threading.Timer(60, process.kill)
-            limit.start()
-            shown = b""
-            with contextlib.suppress(OSError):  # at the end of what the program shows
-                while piece := os.read(terminal, 65536):
-                    if b"iteration" not in shown and b"iteration" in shown + piece:
-                        process.send_signal(name)
-                    shown += piece
-            limit.cancel()
-            os.close(terminal)
-            output, _ = process.communicate(timeout=60)
-            self.assertEqual(process.returncode, 130, shown)
-            self.assertIn("interrupted", output.decode())
+            result = support.run_interrupted("fair", path, "-o", self.folder / "out.obj", "--method", "sweep", "--step-tolerance", "1e-30",
+                                             "--max-iterations", "1000000000", "--report", self.folder / "report.json", by=name)
+            self.assertEqual(result.returncode, 130, result.stderr)
+            self.assertIn("interrupted", result.stdout.decode())
             self.assertEqual(self.read_json("report.json")["outcome"], "cancelled")
             self.assertEqual(len(vertex_lines((self.folder / "out.obj").read_text())), 121 * 121)
             self.assertEqual(self.files(), ["in.obj", "out.obj", "report.json"])

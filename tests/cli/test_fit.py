@@ -1,15 +1,9 @@
 """What `vspring fit` does."""
-import contextlib
 import math
-import os
-import pty
 import random
-import signal
 import struct
-import subprocess
-import threading
 
-from support import EXAMPLES, OCTAHEDRON, PROGRAM, Case, grid, run, sphere, vertex_lines
+from support import EXAMPLES, OCTAHEDRON, Case, grid, run, run_interrupted, sphere, vertex_lines
 
 
 def xyz(points):
@@ -64,27 +58,13 @@ class Fit(Case):
 
     def test_ctrl_c_measures_no_deviations_of_many_points(self):
         shape, points = self.write("flat.obj", grid(150, lambda x, y: 0)), self.write("points.xyz", xyz(self.cloud(20000)))
-        terminal, of_program = pty.openpty()
-        process = subprocess.Popen([PROGRAM, "fit", shape, "--points", points, "-o", self.folder / "out.obj", "--weight", "0.1",
-                                    "--method", "sweep", "--step-tolerance", "1e-30", "--max-iterations", "1000000000",
-                                    "--report", self.folder / "r.json", "--deviation", self.folder / "deviation.ply"],
-                                   stdout=subprocess.PIPE, stderr=of_program, env={**os.environ, "TERM": "xterm"})
-        os.close(of_program)
-        limit = threading.Timer(60, process.kill)
-        limit.start()
-        shown = b""
-        with contextlib.suppress(OSError):  # at the end of what the program shows
-            while piece := os.read(terminal, 65536):
-                if b"iteration" not in shown and b"iteration" in shown + piece:
-                    process.send_signal(signal.SIGINT)
-                shown += piece
-        limit.cancel()
-        os.close(terminal)
-        output, _ = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 130, shown)
-        self.assertIn(b"deviation.ply: not written, as the run was interrupted", shown)
+        result = run_interrupted("fit", shape, "--points", points, "-o", self.folder / "out.obj", "--weight", "0.1", "--method", "sweep",
+                                 "--step-tolerance", "1e-30", "--max-iterations", "1000000000", "--report", self.folder / "r.json",
+                                 "--deviation", self.folder / "deviation.ply", "--scalars", self.folder / "scalars.ply")
+        self.assertEqual(result.returncode, 130, result.stderr)
+        self.assertIn(b"deviation.ply: not written, as the run was interrupted", result.stderr)
         self.assertEqual(self.read_json("r.json")["points"]["distance"], {"before": {}, "after": {}})
-        self.assertNotIn("distance", output.decode())
+        self.assertNotIn("distance", result.stdout.decode())
         self.assertTrue(any(heights(self.folder / "out.obj")), "the shape so far")
         self.assertEqual(self.files(), ["flat.obj", "out.obj", "points.xyz", "r.json"])
 

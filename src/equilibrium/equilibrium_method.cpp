@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "base/cancellation.hpp"
+#include "equilibrium/flow_search.hpp"
 #include "equilibrium/relaxation.hpp"
-#include "equilibrium/sweep_method.hpp"
 #include "spring/spacing.hpp"
 #include "sweep/sweep.hpp"
 
@@ -30,11 +30,6 @@ constexpr int first_try = 80;
 constexpr std::size_t not_too_many = 100'000;
 // Of Newton's steps from a curve that is nearly there.
 constexpr int newton_limit = 20;
-// Steps along the flow, where corrections lead nowhere: fewer are no use.
-constexpr int fewest_steps = 20;
-constexpr int most_steps = 100;
-// The last resort: sweeps until hardly anything moves, as a share of the edges.
-constexpr double still = 1e-9;
 constexpr double greatest_displacement_ratio = 4;
 
 /// Places of the moving nodes, as precise as a start need be.
@@ -55,11 +50,7 @@ class EquilibriumSearch : private Relaxation {
 
   EquilibriumSearch(Hierarchy& hierarchy, const Model& model, const SearchTask& task, const SolverCall& call,
                     PointLevels* points)
-      : Relaxation(hierarchy, model, task.method, call, points),
-        task_(task),
-        team_(call.team),
-        context_(call.context),
-        report_(call.report) {}
+      : Relaxation(hierarchy, model, task.method, call, points), task_(task), team_(call.team), report_(call.report) {}
 
   /// check: of the start, or null where that is not to be looked at.
   void run(const ResultCheck* check) {
@@ -71,8 +62,8 @@ class EquilibriumSearch : private Relaxation {
         {"spacing of the input", &Search::may_keep_spacing, &Search::keep_spacing},
         {"windings of the input", &Search::may_have_lost_windings, &Search::wind_as_input},
     };
-    report_.outcome = context_.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
-    if (context_.cancelled() || task_.method.max_iterations == 0) return;
+    report_.outcome = call_.context.cancelled() ? Outcome::cancelled : Outcome::iteration_limit;
+    if (call_.context.cancelled() || task_.method.max_iterations == 0) return;
     if (!points_) keep_input(check);
     displacements_ = greatest_displacements(shape());
     try {
@@ -333,52 +324,7 @@ class EquilibriumSearch : private Relaxation {
            !net.spheres.on() && !is_underconstrained(net);
   }
 
-  /// Corrections that take a surface for flat and even may lead nowhere where it has folds. The flow of the plain
-  /// iteration, with all that it depends on, may lead somewhere: from the shape that was reached, from where some
-  /// sweeps take the start, from a soap film, from the start itself or from where very many sweeps take it.
-  void go_along_flow() {
-    Net& net = shape();
-    const auto sweep_from_start = [&](std::size_t sweeps) {
-      net.positions = *input_;
-      Sweep sweep(net, model_, team_);
-      for (std::size_t k = 0; k < sweeps && !context_.cancelled(); ++k) {
-        report_.work += work_of_sweep * static_cast<double>(net.moving);
-        if (sweep.iterate() < still) break;
-      }
-    };
-    const std::function<void()> starts[] = {[] {}, [&] { sweep_from_start(10); },
-                                            [&] { hierarchy_.start_from_membrane(last()); },
-                                            [&] { sweep_from_start(0); }, [&] { sweep_from_start(1000); }};
-    const auto nodes = static_cast<double>(net.moving);
-    const auto steps_left = [&] {
-      return static_cast<int>((report_.most_work - report_.work) / (work_of_flow_step * nodes));
-    };
-    const int at_once = std::clamp(steps_left() / 3, fewest_steps, most_steps);
-    for (const auto& go_to_start : starts) {
-      if (steps_left() < at_once) break;
-      if (follow_flow_from(go_to_start, at_once)) return;
-    }
-    // Steps of the flow from where sweeps end need as much again.
-    const double sweeps =
-        (report_.most_work - report_.work) / (work_of_sweep * nodes) - at_once * work_of_flow_step / work_of_sweep;
-    if (sweeps > 0) (void)follow_flow_from([&] { sweep_from_start(static_cast<std::size_t>(sweeps)); }, at_once);
-  }
-
-  /// False, and what there was before, where that leads nowhere.
-  bool follow_flow_from(const std::function<void()>& go_to_start, int steps) {
-    const Reached best = reached(last());
-    try {
-      go_to_start();
-      relax_along_flow(steps, FlowStart::anywhere);
-    } catch (const Cancelled&) {
-      report_.outcome = Outcome::cancelled;
-    }
-    if (report_.outcome == Outcome::converged) return true;
-    const bool cancelled = report_.outcome == Outcome::cancelled;
-    go_back(last(), best);
-    if (cancelled) report_.outcome = Outcome::cancelled;
-    return cancelled;
-  }
+  void go_along_flow() { search_along_flow(*this, hierarchy_, model_, *input_, call_); }
 
   /// A level too coarse for the shape to have an equilibrium, or to have the right one, hands up what is no help: then
   /// the start itself may be one. The better of both stays.
@@ -430,7 +376,6 @@ class EquilibriumSearch : private Relaxation {
 
   const SearchTask& task_;
   ThreadTeam& team_;
-  Context& context_;
   FairReport& report_;
   std::shared_ptr<const std::vector<Vector3>> input_ = std::make_shared<const std::vector<Vector3>>();
   Displacements displacements_;

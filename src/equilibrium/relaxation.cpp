@@ -35,8 +35,8 @@ Relaxation::Relaxation(Hierarchy& hierarchy, const Model& model, const Equilibri
     : hierarchy_(hierarchy),
       model_(model),
       points_(points),
-      method_(method),
       call_(call),
+      method_(method),
       // Shares of a shape without extent are nothing or infinite, but something.
       size_(std::max(diagonal(shape()), std::numeric_limits<double>::min())) {
   if (!method.max_iterations)

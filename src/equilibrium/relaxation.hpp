@@ -74,13 +74,13 @@ class Relaxation {
   Hierarchy& hierarchy_;
   const Model& model_;
   PointLevels* points_;
+  SolverCall call_;
 
  private:
   void relax(std::size_t level, int max_iterations,
              const std::function<EquilibriumResult(const EquilibriumTask&)>& method);
 
   EquilibriumMethod method_;
-  SolverCall call_;
   double size_;
   Anderson<float>* memory_ = nullptr;
   bool take_last_ = false;

@@ -8,7 +8,7 @@
 #include "base/cancellation.hpp"
 #include "equilibrium/account.hpp"
 #include "equilibrium/best_iterate.hpp"
-#include "equilibrium/largest_turn.hpp"
+#include "equilibrium/edge_turns.hpp"
 #include "precondition/anderson.hpp"
 
 namespace vspring {
@@ -50,6 +50,7 @@ class Solver {
         model_(model),
         preconditioner_(preconditioner),
         team_(team),
+        turns_(net, greatest_turn, team),
         anderson_(history(net, team)),
         memory_(memory) {
     model.prepare(net);
@@ -120,7 +121,7 @@ class Solver {
       without_gain = expected_ < 0.7 * best.residual() ? 0 : without_gain + 1;
       best.look(expected_);
       if (task.on_iteration) task.on_iteration(expected_);
-      const double turn = largest_turn(net_, correction_, team_);
+      const double turn = turns_.turn(correction_, size);
       accelerate(turn);
       const double step = largest_correction();
       // The last step is not taken: what it says of the shape is true of the shape before it.
@@ -130,7 +131,7 @@ class Solver {
         const double slower = size / (1 - std::max(rate, rate_before));
         const double error = std::max({step * (1 + left), least_share * slower, rounding});
         if (error < task.tolerance) {
-          if (task.take_last) (void)take_step(turn);
+          if (task.take_last) (void)take_step(turn, step);
           if (last_changes < task.most_changes && renew_ties(false)) {
             ++last_changes;
             continue;
@@ -140,7 +141,7 @@ class Solver {
           return;
         }
       }
-      limited = take_step(turn);
+      limited = take_step(turn, step);
       last_step = limited ? 0 : step;
       if (limited) without_gain = 0;
       lost = expected_ > shape_size ? lost + 1 : 0;
@@ -187,13 +188,13 @@ class Solver {
       std::visit([&](auto& anderson) { anderson.accelerate(correction_); }, anderson_);
   }
 
-  /// Moves the nodes. turn: as above. True where the step had to be shortened.
-  bool take_step(double turn) {
+  /// Moves the nodes. turn: as above. longest: way of a node by the step. True where that had to be shortened.
+  bool take_step(double turn, double longest) {
     double share = 1;
     if (turn > greatest_turn) {
       share = greatest_turn / turn;
     } else {
-      const double accelerated = largest_turn(net_, correction_, team_);
+      const double accelerated = turns_.turn(correction_, longest);
       if (accelerated > greatest_turn) {
         forget();
         share = greatest_turn / accelerated;
@@ -202,6 +203,7 @@ class Solver {
     parallel_ranges(team_, net_.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) net_.positions[i] += share * correction_[i];
     });
+    turns_.moved(share * longest);
     return share < 1;
   }
 
@@ -209,6 +211,7 @@ class Solver {
   const Model& model_;
   Preconditioner& preconditioner_;
   ThreadTeam& team_;
+  TurnLimit turns_;
   std::variant<Anderson<float>, Anderson<double>> anderson_;
   Anderson<float>* memory_;
   std::vector<Vector3> correction_;

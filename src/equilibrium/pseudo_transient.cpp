@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/cancellation.hpp"
+#include "equilibrium/edge_turns.hpp"
 #include "equilibrium/force_derivative.hpp"
-#include "equilibrium/largest_turn.hpp"
 #include "linear/lu_factor.hpp"
 
 namespace vspring {
@@ -65,7 +65,7 @@ class Flow {
         continue;
       }
       if (task.on_iteration) task.on_iteration(size);
-      const double turn = largest_turn(net_, step_, team_);
+      const double turn = edge_turns(net_, step_, team_).largest;
       // Only Newton's step says how far it is; it is not taken, as the shape is to be the one that it says it of.
       if (newton && size < task.tolerance && turn <= greatest_flow_turn) {
         ++result.iterations;

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "equilibrium/largest_turn.hpp"
+#include "equilibrium/edge_turns.hpp"
 #include "levels/surface_slide.hpp"
 
 namespace vspring {

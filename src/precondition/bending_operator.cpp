@@ -6,6 +6,8 @@
 
 #include "base/linear_precision.hpp"
 #include "linear/sparse_sum.hpp"
+#include "spring/link_edges.hpp"
+#include "spring/sphere_springs.hpp"
 
 namespace vspring {
 
@@ -96,21 +98,22 @@ void sphere_row(const Net& net, std::size_t i, SparseRows::Row& row) {
   const auto links = net.rings.links(i);
   const SphereSprings& spheres = net.spheres;
   row.clear();
-  if (!(spheres.spreads[i] > 0)) return;
+  const RowSpread spread = spread_of_row(net, i, LinkEdges(net, i));
+  if (!(spread.sum > 0)) return;
   const double* stiffness = spheres.stiffness.data() + net.rings.begin(i);
   double plain = 0;
   double raised = 0;
   for (std::size_t k = 0; k < links.size(); ++k) {
     plain += stiffness[k];
-    raised += stiffness[k] + spheres.raised[i];
+    raised += stiffness[k] + spread.raised;
   }
   // Forces have the plain entries, curvatures the raised ones: the symmetric form between has their geometric mean.
-  const double area = std::clamp(raised > 0 ? spheres.spreads[i] / 4 * plain / raised : 0,
-                                 least_mass * spheres.areas[i], greatest_mass * spheres.areas[i]);
-  const double scale = 4 * std::sqrt(area) / spheres.spreads[i];
+  const double area = std::clamp(raised > 0 ? spread.sum / 4 * plain / raised : 0, least_mass * spheres.areas[i],
+                                 greatest_mass * spheres.areas[i]);
+  const double scale = 4 * std::sqrt(area) / spread.sum;
   double sum = 0;
   for_some_links(links, [&](std::size_t k) {
-    const double value = scale * (stiffness[k] + spheres.raised[i]);
+    const double value = scale * (stiffness[k] + spread.raised);
     row.push_back({static_cast<std::uint32_t>(links[k].node()), value});
     sum += value;
   });

@@ -60,11 +60,10 @@ void for_faces(std::span<const Link> links, const Use& use) {
 }  // namespace
 
 void find_laplacian_row(Net& net, std::size_t i, const LinkEdges& edges) {
-  SphereSprings& spheres = net.spheres;
   const std::size_t count = edges.size();
-  double* row = spheres.stiffness.data() + net.rings.begin(i);
+  double* row = net.spheres.stiffness.data() + net.rings.begin(i);
   std::fill_n(row, count, 0.0);
-  spheres.areas[i] = 0;
+  double share_of_area = 0;
   const auto edge = [&](std::size_t k) -> const Vector3& { return edges[wrapped(k, count)]; };
   for_faces(edges.links(), [&](std::size_t first, std::size_t last) {
     const std::size_t nodes = last - first + 2;
@@ -74,7 +73,7 @@ void find_laplacian_row(Net& net, std::size_t i, const LinkEdges& edges) {
       const HalfCotangents half(a, b);
       row[first] += half.at_b;
       row[wrapped(last, count)] += half.at_a;
-      spheres.areas[i] += half.area / 6;
+      share_of_area += half.area / 6;
       return;
     }
     // Nodes of the face: 0 is the centre, k + 1 the place first + k of the walk.
@@ -91,7 +90,7 @@ void find_laplacian_row(Net& net, std::size_t i, const LinkEdges& edges) {
       before = after;
     }
     middle /= static_cast<double>(nodes);
-    spheres.areas[i] += 0.5 * area.norm() / static_cast<double>(nodes);
+    share_of_area += 0.5 * area.norm() / static_cast<double>(nodes);
     // Weights of the edges from each node to the middle go to the node by its share, and their sum to all.
     const double share = 1 / static_cast<double>(nodes);
     double sum = 0;
@@ -115,6 +114,7 @@ void find_laplacian_row(Net& net, std::size_t i, const LinkEdges& edges) {
     }
     for (std::size_t k = first; k <= last; ++k) row[wrapped(k, count)] += share * (own - share * sum);
   });
+  net.spheres.areas[i] = share_of_area;
 }
 
 }  // namespace vspring

@@ -80,45 +80,35 @@ std::pair<Vector3, Vector3> tangents_of(const Vector3& normal) {
   return {t1, normal.cross(t1)};
 }
 
-/// The sum of the Laplacian's entries, raised where that is too little, times squared edges; and the node's weight.
-void find_spread(Net& net, std::size_t i, const LinkEdges& edges) {
-  SphereSprings& spheres = net.spheres;
+/// What forces on a node are divided by.
+void find_weight(Net& net, std::size_t i, const LinkEdges& edges) {
   const auto links = edges.links();
-  const double* row = spheres.stiffness.data() + net.rings.begin(i);
-  double spread = 0;
   double squares = 0;
-  double spokes_squares = 0;
   double spokes = 0;
   for (std::size_t k = 0; k < links.size(); ++k) {
-    const double square = edges.square(k);
-    spread += row[k] * square;
-    squares += square;
     if (!links[k].spoke()) continue;
-    spokes_squares += square;
+    squares += edges.square(k);
     spokes += 1;
   }
-  const double least = least_spread * spheres.areas[i];
-  spheres.raised[i] = spread < least && squares > 0 ? (least - spread) / squares : 0;
-  spheres.spreads[i] = std::max(spread, least);
-  const double mean_square = spokes > 0 ? spokes_squares / spokes : 0;
-  spheres.weights[i] = 16 * spheres.areas[i] / std::max(mean_square * mean_square, net.tiny * net.tiny);
+  const double mean_square = spokes > 0 ? squares / spokes : 0;
+  net.spheres.weights[i] = 16 * net.spheres.areas[i] / std::max(mean_square * mean_square, net.tiny * net.tiny);
 }
 
 /// The curvature from the row: Σ K (height − q) / Σ K |e|².
 template <typename Height>
 double curvature_by_row(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& t1, const Vector3& t2,
                         const HeightFit& fit, const Height& height) {
-  const SphereSprings& spheres = net.spheres;
   const auto links = edges.links();
-  const double* row = spheres.stiffness.data() + net.rings.begin(i);
+  const double* row = net.spheres.stiffness.data() + net.rings.begin(i);
+  const RowSpread spread = spread_of_row(net, i, edges);
   double sum = 0;
   for (std::size_t k = 0; k < links.size(); ++k) {
     const Vector3& e = edges[k];
     const double x = e.dot(t1);
     const double y = e.dot(t2);
-    sum += (row[k] + spheres.raised[i]) * (height(links[k].node(), e) - fit.q1 * (x * x - y * y) - 2 * fit.q2 * x * y);
+    sum += (row[k] + spread.raised) * (height(links[k].node(), e) - fit.q1 * (x * x - y * y) - 2 * fit.q2 * x * y);
   }
-  return spheres.spreads[i] > 0 ? sum / spheres.spreads[i] : unknown;
+  return spread.sum > 0 ? sum / spread.sum : unknown;
 }
 
 /// Whether faces lie around a node in one run, from rim to rim.
@@ -217,13 +207,24 @@ void use_sphere_springs(Net& net) {
   net.spheres.curvatures.assign(net.positions.size(), unknown);
   net.spheres.stiffness.assign(net.rings.link_count(), 0);
   net.spheres.areas.assign(net.computed, 0);
-  net.spheres.spreads.assign(net.computed, 0);
-  net.spheres.raised.assign(net.computed, 0);
   net.spheres.weights.assign(net.computed, 0);
   net.spheres.factor = bending_factor(net);
 }
 
 void use_least_bending(Net& net) { net.spheres.differences.assign(net.moving, 0); }
+
+RowSpread spread_of_row(const Net& net, std::size_t i, const LinkEdges& edges) {
+  const double* row = net.spheres.stiffness.data() + net.rings.begin(i);
+  double sum = 0;
+  double squares = 0;
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const double square = edges.square(k);
+    sum += row[k] * square;
+    squares += square;
+  }
+  const double least = least_spread * net.spheres.areas[i];
+  return {std::max(sum, least), sum < least && squares > 0 ? (least - sum) / squares : 0};
+}
 
 void update_spheres(Net& net, std::size_t begin, std::span<const Vector3> first) {
   SpheresInside inside;
@@ -231,7 +232,7 @@ void update_spheres(Net& net, std::size_t begin, std::span<const Vector3> first)
     const std::size_t i = begin + k;
     const LinkEdges& edges = inside.edges(net, i);
     find_laplacian_row(net, i, edges);
-    find_spread(net, i, edges);
+    find_weight(net, i, edges);
     if (net.normal_given(i)) continue;
     net.spheres.curvatures[i] = unknown;
     net.normals[i] = first[k];

@@ -8,6 +8,7 @@
 
 namespace vspring {
 
+class LinkEdges;
 struct Net;
 
 /// Springs of a surface that do not see which way edges run: that of a node is the radius of its mean-curvature sphere,
@@ -22,9 +23,6 @@ struct SphereSprings {
   /// mean of its nodes.
   std::vector<double> stiffness;
   std::vector<double> areas;  ///< the node's share of the faces around it
-  /// What stiffness times squared edges adds up to; of entries that were raised, see `raised`.
-  std::vector<double> spreads;
-  std::vector<double> raised;  ///< by how much entries are raised, all alike, where a curvature is taken from them
   /// What forces are divided by in the linear equations, Σ 1/ℓ for springs of Eq. 4: 16 M/ρ⁴ of the node's area M and
   /// its mean squared edge ρ².
   std::vector<double> weights;
@@ -44,6 +42,14 @@ void use_least_bending(Net& net);
 
 /// How many nodes update_spheres() takes at most.
 inline constexpr std::size_t spheres_together = 8;
+
+/// What a node's row of the Laplacian is worth in a curvature.
+struct RowSpread {
+  double sum = 0;     ///< of its entries, raised, times squared edges
+  double raised = 0;  ///< by how much they are raised, all alike: else the sum would be too little for the area
+};
+
+RowSpread spread_of_row(const Net& net, std::size_t i, const LinkEdges& edges);
 
 /// Normals (where not given; `first` has a guess for each) and curvatures of nodes with rings, from node `begin` on,
 /// from their links by least squares, and their rows of the Laplacian. Curvatures of nodes with given normals are left

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "checks/curve_crossings.hpp"
@@ -197,7 +197,8 @@ std::size_t turned_edges(const Net& net, ThreadTeam& team) {
   return defects_of(net, net.positions, mean_edge(net), team, {}).turned;
 }
 
-ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team) : model_(&model), team_(&team) {
+ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team, StartPlaces places)
+    : model_(&model), team_(&team), start_(std::move(places)) {
   for (const Vector3& position : start.positions) box_.extend(position);
   for (const Vector3& position : start.points.positions) box_.extend(position);
   has_directions_ = std::any_of(start.given.begin(), start.given.end(), [](std::uint8_t given) { return given != 0; });
@@ -220,8 +221,8 @@ ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team) : mod
   model.prepare(start);
   update_directions(start, model, team);
   energy_ = spring_energy(start).sum;
-  if (has_directions_ && !has_points_ && defects_.collapsed == 0)
-    start_ = std::make_shared<const std::vector<Vector3>>(start.positions);
+  looks_at_agreement_ = has_directions_ && !has_points_ && defects_.collapsed == 0;
+  if (looks_at_agreement_ && !start_) start_ = StartPlaces(start.positions);
   // Sweeps must do without: they move from the newest positions.
   if (!was_prepared) start.curvatures.clear();
 }
@@ -282,7 +283,7 @@ std::string ResultCheck::fault_of_places(const Net& now) const {
 }
 
 std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const {
-  if (!start_ || !now.spheres.differences.empty()) return {};
+  if (!looks_at_agreement_ || !now.spheres.differences.empty()) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
   model_->prepare(now);
   update_directions(now, *model_, *team_);
@@ -291,7 +292,7 @@ std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const 
   const auto bending_of = [&](const std::vector<Vector3>& positions) {
     return defects_of(now, positions, edge_, *team_, {.bending = true}, dragged_nodes).bending;
   };
-  const double before = bending_of(*start_);
+  const double before = bending_of(start_.of(now));
   const double after = bending_of(now.positions);
   if (after <= risen_bending * before + unseen) return {};
   return fmt::format(

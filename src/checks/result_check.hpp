@@ -3,12 +3,12 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/threads.hpp"
+#include "checks/start_places.hpp"
 #include "spring/model.hpp"
 #include "vspring/fair.hpp"
 
@@ -33,8 +33,9 @@ struct ShapeDefects {
 class ResultCheck {
  public:
   /// start: the shape as it went in, with its constraints applied; points that pull at it belong to its box, and which
-  /// edges turn is a matter of the input before that. Updates directions. Cost: linear.
-  ResultCheck(Net& start, const Model& model, ThreadTeam& team);
+  /// edges turn is a matter of the input before that. places: its places, which are kept if not given and needed.
+  /// Updates directions. Cost: linear.
+  ResultCheck(Net& start, const Model& model, ThreadTeam& team, StartPlaces places = {});
 
   /// What is worse about the shape now, in words for people; empty where nothing is: places that are no numbers or far
   /// outside the box; more defects, but for those beside nodes that are held elsewhere than the input has them; edges
@@ -53,8 +54,13 @@ class ResultCheck {
   /// Only nodes whose places are no numbers or far outside the box.
   [[nodiscard]] std::string misplaced(const Net& now) const;
 
-  /// Where directions hold it: the places of all nodes as it went in, with its constraints applied; else null.
-  [[nodiscard]] const std::shared_ptr<const std::vector<Vector3>>& start() const noexcept { return start_; }
+  /// As given, or where directions hold it; else they are not known.
+  [[nodiscard]] const StartPlaces& start() const noexcept { return start_; }
+  /// What needs them is not looked at any more, by fault().
+  void forget_start() {
+    start_ = {};
+    looks_at_agreement_ = false;
+  }
 
  private:
   [[nodiscard]] std::vector<std::uint8_t> dragged(const Net& now) const;
@@ -75,8 +81,9 @@ class ResultCheck {
   double edge_ = 0;  ///< the mean one
   ShapeDefects defects_;
   std::vector<Vector3> input_;  ///< of a curve that is looked at for crossings: where the input has its nodes
-  std::shared_ptr<const std::vector<Vector3>> start_;  ///< see start()
-  std::vector<Vector3> held_;                          ///< where the input has the nodes that are held
+  StartPlaces start_;
+  bool looks_at_agreement_ = false;  ///< whether directions agree with the shape, see fault()
+  std::vector<Vector3> held_;        ///< where the input has the nodes that are held
   double energy_ = 0;
   // Where nothing but positions holds it: with its constraints, and of a surface after rest_positions(); none where
   // constraints put nodes elsewhere than the input has them.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -8,7 +10,8 @@
 
 namespace vspring {
 
-/// Keeps the shape of the smallest residual, in case it gets worse.
+/// Keeps the shape of the smallest residual, in case it gets worse; a large one, which is half as large then, in single
+/// precision: to 1e-7 of its size.
 class BestIterate {
  public:
   /// lost_factor: a shape is lost while its residual is more than this much larger than the best, or than `small` where
@@ -20,7 +23,12 @@ class BestIterate {
     // Shapes hardly better than the one kept are not worth a copy.
     if (!(residual < 0.7 * residual_)) return;
     residual_ = residual;
-    positions_ = net_->positions;
+    if (net_->moving > large) {
+      rounded_.resize(net_->moving);
+      for (std::size_t i = 0; i < net_->moving; ++i) rounded_[i] = net_->positions[i].cast<float>();
+    } else {
+      positions_ = net_->positions;
+    }
     lost_for_ = 0;
   }
 
@@ -31,15 +39,20 @@ class BestIterate {
   /// Puts the shape back; returns its residual.
   double restore() {
     if (!positions_.empty()) net_->positions = positions_;
+    for (std::size_t i = 0; i < rounded_.size(); ++i) net_->positions[i] = rounded_[i].cast<double>();
     return residual_;
   }
 
  private:
+  // Nodes.
+  static constexpr std::size_t large = 500'000;
+
   Net* net_;
   double lost_factor_;
   double small_;
   double residual_ = std::numeric_limits<double>::infinity();
   std::vector<Vector3> positions_;
+  std::vector<Eigen::Vector3f> rounded_;  // of moving nodes
   int lost_for_ = 0;
 };
 

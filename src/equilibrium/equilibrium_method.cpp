@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -92,12 +91,14 @@ class EquilibriumSearch : private Relaxation {
   }
 
  private:
-  /// Where the check has the same places, it is these: of a large shape they are many.
+  /// Where the check knows the same places, it is these.
   void keep_input(const ResultCheck* check) {
-    const std::vector<Vector3>& places = shape().positions;
-    const bool is_kept = check != nullptr && check->start() && *check->start() == places;
-    input_ = is_kept ? check->start() : std::make_shared<const std::vector<Vector3>>(places);
+    const Net& net = shape();
+    const bool is_kept = check != nullptr && check->start() && check->start().of(net) == net.positions;
+    input_ = is_kept ? check->start() : StartPlaces(net.positions);
   }
+
+  [[nodiscard]] bool lost_winding() { return shape().is_curve && hierarchy_.lost_winding(input_.of(shape())); }
 
   /// Coarser levels do not keep a distribution, and where points are, a start is near.
   [[nodiscard]] bool starts_near() const { return points_ && task_.distribution == Distribution::keep; }
@@ -187,7 +188,7 @@ class EquilibriumSearch : private Relaxation {
   void keep_spacing() {
     Net& net = shape();
     const Reached found = reached(last());
-    net.positions = *input_;
+    net.positions = input_.of(net);
     update_directions(net, model_, team_);
     hierarchy_.set_laplacian_weights(model_.present_laplacian_weights(net));
     relax(last(), 1);
@@ -196,7 +197,7 @@ class EquilibriumSearch : private Relaxation {
 
   bool may_have_lost_windings() {
     return !points_ && !task_.method.max_iterations && report_.outcome != Outcome::cancelled &&
-           (unfinished() || hierarchy_.lost_winding(*input_));
+           (unfinished() || lost_winding());
   }
 
   /// A curve whose ends and tangents are held may unwind on coarse levels, where it should not: then from a start that
@@ -205,7 +206,7 @@ class EquilibriumSearch : private Relaxation {
     Net& net = shape();
     has_looked_for_winding_ = true;
     const Reached found = reached(last());
-    net.positions = *input_;
+    net.positions = input_.of(net);
     try {
       if (hierarchy_.wind()) {
         const std::vector<Vector3> wound = net.positions;
@@ -213,7 +214,7 @@ class EquilibriumSearch : private Relaxation {
           net.positions = wound;
           relax_along_flow(start == FlowStart::near ? newton_limit : default_limit, start);
           if (report_.outcome == Outcome::cancelled) break;
-          if (report_.outcome == Outcome::converged && !hierarchy_.lost_winding(*input_)) return;
+          if (report_.outcome == Outcome::converged && !lost_winding()) return;
         }
       }
     } catch (const Cancelled&) {
@@ -227,7 +228,7 @@ class EquilibriumSearch : private Relaxation {
   /// What is worse with the shape than with the start; empty where nothing is.
   std::string fault(const ResultCheck& check) {
     std::string fault = check.fault(shape(), report_.outcome == Outcome::cancelled);
-    lost_winding_ = fault.empty() && !points_ && hierarchy_.lost_winding(*input_);
+    lost_winding_ = fault.empty() && !points_ && lost_winding();
     if (lost_winding_)
       fault = has_looked_for_winding_
                   ? "it winds otherwise than the input, as does every fair curve with these ends that was found"
@@ -263,13 +264,13 @@ class EquilibriumSearch : private Relaxation {
                             {"from the input", [] {}},
                             {"from the input, with its spacing", keep_input_spacing}};
     std::optional<Reached> best;
-    net.positions = *input_;
+    net.positions = input_.of(net);
     // Where constraints are at odds with the input, that with its constraints is no shape to fall back on.
     const bool input_is_better = check.fault_of_places(net).empty() || is_nowhere;
     double least_energy = input_is_better ? energy_of(net).sum : std::numeric_limits<double>::infinity();
     for (const Start& start : starts) {
       if (was_cancelled || out_of_work(net)) break;
-      net.positions = *input_;
+      net.positions = input_.of(net);
       try {
         start.go();
       } catch (const Cancelled&) {
@@ -292,7 +293,7 @@ class EquilibriumSearch : private Relaxation {
     const bool is_input_smoothed =
         !cancelled && !best && input_is_better && net.is_curve && smooth_a_little(start_smooth, check, least_energy);
     if (is_input_smoothed) best = Reached{net.positions, found.outcome, found.residual};
-    go_back(last(), best ? *best : input_is_better ? Reached{*input_, found.outcome, found.residual} : found);
+    go_back(last(), best ? *best : input_is_better ? Reached{input_.of(net), found.outcome, found.residual} : found);
     report_.outcome = cancelled ? Outcome::cancelled : Outcome::worse_than_input;
     report_.warnings.push_back(
         {WarningCode::worse_than_input,
@@ -309,11 +310,12 @@ class EquilibriumSearch : private Relaxation {
   /// The input without its noise, where that is little, and the shape then is fairer than such an energy and no worse.
   bool smooth_a_little(const std::function<void()>& start_smooth, const ResultCheck& check, double energy) {
     Net& net = shape();
-    net.positions = *input_;
+    net.positions = input_.of(net);
     start_smooth();
     double greatest = 0;
+    const std::vector<Vector3> input = input_.of(net);
     for (std::size_t i = 0; i < net.moving; ++i)
-      greatest = std::max(greatest, (net.positions[i] - (*input_)[i]).squaredNorm());
+      greatest = std::max(greatest, (net.positions[i] - input[i]).squaredNorm());
     const double edge = mean_edge(net);
     return greatest < edge * edge && fault(check).empty() && energy_of(net).sum < energy;
   }
@@ -324,7 +326,7 @@ class EquilibriumSearch : private Relaxation {
            !net.spheres.on() && !is_underconstrained(net);
   }
 
-  void go_along_flow() { search_along_flow(*this, hierarchy_, model_, *input_, call_); }
+  void go_along_flow() { search_along_flow(*this, hierarchy_, model_, input_, call_); }
 
   /// A level too coarse for the shape to have an equilibrium, or to have the right one, hands up what is no help: then
   /// the start itself may be one. The better of both stays.
@@ -377,7 +379,7 @@ class EquilibriumSearch : private Relaxation {
   const SearchTask& task_;
   ThreadTeam& team_;
   FairReport& report_;
-  std::shared_ptr<const std::vector<Vector3>> input_ = std::make_shared<const std::vector<Vector3>>();
+  StartPlaces input_{std::vector<Vector3>()};
   Displacements displacements_;
   std::optional<std::size_t> level_;  ///< while coarser ones are worked on, the one that the shape was handed up to
   bool came_from_coarse_ = false;

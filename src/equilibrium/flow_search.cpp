@@ -37,12 +37,12 @@ bool follow_from(const std::function<void()>& go_to_start, int steps, Relaxation
 
 }  // namespace
 
-void search_along_flow(Relaxation& relaxation, Hierarchy& hierarchy, const Model& model,
-                       const std::vector<Vector3>& start, const SolverCall& call) {
+void search_along_flow(Relaxation& relaxation, Hierarchy& hierarchy, const Model& model, const StartPlaces& start,
+                       const SolverCall& call) {
   Net& net = relaxation.shape();
   FairReport& report = call.report;
   const auto sweep_from_start = [&](std::size_t sweeps) {
-    net.positions = start;
+    net.positions = start.of(net);
     Sweep sweep(net, model, call.team);
     for (std::size_t k = 0; k < sweeps && !call.context.cancelled(); ++k) {
       report.work += work_of_sweep * static_cast<double>(net.moving);

@@ -167,16 +167,27 @@ std::optional<Net> SurfaceFairing::run(const Constraints& constraints, Context& 
     const CancellationScope cancellation(context);
     if (const auto* const method = std::get_if<EquilibriumMethod>(&options.method)) {
       run_to_equilibrium(constraints, {call, options, *method});
+      // It depends on these constraints.
+      check_->forget_start();
       return Net();
     }
     Net net = gather_part(*whole_, part_, constraints);
-    check_.emplace(net, *model_, team_);
-    return run_papers_method(std::move(net), *model_, *check_, options, call);
+    look_at_start(net, constraints);
+    net = run_papers_method(std::move(net), *model_, *check_, options, call);
+    check_->forget_start();
+    return net;
   } catch (const Cancelled&) {
     hierarchy_.reset();
+    check_.reset();
     report.outcome = Outcome::cancelled;
     return std::nullopt;
   }
+}
+
+void SurfaceFairing::look_at_start(Net& net, const Constraints& constraints) {
+  check_.emplace(net, *model_, team_, StartPlaces([this, &constraints](const Net& of) {
+                   return start_places(of, whole_->positions(), constraints);
+                 }));
 }
 
 FairResult SurfaceFairing::unchanged(const Constraints& constraints, FairResult& result,
@@ -234,7 +245,7 @@ void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constr
     const bool by_bending = is_sphere && fair_by == FairBy::bending;
     if (by_bending) use_least_bending(net);
     hierarchy_.reset();
-    check_.emplace(net, *model_, team_);
+    look_at_start(net, constraints);
     hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
     // Whoever gives a number of iterations, or asks for what is found, gets that; edge springs come second else, and
     // after least bending curvature does.
@@ -318,7 +329,7 @@ bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, 
     only[0].net = std::move(net);
     hierarchy_.emplace(std::move(only), team_);
   } else {
-    check_.emplace(net, *model_, team_);
+    look_at_start(net, constraints);
     hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
   }
   hierarchy_->finest().positions = nearest;

@@ -66,6 +66,8 @@ class SurfaceFairing {
   /// Says where faces cross each other that did not before. True where they do, and that is not wanted as found.
   bool crosses_itself(const Net& net, const Constraints& constraints, Context& context, FairReport& report);
   void finish(const Net& net, const Constraints& constraints, FairResult& result);
+  /// What the result is compared with. The start is made again from these constraints until it is forgotten.
+  void look_at_start(Net& net, const Constraints& constraints);
   /// With the input, which its constraints may have changed.
   FairResult unchanged(const Constraints& constraints, FairResult& result, const Stopwatch& stopwatch) const;
 

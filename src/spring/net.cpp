@@ -172,6 +172,10 @@ Net gather_net_of(const PolygonMesh& mesh, const CutMesh* cut, const Constraints
   return net;
 }
 
+const Vector3& position_as_held(const std::vector<Vector3>& positions, const Constraints& constraints, Index node) {
+  return constraints.position_fixed(node) ? constraints.position(node) : positions[static_cast<std::size_t>(node)];
+}
+
 }  // namespace
 
 Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for_spheres) {
@@ -180,17 +184,13 @@ Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for
 }
 
 void place_net(Net& net, const std::vector<Vector3>& positions, const Constraints& constraints) {
-  const auto position = [&](Index node) {
-    return constraints.position_fixed(node) ? constraints.position(node) : positions[static_cast<std::size_t>(node)];
-  };
   Eigen::AlignedBox<double, 3> box;
-  for (const Index node : net.node) box.extend(position(node));
+  for (const Index node : net.node) box.extend(position_as_held(positions, constraints, node));
   net.frame = Frame(box);
-  net.positions.reserve(net.node.size());
-  for (const Index node : net.node) net.positions.push_back(net.frame.to_local(position(node)));
+  net.positions = start_places(net, positions, constraints);
   const bool displaced = std::any_of(net.node.begin(), net.node.end(), [&](Index node) {
     const Vector3& input = positions[static_cast<std::size_t>(node)];
-    return input.allFinite() && position(node) != input;
+    return input.allFinite() && position_as_held(positions, constraints, node) != input;
   });
   if (displaced) {
     net.input = net.positions;
@@ -220,6 +220,15 @@ void place_net(Net& net, const std::vector<Vector3>& positions, const Constraint
   // Far below any length that matters, far above what underflows when squared and inverted.
   const double shortest = spokes > 0 ? 1e-9 * lengths / static_cast<double>(spokes) : 0;
   net.tiny = std::max(shortest * shortest, 1e-280);
+}
+
+std::vector<Vector3> start_places(const Net& net, const std::vector<Vector3>& positions,
+                                  const Constraints& constraints) {
+  std::vector<Vector3> places;
+  places.reserve(net.node.size());
+  for (const Index node : net.node)
+    places.push_back(net.frame.to_local(position_as_held(positions, constraints, node)));
+  return places;
 }
 
 std::vector<Vector3> positions_as_held(std::vector<Vector3> positions, const Constraints& constraints) {

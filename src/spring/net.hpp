@@ -92,6 +92,10 @@ Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for
 /// `tiny`. Needs node, rings, moving and computed.
 void place_net(Net& net, const std::vector<Vector3>& positions, const Constraints& constraints);
 
+/// Where place_net() puts the nodes, in the net's coordinates.
+std::vector<Vector3> start_places(const Net& net, const std::vector<Vector3>& positions,
+                                  const Constraints& constraints);
+
 /// The positions of a shape, with those of held nodes where constraints have them.
 std::vector<Vector3> positions_as_held(std::vector<Vector3> positions, const Constraints& constraints);
 

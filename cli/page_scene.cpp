@@ -187,7 +187,7 @@ Json scene_of(std::span<const ShownShape<PolygonMesh>> shapes, const PageRoles& 
   const auto reference_place = static_cast<std::size_t>(roles.reference.value_or(roles.leading));
   const PolygonMesh& leading = shapes[leading_place].shape();
   const PolygonMesh& reference = shapes[reference_place].shape();
-  const bool alike = same_faces(leading, reference);
+  const bool alike = leading.has_same_faces(reference);
   add_framing(json, alike ? framing_of(leading, frame.inside(reference.positions()), frame.inside(leading.positions()),
                                        roles.view)
                           : Framing{roles.view.value_or(default_view()), std::nullopt});

@@ -35,11 +35,6 @@ void refuse_scalars(const std::string& path, bool curve) {
                                            : ": numbers at nodes go to VTP or PLY; name a file .vtp or .ply"));
 }
 
-bool same_faces(const PolygonMesh& mesh, const PolygonMesh& other) {
-  return mesh.node_count() == other.node_count() && mesh.face_begin() == other.face_begin() &&
-         mesh.corners() == other.corners();
-}
-
 std::vector<NodeScalar> scalars_of(const MeasuredShape<PolygonMesh>& measured, const MeasuredShape<PolygonMesh>* before,
                                    const Context& context) {
   const PolygonMesh& mesh = measured.shape();
@@ -51,7 +46,7 @@ std::vector<NodeScalar> scalars_of(const MeasuredShape<PolygonMesh>& measured, c
   }
   if (before == nullptr) return scalars;
   scalars.push_back(deviation(mesh, before->shape(), context));
-  if (!same_faces(mesh, before->shape())) return scalars;
+  if (!mesh.has_same_faces(before->shape())) return scalars;
   NodeScalar& along = scalars.emplace_back(NodeScalar{"deviation_along_normal", {}});
   const std::vector<NodeCurvature>& bent = before->curvatures(context);
   for (std::size_t node = 0; node < bent.size(); ++node)

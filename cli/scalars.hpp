@@ -12,9 +12,6 @@ namespace vspring::cli {
 /// Throws Error(invalid_argument) where --scalars names a file of no format that holds them. Nothing without it.
 void refuse_scalars(const std::string& path, bool curve);
 
-/// Whether the faces are the same, node by node.
-[[nodiscard]] bool same_faces(const PolygonMesh& mesh, const PolygonMesh& other);
-
 /// What --scalars writes at nodes: curvatures, 1/length, and with `before`, which may be null, the deviation from it,
 /// in units of the input: of the same nodes where there are as many (and along the normal there where they have the
 /// same faces), else from the nearest place on it. Once cancelled, what they return is of no use.

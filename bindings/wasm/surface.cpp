@@ -27,7 +27,8 @@ class Surface {
   [[nodiscard]] int face_count() const { return file_.mesh.face_count(); }
   [[nodiscard]] val positions() const { return positions_array(positions_); }
   [[nodiscard]] val face_begin() const {
-    return array_of("Int32Array", file_.mesh.face_begin().size(), file_.mesh.face_begin().data());
+    const std::vector<Index> begin = file_.mesh.face_begin();
+    return array_of("Int32Array", begin.size(), begin.data());
   }
   [[nodiscard]] val corners() const {
     return array_of("Int32Array", file_.mesh.corners().size(), file_.mesh.corners().data());

@@ -63,7 +63,7 @@ using WeldedFiles = std::vector<WeldedFile<File>>;
 void refuse_deviation(const WeldedFiles<SurfaceFile>& files) {
   if (files.size() == 1)
     throw Error(ErrorCode::invalid_argument, "--picture-style deviation: from what? give --compare");
-  if (!same_faces(files[0].shape(), files[1].shape()))
+  if (!files[0].shape().has_same_faces(files[1].shape()))
     throw Error(ErrorCode::unusable_shape,
                 "--picture-style deviation: the two shapes have not the same faces; leave it out, or see --scalars");
 }

@@ -40,7 +40,7 @@ class PolygonMesh {
                                                Index sides = 3);
 
   [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(positions_->size()); }
-  [[nodiscard]] Index face_count() const noexcept { return static_cast<Index>(faces_->begin.size()) - 1; }
+  [[nodiscard]] Index face_count() const noexcept { return faces_->count; }
 
   [[nodiscard]] const std::vector<Vector3>& positions() const noexcept { return *positions_; }
   [[nodiscard]] const Vector3& position(Index node) const { return (*positions_)[static_cast<std::size_t>(node)]; }
@@ -50,15 +50,23 @@ class PolygonMesh {
 
   /// The nodes of a face, in order around it.
   [[nodiscard]] std::span<const Index> face(Index face) const {
-    const auto f = static_cast<std::size_t>(face);
-    const std::vector<Index>& begin = faces_->begin;
-    return {faces_->corners.data() + begin[f], static_cast<std::size_t>(begin[f + 1] - begin[f])};
+    const Index begin = face_begin(face);
+    return {faces_->corners.data() + begin, static_cast<std::size_t>(face_begin(face + 1) - begin)};
   }
-  [[nodiscard]] const std::vector<Index>& face_begin() const noexcept { return faces_->begin; }
+  /// Where the nodes of a face begin among the corners; of face_count(), where those of the last end.
+  [[nodiscard]] Index face_begin(Index face) const {
+    return faces_->begin.empty() ? face * faces_->sides : faces_->begin[static_cast<std::size_t>(face)];
+  }
+  /// The same of all faces, and the end. Cost: linear, as it is made for each call.
+  [[nodiscard]] std::vector<Index> face_begin() const;
   [[nodiscard]] const std::vector<Index>& corners() const noexcept { return faces_->corners; }
+  /// Whether both have as many nodes and the same faces of them. Cost: none where they share them, else linear.
+  [[nodiscard]] bool has_same_faces(const PolygonMesh& other) const;
 
  private:
   struct Faces {
+    Index count = 0;
+    Index sides = 0;  ///< of every face, where `begin` is empty
     std::vector<Index> begin;
     std::vector<Index> corners;
   };

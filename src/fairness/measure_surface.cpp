@@ -336,8 +336,7 @@ SurfaceFigures measure_surface(const PolygonMesh& mesh, const Constraints* const
 
 std::array<SurfaceFigures, 2> measure_surfaces(const PolygonMesh& before, const PolygonMesh& after,
                                                const Constraints* constraints, const Context& context) {
-  if (before.node_count() != after.node_count() || before.face_begin() != after.face_begin() ||
-      before.corners() != after.corners())
+  if (!before.has_same_faces(after))
     throw Error(ErrorCode::invalid_argument, "the two surfaces have other nodes or faces; measure each by itself");
   if (finite_nodes(before) != finite_nodes(after))
     return {measure_surface(before, constraints, context), measure_surface(after, constraints, context)};

@@ -106,13 +106,12 @@ class Inspection {
     return vector_areas_[static_cast<std::size_t>(corner.face)];
   }
   [[nodiscard]] std::size_t place(Corner corner) const {
-    return static_cast<std::size_t>(mesh_.face_begin()[static_cast<std::size_t>(corner.face)]) +
-           static_cast<std::size_t>(corner.place);
+    return static_cast<std::size_t>(mesh_.face_begin(corner.face)) + static_cast<std::size_t>(corner.place);
   }
 
   [[nodiscard]] bool flipped(Index f) const {
-    const auto begin = against_.begin() + mesh_.face_begin()[static_cast<std::size_t>(f)];
-    const auto end = against_.begin() + mesh_.face_begin()[static_cast<std::size_t>(f) + 1];
+    const auto begin = against_.begin() + mesh_.face_begin(f);
+    const auto end = against_.begin() + mesh_.face_begin(f + 1);
     return std::find(begin, end, 0) == end;
   }
 

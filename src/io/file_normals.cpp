@@ -59,7 +59,7 @@ NewNormals compute_normals(const PolygonMesh& mesh, std::span<const Index> corne
   const auto each_corner = [&](const auto& action) {
     for (Index f = 0; f < mesh.face_count(); ++f) {
       for (std::size_t k = 0; k < mesh.face(f).size(); ++k) {
-        const Index normal = corner_normals[mesh.face_begin()[f] + k];
+        const Index normal = corner_normals[mesh.face_begin(f) + k];
         if (normal >= 0) action(f, k, normal);
       }
     }
@@ -69,7 +69,7 @@ NewNormals compute_normals(const PolygonMesh& mesh, std::span<const Index> corne
     bool face_moved = false;
     for (const Index node : mesh.face(f)) face_moved = face_moved || moved[node] != 0;
     if (!face_moved) continue;
-    for (Index corner = mesh.face_begin()[f]; corner < mesh.face_begin()[f + 1]; ++corner) {
+    for (Index corner = mesh.face_begin(f); corner < mesh.face_begin(f + 1); ++corner) {
       if (corner_normals[corner] < 0) continue;
       result.due[corner_normals[corner]] = 1;
       any = true;

@@ -233,7 +233,7 @@ std::string fresh_ply(const PolygonMesh& mesh, std::span<const Vector3> position
   bytes += fmt::format("element face {}\nproperty list {} int vertex_indices\nend_header\n", mesh.face_count(),
                        short_lists ? "uchar" : "int");
   bytes.reserve(bytes.size() + (24 + 8 * scalars.size()) * positions.size() + 24 * normals.size() +
-                4 * mesh.face_begin().size() + 4 * mesh.corners().size());
+                4 * static_cast<std::size_t>(mesh.face_count()) + 4 * mesh.corners().size());
   for (std::size_t node = 0; node < positions.size(); ++node) {
     for (const double value : positions[node]) append_bytes(bytes, value);
     if (!normals.empty()) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <memory>
 #include <utility>
 
@@ -9,20 +10,37 @@
 
 namespace vspring {
 
+namespace {
+
+/// How many nodes each face has; 0 where they differ, and without faces.
+Index common_sides(const std::vector<Index>& begin) {
+  if (begin.size() < 2) return 0;
+  const Index sides = begin[1] - begin[0];
+  for (std::size_t f = 1; f + 1 < begin.size(); ++f) {
+    if (begin[f + 1] - begin[f] != sides) return 0;
+  }
+  return sides;
+}
+
+}  // namespace
+
 PolygonMesh::PolygonMesh() : PolygonMesh({}, {0}, {}) {}
 
 PolygonMesh::PolygonMesh(std::vector<Vector3> positions, std::vector<Index> face_begin, std::vector<Index> corners)
-    : positions_(std::make_shared<const std::vector<Vector3>>(std::move(positions))),
-      faces_(std::make_shared<const Faces>(Faces{std::move(face_begin), std::move(corners)})) {
-  const std::vector<Index>& begin = faces_->begin;
-  const std::size_t count = faces_->corners.size();
-  if (begin.empty() || begin.front() != 0 || begin.back() != static_cast<Index>(count))
+    : positions_(std::make_shared<const std::vector<Vector3>>(std::move(positions))) {
+  const std::size_t corner_count = corners.size();
+  if (face_begin.empty() || face_begin.front() != 0 || face_begin.back() != static_cast<Index>(corner_count))
     throw Error(ErrorCode::unusable_shape,
-                fmt::format("face offsets must begin with 0 and end with the number of corners, {}", count));
-  for (std::size_t f = 0; f + 1 < begin.size(); ++f) {
-    if (begin[f] > begin[f + 1])
+                fmt::format("face offsets must begin with 0 and end with the number of corners, {}", corner_count));
+  for (std::size_t f = 0; f + 1 < face_begin.size(); ++f) {
+    if (face_begin[f] > face_begin[f + 1])
       throw Error(ErrorCode::unusable_shape, fmt::format("face {}: its offset lies behind that of the next face", f));
   }
+  const auto count = static_cast<Index>(face_begin.size() - 1);
+  // Of 4,000,000 triangles what every third corner is need not be kept.
+  const Index sides = common_sides(face_begin);
+  if (sides > 0) face_begin = std::vector<Index>();
+  faces_ = std::make_shared<const Faces>(Faces{count, sides, std::move(face_begin), std::move(corners)});
   for (Index f = 0; f < face_count(); ++f) {
     for (const Index node : face(f)) {
       if (node < 0 || node >= node_count())
@@ -59,6 +77,21 @@ std::vector<Vector3> positions_of(std::span<const double> coordinates) {
   for (std::size_t i = 0; i < positions.size(); ++i)
     positions[i] = Vector3(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
   return positions;
+}
+
+std::vector<Index> PolygonMesh::face_begin() const {
+  if (!faces_->begin.empty()) return faces_->begin;
+  std::vector<Index> begin(static_cast<std::size_t>(faces_->count) + 1);
+  for (Index f = 0; f <= faces_->count; ++f) begin[static_cast<std::size_t>(f)] = face_begin(f);
+  return begin;
+}
+
+bool PolygonMesh::has_same_faces(const PolygonMesh& other) const {
+  const Faces& a = *faces_;
+  const Faces& b = *other.faces_;
+  return node_count() == other.node_count() &&
+         (faces_ == other.faces_ ||
+          (a.count == b.count && a.sides == b.sides && a.begin == b.begin && a.corners == b.corners));
 }
 
 void PolygonMesh::set_positions(std::vector<Vector3> positions) {

@@ -52,7 +52,7 @@ Welded weld(const PolygonMesh& mesh, double tolerance) {
 
   std::vector<Index> face_begin = {0};
   std::vector<Index> corners;
-  face_begin.reserve(mesh.face_begin().size());
+  face_begin.reserve(static_cast<std::size_t>(mesh.face_count()) + 1);
   corners.reserve(mesh.corners().size());
   for (Index f = 0; f < mesh.face_count(); ++f) {
     const auto face = mesh.face(f);

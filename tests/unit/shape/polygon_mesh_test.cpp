@@ -53,6 +53,38 @@ TEST(PolygonMesh, SharesWhatItHasWithCopiesUntilTheyAreMoved) {
   EXPECT_EQ(taken.face_count(), 0);
 }
 
+TEST(PolygonMesh, SaysWhereFacesBeginWhetherTheyHaveAsManyNodesOrNot) {
+  const std::vector<std::vector<Index>> offsets = {{0},       {0, 3},    {0, 3, 6, 9}, {0, 4, 8},
+                                                   {0, 3, 7}, {0, 0, 0}, {0, 3, 3}};
+  for (const std::vector<Index>& begin : offsets) {
+    std::vector<Index> corners(static_cast<std::size_t>(begin.back()));
+    for (std::size_t k = 0; k < corners.size(); ++k) corners[k] = static_cast<Index>(k % 4);
+    const PolygonMesh mesh = PolygonMesh::from_arrays(square, begin, corners);
+    EXPECT_EQ(mesh.face_begin(), begin);
+    ASSERT_EQ(mesh.face_count(), static_cast<Index>(begin.size()) - 1);
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      const Index first = begin[static_cast<std::size_t>(f)];
+      EXPECT_EQ(mesh.face_begin(f), first);
+      EXPECT_EQ(mesh.face(f).data(), mesh.corners().data() + first);
+      EXPECT_EQ(static_cast<Index>(mesh.face(f).size()), begin[static_cast<std::size_t>(f) + 1] - first);
+    }
+    EXPECT_EQ(mesh.face_begin(mesh.face_count()), begin.back());
+    EXPECT_TRUE(mesh.has_same_faces(PolygonMesh::from_arrays(square, begin, corners)));
+  }
+}
+
+TEST(PolygonMesh, TellsOtherFacesFromTheSame) {
+  const PolygonMesh quad = PolygonMesh::from_arrays(square, std::vector<Index>{0, 1, 2, 3}, 4);
+  PolygonMesh moved = quad;
+  moved.set_positions(std::vector<Vector3>(4, Vector3::Zero()));
+  EXPECT_TRUE(quad.has_same_faces(moved));
+  EXPECT_FALSE(quad.has_same_faces(PolygonMesh::from_arrays(square, std::vector<Index>{0, 1, 3, 2}, 4)));
+  EXPECT_FALSE(quad.has_same_faces(PolygonMesh::from_arrays(square, std::vector<Index>{0, 1, 2, 3}, 2)));
+  std::vector<double> one_more = square;
+  one_more.insert(one_more.end(), {2, 2, 2});
+  EXPECT_FALSE(quad.has_same_faces(PolygonMesh::from_arrays(one_more, std::vector<Index>{0, 1, 2, 3}, 4)));
+}
+
 TEST(PolygonMesh, RefusesArraysThatDoNotFit) {
   const auto from = [](const std::vector<double>& numbers, const std::vector<Index>& corners, Index sides,
                        ErrorCode code) {

@@ -6,19 +6,16 @@
 
 namespace vspring {
 
-/// What SparseLU expects of an ordering is the inverse of Eigen's own by minimum degree.
-struct MinimumDegree {
+/// The order in which unknowns are eliminated: as they are where the matrix is a band but for a few columns, as along
+/// a curve, open or closed; else by minimum degree, which takes long and cannot be broken off.
+struct EliminationOrder {
   using PermutationType = Eigen::AMDOrdering<int>::PermutationType;
-  void operator()(const Eigen::SparseMatrix<double>& matrix, PermutationType& permutation) const {
-    PermutationType inverse;
-    Eigen::AMDOrdering<int>()(matrix, inverse);
-    permutation = inverse.inverse();
-  }
+  void operator()(const Eigen::SparseMatrix<double>& matrix, PermutationType& permutation) const;
 };
 
 /// Eigen's factors L U with rows exchanged, but that factorising ends where it is cancelled: of a curve of very many
 /// nodes, or of nodes of very many neighbours, that takes long. What it says of determinants is not valid.
-class LuFactor : public Eigen::SparseLU<Eigen::SparseMatrix<double>, MinimumDegree> {
+class LuFactor : public Eigen::SparseLU<Eigen::SparseMatrix<double>, EliminationOrder> {
  public:
   void factorize(const Eigen::SparseMatrix<double>& matrix);
 

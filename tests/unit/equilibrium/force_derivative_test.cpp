@@ -3,11 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "base/cancellation.hpp"
 #include "base/random.hpp"
 #include "equilibrium/pseudo_transient.hpp"
+#include "linear/lu_factor.hpp"
+#include "spring/curve_net.hpp"
 #include "support/surfaces.hpp"
 
 namespace vspring::force_derivative_test {
@@ -52,6 +56,28 @@ TEST(ForceDerivative, TellsHowAllDisplacementsChange) {
     };
     const Eigen::VectorXd change = (there(step) - there(-step)) / (2 * step);
     EXPECT_LT((derivative * way - change).norm(), 1e-6 * change.norm());
+  }
+}
+
+TEST(ForceDerivative, OfCurvesIsABandInTheirOrder) {
+  ThreadTeam team(1);
+  const auto model = curve_model({});
+  constexpr int count = 300;
+  std::vector<Vector3> positions;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2 * std::numbers::pi * k / count;
+    positions.emplace_back(std::cos(angle), 0.7 * std::sin(angle), 0.1 * std::sin(3 * angle));
+  }
+  for (const bool is_closed : {false, true}) {
+    const PolygonCurve curve(positions, is_closed);
+    Constraints constraints(curve.node_count());
+    for (const Index held : {0, 100, 299}) constraints.fix_position(held, curve.position(held));
+    Net net = gather_net(curve, constraints);
+    update_directions(net, *model, team);
+    const Eigen::SparseMatrix<double> derivative = ForceDerivative(net, *model).find();
+    EliminationOrder::PermutationType order;
+    EliminationOrder()(derivative, order);
+    for (int k = 0; k < order.size(); ++k) ASSERT_EQ(order.indices()[k], k) << is_closed;
   }
 }
 

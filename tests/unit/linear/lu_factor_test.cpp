@@ -47,7 +47,7 @@ TEST(LuFactor, HasTheBitsOfEigens) {
   for (const int side : {1, 2, 5, 12}) {
     for (const int unknowns : {1, 3}) {
       const Matrix matrix = grid_with_hub(side, unknowns);
-      Eigen::SparseLU<Matrix, MinimumDegree> expected;
+      Eigen::SparseLU<Matrix, EliminationOrder> expected;
       expected.analyzePattern(matrix);
       expected.factorize(matrix);
       LuFactor factor;
@@ -61,6 +61,44 @@ TEST(LuFactor, HasTheBitsOfEigens) {
       EXPECT_LT((matrix * solution - right).norm(), 1e-7 * right.norm());
     }
   }
+}
+
+/// Of nodes along a curve, each with the next two on both sides.
+Matrix band(int nodes, bool is_closed) {
+  Draw draw(4);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < nodes; ++i) {
+    for (int step = -2; step <= 2; ++step) {
+      const int j = is_closed ? (i + step + nodes) % nodes : i + step;
+      if (j >= 0 && j < nodes) entries.emplace_back(i, j, draw.uniform(-1, 1) * (step == 0 ? 0.1 : 1));
+    }
+  }
+  Matrix matrix(nodes, nodes);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+// By minimum degree curves of a million nodes would take seconds to be put in order, and none of that can be broken
+// off.
+TEST(LuFactor, TakesCurvesInTheirOwnOrder) {
+  const auto is_kept = [](const Matrix& matrix) {
+    EliminationOrder::PermutationType order;
+    EliminationOrder()(matrix, order);
+    return (order.indices().array() == Eigen::ArrayXi::LinSpaced(order.size(), 0, static_cast<int>(order.size()) - 1))
+        .all();
+  };
+  for (const bool is_closed : {false, true}) {
+    const Matrix matrix = band(3000, is_closed);
+    EXPECT_TRUE(is_kept(matrix));
+    LuFactor factor;
+    factor.analyzePattern(matrix);
+    factor.factorize(matrix);
+    ASSERT_EQ(factor.info(), Eigen::Success);
+    const Eigen::VectorXd right = right_side(matrix);
+    EXPECT_LT((matrix * factor.solve(right) - right).norm(), 1e-7 * right.norm());
+    EXPECT_LT(factor.nnzL() + factor.nnzU(), 60 * matrix.cols());
+  }
+  EXPECT_FALSE(is_kept(grid_with_hub(12, 3)));
 }
 
 TEST(LuFactor, SaysWhereThereIsNone) {

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -22,6 +23,7 @@ constexpr std::size_t queries_per_task = 256;
 struct FacePairs {
   std::vector<std::pair<Index, Index>> list;
 
+  [[nodiscard]] std::size_t size() const { return list.size(); }
   void add(Index a, Index b) { list.emplace_back(std::minmax(a, b)); }
   void add(const FacePairs& others) { list.insert(list.end(), others.list.begin(), others.list.end()); }
 };
@@ -29,6 +31,7 @@ struct FacePairs {
 struct PairCount {
   std::size_t count = 0;
 
+  [[nodiscard]] std::size_t size() const { return count; }
   void add(Index /*a*/, Index /*b*/) { ++count; }
   void add(const PairCount& others) { count += others.count; }
 };
@@ -63,10 +66,11 @@ class TriangleReach {
 template <typename Pairs>
 class CrossingSearch {
  public:
-  CrossingSearch(const CrossingTriangles& triangles, const Context& context, ThreadTeam& team)
-      : triangles_(triangles), context_(context), team_(team) {}
+  CrossingSearch(const CrossingTriangles& triangles, std::size_t most, const Context& context, ThreadTeam& team)
+      : triangles_(triangles), most_(most), context_(context), team_(team) {}
 
-  /// Those of their faces, as often as they have triangles that cross.
+  /// Those of their faces, as often as they have triangles that cross; at least so many of them where there are more
+  /// than `most`.
   Pairs find() {
     const Hubs hubs = find_hubs(triangles_.triangles(), triangles_.positions().size());
     const Group others = group_of(hubs.others);
@@ -98,6 +102,8 @@ class CrossingSearch {
     if (a.face != b.face && triangles_.cross(a, b)) pairs.add(a.face, b.face);
   }
 
+  [[nodiscard]] bool is_done() const { return context_.cancelled() || found_.load() >= most_; }
+
   void take(const std::vector<Pairs>& parts) {
     for (const Pairs& part : parts) pairs_.add(part);
   }
@@ -106,7 +112,8 @@ class CrossingSearch {
   void within(const BoxTree& tree, const std::vector<Index>& numbers) {
     const auto number = [&](Index item) { return numbers[static_cast<std::size_t>(item)]; };
     const auto test_leaves = [&](std::size_t begin, std::size_t end, Pairs& pairs) {
-      for (std::size_t leaf = begin; leaf < end && !context_.cancelled(); ++leaf) {
+      for (std::size_t leaf = begin; leaf < end && !is_done(); ++leaf) {
+        const std::size_t before = pairs.size();
         const auto items = tree.leaf_items(leaf);
         tree.for_each_overlapping_leaf(tree.leaf_box(leaf), leaf, [&](std::size_t other_leaf) {
           const auto others = tree.leaf_items(other_leaf);
@@ -117,6 +124,7 @@ class CrossingSearch {
             }
           }
         });
+        found_ += pairs.size() - before;
       }
     };
     take(parallel_parts(team_, tree.leaf_count(), leaves_per_task, Pairs(), test_leaves));
@@ -134,7 +142,8 @@ class CrossingSearch {
     for (std::size_t k = 0; k < groups.size(); ++k) {
       const std::vector<Index>& own = hubs.hubs[k].triangles;
       const auto compare = [&](std::size_t begin, std::size_t end, Pairs& pairs) {
-        for (std::size_t t = begin; t < end && !context_.cancelled(); ++t) {
+        for (std::size_t t = begin; t < end && !is_done(); ++t) {
+          const std::size_t before = pairs.size();
           const Triangle& one = triangle(own[t]);
           const TriangleReach reach(triangles_.box(one), at(one.nodes[0]), at(one.nodes[1]), at(one.nodes[2]));
           between(one, reach, others, pairs);
@@ -146,6 +155,7 @@ class CrossingSearch {
                                   between(one, reach, groups[static_cast<std::size_t>(item)], pairs);
                               }
                             });
+          found_ += pairs.size() - before;
         }
       };
       take(parallel_parts(team_, own.size(), queries_per_task, Pairs(), compare));
@@ -175,33 +185,48 @@ class CrossingSearch {
   }
 
   const CrossingTriangles& triangles_;
+  std::size_t most_;
   const Context& context_;
   ThreadTeam& team_;
+  std::atomic<std::size_t> found_ = 0;
   Pairs pairs_;
 };
 
+constexpr auto unlimited = std::numeric_limits<std::size_t>::max();
+
 template <typename Pairs>
-Pairs crossings(const PolygonMesh& mesh, const Context& context, ThreadTeam& team) {
+Pairs crossings(const PolygonMesh& mesh, std::size_t most, const Context& context, ThreadTeam& team) {
   const CrossingTriangles triangles(mesh);
   if (is_height_field(triangles.triangles(), triangles.positions(), team)) return {};
-  return CrossingSearch<Pairs>(triangles, context, team).find();
+  return CrossingSearch<Pairs>(triangles, most, context, team).find();
+}
+
+/// As the public function, but that it may end with at least `most` triangles that cross.
+std::vector<std::pair<Index, Index>> face_pairs(const PolygonMesh& mesh, std::size_t most, const Context& context,
+                                                ThreadTeam& team) {
+  auto pairs = crossings<FacePairs>(mesh, most, context, team).list;
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
 }
 
 }  // namespace
 
 std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh, const Context& context,
                                                         ThreadTeam& team) {
-  auto pairs = crossings<FacePairs>(mesh, context, team).list;
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  return pairs;
+  return face_pairs(mesh, unlimited, context, team);
 }
 
 std::size_t count_self_intersections(const PolygonMesh& mesh, const Context& context, ThreadTeam& team) {
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    if (mesh.face(f).size() > 3) return self_intersections(mesh, context, team).size();
-  }
-  return crossings<PairCount>(mesh, context, team).count;
+  std::size_t sides = 3;
+  for (Index f = 0; f < mesh.face_count(); ++f) sides = std::max(sides, mesh.face(f).size());
+  // Two faces have so many pairs of triangles at most: once there are as many as that for each, it is enough pairs of
+  // faces, whichever these are.
+  const std::size_t of_two_faces = (sides - 2) * (sides - 2);
+  const std::size_t most = most_counted_crossings * of_two_faces;
+  const std::size_t count =
+      sides == 3 ? crossings<PairCount>(mesh, most, context, team).count : face_pairs(mesh, most, context, team).size();
+  return std::min(count, most_counted_crossings);
 }
 
 std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh, const Context& context) {

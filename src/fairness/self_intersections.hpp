@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 #include "base/threads.hpp"
 #include "vspring/self_intersections.hpp"
 
@@ -9,7 +13,10 @@ namespace vspring {
 std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh, const Context& context,
                                                         ThreadTeam& team);
 
-/// How many pairs these are. In a mesh of triangles none is kept: of crumpled ones there are many more than nodes.
+/// Pairs beyond which it makes no difference how many there are: a crumpled mesh has a hundred times as many as nodes.
+inline constexpr std::size_t most_counted_crossings = 1'000'000;
+
+/// How many pairs these are, counted to most_counted_crossings. In a mesh of triangles none is kept.
 std::size_t count_self_intersections(const PolygonMesh& mesh, const Context& context, ThreadTeam& team);
 
 }  // namespace vspring

@@ -167,8 +167,8 @@ std::optional<Net> SurfaceFairing::run(const Constraints& constraints, Context& 
     const CancellationScope cancellation(context);
     if (const auto* const method = std::get_if<EquilibriumMethod>(&options.method)) {
       run_to_equilibrium(constraints, {call, options, *method});
-      // It depends on these constraints.
-      check_->forget_start();
+      // It depends on these constraints. Where it was cancelled while it was made anew there is none.
+      if (check_) check_->forget_start();
       return Net();
     }
     Net net = gather_part(*whole_, part_, constraints);

@@ -43,7 +43,7 @@ struct SurfaceFigures : Fairness {
   Index mean_curvature_extrema = 0;
   /// Faces that point against the faces around them at every one of their nodes.
   Index flipped_faces = 0;
-  /// Pairs of faces that cross each other, see self_intersections(); counted to 1,000,000, which is as many or more.
+  /// Pairs of faces that cross each other, see self_intersections(). Counting stops at 1,000,000.
   Index self_intersections = 0;
   double edge_spread = 1;               ///< longest edge over shortest
   double neighbouring_edge_spread = 1;  ///< the largest such ratio at one node

@@ -56,7 +56,7 @@ class ResultCheck {
 
   /// As given, or where directions hold it; else they are not known.
   [[nodiscard]] const StartPlaces& start() const noexcept { return start_; }
-  /// What needs them is not looked at any more, by fault().
+  /// From now on fault() leaves out what it needs the start for: see StartPlaces, which may depend on the caller.
   void forget_start() {
     start_ = {};
     looks_at_agreement_ = false;

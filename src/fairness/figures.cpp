@@ -66,7 +66,7 @@ constexpr Description<S> of_surfaces[] = {
     {"greatest_turn", "greatest turn", "°", "of the normal across an edge", of<S>(&Fairness::greatest_turn)},
     {"rms_turn", "rms turn", "°", "of the normal across an edge", of<S>(&Fairness::rms_turn)},
     {"flipped_faces", "flipped faces", "", "that point against the faces around them", &S::flipped_faces},
-    {"self_intersections", "self-intersections", "", "pairs of faces that cross; 1,000,000: or more",
+    {"self_intersections", "self-intersections", "", "pairs of faces that cross, counted up to 1,000,000",
      &S::self_intersections},
     {"edge_spread", "spread of edges", "", "longest over shortest", &S::edge_spread},
     {"neighbouring_edge_spread", "spread at a node", "", "longest over shortest edge at one node",

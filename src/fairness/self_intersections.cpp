@@ -69,8 +69,7 @@ class CrossingSearch {
   CrossingSearch(const CrossingTriangles& triangles, std::size_t most, const Context& context, ThreadTeam& team)
       : triangles_(triangles), most_(most), context_(context), team_(team) {}
 
-  /// Those of their faces, as often as they have triangles that cross; at least so many of them where there are more
-  /// than `most`.
+  /// The pairs of their faces, each as often as it has triangles that cross. Ends early once it has `most` or more.
   Pairs find() {
     const Hubs hubs = find_hubs(triangles_.triangles(), triangles_.positions().size());
     const Group others = group_of(hubs.others);
@@ -201,7 +200,7 @@ Pairs crossings(const PolygonMesh& mesh, std::size_t most, const Context& contex
   return CrossingSearch<Pairs>(triangles, most, context, team).find();
 }
 
-/// As the public function, but that it may end with at least `most` triangles that cross.
+/// As the public function, but that it ends early once `most` or more pairs of triangles cross.
 std::vector<std::pair<Index, Index>> face_pairs(const PolygonMesh& mesh, std::size_t most, const Context& context,
                                                 ThreadTeam& team) {
   auto pairs = crossings<FacePairs>(mesh, most, context, team).list;
@@ -220,8 +219,8 @@ std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh,
 std::size_t count_self_intersections(const PolygonMesh& mesh, const Context& context, ThreadTeam& team) {
   std::size_t sides = 3;
   for (Index f = 0; f < mesh.face_count(); ++f) sides = std::max(sides, mesh.face(f).size());
-  // Two faces have so many pairs of triangles at most: once there are as many as that for each, it is enough pairs of
-  // faces, whichever these are.
+  // Two faces have so many pairs of triangles at most: with that many times as many pairs there are enough of faces,
+  // whichever triangles were found first.
   const std::size_t of_two_faces = (sides - 2) * (sides - 2);
   const std::size_t most = most_counted_crossings * of_two_faces;
   const std::size_t count =

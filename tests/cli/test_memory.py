@@ -21,9 +21,9 @@ class Memory(Case):
         self.assertEqual(json.loads(report.read_text())["springs"], "sphere")
         return 1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss
 
-    def test_a_node_takes_less_than_a_kilobyte(self):
+    def test_a_node_takes_less_than_930_bytes(self):
         nodes = 250_000
-        self.assertLess(self.peak_of_fairing(nodes), 1000 * nodes)
+        self.assertLess(self.peak_of_fairing(nodes), 930 * nodes)
 
     @unittest.skipUnless(os.environ.get("LIMITS") == "all", "takes three minutes")
     def test_four_million_nodes_take_less_than_three_gibibytes(self):

@@ -24,7 +24,7 @@ double longest_of(const std::vector<Vector3>& steps) {
 }
 
 // Steps from far too long to next to nothing, each taken: what is told is what all edges say, or a bound for it within
-// the limit. A bound from edges as they were before they grew shorter would be none.
+// the limit.
 TEST(TurnLimit, TellsTheLargestTurnOrABoundWithinTheLimit) {
   constexpr double limit = 0.3;
   ThreadTeam team(1);
@@ -59,6 +59,33 @@ TEST(TurnLimit, TellsTheLargestTurnOrABoundWithinTheLimit) {
   }
   EXPECT_GT(bounds, 20);
   EXPECT_GT(beyond, 20);
+}
+
+// A bound from edges as they were before they grew shorter would be none.
+TEST(TurnLimit, KnowsThatEdgesMayHaveGrownShorter) {
+  constexpr double limit = 0.3;
+  constexpr double share = 0.05;
+  ThreadTeam team(1);
+  const std::unique_ptr<const Model> model = surface_model(PseudoNormals::link);
+  const PolygonMesh plane = generate::plane({.columns = 8, .rows = 8});
+  Net net = gather_net(plane, held_boundary(plane));
+  update_directions(net, *model, team);
+  TurnLimit turns(net, limit, team);
+  std::vector<Vector3> steps(net.moving, Vector3::Zero());
+  (void)turns.turn(steps, 0);
+  const double edge = edge_turns(net, steps, team).shortest;
+  double longest = 0;
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    const Vector3 before = net.positions[i];
+    net.positions[i] *= share;
+    longest = std::max(longest, (net.positions[i] - before).norm());
+  }
+  turns.moved(longest);
+  for (std::size_t i = 0; i < net.moving; ++i) steps[i].z() = (i % 2 == 0 ? 0.1 : -0.1) * edge;
+  const double largest = edge_turns(net, steps, team).largest;
+  ASSERT_GT(largest, limit);
+  ASSERT_LT(2 * longest_of(steps) / edge, limit) << "or the old edges would say the same";
+  EXPECT_EQ(turns.turn(steps, longest_of(steps)), largest);
 }
 
 }  // namespace

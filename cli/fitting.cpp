@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "vspring/error.hpp"
@@ -85,10 +86,11 @@ void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise) {
   if (!(noise.deviation > 0))
     throw Error(ErrorCode::unusable_shape,
                 arguments.automatic + " auto: this shape has no noise, or too few nodes to tell; give a number");
-  constexpr double times_within = 3;
+  // What 3 of 1,000 distances are beyond, across in one direction and in two.
+  const double times_within = noise.directions == 2 ? 3.44 : 3;
   arguments.estimate = noise;
   if (arguments.automatic == "--within") arguments.within = times_within * noise.deviation;
-  if (arguments.automatic == "--rms") arguments.rms = noise.deviation;
+  if (arguments.automatic == "--rms") arguments.rms = std::sqrt(noise.directions) * noise.deviation;
   if (arguments.automatic == "--noise") arguments.noise = noise.deviation;
 }
 

@@ -10,8 +10,9 @@ namespace vspring {
 struct NoiseEstimate {
   /// The standard deviation of the nodes in each coordinate, in the units of the input; 0 where nothing is known.
   double deviation = 0;
-  double edges = 0;  ///< the same in median edges
-  Index nodes = 0;   ///< from how many nodes it was estimated
+  double edges = 0;    ///< the same in median edges
+  Index nodes = 0;     ///< from how many nodes it was estimated
+  int directions = 1;  ///< across the shape: 2 of curves in space, where distances are so many times as large squared
 };
 
 /// Estimates the noise of a surface. Over each node, its neighbours and theirs, the best quadratic leaves heights,
@@ -21,7 +22,8 @@ struct NoiseEstimate {
 /// amid edges shorter than the noise. The same bits for every number of threads. Cost: linear, some 6 µs a node.
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context = {});
 
-/// The same of a curve, across it, from seven nodes in a row.
+/// The same of a curve, across it, from seven nodes in a row, or as many more as it takes for them to be four times as
+/// long as they are wide.
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonCurve& curve);
 
 }  // namespace vspring

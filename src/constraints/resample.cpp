@@ -7,7 +7,6 @@
 #include <numbers>
 #include <numeric>
 
-#include "constraints/dense_resampling.hpp"
 #include "shape/cubic.hpp"
 #include "vspring/error.hpp"
 
@@ -49,13 +48,6 @@ class Resampler {
   void share_out(const Resampling& how) {
     share_out_edges(how);
     space();
-  }
-
-  /// As many edges as the pieces of another one, each cut into so many.
-  void share_out_as(const Resampler& other, Index times) {
-    for (std::size_t k = 0; k < pieces_.size(); ++k) pieces_[k].edges = other.pieces_[k].edges;
-    space();
-    for (Piece& piece : pieces_) piece.edges *= times;
   }
 
   Resampled build() {
@@ -390,16 +382,6 @@ Resampled resample(const PolygonCurve& curve, const Constraints& constraints, co
   Resampler resampler(curve, constraints, how.by);
   resampler.share_out(how);
   return resampler.build();
-}
-
-Resampled resample_densely(const PolygonCurve& curve, const PolygonCurve& smooth, const Constraints& constraints,
-                           const Resampling& how, Index times) {
-  check_resampling(curve, constraints, how);
-  Resampler plain(curve, constraints, how.by);
-  plain.share_out(how);
-  Resampler dense(smooth, constraints, how.by);
-  dense.share_out_as(plain, times);
-  return dense.build();
 }
 
 }  // namespace vspring

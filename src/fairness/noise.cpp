@@ -38,6 +38,9 @@ constexpr int most_turns = 5;
 constexpr int steps_of_slopes = 5;
 constexpr double least_cosine = 0.3;
 constexpr std::size_t nodes_in_a_row = 7;
+constexpr std::size_t most_in_a_row = 127;
+// In standard deviations of the heights over it.
+constexpr double long_way = 4;
 // Least degrees of freedom that tell anything.
 constexpr std::size_t least_freedom = 3;
 // Of nodes, beyond which they are hubs that everybody is a neighbour of.
@@ -51,6 +54,7 @@ struct Place {
   double deviation = std::nan("");  ///< root mean square height over the best quadratic, over its degrees of freedom
   double freedom = 0;
   double extent = 0;  ///< root mean square, in the direction across in which it is less
+  double along = 0;   ///< the same in the direction in which it is most
 };
 
 /// The mean square, over its degrees of freedom, that a share of samples of unit noise is below (E. B. Wilson, M. M.
@@ -97,8 +101,10 @@ std::optional<Place> place_of(std::span<const Vector3> points, int first_axes, i
     squares += (matrix * *solution - right).squaredNorm();
   }
   const double freedom = static_cast<double>((count - unknowns) * heights);
-  const double extent = std::sqrt(std::max(0.0, axes.col(1).dot(spread * axes.col(1))) / static_cast<double>(count));
-  return Place{size * std::sqrt(squares / freedom), freedom, size * extent};
+  const auto extent = [&](int axis) {
+    return size * std::sqrt(std::max(0.0, axes.col(axis).dot(spread * axes.col(axis))) / static_cast<double>(count));
+  };
+  return Place{size * std::sqrt(squares / freedom), freedom, extent(1), extent(2)};
 }
 
 double at_share(std::vector<double>& values, double part) {
@@ -234,12 +240,21 @@ NoiseEstimate estimate_noise(const PolygonCurve& curve) {
     for (std::size_t k = 0; k + 1 < count + (chain.closed ? 1 : 0); ++k) edges.push_back((at(k + 1) - at(k)).norm());
     if (count < nodes_in_a_row) continue;
     for (std::size_t k = 0; k < (chain.closed ? count : count - nodes_in_a_row + 1); ++k) {
+      std::optional<Place> best;
       places.clear();
-      for (std::size_t n = 0; n < nodes_in_a_row; ++n) places.push_back(at(k + n));
-      if (const auto place = place_of(places, 1, heights)) found.push_back(*place);
+      // As many in a row as it takes to see which way they go.
+      for (std::size_t row = nodes_in_a_row; row <= most_in_a_row; row = 2 * row + 1) {
+        if (chain.closed ? row > count : k + row > count) break;
+        while (places.size() < row) places.push_back(at(k + places.size()));
+        best = place_of(places, 1, heights);
+        if (best && best->along >= long_way * best->deviation) break;
+      }
+      if (best) found.push_back(*best);
     }
   }
-  return summary(std::move(found), std::move(edges), 0);
+  NoiseEstimate estimate = summary(std::move(found), std::move(edges), 0);
+  estimate.directions = heights;
+  return estimate;
 }
 
 }  // namespace vspring

@@ -20,8 +20,8 @@
 #include "base/stopwatch.hpp"
 #include "checks/result_check.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
-#include "curve_fit/gentle_curve.hpp"
 #include "equilibrium/sweep_method.hpp"
+#include "fit/fit_curve.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/fit_run.hpp"
 #include "fit/fit_to_tolerance.hpp"
@@ -48,8 +48,6 @@ constexpr double balloon_move = 0.1;
 constexpr double balloon_times = 3;
 // Nodes and points of a fit whose distances are measured though somebody waits for the end.
 constexpr std::size_t most_measured_in_haste = 40'000;
-// An expected error, as a share of the size, from which a curve on its way to an equilibrium is no use.
-constexpr double curve_is_lost_at = 1e-2;
 
 template <typename Subject>
 class Fitting {
@@ -72,7 +70,6 @@ class Fitting {
       } else {
         fit(progress, false);
       }
-      if constexpr (std::is_same_v<Subject, FitCurve>) go_gently();
       stay_sound();
       measure_distances();
     } catch (const Cancelled&) {
@@ -130,38 +127,6 @@ class Fitting {
         "its nodes are {:.2g} % of the size away from where they were, and it is {:.2g} from the points in place of "
         "{:.2g}, all in the root mean square",
         100 * share, at_last, at_first);
-  }
-
-  /// The curve of least bending within a tolerance may swing beside a nose of few points and is straight at ends that
-  /// are free to turn: where the gentle one has fewer inflections and extremes of curvature, it is taken.
-  void go_gently() {
-    FitReport& report = run_.result.report;
-    const bool is_found = report.fair.outcome == Outcome::converged || report.fair.outcome == Outcome::work_limit;
-    const bool all_count = options_.outliers == 0 && run_.points.weights.empty();
-    if (!options_.within() || !is_found || !report.smoothing_length || !all_count) return;
-    const Constraints& constraints = run_.subject.constraints();
-    PolygonCurve curve = run_.subject.shape();
-    curve.set_positions(run_.result.positions);
-    const CurveFigures before = measure_curve(curve, &constraints);
-    if (before.inflections + before.curvature_extrema == 0) return;
-    auto gentle = gentle_curve(curve, constraints, run_.points.positions, *options_.within(),
-                               std::numeric_limits<std::size_t>::max(), run_.context);
-    if (!gentle) return;
-    curve.set_positions(*gentle);
-    const CurveFigures after = measure_curve(curve, &constraints);
-    const bool has_more = after.inflections > before.inflections || after.curvature_extrema > before.curvature_extrema;
-    const bool has_fewer = after.inflections < before.inflections || after.curvature_extrema < before.curvature_extrema;
-    if (has_more || !has_fewer) return;
-    const std::vector<Vector3> own = std::exchange(run_.result.positions, std::move(*gentle));
-    const std::vector<double> distances = run_.distances();
-    if (*std::max_element(distances.begin(), distances.end()) > *options_.within() ||
-        !InputAndFound(*this).fault.empty()) {
-      run_.result.positions = own;
-      return;
-    }
-    // That was of the other shape.
-    report.fair.expected_error.reset();
-    measure_moves(run_.gather(), run_.subject.shape().positions(), run_.result.positions, report.fair);
   }
 
   /// The input with its constraints, the shape that was found, and what is worse about it, in words.
@@ -264,10 +229,10 @@ class Fitting {
       }
       if (options_.rms() && fit_to_rms_by_filters(run_, points, progress)) return;
       if (options_.within() && fit_within_by_filters(run_, points, smooth, progress)) return;
-    }
-    if (options_.tolerance()) {
-      FitToTolerance<Subject>(run_).fit(std::move(points), progress, smooth);
-      return;
+      if (options_.tolerance()) {
+        FitToTolerance(run_).fit(std::move(points), progress, smooth);
+        return;
+      }
     }
     const bool has_targets = run_on_levels(std::move(points), progress);
     const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
@@ -316,7 +281,6 @@ class Fitting {
       shape.cycle(run_.context, progress, report);
     else
       shape.find(run_.context, progress, report);
-    if constexpr (std::is_same_v<Subject, FitCurve>) take_spline_if_lost(shape);
     run_.finish(shape.net());
     return !shape.net().target_positions.empty();
   }
@@ -326,27 +290,6 @@ class Fitting {
     const auto* const method = std::get_if<EquilibriumMethod>(&options_.fair.method);
     if (!method || !method->fallbacks || method->max_iterations || options_.fair.as_found) return nullptr;
     return &*method->fallbacks;
-  }
-
-  /// Where a curve has no equilibrium with its points: a shape that is neither is knotted sooner than near to one.
-  void take_spline_if_lost(WarmStartedFit& shape) {
-    FairReport& report = run_.result.report.fair;
-    if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled || !fallbacks()) return;
-    if (report.expected_error && *report.expected_error < curve_is_lost_at) {
-      report.warnings.push_back(
-          {WarningCode::no_equilibrium,
-           fmt::format("no equilibrium was found: this is the nearest shape, {}; the points may be too noisy for their "
-                       "weight",
-                       distance_from_equilibrium(report))});
-      return;
-    }
-    shape.go_to_spline();
-    report.expected_error.reset();
-    report.warnings.push_back(
-        {WarningCode::no_equilibrium,
-         "no equilibrium was found: this is the smoothing spline of the points; they may be too noisy for their weight "
-         "and for edges as short as these, or smooth away more than the shape's sharpest bends: try another weight or "
-         "smoothing length, or a tolerance"});
   }
 
   void sweep(UntiedPoints points, const SweepMethod& method, ProgressReporter& progress) {
@@ -415,7 +358,18 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
     throw Error(
         ErrorCode::invalid_argument,
         "noise can be taken off surfaces only: of a curve ask for the root mean square of its points' distances");
-  return fit_shape<FitCurve>(curve, constraints, points, options, context);
+  options.validate();
+  check_points(points);
+  const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
+  if (options.tolerance()) return fit_curve(curve, constraints, points, options, context);
+  FitResult balanced = fit_shape<FitCurve>(curve, constraints, points, options, context);
+  const Outcome outcome = balanced.report.fair.outcome;
+  const bool is_found = outcome == Outcome::converged || outcome == Outcome::cancelled;
+  const bool may_be_another = method && method->fallbacks && !method->max_iterations && !options.fair.as_found;
+  if (is_found || !may_be_another) return balanced;
+  // Springs that keep the shares of edges have no balance where these are shorter than the noise.
+  FitResult drawn = fit_curve(curve, constraints, points, options, context);
+  return drawn.report.fair.outcome == Outcome::converged ? drawn : balanced;
 }
 
 FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,

@@ -20,11 +20,10 @@
 
 namespace vspring {
 
-/// A fit by Within or RootMeanSquare.
-template <typename Subject>
+/// A fit of a surface by Within or RootMeanSquare.
 class FitToTolerance {
  public:
-  explicit FitToTolerance(FitRun<Subject>& run) : run_(run), tolerance_(*run.options.tolerance()) {}
+  explicit FitToTolerance(FitRun<FitSurface>& run) : run_(run), tolerance_(*run.options.tolerance()) {}
 
   /// Then that is the fairest, and the result. in_few_steps: whole scans have no equilibrium, and take long to show it.
   bool plain_fairing_is_within(FairOptions options, bool in_few_steps) {
@@ -62,8 +61,7 @@ class FitToTolerance {
     // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
     const auto nodes = static_cast<double>(shape.net().moving);
     const double most_work = std::max(least_most_work, most_work_a_node * nodes);
-    const auto& lengths =
-        !shape.net().is_curve && !shape.net().target_positions.empty() ? first_lengths_on_surfaces : first_lengths;
+    const auto& lengths = shape.net().target_positions.empty() ? first_lengths : first_lengths_in_place;
     for (const double first : lengths) {
       *length = first * edge;
       shape.find(context, progress, report.fair);
@@ -125,8 +123,8 @@ class FitToTolerance {
   static constexpr int few_steps = 20;
   // The smoothing lengths that tolerances are looked for from, in mean edges.
   static constexpr std::array<double, 4> first_lengths = {3, 1, 0.3, 0.1};
-  // The same of surfaces whose nodes keep their place, and whose details may be few edges wide.
-  static constexpr std::array<double, 4> first_lengths_on_surfaces = {1, 1.4, 2, 0.7};
+  // The same where nodes keep their place, and whose details may be few edges wide.
+  static constexpr std::array<double, 4> first_lengths_in_place = {1, 1.4, 2, 0.7};
   // What may be done for one tolerance, in iterations of one moving node: as much as for four equilibria.
   static constexpr double least_most_work = 1.35e6;
   static constexpr double most_work_a_node = 1800;
@@ -141,18 +139,18 @@ class FitToTolerance {
     return smooth_within(task, tolerance, [&](const std::vector<double>& all) { return figure_of(all); });
   }
 
-  /// By the interior-point method, from a smooth shape that leaves it room. Where that does not apply, or finds
-  /// nothing, by Lawson's algorithm.
+  /// By the interior-point method, from a smooth shape that leaves it room. Where that finds nothing, by Lawson's
+  /// algorithm.
   ToleranceFitResult fit_within(ToleranceFitTask& task, double tolerance) const {
     Net& net = *task.net;
     const double close_share = task.close_share;
-    if (const auto sides = Sides::of(net)) {
+    {
       task.close_share = any_start;
       task.takes_nearest = true;
       const ToleranceFitResult start = smooth(task, room * tolerance);
       if (task.ended()) return start;
       const std::vector<Vector3> places = net.positions;
-      const ToleranceFitResult found = hold_between(task, *sides, tolerance, start);
+      const ToleranceFitResult found = hold_between(task, tolerance, start);
       if (found.settled || task.ended()) return found;
       if (found.within) return hold_within(task, tolerance, found);
       net.positions = places;
@@ -210,7 +208,7 @@ class FitToTolerance {
           {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest that is"});
   }
 
-  FitRun<Subject>& run_;
+  FitRun<FitSurface>& run_;
   double tolerance_;
 };
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/cancellation.hpp"
-#include "shape/planarity.hpp"
 
 namespace vspring {
 
@@ -51,10 +50,9 @@ struct Bounded {
 
 class InteriorFit {
  public:
-  InteriorFit(const ToleranceFitTask& task, const Sides& sides, double tolerance)
+  InteriorFit(const ToleranceFitTask& task, double tolerance)
       : task_(task),
         net_(*task.net),
-        sides_(sides),
         tolerance_(tolerance),
         bound_(aimed_share_of_bounds * tolerance),
         places_(net_.points.positions),
@@ -139,9 +137,10 @@ class InteriorFit {
     std::vector<double> heights(places_.size(), std::numeric_limits<double>::quiet_NaN());
     std::vector<double> excesses(places_.size(), 0);
     for (std::size_t i = 0; i < net_.moving; ++i) {
-      const Vector3 across = sides_.across(net_, i);
+      const Vector3 across = net_.normals[i];
       for (const std::uint32_t k : net_.points.of(i)) {
-        heights[k] = std::copysign(distances_[net_.points.numbers[k]] / bound_, sides_.side(net_, i, places_[k]));
+        heights[k] = std::copysign(distances_[net_.points.numbers[k]] / bound_,
+                                   (net_.positions[i] - places_[k]).dot(net_.normals[i]));
         excesses[k] = heights[k] - (net_.positions[i] - places_[k]).dot(across) / bound_;
       }
     }
@@ -185,7 +184,7 @@ class InteriorFit {
       const Pull pull = pull_of(point, barrier);
       net_.points.weights[point.slot] = weights_[point.slot] * pull.stiffness;
       net_.points.positions[point.slot] =
-          places_[point.slot] + (pull.balance - point.excess) * bound_ * sides_.across(net_, node[point.slot]);
+          places_[point.slot] + (pull.balance - point.excess) * bound_ * net_.normals[node[point.slot]];
     }
   }
 
@@ -247,7 +246,6 @@ class InteriorFit {
 
   const ToleranceFitTask& task_;
   Net& net_;
-  const Sides& sides_;
   double tolerance_;
   double bound_;
   const std::vector<Vector3> places_;
@@ -263,43 +261,8 @@ class InteriorFit {
 
 }  // namespace
 
-std::optional<Sides> Sides::of(const Net& net) {
-  Sides sides;
-  if (!net.is_curve) return sides;
-  std::vector<Vector3> all = net.positions;
-  all.insert(all.end(), net.points.positions.begin(), net.points.positions.end());
-  const auto plane = plane_normal(all);
-  if (!plane) return std::nullopt;
-  sides.plane_ = *plane;
-  return sides;
-}
-
-double Sides::side(const Net& net, std::size_t node, const Vector3& point) const {
-  const Vector3 d = net.positions[node] - point;
-  double side = d.dot(across(net, node));
-  if (!net.is_curve) return side;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Link link : net.rings.links(node)) {
-    const Vector3 edge = net.positions[link.node()] - net.positions[node];
-    const double length2 = edge.squaredNorm();
-    if (!(length2 > 0)) continue;
-    const double share = std::clamp(-d.dot(edge) / length2, 0.0, 1.0);
-    const double distance2 = (d + share * edge).squaredNorm();
-    if (distance2 >= least) continue;
-    least = distance2;
-    const Vector3 forward = link.start() ? Vector3(-edge) : edge;
-    side = d.dot(plane_.cross(forward));
-  }
-  return side;
-}
-
-Vector3 Sides::across(const Net& net, std::size_t node) const {
-  return !net.is_curve ? net.normals[node] : Vector3(plane_.cross(net.tangents[node]));
-}
-
-ToleranceFitResult hold_between(const ToleranceFitTask& task, const Sides& sides, double tolerance,
-                                ToleranceFitResult smooth) {
-  return InteriorFit(task, sides, tolerance).run(smooth);
+ToleranceFitResult hold_between(const ToleranceFitTask& task, double tolerance, ToleranceFitResult smooth) {
+  return InteriorFit(task, tolerance).run(smooth);
 }
 
 }  // namespace vspring

@@ -228,7 +228,7 @@ bool fit_within_by_filters(FitRun<FitSurface>& run, const UntiedPoints& points, 
     return false;
   const NoisyNodes noisy(run, points);
   if (noisy.has_normals()) return false;
-  if (!only_smooth && FitToTolerance<FitSurface>(run).plain_fairing_is_within(run.options.fair, true)) return true;
+  if (!only_smooth && FitToTolerance(run).plain_fairing_is_within(run.options.fair, true)) return true;
   progress.report("taking noise off", 0);
   Net found = noisy.without(noise > allowed_noise_at_most * tolerance ? noise : allowed_noise * tolerance);
   const auto distances = [&] {

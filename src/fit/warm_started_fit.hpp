@@ -78,16 +78,6 @@ class WarmStartedFit {
                     net().points.empty() ? nullptr : &levels_);
   }
 
-  /// From the start of find(): the smoothing spline of the points, for a curve that has no equilibrium with them.
-  void go_to_spline() {
-    net().positions = start_;
-    for (int turn = 0; turn < turns_of_spline; ++turn) {
-      levels_.tie(hierarchy_->count() - 1);
-      smooth_to_points();
-    }
-    update_directions(net(), *model_, *team_);
-  }
-
   /// By the paper's V-cycle.
   void cycle(Context& context, ProgressReporter& progress, FairReport& report) {
     const auto& method = std::get<MultigridMethod>(options_.method);
@@ -154,8 +144,6 @@ class WarmStartedFit {
   // The last steps of a plain iteration are about k times their distance.
   static constexpr double plain_tolerance = 1e-4;
   static constexpr int plain_iterations = 300;
-  // Points are tied anew to the nodes that are nearest in between.
-  static constexpr int turns_of_spline = 2;
 
   const FairOptions& options_;
   ThreadTeam* team_;

@@ -118,15 +118,30 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
     // Across a curve in space noise has two directions.
     of_curve.criterion = RootMeanSquare{std::sqrt(2.0) * *options.noise()};
   }
+  // The nodes of the boundary alone: they are the points.
+  std::vector<Index> node_of;
+  std::vector<PolygonCurve::Chain> chains = task.curve.chains();
   ScatteredPoints on_curve;
-  for (const auto& chain : task.curve.chains()) {
-    for (const Index node : chain.nodes) {
+  for (auto& chain : chains) {
+    for (Index& node : chain.nodes) {
+      node_of.push_back(node);
       on_curve.positions.push_back(mesh.position(node));
       if (!points.weights.empty()) on_curve.weights.push_back(points.weights[static_cast<std::size_t>(node)]);
+      node = static_cast<Index>(node_of.size() - 1);
     }
   }
-  FitResult curve = fit(task.curve, task.of_curve, on_curve, of_curve, context);
-  hold(task, curve.positions);
+  Constraints held(static_cast<Index>(node_of.size()));
+  for (std::size_t k = 0; k < node_of.size(); ++k) {
+    const auto i = static_cast<Index>(k);
+    const Index node = node_of[k];
+    if (task.of_curve.position_fixed(node)) held.fix_position(i, task.of_curve.position(node));
+    if (task.of_curve.normal_fixed(node)) held.fix_normal(i, task.of_curve.normal(node));
+    if (task.of_curve.tangent_fixed(node)) held.fix_tangent(i, task.of_curve.tangent(node));
+  }
+  FitResult curve = fit(PolygonCurve(on_curve.positions, std::move(chains)), held, on_curve, of_curve, context);
+  std::vector<Vector3> positions = mesh.positions();
+  for (std::size_t k = 0; k < node_of.size(); ++k) positions[static_cast<std::size_t>(node_of[k])] = curve.positions[k];
+  hold(task, positions);
   FitResult result = fit(mesh, task.of_surface, points, options, context);
   join(std::move(curve.report.fair), result.report.fair);
   account_for_moves(mesh, constraints, 1, result.positions, result.report.fair);

@@ -337,18 +337,21 @@ TEST(FitEquilibrium, TakesTheNearestShapeWhereNoiseHasFoldedFacesThatKeepTheirPl
   EXPECT_LT(share, 1);
 }
 
-TEST(FitEquilibrium, WhereItFindsNothingForACurveASmoothingSplineStands) {
+TEST(FitEquilibrium, WhereThereIsNoneForACurveItIsDrawnWithNodesOfItsOwn) {
   // Points that crumple the curve: neighbours are drawn apart by more than an edge.
   const auto crumpled = noisy_wave(200, 0.004);
   const FitResult result = crumpled.fit({.criterion = Weight{1}});
   EXPECT_EQ(result.report.fair.method, Method::equilibrium);
-  EXPECT_NE(result.report.fair.outcome, Outcome::converged);
-  EXPECT_FALSE(result.report.fair.expected_error);
-  ASSERT_FALSE(result.report.fair.warnings.empty());
-  EXPECT_NE(result.report.fair.warnings.back().text.find("smoothing spline"), std::string::npos);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_TRUE(result.report.fair.warnings.empty());
+  EXPECT_EQ(result.report.fair.levels.back().strategy, std::string("curve through points"));
   EXPECT_LT(result.report.after.all.rms, 0.004);
   const auto [before, after] = fairness_of(crumpled.start, crumpled.held, result.positions);
   EXPECT_LT(after.vspring_energy, 0.2 * before.vspring_energy);
+  // Who names the method and no fallbacks gets what it found.
+  FitOptions alone{.criterion = Weight{1}};
+  alone.fair.method = EquilibriumMethod{.fallbacks = std::nullopt};
+  EXPECT_NE(crumpled.fit(alone).report.fair.outcome, Outcome::converged);
 }
 
 TEST(FitEquilibrium, WhereItFindsNothingForBricksThatKeepTheirPlaceThePlainIterationDoes) {

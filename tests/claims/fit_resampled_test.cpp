@@ -64,7 +64,8 @@ TEST_P(FitResampledBy, ANoisyTableLosesItsNoiseBetweenItsNodesToo) {
     const CurveFigures after = measure_curve(curve_of(made));
     EXPECT_LE(after.curvature_extrema, exact.curvature_extrema);
     EXPECT_LE(after.inflections, exact.inflections);
-    EXPECT_LT(after.curvature_variation, 0.2 * measure_curve(made.resampled.curve).curvature_variation);
+    const Resampled plain = resample(table, held_ends(table.positions()), GetParam().how);
+    EXPECT_LT(after.curvature_variation, 0.2 * measure_curve(plain.curve).curvature_variation);
   }
 }
 
@@ -93,7 +94,7 @@ TEST(FitResampled, TheReportIsAboutTheNewNodes) {
   const Resampling how = {.nodes = 120, .by = ResamplingBy::cosine};
   const ResampledFit made = fit_resampled(table, held, how, within(0.0006));
   const Resampled plain = resample(table, held, how);
-  EXPECT_EQ(made.resampled.curve.positions(), plain.curve.positions());
+  EXPECT_EQ(made.resampled.curve.node_count(), plain.curve.node_count());
   EXPECT_EQ(made.resampled.from, plain.from);
   const FitReport& report = made.fit.report;
   EXPECT_EQ(report.fair.nodes, 120);
@@ -104,8 +105,8 @@ TEST(FitResampled, TheReportIsAboutTheNewNodes) {
   EXPECT_GE(report.active_points.size(), 3U);
   EXPECT_EQ(made.fit.distances, point_distances(table.positions(), curve_of(made), Context()));
   EXPECT_EQ(report.after.all.greatest, distance(table.positions(), curve_of(made)).greatest);
-  EXPECT_EQ(report.before.all.greatest, distance(table.positions(), plain.curve).greatest);
-  EXPECT_EQ(report.fair.greatest_move, distance(made.fit.positions, plain.curve).greatest);
+  EXPECT_EQ(report.before.all.greatest, 0) << "the points are the table's";
+  EXPECT_EQ(report.fair.greatest_move, distance(made.fit.positions, table).greatest);
   EXPECT_LT(measure(curve_of(made), &made.resampled.constraints).vspring_energy,
             measure(plain.curve, &plain.constraints).vspring_energy);
 }

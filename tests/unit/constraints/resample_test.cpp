@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "constraints/dense_resampling.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring::resample_test {
@@ -216,43 +215,6 @@ TEST(Resample, WhatDoesNotFitTheCurveIsRefused) {
   EXPECT_THROW(std::ignore = resample(curve, Constraints(2), {.nodes = 9}), Error);
   for (const Index nodes : {Index{0}, Index{-1}, std::numeric_limits<Index>::max()})
     EXPECT_THROW(std::ignore = resample(curve, constraints, {.nodes = nodes}), Error) << nodes;
-}
-
-TEST(ResampleDensely, EverySoManiethNodeIsOneOfTheResampledCurve) {
-  for (const ResamplingBy by : {ResamplingBy::length, ResamplingBy::cosine, ResamplingBy::curvature}) {
-    SCOPED_TRACE(static_cast<int>(by));
-    for (const bool closed : {false, true}) {
-      const PolygonCurve curve(ellipse(3, 1).positions(), closed);
-      Constraints constraints(curve.node_count());
-      constraints.fix_position(130, curve.position(130));
-      const Resampling how = {.nodes = 60, .by = by};
-      const Resampled plain = resample(curve, constraints, how);
-      const Resampled dense = resample_densely(curve, curve, constraints, how, 3);
-      const std::vector<Index>& few = plain.curve.chains()[0].nodes;
-      const std::vector<Index>& many = dense.curve.chains()[0].nodes;
-      ASSERT_EQ(many.size(), closed ? 3 * few.size() : 3 * few.size() - 2);
-      for (std::size_t k = 0; k < few.size(); ++k) {
-        EXPECT_LT((dense.curve.position(many[3 * k]) - plain.curve.position(few[k])).norm(), 1e-12) << k;
-        EXPECT_EQ(dense.from[static_cast<std::size_t>(many[3 * k])], plain.from[static_cast<std::size_t>(few[k])]);
-      }
-    }
-  }
-}
-
-TEST(ResampleDensely, SharesNodesOutAsOnTheOneCurveAndPutsThemOnTheOther) {
-  // The part beyond the kept node is longer on the other curve.
-  std::vector<Vector3> places;
-  for (int k = 0; k <= 20; ++k) places.emplace_back(0.1 * k, 0, 0);
-  const PolygonCurve line(places);
-  for (std::size_t k = 11; k < places.size(); ++k) places[k].x() += 0.2 * static_cast<double>(k - 10);
-  const PolygonCurve longer(places);
-  Constraints constraints(line.node_count());
-  constraints.fix_position(10, line.position(10));
-  const Resampled dense = resample_densely(line, longer, constraints, {.nodes = 11}, 2);
-  ASSERT_EQ(dense.curve.node_count(), 21);
-  EXPECT_EQ(dense.from[10], 10);
-  EXPECT_NEAR(dense.curve.position(20).x(), 4, 1e-12);
-  EXPECT_NEAR(dense.curve.position(15).x(), 2.5, 1e-3);
 }
 
 }  // namespace

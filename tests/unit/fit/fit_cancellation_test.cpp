@@ -224,6 +224,7 @@ TEST(CancelledFit, SweepsEndWithTheirTies) {
 struct BrokenOff {
   BrokenOff() {
     curve_model_for(net, {})->update_directions(net, 0, net.computed);
+    net.normals.assign(net.positions.size(), Vector3(0, 1, 0));  // as of a surface, for the interior-point method
     task.net = &net;
     task.length = std::make_shared<double>(1);
     task.update = [this](bool /*or_find*/) {
@@ -254,9 +255,7 @@ TEST(CancelledFit, KeepsTheBestWithinATolerance) {
   const Fit fits[] = {
       [&](const ToleranceFitTask& task) { return smooth_within(task, BrokenOff::tolerance, greatest); },
       [](const ToleranceFitTask& task) { return hold_within(task, BrokenOff::tolerance, {.length = 1}); },
-      [](const ToleranceFitTask& task) {
-        return hold_between(task, *Sides::of(*task.net), BrokenOff::tolerance, {.length = 1});
-      }};
+      [](const ToleranceFitTask& task) { return hold_between(task, BrokenOff::tolerance, {.length = 1}); }};
   for (const Fit& fit : fits) {
     BrokenOff one;
     const std::vector<double> weights = one.net.points.weights;

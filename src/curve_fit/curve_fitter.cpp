@@ -1,0 +1,518 @@
+#include "curve_fit/curve_fitter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/cancellation.hpp"
+#include "base/threads.hpp"
+#include "curve_fit/polyline_bounds.hpp"
+#include "shape/box_tree.hpp"
+#include "shape/segment.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of a tolerance, at the start, so that there is room to become fairer.
+constexpr double first_share = 0.95;
+// Of a tolerance, so that what is not linear in a step does not go beyond.
+constexpr double aimed_share = 0.995;
+constexpr int starts = 2;
+constexpr int robust_starts = 2;
+// Of the noise: what is nearer than that tells nothing.
+constexpr double least_deviation = 0.5;
+constexpr double times_noise = 3;
+constexpr double least_spacing_in_tolerances = 0.05;
+constexpr int most_grids = 4;
+constexpr int most_steps_on_grid = 15;
+// Of the energy, in a step: what changes less is there.
+constexpr double settled_energy = 1e-4;
+// Of edges, in a step.
+constexpr double greatest_turn_of_step = 0.5;
+constexpr double greatest_turn_of_settled = 0.2;
+constexpr int most_halvings = 6;
+// Of a step, that is taken to keep edges from turning further; damped where it were less.
+constexpr double least_share = 0.15;
+constexpr int most_dampings = 5;
+constexpr double first_damping = 0.01;
+constexpr double more_damping = 8;
+constexpr double less_damping = 0.1;
+constexpr double least_damping = 1e-4;
+constexpr double shrinking = 0.9;
+constexpr double tie_break = 1e-6;
+constexpr double loosened = 1.02;
+// Of the energy at first.
+constexpr double toll_of_excess = 10;
+// How far from the polyline places may be: of the root mean square, and of the furthest point at the start.
+constexpr double reach_of_rms = 4;
+constexpr double spare_of_reach = 1.5;
+// Of that: who is nearer is not looked at.
+constexpr double far_share = 0.3;
+// Of the noise beyond so much of an edge.
+constexpr double least_smoothing_of_noise = 4;
+constexpr double edges_of_noise = 0.4;
+// Of the smoothing length, between nodes.
+constexpr double spacing_of_springs = 0.25;
+constexpr int most_trials_of_weight = 24;
+constexpr double near_rms = 0.985;
+constexpr double no_nearer = 0.995;
+constexpr int most_without_gain = 3;
+constexpr double next_to_no_weight = 1e-3;
+// Of the root mean square: the bound of a first curve.
+constexpr double bound_of_rms = 3;
+constexpr double stride_of_weight = 10;
+
+template <int K>
+class CurveFitter {
+ public:
+  CurveFitter(const CurveFitTask& task, const std::function<void(double)>& progress)
+      : task_(task),
+        progress_(progress),
+        plane_(task.plane.value_or(Vector3::Zero())),
+        springs_(task.smoothing > 0 || task.weight > 0) {}
+
+  std::vector<std::pair<Index, double>> deviations() {
+    begin_on_way();
+    std::vector<double> distances;
+    for (int k = 0; k < robust_starts; ++k) {
+      smooth_out_robustly(found_.curve, found_.points, task_.noise);
+      find_places(found_.curve, found_.points);
+    }
+    for (const CurvePoint& point : found_.points) distances.push_back((found_.curve.at(point.at) - point.place).norm());
+    std::vector<double> sorted = distances;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const double deviation = std::max(*middle / median_of_noise, least_deviation * task_.noise);
+    std::vector<std::pair<Index, double>> result;
+    for (std::size_t j = 0; j < distances.size(); ++j)
+      result.emplace_back(found_.points[j].number, distances[j] / deviation);
+    return result;
+  }
+
+  CurveFound run() {
+    if (task_.nodes) return run_on_nodes();
+    begin();
+    for (int grid = 0; grid < most_grids; ++grid) {
+      most_work_ = std::max(most_work_, static_cast<std::size_t>(task_.most_steps) * found_.curve.size() / (grid + 1));
+      weights_ = weights_of_change(found_.curve, task_.evenly);
+      find_places_between();
+      if (task_.rms > 0)
+        go_to_rms();
+      else
+        go();
+      progress_(static_cast<double>(grid + 1) / most_grids);
+      if (work_ >= most_work_ || grid + 1 == most_grids || (!refine() && found_.converged)) break;
+    }
+    measure();
+    return std::move(found_);
+  }
+
+ private:
+  /// On nodes that are given, whose chords are the curve.
+  CurveFound run_on_nodes() {
+    found_.curve = *task_.nodes;
+    found_.points = task_.scattered;
+    for (CurvePoint& point : found_.points) point.bound = task_.within;
+    find_places(found_.curve, found_.points);
+    most_work_ = static_cast<std::size_t>(task_.most_steps) * found_.curve.size();
+    weights_ = weights_of_change(found_.curve, task_.evenly);
+    find_places_between();
+    if (task_.rms > 0)
+      go_to_rms();
+    else
+      go();
+    measure();
+    return std::move(found_);
+  }
+
+  /// How far the curve may go from the polyline of the points, about.
+  [[nodiscard]] double tolerance() const { return std::max(task_.within, times_noise * task_.noise); }
+
+  /// Between nodes: who turns within that goes from one bound to the other and back.
+  [[nodiscard]] double least_spacing() const { return least_spacing_in_tolerances * tolerance(); }
+
+  void begin_on_way() {
+    const StartScale scale{task_.noise, tolerance()};
+    for (const auto& chain : task_.chains) add_start(chain.nodes, chain.closed, scale, found_.curve, found_.points);
+    find_scattered();
+    for (CurvePoint& point : found_.points) point.bound = task_.within;
+  }
+
+  void begin() {
+    begin_on_way();
+    if (found_.points.empty()) return;
+    for (int k = 0; k < starts; ++k) {
+      smooth_out_at_first();
+      find_places(found_.curve, found_.points);
+      DenseCurve now = with_new_nodes(found_.curve, least_spacing());
+      carry_places(found_.curve, now, found_.points);
+      found_.curve = std::move(now);
+    }
+    smooth_out_at_first();
+    find_places(found_.curve, found_.points);
+  }
+
+  void smooth_out_at_first() {
+    if (springs_) {
+      set_springs();
+      smooth_out_by(found_.curve, found_.points, found_.smoothing);
+      for (std::uint32_t i = 0; i < found_.curve.size(); ++i)
+        found_.curve.set_spacing(i, std::min(found_.curve.node(i).spacing, spacing_of_springs * found_.smoothing));
+    } else {
+      smooth_out(found_.curve, found_.points, first_share * task_.within, first_share * task_.rms);
+    }
+  }
+
+  [[nodiscard]] double length() const {
+    double length = 0;
+    for (std::uint32_t i = 0; i < found_.curve.size(); ++i)
+      length += found_.curve.is_edge(i) ? found_.curve.edge_length(i) : 0;
+    return length;
+  }
+
+  /// Each point stands for an equal share of the length.
+  void set_springs() {
+    const double length = this->length();
+    found_.smoothing = task_.smoothing;
+    if (task_.weight > 0) found_.smoothing = length / task_.edges * std::pow(8 * task_.weight, -0.25);
+    // Where noise is longer than edges there is no way through all points.
+    const double noise = task_.noise - edges_of_noise * length / task_.edges;
+    found_.smoothing = std::max(found_.smoothing, least_smoothing_of_noise * noise);
+    data_weight_ = length / static_cast<double>(found_.points.size()) * std::pow(found_.smoothing, -4);
+  }
+
+  void find_scattered() {
+    if (task_.scattered.empty()) return;
+    const DenseCurve& curve = found_.curve;
+    std::vector<std::uint32_t> edges;
+    std::vector<Box> boxes;
+    for (std::uint32_t i = 0; i < curve.size(); ++i) {
+      if (!curve.is_edge(i)) continue;
+      edges.push_back(i);
+      boxes.emplace_back();
+      boxes.back().extend(curve.place(i));
+      boxes.back().extend(curve.place(curve.next(i)));
+    }
+    ThreadTeam team(1);
+    const BoxTree tree(std::move(boxes), team);
+    for (CurvePoint point : task_.scattered) {
+      const auto share = [&](Index k) {
+        const std::uint32_t edge = edges[static_cast<std::size_t>(k)];
+        return nearest_share(point.place, curve.place(edge), curve.place(curve.next(edge)));
+      };
+      const auto nearest = tree.nearest(point.place, [&](Index k) {
+        const std::uint32_t edge = edges[static_cast<std::size_t>(k)];
+        const Vector3& start = curve.place(edge);
+        return (point.place - start - share(k) * (curve.place(curve.next(edge)) - start)).squaredNorm();
+      });
+      point.at = {edges[static_cast<std::size_t>(nearest.item)], share(nearest.item)};
+      found_.points.push_back(point);
+    }
+  }
+
+  void find_places_between() {
+    between_.clear();
+    if (!task_.in_order) return;
+    between_ = polyline_bounds(found_.curve, found_.points, reach());
+  }
+
+  /// How far from the polyline places may be: where only points pull, a sharp turn would go out to a wide loop.
+  [[nodiscard]] double reach() const {
+    if (task_.within > 0) return task_.within;
+    if (task_.rms > 0) return reach_of_rms * task_.rms;
+    double reach = reach_of_rms * task_.noise;
+    for (const CurvePoint& point : found_.points)
+      reach = std::max(reach, spare_of_reach * (found_.curve.at(point.at) - point.place).norm());
+    return reach;
+  }
+
+  /// Steps to the fairest curve for the weight of points as it is.
+  void go() {
+    find_places(found_.curve, found_.points);
+    double energy = merit();
+    double excess = this->excess();
+    // What a bound that is exceeded by all of it counts for.
+    const double toll = toll_of_excess * energy;
+    double last_step = std::numeric_limits<double>::infinity();
+    for (int step = 0; step < most_steps_on_grid && work_ < most_work_; ++step) {
+      end_if_cancelled();
+      ++found_.steps;
+      work_ += found_.curve.size();
+      const DenseCurve before = found_.curve;
+      std::vector<CurvePoint> places = found_.points;
+      double greatest = 0;
+      double turn = 0;
+      bool found = false;
+      std::vector<Vector3> moves(before.size(), Vector3::Zero());
+      for (int trial = 0; trial < most_dampings; ++trial) {
+        CurveProgram<K> program = this->program();
+        if (program.blocks() == 0) {
+          found_.converged = true;
+          return;
+        }
+        if (damping_ > 0) program.add_damping(damping_);
+        BallSolution solution = program.solve();
+        found = solution.found;
+        if (!found) {
+          loosen_bounds();
+          places = found_.points;
+          excess = this->excess();
+          CurveProgram<K> looser = this->program();
+          if (damping_ > 0) looser.add_damping(damping_);
+          solution = looser.solve();
+        }
+        program.for_moves(solution, [&](std::uint32_t i, const Vector3& move) { moves[i] = move; });
+        greatest = turn = 0;
+        double squares = 0;
+        for (std::uint32_t i = 0; i < before.size(); ++i) {
+          greatest = std::max(greatest, moves[i].norm());
+          if (!before.is_edge(i)) continue;
+          const double length = before.edge_length(i);
+          const double turned = (moves[before.next(i)] - moves[i]).norm() / length;
+          turn = std::max(turn, turned);
+          squares += length * turned * turned;
+        }
+        if (!std::isfinite(greatest)) {
+          found_.converged = false;
+          return;
+        }
+        if (turn * least_share <= greatest_turn_of_step) break;
+        damping_ = damping_ > 0 ? more_damping * damping_ : first_damping * energy / squares;
+      }
+      double share = turn > greatest_turn_of_step ? greatest_turn_of_step / turn : 1;
+      bool better = false;
+      double now = energy;
+      for (int half = 0; half < most_halvings; ++half, share /= 2) {
+        for (std::uint32_t i = 0; i < before.size(); ++i) found_.curve.set_place(i, before.place(i) + share * moves[i]);
+        found_.points = places;
+        find_places(found_.curve, found_.points);
+        now = merit();
+        const double beyond = std::max(1.0, this->excess());
+        better = now + toll * beyond < energy + toll * std::max(1.0, excess);
+        // Springs have no energy of their own; near their balance steps become smaller from one to the next.
+        if (springs_ && half == 0 && share == 1) better = better || greatest <= shrinking * last_step;
+        better = better && beyond <= std::max(1.0, excess);
+        if (!better) continue;
+        excess = beyond;
+        break;
+      }
+      if (!better) {
+        found_.curve = before;
+        found_.points = places;
+        found_.converged = found;
+        return;
+      }
+      last_step = greatest * share;
+      found_.error = last_step;
+      const bool still = last_step < task_.tolerance;
+      const bool settled = !springs_ && share == 1 && energy - now <= settled_energy * energy && excess <= 1;
+      energy = now;
+      damping_ = damping_ > least_damping * energy ? damping_ * less_damping : 0;
+      if (turn > greatest_turn_of_settled) continue;
+      if (still || settled) {
+        found_.converged = true;
+        return;
+      }
+    }
+    found_.converged = false;
+  }
+
+  [[nodiscard]] CurveProgram<K> program() const {
+    CurveProgram<K> program(found_.curve, plane_);
+    if (springs_) {
+      program.add_springs(1);
+    } else {
+      program.add_variation(weights_);
+      program.add_bending(tie_break);
+    }
+    for (CurvePoint point : found_.points) {
+      if (!(point.weight > 0) || is_at_held(point)) continue;
+      point.bound *= aimed_share;
+      program.add_point(point, data_weight_);
+    }
+    for (const PolylineBound& one : between_) {
+      CurvePoint point;
+      point.place = one.nearest(found_.curve.place(one.node));
+      if (!(task_.within > 0) && one.distance(found_.curve.place(one.node)) < far_share * one.bound) continue;
+      point.at = {one.node, 0};
+      point.bound = aimed_share * one.bound;
+      program.add_point(point, 0);
+    }
+    if (task_.least_radius > 0) program.add_least_radius(task_.least_radius);
+    return program;
+  }
+
+  [[nodiscard]] double merit() const {
+    const DenseCurve& curve = found_.curve;
+    double sum = springs_ ? bending() : 0;
+    for (std::uint32_t b = 0; b < curve.size() && !springs_; ++b) {
+      if (!curve.is_edge(b)) continue;
+      const auto first = curve.curvature_row(b, true);
+      const auto second = curve.curvature_row(curve.next(b), false);
+      if (first.count == 0 || second.count == 0) continue;
+      const Vector3 along = (curve.place(curve.next(b)) - curve.place(b)).normalized();
+      const Vector3 change = second.curvature - first.curvature;
+      sum += weights_[b] * (change.squaredNorm() - std::pow(change.dot(along), 2));
+    }
+    if (data_weight_ > 0) {
+      for (const CurvePoint& point : found_.points)
+        sum += data_weight_ * point.weight * (curve.at(point.at) - point.place).squaredNorm();
+    }
+    return sum;
+  }
+
+  [[nodiscard]] double bending() const {
+    const DenseCurve& curve = found_.curve;
+    double sum = 0;
+    for (std::uint32_t i = 0; i < curve.size(); ++i) {
+      const std::uint32_t before = curve.before(i);
+      if (curve.is_edge(i)) sum += curve.edge_length(i) / 2 * curve.curvature_row(i, true).curvature.squaredNorm();
+      if (before != DenseCurve::none)
+        sum += curve.edge_length(before) / 2 * curve.curvature_row(i, false).curvature.squaredNorm();
+    }
+    return sum;
+  }
+
+  /// Those that can't be kept, to where they are.
+  void loosen_bounds() {
+    for (CurvePoint& point : found_.points) {
+      const double away = (found_.curve.at(point.at) - point.place).norm();
+      if (point.bound > 0) point.bound = std::max(point.bound, loosened * away);
+    }
+    for (PolylineBound& one : between_)
+      one.bound = std::max(one.bound, loosened * one.distance(found_.curve.place(one.node)));
+  }
+
+  /// Nearest to a node that does not move: nothing can be done about it.
+  [[nodiscard]] bool is_at_held(const CurvePoint& point) const {
+    const bool at_start = point.at.share == 0 && found_.curve.node(point.at.edge).held;
+    return at_start || (point.at.share == 1 && found_.curve.node(found_.curve.next(point.at.edge)).held);
+  }
+
+  /// The greatest share of its bound that anything is away that can be moved.
+  [[nodiscard]] double excess() const {
+    double greatest = 0;
+    for (const CurvePoint& point : found_.points) {
+      if (point.bound > 0 && point.weight > 0 && !is_at_held(point))
+        greatest = std::max(greatest, (found_.curve.at(point.at) - point.place).norm() / point.bound);
+    }
+    for (const PolylineBound& one : between_)
+      greatest = std::max(greatest, one.distance(found_.curve.place(one.node)) / one.bound);
+    return greatest;
+  }
+
+  [[nodiscard]] double rms() const {
+    double squares = 0;
+    double weights = 0;
+    for (const CurvePoint& point : found_.points) {
+      squares += point.weight * (found_.curve.at(point.at) - point.place).squaredNorm();
+      weights += point.weight;
+    }
+    return weights > 0 ? std::sqrt(squares / weights) : 0;
+  }
+
+  /// The least weight of points with which they are near enough. From the fairest curve that has none of them much
+  /// further away: with small weights alone a curve may go anywhere.
+  void go_to_rms() {
+    if (data_weight_ == 0) {
+      for (CurvePoint& point : found_.points) point.bound = bound_of_rms * task_.rms;
+      go();
+      double weights = 0;
+      for (CurvePoint& point : found_.points) {
+        point.bound = 0;
+        weights += point.weight;
+      }
+      if (rms() <= task_.rms) return;
+      // As much as the energy is, or what holds a wave of the whole length half.
+      const double length = this->length();
+      const double of_wave = std::pow(2 * std::numbers::pi / length, 6) * length / weights;
+      data_weight_ = std::max(merit() / (weights * std::pow(task_.rms, 2)), of_wave);
+      least_weight_ = next_to_no_weight * of_wave;
+    }
+    double near = 0;
+    double far = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    int without_gain = 0;
+    CurveFound best = found_;
+    for (int trial = 0; trial < most_trials_of_weight; ++trial) {
+      go();
+      const double figure = rms();
+      if (figure <= task_.rms) {
+        near = data_weight_;
+        best = found_;
+        if (figure >= near_rms * task_.rms || (far > 0 && near < 1.02 * far)) break;
+        // A curve of no energy at all is nearer than it need be.
+        if (data_weight_ < least_weight_) {
+          best.converged = true;
+          break;
+        }
+      } else {
+        far = data_weight_;
+        if (near == 0) {
+          // Where larger weights lead no nearer, they only make it follow the noise.
+          without_gain = figure > no_nearer * nearest ? without_gain + 1 : 0;
+          if (without_gain == most_without_gain) break;
+          nearest = figure;
+          best = found_;
+        } else {
+          const int steps = found_.steps;
+          found_ = best;
+          found_.steps = steps;
+        }
+      }
+      if (near > 0 && far > 0)
+        data_weight_ = std::sqrt(near * far);
+      else
+        data_weight_ *= near > 0 ? 1 / stride_of_weight : stride_of_weight;
+    }
+    if (near > 0) data_weight_ = near;
+    const int steps = found_.steps;
+    found_ = std::move(best);
+    found_.steps = steps;
+  }
+
+  /// More nodes where edges turn much; false where none do.
+  bool refine() {
+    DenseCurve now = with_new_nodes(found_.curve, least_spacing());
+    if (now.size() <= found_.curve.size() + found_.curve.size() / 20) return false;
+    carry_places(found_.curve, now, found_.points);
+    found_.curve = std::move(now);
+    return true;
+  }
+
+  void measure() {
+    found_.evenly = task_.evenly;
+    found_.rms = rms();
+    for (const CurvePoint& point : found_.points)
+      found_.greatest = std::max(found_.greatest, (found_.curve.at(point.at) - point.place).norm());
+    found_.beyond = excess();
+  }
+
+  const CurveFitTask& task_;
+  const std::function<void(double)>& progress_;
+  Vector3 plane_;
+  bool springs_;  ///< and no least change of curvature
+  CurveFound found_;
+  std::vector<double> weights_;
+  std::vector<PolylineBound> between_;
+  double data_weight_ = 0;
+  double least_weight_ = 0;
+  double damping_ = 0;
+  std::size_t work_ = 0;  ///< nodes, each for every step
+  std::size_t most_work_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task) {
+  const std::function<void(double)> none = [](double) {};
+  return task.plane ? CurveFitter<1>(task, none).deviations() : CurveFitter<2>(task, none).deviations();
+}
+
+CurveFound fit_curve(const CurveFitTask& task, const std::function<void(double share)>& progress) {
+  return task.plane ? CurveFitter<1>(task, progress).run() : CurveFitter<2>(task, progress).run();
+}
+
+}  // namespace vspring

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "curve_fit/curve_start.hpp"
+
+namespace vspring {
+
+/// Chains and what they are drawn to, in coordinates in which all is of size 1.
+struct CurveFitTask {
+  struct Chain {
+    std::vector<ChainNode> nodes;
+    bool closed = false;
+  };
+  std::vector<Chain> chains;
+  /// Those that are no nodes of the chains.
+  std::vector<CurvePoint> scattered;
+  /// In place of chains: nodes whose chords are the curve. The scattered points have places on them.
+  const DenseCurve* nodes = nullptr;
+  bool in_order = true;          ///< whether points come in the order of the chains
+  std::optional<Vector3> plane;  ///< its normal, where all lies in one
+  // One of these; the others are 0.
+  double within = 0;
+  double rms = 0;
+  double smoothing = 0;
+  /// The paper's k (Eq. 9), for so many edges of even lengths.
+  double weight = 0;
+  double edges = 1;
+  bool evenly = false;      ///< change of curvature counts alike everywhere, not less where it is large
+  double noise = 0;         ///< of the points, across
+  double least_radius = 0;  ///< 0: any
+  double tolerance = 1e-5;  ///< how near to the fairest, a share of the size
+  int most_steps = 60;      ///< of all programs
+};
+
+struct CurveFound {
+  DenseCurve curve;
+  std::vector<CurvePoint> points;  ///< with their places; those of scattered ones last
+  bool converged = false;
+  bool evenly = false;  ///< as the task said
+  double greatest = 0;  ///< distance of the points
+  double rms = 0;
+  double beyond = 0;     ///< the greatest share of its bound that a place of the curve is away from the polyline
+  double smoothing = 0;  ///< the smoothing length, where one was given
+  int steps = 0;
+  double error = 0;  ///< how far the last step went
+};
+
+/// How far the points of a task are from a robust curve through them, by the order of the task's own nodes and then of
+/// the scattered ones, with their numbers; in standard deviations of what the nearer half of them is away.
+std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task);
+
+/// The fairest curve through a task's held nodes that its points allow: of least change of curvature within a tolerance
+/// or a root mean square, or where springs and points balance. Each step is a convex program about the curve as it is.
+CurveFound fit_curve(const CurveFitTask& task, const std::function<void(double share)>& progress);
+
+}  // namespace vspring

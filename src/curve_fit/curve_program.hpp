@@ -1,0 +1,87 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "curve_fit/dense_curve.hpp"
+#include "linear/ball_program.hpp"
+
+namespace vspring {
+
+/// A point that a curve is drawn to, in the fit's coordinates.
+struct CurvePoint {
+  Vector3 place = Vector3::Zero();
+  double weight = 1;
+  CurvePlace at = {};  ///< the place that is nearest to it
+  Index number = -1;   ///< of the points as they were given; −1: a place of the polyline through them
+  double bound = 0;    ///< how far away it may be at most; 0: as far as it likes
+};
+
+/// What is least, besides what points add.
+enum class CurveEnergy {
+  /// Σ (change of curvature)² / length, more of it allowed where the curve is bent more: see weights_of_change().
+  variation,
+  /// The equilibrium of springs: (second derivative of curvature) = pull of the points.
+  bending
+};
+
+/// One step of Gauss and Newton: how nodes go across a curve, one way in a plane (K = 1), two in space.
+template <int K>
+class CurveProgram {
+ public:
+  using Basis = Eigen::Matrix<double, 3, K>;
+
+  /// plane: its normal, for K = 1.
+  CurveProgram(const DenseCurve& curve, const Vector3& plane);
+
+  /// weights: for every edge, by which the squared change of curvature along it counts.
+  void add_variation(std::span<const double> weights);
+  void add_bending(double weight) { add_bending(weight, false); }
+  /// The same without what the change of lengths does to curvature: least squares are then where the second derivative
+  /// of curvature, which displaces springs, is balanced by the points. On circles and clothoids it is zero.
+  void add_springs(double weight) { add_bending(weight, true); }
+  /// Against edges that turn: of the squared turn, along the length.
+  void add_damping(double weight);
+  /// data_weight: times the point's own.
+  void add_point(const CurvePoint& point, double data_weight);
+  /// The radius of curvature is at least that.
+  void add_least_radius(double radius);
+
+  [[nodiscard]] BallSolution solve() const { return vspring::solve(program_); }
+  /// Calls with every node that moves and how it would go.
+  template <typename Use>
+  void for_moves(const BallSolution& solution, Use use) const {
+    for (std::uint32_t i = 0; i < curve_.size(); ++i) {
+      if (block_[i] < 0) continue;
+      Vector3 move = Vector3::Zero();
+      for (int k = 0; k < K; ++k) move += bases_[i].col(k) * solution.x[static_cast<std::size_t>(block_[i]) * K + k];
+      use(i, move);
+    }
+  }
+  [[nodiscard]] std::size_t blocks() const { return program_.blocks; }
+
+ private:
+  void add_bending(double weight, bool as_springs);
+  using Row = typename BallProgram<K>::Row;
+  void number();
+  [[nodiscard]] Basis across(const Vector3& direction) const;
+  void add_entry(Row& row, std::uint32_t node, const Eigen::Matrix<double, K, 3>& slope) const;
+
+  const DenseCurve& curve_;
+  Vector3 plane_;
+  std::vector<std::int32_t> block_;
+  std::vector<Basis> bases_;
+  BallProgram<K> program_;
+};
+
+/// For every edge the weight of the squared change of curvature along it: by the inverse of the length, and by the
+/// spacing that nodes would have by the inverse root of curvature, to the third power, relative to the mean. So a nose
+/// may turn at once and does not swing beside it. evenly: by the length alone.
+std::vector<double> weights_of_change(const DenseCurve& curve, bool evenly);
+
+extern template class CurveProgram<1>;
+extern template class CurveProgram<2>;
+
+}  // namespace vspring

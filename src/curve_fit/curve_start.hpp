@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "curve_fit/curve_program.hpp"
+#include "curve_fit/dense_curve.hpp"
+
+namespace vspring {
+
+/// Half of what noise of a standard deviation of 1 leaves, across, is below this.
+inline constexpr double median_of_noise = 0.6745;
+
+/// A node of a chain that is to be drawn to points, in the fit's coordinates.
+struct ChainNode {
+  Vector3 place = Vector3::Zero();
+  Vector3 tangent = Vector3::Zero();  ///< given; zero: free
+  bool held = false;
+  bool corner = false;
+  Index from = -1;    ///< its number
+  Index point = -1;   ///< the point that it is; −1: none
+  double weight = 1;  ///< of that
+};
+
+/// Lengths that a start goes by.
+struct StartScale {
+  double noise = 0;      ///< of points, across
+  double tolerance = 0;  ///< how far a curve may go from the polyline of the points
+};
+
+/// A first curve through a chain: equal rows and those closer together than twice the noise are one; a few rows back
+/// and forth are brought into order; nodes come as dense as the bends of that ask for. points: those of the chain's own
+/// nodes, at their places, are added.
+void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, DenseCurve& curve,
+               std::vector<CurvePoint>& points);
+
+/// The same curve with nodes as far apart as their spacing says, and no edge that turns by more than 0.3 unless it is
+/// shorter than `least`.
+DenseCurve with_new_nodes(const DenseCurve& curve, double least);
+
+/// Goes to the smoothing spline, by third differences, that is as smooth as it can be with no point further than
+/// `within` from its place, or not further in the root mean square than `rms`; the other is 0.
+void smooth_out(DenseCurve& curve, const std::vector<CurvePoint>& points, double within, double rms);
+
+/// The same for a smoothing length.
+void smooth_out_by(DenseCurve& curve, const std::vector<CurvePoint>& points, double length);
+
+/// The same by absolute distances in place of squares, which single points that are off do not draw aside: as smooth as
+/// it can be with half of the points as near as noise of that standard deviation leaves them.
+void smooth_out_robustly(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise);
+
+/// Each to the nearest place about where it was. other: the curve on which they have places; may be the same.
+void find_places(const DenseCurve& curve, std::vector<CurvePoint>& points);
+/// Of places on a curve that has got new nodes since.
+void carry_places(const DenseCurve& before, const DenseCurve& curve, std::vector<CurvePoint>& points);
+
+}  // namespace vspring

@@ -1,0 +1,119 @@
+#include "curve_fit/polyline_bounds.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace vspring {
+
+namespace {
+
+// Of the reach, between points: nearer ones tell all there is to tell of what is between them.
+constexpr double least_gap = 0.5;
+// To either side: places beside corners may be nearer to another piece of the polyline.
+constexpr std::size_t rows_around = 3;
+// Among which one at another place is looked for.
+constexpr std::size_t most_rows_at_a_place = 64;
+constexpr double greatest_turn_of_arc = 2;
+
+class PolylineBounds {
+ public:
+  PolylineBounds(const DenseCurve& curve, double reach)
+      : curve_(curve),
+        reach_(reach),
+        nearest_(curve.size()),
+        least_(curve.size(), std::numeric_limits<double>::infinity()),
+        in_gap_(curve.size(), 0) {}
+
+  void look_at(const DenseCurve::Chain& chain, std::span<const CurvePoint> rows) {
+    const std::size_t count = rows.size();
+    if (count < 2) return;
+    const std::size_t gaps = count - (chain.closed ? 0 : 1);
+    const auto row = [&](std::size_t k) -> const Vector3& { return rows[k % count].place; };
+    // Calls with the nodes from one row's place to another's; those of rows that go back have none.
+    const auto for_nodes = [&](std::size_t from, std::size_t to, auto use) {
+      const std::uint32_t begin = rows[from % count].at.edge;
+      const std::uint32_t nodes = (rows[to % count].at.edge + chain.count - begin) % chain.count;
+      if (nodes > chain.count / 2) return;
+      std::uint32_t i = curve_.next(begin);
+      for (std::uint32_t n = 0; n < nodes && i != DenseCurve::none; ++n, i = curve_.next(i)) {
+        if (!curve_.node(i).held && curve_.is_edge(i)) use(i);
+      }
+    };
+    for (std::size_t k = 0; k < gaps; ++k) {
+      if (is_gap(row(k), row(k + 1))) for_nodes(k, k + 1, [&](std::uint32_t i) { in_gap_[i] = 1; });
+    }
+    for (std::size_t k = 0; k < gaps; ++k) {
+      std::optional<Vector3> before;
+      std::optional<Vector3> after;
+      const std::size_t most = std::min(count - 1, most_rows_at_a_place);
+      for (std::size_t n = 1; n <= most && !before && (chain.closed || n <= k); ++n) {
+        if (is_gap(row(k + count - n), row(k))) before = row(k + count - n);
+      }
+      for (std::size_t n = k + 2; n <= k + 1 + most && !after && (chain.closed || n < count); ++n) {
+        if (is_gap(row(n), row(k + 1))) after = row(n);
+      }
+      const PolylineBound gap{0, row(k), row(k + 1), reach_ + rise_over(before, row(k), row(k + 1), after)};
+      const std::size_t begin = chain.closed ? k + count - rows_around : k - std::min(k, rows_around);
+      const std::size_t end = chain.closed ? k + 1 + rows_around : std::min(count - 1, k + 1 + rows_around);
+      for_nodes(begin, end, [&](std::uint32_t i) {
+        const double away = gap.distance(curve_.place(i)) / gap.bound;
+        if (in_gap_[i] == 0 || away >= least_[i]) return;
+        least_[i] = away;
+        nearest_[i] = gap;
+        nearest_[i].node = i;
+      });
+    }
+  }
+
+  [[nodiscard]] std::vector<PolylineBound> found() const {
+    std::vector<PolylineBound> bounds;
+    for (std::size_t i = 0; i < nearest_.size(); ++i) {
+      if (std::isfinite(least_[i])) bounds.push_back(nearest_[i]);
+    }
+    return bounds;
+  }
+
+ private:
+  [[nodiscard]] bool is_gap(const Vector3& a, const Vector3& b) const { return (b - a).norm() > least_gap * reach_; }
+
+  /// Of the middle two of four points: of the arc that turns as they do at the end where they turn less. What noise may
+  /// make of it does not count.
+  [[nodiscard]] double rise_over(const std::optional<Vector3>& a, const Vector3& b, const Vector3& c,
+                                 const std::optional<Vector3>& d) const {
+    const Vector3 edge = c - b;
+    const Vector3 first = a ? (b - *a).cross(edge) : Vector3::Zero();
+    const Vector3 second = d ? edge.cross(*d - c) : Vector3::Zero();
+    if (a && d && !(first.dot(second) > 0)) return 0;
+    const auto angle = [](const Vector3& x, const Vector3& y) { return std::atan2(x.cross(y).norm(), x.dot(y)); };
+    double turn = a || d ? greatest_turn_of_arc : 0;
+    if (a) turn = std::min(turn, angle(b - *a, edge));
+    if (d) turn = std::min(turn, angle(edge, *d - c));
+    return std::max(0.0, edge.norm() / 2 * std::tan(turn / 4) - reach_ / 2);
+  }
+
+  const DenseCurve& curve_;
+  double reach_;
+  std::vector<PolylineBound> nearest_;
+  std::vector<double> least_;
+  std::vector<std::uint8_t> in_gap_;
+};
+
+}  // namespace
+
+std::vector<PolylineBound> polyline_bounds(const DenseCurve& curve, std::span<const CurvePoint> points, double reach) {
+  PolylineBounds bounds(curve, reach);
+  std::size_t first = 0;
+  for (const auto& chain : curve.chains()) {
+    std::size_t end = first;
+    while (end < points.size() && points[end].at.edge >= chain.begin && points[end].at.edge < chain.begin + chain.count)
+      ++end;
+    bounds.look_at(chain, points.subspan(first, end - first));
+    first = end;
+  }
+  return bounds.found();
+}
+
+}  // namespace vspring

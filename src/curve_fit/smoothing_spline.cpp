@@ -1,0 +1,344 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "base/cancellation.hpp"
+#include "curve_fit/curve_start.hpp"
+#include "linear/band_triangle.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of what the spline is smoothed by: from where it is hardly bent, by factors, to where it goes through all points.
+constexpr double first_smoothing = 1e2;
+constexpr double least_smoothing = 1e-16;
+constexpr double coarse_stride = 1e-2;
+constexpr int halvings = 5;
+// So that what no point has a part in is straight.
+constexpr double least_bending = 1e-7;
+// Of the length at first.
+constexpr double longest = 1.25;
+// To either side of a point's place.
+constexpr int edges_about = 1;
+constexpr double robust_stride = 0.1;
+constexpr int robust_turns = 6;
+
+/// A sum of places with weights, and a vector.
+struct Affine {
+  std::array<std::uint32_t, 6> nodes{};
+  std::array<double, 6> weights{};
+  int count = 0;
+  Vector3 rest = Vector3::Zero();
+
+  void add(std::uint32_t node, double weight) {
+    for (int k = 0; k < count; ++k) {
+      if (nodes[static_cast<std::size_t>(k)] != node) continue;
+      weights[static_cast<std::size_t>(k)] += weight;
+      return;
+    }
+    nodes[static_cast<std::size_t>(count)] = node;
+    weights[static_cast<std::size_t>(count++)] = weight;
+  }
+};
+
+/// Rows and what they should be, as a triangle.
+struct LeastSquares {
+  LeastSquares(std::size_t size, std::size_t width) : triangle(size, width), right(size, Vector3::Zero()) {}
+
+  /// entries · x = value.
+  void add(std::size_t first, const BandTriangle::Row& entries, Vector3 value, double factor) {
+    value *= factor;
+    triangle.add(first, entries, factor, [&](std::size_t column, double cosine, double sine) {
+      const Vector3 above = right[column];
+      right[column] = cosine * above + sine * value;
+      value = cosine * value - sine * above;
+    });
+  }
+
+  BandTriangle triangle;
+  std::vector<Vector3> right;
+};
+
+class SmoothingSpline {
+ public:
+  SmoothingSpline(DenseCurve& curve, const std::vector<CurvePoint>& points) : curve_(curve), points_(points) {
+    number();
+    double length = 0;
+    for (std::uint32_t i = 0; i < curve.size(); ++i) length += curve.is_edge(i) ? curve.edge_length(i) : 0;
+    fixed_ = LeastSquares(columns_, width_);
+    for (std::uint32_t i = 0; i < curve.size(); ++i) {
+      if (!curve.is_edge(i)) continue;
+      const std::uint32_t c = curve.next(i);
+      const double edge = curve.edge_length(i);
+      const auto first = bend(i, true);
+      const auto second = bend(c, false);
+      const double bending = least_bending * std::pow(length, 3) * edge;
+      if (first) add(*first, bending);
+      if (second) add(*second, bending);
+      if (!first || !second || !(edge > 0)) continue;
+      Affine change = *second;
+      for (int k = 0; k < first->count; ++k)
+        change.add(first->nodes[static_cast<std::size_t>(k)], -first->weights[static_cast<std::size_t>(k)]);
+      change.rest -= first->rest;
+      add(change, std::pow(length, 5) / edge);
+    }
+    take_rows(fixed_);
+    length_ = length;
+    counts_.assign(points.size(), 1);
+    find_data();
+  }
+
+  void run_by(double smoothing_length) {
+    double smoothing = std::min(std::pow(smoothing_length / length_, 6), first_smoothing);
+    while (!(solve(smoothing) && is_sane()) && smoothing < first_smoothing) smoothing /= coarse_stride;
+    take();
+  }
+
+  void run_robustly(double noise) {
+    for (double smoothing = first_smoothing; smoothing > least_smoothing; smoothing *= robust_stride) {
+      counts_.assign(points_.size(), 1);
+      find_data();
+      const std::vector<Vector3> before = places_;
+      if (!solve(smoothing) || !is_sane()) {
+        places_ = before;
+        break;
+      }
+      for (int turn = 0; turn < robust_turns; ++turn) {
+        for (std::size_t j = 0; j < points_.size(); ++j)
+          counts_[j] = 1 / std::max(std::sqrt(squared_residual(points_[j])) / noise, 1.0);
+        find_data();
+        (void)solve(smoothing);
+      }
+      std::vector<double> distances;
+      for (const CurvePoint& point : points_) distances.push_back(squared_distance(point));
+      const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+      std::nth_element(distances.begin(), middle, distances.end());
+      if (std::sqrt(*middle) <= median_of_noise * noise) break;
+    }
+    take();
+  }
+
+  void run(double within, double rms) {
+    double smoothing = first_smoothing;
+    double beyond = 0;
+    std::vector<Vector3> sane;
+    for (;; smoothing *= coarse_stride) {
+      end_if_cancelled();
+      if (!solve(smoothing) || !is_sane()) {
+        // What is left of points that are far apart may go anywhere; the last one did not.
+        if (!sane.empty()) {
+          places_ = std::move(sane);
+          break;
+        }
+      } else {
+        if (is_near(within, rms)) break;
+        sane = places_;
+      }
+      if (smoothing < least_smoothing) break;
+      beyond = smoothing;
+    }
+    for (int k = 0; k < halvings && beyond > 0 && smoothing >= least_smoothing; ++k) {
+      const double middle = std::sqrt(smoothing * beyond);
+      const std::vector<Vector3> found = places_;
+      if (solve(middle) && is_sane() && is_near(within, rms)) {
+        smoothing = middle;
+      } else {
+        beyond = middle;
+        places_ = found;
+      }
+    }
+    take();
+  }
+
+ private:
+  void take() {
+    if (places_.empty() || !std::all_of(places_.begin(), places_.end(), [](const Vector3& p) { return p.allFinite(); }))
+      return;
+    for (std::uint32_t i = 0; i < curve_.size(); ++i) {
+      if (column_[i] >= 0) curve_.set_place(i, places_[static_cast<std::size_t>(column_[i])]);
+    }
+  }
+
+  void find_data() {
+    data_ = LeastSquares(columns_, width_);
+    double weights = 0;
+    for (const CurvePoint& point : points_) weights += point.weight;
+    for (std::size_t j = 0; j < points_.size(); ++j) add(row_of(points_[j]), counts_[j] * points_[j].weight / weights);
+    take_rows(data_);
+  }
+
+  void number() {
+    column_.assign(curve_.size(), -1);
+    std::int32_t next = 0;
+    for (const auto& chain : curve_.chains()) {
+      for (std::uint32_t k = 0; k < chain.count; ++k) {
+        const std::uint32_t i = chain.begin + (!chain.closed ? k : k % 2 == 0 ? k / 2 : chain.count - 1 - k / 2);
+        if (!curve_.node(i).held) column_[i] = next++;
+      }
+      width_ = std::max<std::size_t>(width_, chain.closed ? 7 : 4);
+    }
+    columns_ = static_cast<std::size_t>(next);
+  }
+
+  /// The second derivative along a node and its neighbours; of a node with a tangent, on one side of it.
+  [[nodiscard]] std::optional<Affine> bend(std::uint32_t node, bool after) const {
+    Affine sum;
+    if (curve_.is_smooth(node)) {
+      const double ahead = curve_.edge_length(node);
+      const double behind = curve_.edge_length(curve_.before(node));
+      if (!(ahead > 0) || !(behind > 0)) return std::nullopt;
+      sum.add(curve_.next(node), 2 / (ahead * (ahead + behind)));
+      sum.add(curve_.before(node), 2 / (behind * (ahead + behind)));
+      sum.add(node, -2 / (ahead * behind));
+      return sum;
+    }
+    const Vector3& tangent = curve_.node(node).tangent;
+    const std::uint32_t other = after ? curve_.next(node) : curve_.before(node);
+    if (tangent.isZero(0) || other == DenseCurve::none) return std::nullopt;
+    const double edge = curve_.edge_length(after ? node : other);
+    if (!(edge > 0)) return std::nullopt;
+    sum.add(other, 2 / (edge * edge));
+    sum.add(node, -2 / (edge * edge));
+    sum.rest = (after ? -2 : 2) / edge * tangent;
+    return sum;
+  }
+
+  [[nodiscard]] Affine row_of(const CurvePoint& point) const {
+    const auto place = curve_.place_row(point.at);
+    Affine row;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (place.nodes[k] != DenseCurve::none) row.add(place.nodes[k], place.weights[k]);
+    }
+    row.rest = place.rest - point.place;
+    return row;
+  }
+
+  void add(const Affine& row, double weight) {
+    Vector3 rest = row.rest;
+    std::int32_t first = std::numeric_limits<std::int32_t>::max();
+    for (int k = 0; k < row.count; ++k) {
+      const auto n = static_cast<std::size_t>(k);
+      const std::int32_t column = column_[row.nodes[n]];
+      if (column < 0)
+        rest += row.weights[n] * curve_.place(row.nodes[n]);
+      else
+        first = std::min(first, column);
+    }
+    if (first == std::numeric_limits<std::int32_t>::max() || !(weight > 0)) return;
+    BandTriangle::Row entries{};
+    for (int k = 0; k < row.count; ++k) {
+      const auto n = static_cast<std::size_t>(k);
+      const std::int32_t column = column_[row.nodes[n]];
+      if (column >= 0) entries[static_cast<std::size_t>(column - first)] += row.weights[n];
+    }
+    rows_.push_back({static_cast<std::size_t>(first), entries, -rest, std::sqrt(weight)});
+  }
+
+  /// In the order of their first unknown.
+  void take_rows(LeastSquares& to) {
+    std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.first < b.first; });
+    for (const Row& row : rows_) to.add(row.first, row.entries, row.value, row.factor);
+    rows_.clear();
+  }
+
+  bool solve(double smoothing) {
+    LeastSquares sum(columns_, width_);
+    for (std::size_t i = 0; i < columns_; ++i) {
+      sum.add(i, fixed_.triangle.row(i), fixed_.right[i], std::sqrt(smoothing));
+      sum.add(i, data_.triangle.row(i), data_.right[i], 1);
+    }
+    places_ = std::move(sum.right);
+    sum.triangle.solve_upper(std::span(places_));
+    return std::all_of(places_.begin(), places_.end(), [](const Vector3& place) { return place.allFinite(); });
+  }
+
+  [[nodiscard]] const Vector3& found(std::uint32_t node) const {
+    return column_[node] < 0 ? curve_.place(node) : places_[static_cast<std::size_t>(column_[node])];
+  }
+
+  [[nodiscard]] bool is_sane() const {
+    double length = 0;
+    for (std::uint32_t i = 0; i < curve_.size(); ++i)
+      length += curve_.is_edge(i) ? (found(curve_.next(i)) - found(i)).norm() : 0;
+    return length <= longest * length_;
+  }
+
+  [[nodiscard]] bool is_near(double within, double rms) const {
+    double squares = 0;
+    double greatest = 0;
+    double weights = 0;
+    for (const CurvePoint& point : points_) {
+      if (!(point.weight > 0)) continue;
+      // Where the way comes back, the nearest place may be one of its other half.
+      const double square = within > 0 ? squared_residual(point) : squared_distance(point);
+      greatest = std::max(greatest, square);
+      squares += point.weight * square;
+      weights += point.weight;
+    }
+    return within > 0 ? greatest <= within * within : squares <= weights * rms * rms;
+  }
+
+  [[nodiscard]] double squared_residual(const CurvePoint& point) const {
+    const Affine row = row_of(point);
+    Vector3 away = row.rest;
+    for (int k = 0; k < row.count; ++k) {
+      const auto n = static_cast<std::size_t>(k);
+      away += row.weights[n] * found(row.nodes[n]);
+    }
+    return away.squaredNorm();
+  }
+
+  /// From the chords about its place.
+  [[nodiscard]] double squared_distance(const CurvePoint& point) const {
+    double least = std::numeric_limits<double>::infinity();
+    std::uint32_t edge = point.at.edge;
+    for (int k = 0; k < edges_about && curve_.before(edge) != DenseCurve::none; ++k) edge = curve_.before(edge);
+    for (int k = 0; k <= 2 * edges_about && curve_.is_edge(edge); ++k, edge = curve_.next(edge)) {
+      const Vector3& a = found(edge);
+      const Vector3 chord = found(curve_.next(edge)) - a;
+      const Vector3 away = point.place - a;
+      const double length = chord.squaredNorm();
+      const double share = length > 0 ? std::clamp(away.dot(chord) / length, 0.0, 1.0) : 0;
+      least = std::min(least, (away - share * chord).squaredNorm());
+    }
+    return least;
+  }
+
+  DenseCurve& curve_;
+  const std::vector<CurvePoint>& points_;
+  std::vector<std::int32_t> column_;
+  std::size_t columns_ = 0;
+  std::size_t width_ = 0;
+  struct Row {
+    std::size_t first;
+    BandTriangle::Row entries;
+    Vector3 value;
+    double factor;
+  };
+  std::vector<Row> rows_;  ///< until they are taken
+  LeastSquares fixed_{0, 1};
+  LeastSquares data_{0, 1};
+  double length_ = 0;
+  std::vector<double> counts_;  ///< what each point counts for, besides its weight
+  std::vector<Vector3> places_;
+};
+
+}  // namespace
+
+void smooth_out(DenseCurve& curve, const std::vector<CurvePoint>& points, double within, double rms) {
+  SmoothingSpline(curve, points).run(within, rms);
+}
+
+void smooth_out_by(DenseCurve& curve, const std::vector<CurvePoint>& points, double length) {
+  SmoothingSpline(curve, points).run_by(length);
+}
+
+void smooth_out_robustly(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise) {
+  SmoothingSpline(curve, points).run_robustly(noise);
+}
+
+}  // namespace vspring

@@ -1,0 +1,238 @@
+#include "fit/curve_fit_input.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/threads.hpp"
+#include "constraints/holding.hpp"
+#include "curve_fit/outliers.hpp"
+#include "points/nearest_nodes.hpp"
+#include "shape/planarity.hpp"
+#include "vspring/noise.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of a tolerance: noise is that, where only a bound is known.
+constexpr double noise_of_bound = 1.0 / 3;
+// In standard deviations.
+constexpr double outlying = 4.5;
+constexpr std::size_t most_named = 10;
+// Of the size: what lies no further from a line lies on it.
+constexpr double on_a_line = 1e-9;
+
+}  // namespace
+
+CurveFitInput::CurveFitInput(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+                             const FitOptions& options, const Context& context)
+    : curve_(curve),
+      constraints_(constraints),
+      points_(points),
+      options_(options),
+      own_nodes_(points.positions == curve.positions()),
+      counted_(points.positions.size(), own_nodes_ ? 0 : 1) {
+  if (own_nodes_) {
+    for (const auto& chain : curve.chains()) {
+      for (const Index node : chain.nodes) counted_[static_cast<std::size_t>(node)] = 1;
+    }
+  }
+  kept_ = counted_;
+  check(context);
+  make_frame();
+}
+
+bool CurveFitInput::pulls() const {
+  if (options_.weight() && *options_.weight() == 0) return false;
+  for (std::size_t j = 0; j < kept_.size(); ++j) {
+    if (kept_[j] != 0 && weight(j) > 0) return true;
+  }
+  return false;
+}
+
+void CurveFitInput::check(const Context& context) {
+  if (constraints_.node_count() != curve_.node_count()) (void)check_constraints(curve_, constraints_);
+  std::vector<std::uint8_t> pulled(static_cast<std::size_t>(curve_.node_count()), 0);
+  std::vector<Index> most(pulled.size(), 0);
+  if (own_nodes_) {
+    for (std::size_t j = 0; j < pulled.size(); ++j) {
+      pulled[j] = kept_[j] != 0 && weight(j) > 0 ? 1 : 0;
+      count_point(pulled[j] != 0 ? static_cast<Index>(j) : -1, most);
+    }
+  } else {
+    std::vector<Vector3> places = curve_.positions();
+    std::vector<std::uint8_t> usable(places.size(), 0);
+    for (const auto& chain : curve_.chains()) {
+      for (const Index node : chain.nodes) usable[static_cast<std::size_t>(node)] = 1;
+    }
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (constraints_.position_fixed(static_cast<Index>(i))) places[i] = constraints_.position(static_cast<Index>(i));
+      if (!places[i].allFinite()) usable[i] = 0;
+    }
+    ThreadTeam team(context.thread_count());
+    const std::vector<Index> nearest = nearest_nodes(points_.positions, places, usable, team);
+    for (std::size_t j = 0; j < nearest.size(); ++j) {
+      if (nearest[j] < 0 || !(weight(j) > 0)) continue;
+      pulled[static_cast<std::size_t>(nearest[j])] = 1;
+      count_point(nearest[j], most);
+    }
+  }
+  warnings_ = check_constraints(curve_, constraints_, pulled);
+}
+
+/// For what a report says of points: which node that moves each is nearest to.
+void CurveFitInput::count_point(Index node, std::vector<Index>& points_of) {
+  if (node < 0 || constraints_.position_fixed(node)) return;
+  const Index count = ++points_of[static_cast<std::size_t>(node)];
+  ++pulling_points_;
+  pulled_nodes_ += count == 1 ? 1 : 0;
+  most_points_ = std::max(most_points_, count);
+}
+
+void CurveFitInput::leave_outliers_out() {
+  const auto count = static_cast<std::size_t>(std::count(counted_.begin(), counted_.end(), 1));
+  auto most = static_cast<std::size_t>(options_.outliers * static_cast<double>(count));
+  if (own_nodes_) {
+    for (const auto& chain : curve_.chains()) {
+      std::vector<Vector3> rows;
+      for (const Index node : chain.nodes) rows.push_back(frame_.to_local(place(node)));
+      const std::vector<std::uint8_t> spikes = find_spikes(rows, chain.closed, most);
+      for (std::size_t k = 0; k < spikes.size(); ++k) {
+        const auto node = static_cast<std::size_t>(chain.nodes[k]);
+        if (spikes[k] == 0 || constraints_.position_fixed(chain.nodes[k])) continue;
+        kept_[node] = 0;
+        --most;
+      }
+    }
+    make_frame();
+  }
+  std::vector<std::pair<Index, double>> deviations = robust_deviations(task());
+  std::stable_sort(deviations.begin(), deviations.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::vector<Index> beyond;
+  for (const auto& [point, deviation] : deviations) {
+    if (!(deviation > outlying)) break;
+    if (own_nodes_ && constraints_.position_fixed(point)) continue;
+    if (most > 0) {
+      kept_[static_cast<std::size_t>(point)] = 0;
+      --most;
+    } else {
+      beyond.push_back(point);
+    }
+  }
+  if (beyond.empty()) return;
+  std::string names;
+  for (std::size_t k = 0; k < std::min(beyond.size(), most_named); ++k)
+    names += fmt::format("{}{}", k > 0 ? ", " : "", beyond[k]);
+  warnings_.push_back({WarningCode::outliers_changed,
+                       fmt::format("more points than {:g} of all seem to be off: {}{} too; leave out a larger share, "
+                                   "or correct them",
+                                   options_.outliers, names, beyond.size() > most_named ? " and others" : "")});
+}
+
+void CurveFitInput::make_frame() {
+  Eigen::AlignedBox<double, 3> box;
+  std::vector<Vector3> all;
+  for (const auto& chain : curve_.chains()) {
+    for (const Index node : chain.nodes) {
+      if (place(node).allFinite()) all.push_back(place(node));
+    }
+  }
+  for (std::size_t j = 0; j < kept_.size(); ++j) {
+    if (kept_[j] != 0 && weight(j) > 0) all.push_back(points_.positions[j]);
+  }
+  for (const Vector3& one : all) box.extend(one);
+  frame_ = Frame(box);
+  centre_ = Vector3::Zero();
+  centre_ = -frame_.to_local(Vector3::Zero()) / frame_.scale();
+  std::vector<Vector3> local;
+  for (const Vector3& one : all) local.push_back(frame_.to_local(one));
+  for (Index i = 0; i < curve_.node_count(); ++i) {
+    if (constraints_.tangent_fixed(i)) local.push_back(local.front() + constraints_.tangent(i));
+  }
+  plane_ = plane_normal(local);
+  if (!plane_) {
+    // On a line every plane will do.
+    Vector3 along = Vector3::Zero();
+    for (const Vector3& one : local) {
+      if ((one - local.front()).norm() > along.norm()) along = one - local.front();
+    }
+    double aside = 0;
+    for (const Vector3& one : local)
+      aside = std::max(aside, (one - local.front()).cross(along).norm() / std::max(along.norm(), 1e-300));
+    if (aside < on_a_line) plane_ = Vector3(along.unitOrthogonal());
+  }
+}
+
+CurveFitTask CurveFitInput::task() const {
+  CurveFitTask task;
+  const double scale = frame_.scale();
+  task.plane = plane_;
+  task.in_order = own_nodes_;
+  task.within = options_.within().value_or(0) * scale;
+  task.rms = options_.rms().value_or(0) * scale;
+  task.noise = task.within > 0 ? noise_of_bound * task.within : task.rms;
+  if (task.noise == 0) task.noise = estimate_noise(curve_).deviation * scale;
+  const auto& method = std::get<EquilibriumMethod>(options_.fair.method);
+  task.tolerance = method.tolerance;
+  double length = 0;
+  double edges = 0;
+  for (const auto& chain : curve_.chains()) {
+    auto& made = task.chains.emplace_back();
+    made.closed = chain.closed;
+    for (const Index node : chain.nodes) {
+      const auto i = static_cast<std::size_t>(node);
+      const bool held = constraints_.position_fixed(node);
+      if (own_nodes_ && kept_[i] == 0 && !held) continue;
+      ChainNode& one = made.nodes.emplace_back();
+      one.place = frame_.to_local(place(node));
+      one.held = held;
+      one.from = node;
+      if (constraints_.tangent_fixed(node)) one.tangent = constraints_.tangent(node);
+      if (constraints_.normal_fixed(node) && plane_ && one.tangent.isZero(0)) one.tangent = tangent_across(chain, node);
+      if (own_nodes_ && weight(i) > 0 && kept_[i] != 0) {
+        one.point = node;
+        one.weight = weight(i);
+        // Where the node was, wherever it is held.
+        if (held && constraints_.position(node) != curve_.position(node)) one.point = -1;
+      }
+    }
+    edges += static_cast<double>(chain.nodes.size()) - (chain.closed ? 0 : 1);
+    for (std::size_t k = 0; k + 1 < made.nodes.size(); ++k)
+      length += (made.nodes[k + 1].place - made.nodes[k].place).norm();
+  }
+  if (!own_nodes_) {
+    for (std::size_t j = 0; j < points_.positions.size(); ++j) {
+      if (kept_[j] == 0 || !(weight(j) > 0)) continue;
+      CurvePoint& point = task.scattered.emplace_back();
+      point.place = frame_.to_local(points_.positions[j]);
+      point.weight = weight(j);
+      point.number = static_cast<Index>(j);
+    }
+  }
+  if (options_.smoothing_length()) task.smoothing = *options_.smoothing_length() * scale;
+  if (options_.weight()) {
+    // k = (ℓ/λ)⁴/8 of even edges ℓ.
+    task.edges = edges;
+    task.weight = *options_.weight();
+  }
+  return task;
+}
+
+/// At right angles to a normal, in the plane, the way the chain goes.
+Vector3 CurveFitInput::tangent_across(const PolygonCurve::Chain& chain, Index node) const {
+  Vector3 tangent = plane_->cross(constraints_.normal(node)).normalized();
+  const auto at = std::find(chain.nodes.begin(), chain.nodes.end(), node) - chain.nodes.begin();
+  const auto count = static_cast<std::ptrdiff_t>(chain.nodes.size());
+  const auto wrap = [&](std::ptrdiff_t k) {
+    return static_cast<std::size_t>(chain.closed ? (k + count) % count : std::clamp<std::ptrdiff_t>(k, 0, count - 1));
+  };
+  const Vector3 way = place(chain.nodes[wrap(at + 1)]) - place(chain.nodes[wrap(at - 1)]);
+  return tangent.dot(way) < 0 ? Vector3(-tangent) : tangent;
+}
+
+}  // namespace vspring

@@ -1,0 +1,238 @@
+#include "fit/curve_nodes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "curve_fit/node_places.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of the mean edge: nodes come no nearer to each other.
+constexpr double least_edge = 1e-4;
+// Of the turn within a spacing: 45°.
+constexpr double cosine_of_sharp = 0.7;
+
+class NodePlaces {
+ public:
+  NodePlaces(const PolygonCurve& file, const CurveFound& found, NodePlacing how, std::vector<Vector3>& places)
+      : file_(file), found_(found), how_(how), input_(places), places_(places) {}
+
+  void place_chain(std::size_t c) {
+    const auto& nodes = file_.chains()[c].nodes;
+    const bool closed = file_.chains()[c].closed;
+    const auto& chain = found_.curve.chains()[c];
+    const std::vector<double> length = lengths_of(chain);
+    const double whole = length[chain.count - (closed ? 0 : 1)];
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    // Where each node wants to be; and whether it is one of the dense curve's own.
+    std::vector<double> wanted(nodes.size(), unknown);
+    std::vector<std::uint8_t> stays(nodes.size(), 0);
+    std::vector<std::ptrdiff_t> order_of(places_.size(), -1);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      order_of[static_cast<std::size_t>(nodes[k])] = static_cast<std::ptrdiff_t>(k);
+    for (const CurvePoint& point : found_.points) {
+      if (!how_.own_points || how_.even) break;
+      if (point.at.edge < chain.begin || point.at.edge >= chain.begin + chain.count) continue;
+      const std::ptrdiff_t k = order_of[static_cast<std::size_t>(point.number)];
+      if (k < 0) continue;
+      const std::uint32_t e = point.at.edge - chain.begin;
+      wanted[static_cast<std::size_t>(k)] = length[e] + point.at.share * (length[e + 1] - length[e]);
+    }
+    for (std::uint32_t e = 0; e < chain.count; ++e) {
+      const Index from = found_.curve.node(chain.begin + e).from;
+      if (from < 0) continue;
+      const auto k = static_cast<std::size_t>(order_of[static_cast<std::size_t>(from)]);
+      wanted[k] = length[e];
+      stays[k] = 1;
+    }
+    // From one that stays to the next; a closed chain without any from its first node, once around.
+    std::size_t first = 0;
+    while (first < nodes.size() && stays[first] == 0) ++first;
+    const bool free = first == nodes.size();
+    if (free) first = 0;
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < nodes.size(); ++k) order.push_back((first + k) % nodes.size());
+    if (!closed && first != 0) {
+      order.clear();
+      for (std::size_t k = 0; k < nodes.size(); ++k) order.push_back(k);
+    }
+    const double apart = least_edge * whole / static_cast<double>(nodes.size());
+    const auto put = [&](std::size_t k, double at) {
+      if (closed) at -= whole * std::floor(at / whole);
+      places_[static_cast<std::size_t>(nodes[k])] = found_.curve.at(place_at(chain, length, at));
+    };
+    if (free && closed) {
+      place_loop(nodes, wanted, whole, apart, put);
+      return;
+    }
+    std::vector<std::size_t> run;
+    double begin = 0;
+    const auto place_run = [&](double end) {
+      if (run.empty()) return;
+      const std::vector<double> at = places_between(nodes, run, wanted, begin, end, apart);
+      for (std::size_t n = 0; n < run.size(); ++n) put(run[n], at[n]);
+      run.clear();
+    };
+    bool started = false;
+    for (const std::size_t k : order) {
+      if (stays[k] == 0) {
+        run.push_back(k);
+        continue;
+      }
+      double here = wanted[k];
+      if (closed && started && here <= begin) here += whole;
+      if (started || !closed) place_run(here);
+      put(k, here);
+      begin = here;
+      started = true;
+    }
+    place_run(closed ? wanted[order.front()] + whole : whole);
+  }
+
+  /// Of nodes in a run between two lengths; those that want nothing keep their shares of the input's way.
+  [[nodiscard]] std::vector<double> places_between(const std::vector<Index>& nodes, const std::vector<std::size_t>& run,
+                                                   const std::vector<double>& wanted, double begin, double end,
+                                                   double apart) const {
+    std::vector<double> at(run.size());
+    for (std::size_t n = 0; n < run.size(); ++n) at[n] = wanted[run[n]];
+    fill(at, begin, end, nodes, run);
+    set_in_order(at, apart, begin, end);
+    return at;
+  }
+
+  /// Those that are unknown, evenly, or by the edges of the input where the distribution is kept.
+  void fill(std::vector<double>& at, double begin, double end, const std::vector<Index>& nodes,
+            const std::vector<std::size_t>& run) const {
+    // Of the input, from the node before the n-th one of the run to it.
+    const auto edge = [&](std::size_t n) {
+      if (how_.even) return 1.0;
+      const std::size_t count = nodes.size();
+      const std::size_t from = n > 0 ? run[n - 1] : (run.front() + count - 1) % count;
+      const std::size_t to = n < run.size() ? run[n] : (run.back() + 1) % count;
+      const Vector3 step = input_[static_cast<std::size_t>(nodes[to])] - input_[static_cast<std::size_t>(nodes[from])];
+      return std::max(step.norm(), 1e-300);
+    };
+    for (std::size_t n = 0; n < at.size();) {
+      if (!std::isnan(at[n])) {
+        ++n;
+        continue;
+      }
+      std::size_t last = n;
+      while (last < at.size() && std::isnan(at[last])) ++last;
+      const double from = n > 0 ? at[n - 1] : begin;
+      const double to = last < at.size() ? at[last] : end;
+      double sum = 0;
+      for (std::size_t k = n; k <= last; ++k) sum += edge(k);
+      double passed = 0;
+      for (std::size_t k = n; k < last; ++k) {
+        passed += edge(k);
+        at[k] = from + (to - from) * passed / sum;
+      }
+      n = last;
+    }
+  }
+
+  template <typename Put>
+  void place_loop(const std::vector<Index>& nodes, std::vector<double> wanted, double whole, double apart,
+                  Put put) const {
+    std::size_t begin = 0;
+    while (begin < wanted.size() && std::isnan(wanted[begin])) ++begin;
+    if (begin == wanted.size()) {
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        put(k, whole * static_cast<double>(k) / static_cast<double>(nodes.size()));
+      return;
+    }
+    std::vector<std::size_t> run;
+    std::vector<double> at;
+    double last = wanted[begin];
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const std::size_t k = (begin + n) % nodes.size();
+      run.push_back(k);
+      double here = wanted[k];
+      if (!std::isnan(here)) {
+        here += whole * std::round((last - here) / whole);
+        last = here;
+      }
+      at.push_back(here);
+    }
+    const double first = at.front();
+    // The first one stays where it wants to be; all others come once around.
+    std::vector<std::size_t> rest(run.begin() + 1, run.end());
+    std::vector<double> places(at.begin() + 1, at.end());
+    fill(places, first, first + whole, nodes, rest);
+    set_in_order(places, apart, first, first + whole);
+    put(run.front(), first);
+    for (std::size_t n = 0; n < rest.size(); ++n) put(rest[n], places[n]);
+  }
+
+  [[nodiscard]] static CurvePlace place_at(const DenseCurve::Chain& chain, const std::vector<double>& length,
+                                           double at) {
+    const std::uint32_t edges = chain.count - (chain.closed ? 0 : 1);
+    const auto above = std::upper_bound(length.begin(), length.begin() + edges, at);
+    const auto e = static_cast<std::uint32_t>(std::clamp<std::ptrdiff_t>(above - length.begin() - 1, 0, edges - 1));
+    const double edge = length[e + 1] - length[e];
+    return {chain.begin + e, edge > 0 ? std::clamp((at - length[e]) / edge, 0.0, 1.0) : 0};
+  }
+
+  /// Lengths along the dense curve up to each of the nodes of a chain.
+  [[nodiscard]] std::vector<double> lengths_of(const DenseCurve::Chain& chain) const {
+    std::vector<double> sum(chain.count + 1, 0);
+    for (std::uint32_t k = 0; k < chain.count; ++k) {
+      const std::uint32_t i = chain.begin + k;
+      sum[k + 1] = sum[k] + (found_.curve.is_edge(i) ? found_.curve.edge_length(i) : 0);
+    }
+    return sum;
+  }
+
+  const PolygonCurve& file_;
+  const CurveFound& found_;
+  NodePlacing how_;
+  const std::vector<Vector3> input_;
+  std::vector<Vector3>& places_;
+};
+
+}  // namespace
+
+void place_nodes(const PolygonCurve& file, const CurveFound& found, NodePlacing how, std::vector<Vector3>& places) {
+  NodePlaces nodes(file, found, how, places);
+  for (std::size_t c = 0; c < file.chains().size(); ++c) nodes.place_chain(c);
+}
+
+std::vector<Index> sharp_nodes(const DenseCurve& curve, const Resampling& how, double unit) {
+  double length = 0;
+  for (std::uint32_t i = 0; i < curve.size(); ++i) length += curve.is_edge(i) ? curve.edge_length(i) : 0;
+  const double spacing = how.spacing ? *how.spacing / unit : length / static_cast<double>(*how.nodes);
+  std::vector<Index> sharp;
+  for (const auto& chain : curve.chains()) {
+    double since = std::numeric_limits<double>::infinity();
+    for (std::uint32_t k = 0; k < chain.count; ++k) {
+      const std::uint32_t i = chain.begin + k;
+      if (k > 0) since += curve.edge_length(i - 1);
+      if (!curve.is_smooth(i) || curve.node(i).held || since < spacing) continue;
+      const double bent = curve.bend(i, true).curvature.norm();
+      // Half a spacing to either side.
+      std::uint32_t first = i;
+      std::uint32_t last = i;
+      bool most = true;
+      for (double way = 0; curve.before(first) != DenseCurve::none && way < spacing / 2;) {
+        first = curve.before(first);
+        way += curve.edge_length(first);
+        most = most && !(curve.bend(first, true).curvature.norm() > bent);
+      }
+      for (double way = 0; curve.is_edge(last) && way < spacing / 2;) {
+        way += curve.edge_length(last);
+        last = curve.next(last);
+        most = most && !(curve.bend(last, false).curvature.norm() > bent);
+      }
+      if (!most || !(curve.bend(first, true).tangent.dot(curve.bend(last, false).tangent) < cosine_of_sharp)) continue;
+      sharp.push_back(static_cast<Index>(i));
+      since = 0;
+    }
+  }
+  return sharp;
+}
+
+}  // namespace vspring

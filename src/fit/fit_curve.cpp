@@ -1,0 +1,406 @@
+// A fair curve is drawn to the points, with nodes of its own; then the nodes that are wanted are put on it.
+
+#include "fit/fit_curve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/cancellation.hpp"
+#include "base/progress.hpp"
+#include "base/stopwatch.hpp"
+#include "fit/curve_fit_input.hpp"
+#include "fit/curve_nodes.hpp"
+#include "fit/fit_points.hpp"
+#include "fit/fit_warnings.hpp"
+#include "vspring/error.hpp"
+#include "vspring/figures.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of the edge before or after.
+constexpr double sparse_share = 0.05;
+
+class CurveFit {
+ public:
+  CurveFit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+           const FitOptions& options, Context& context)
+      : input_(curve, constraints, points, options, context), context_(context), progress_(context) {
+    measuring_.threads = context.threads;
+  }
+
+  /// The result of fair(), where that is within the tolerance: then nothing pulls.
+  std::optional<FitResult> plain_fairing() {
+    const FitOptions& options = input_.options();
+    if (!options.tolerance() || options.outliers > 0) return std::nullopt;
+    FairResult plain;
+    try {
+      (void)check_constraints(input_.curve(), input_.constraints());
+      plain = fair(input_.curve(), input_.constraints(), options.fair, context_);
+    } catch (const Error&) {
+      // Only points hold it.
+      return std::nullopt;
+    }
+    if (plain.report.outcome != Outcome::converged) return std::nullopt;
+    PolygonCurve moved = input_.curve();
+    moved.set_positions(plain.positions);
+    if (figure(distances(moved)) > *options.tolerance()) return std::nullopt;
+    FitResult result = this->result(std::move(plain.positions), input_.curve(), input_.constraints());
+    result.report.fair = std::move(plain.report);
+    result.report.pulling_points = result.report.pulled_nodes = result.report.most_points = 0;
+    return result;
+  }
+
+  /// A curve, and the nodes that are wanted on it.
+  struct Attempt {
+    CurveFound found;
+    Resampled nodes;  ///< with the file's own chains, or new ones
+    double figure = 0;
+    CurveFigures figures = {};
+  };
+
+  /// Tells nodes of their places on the curve that was found, which goes by change of curvature in proportion to
+  /// itself, and by that alike everywhere; the fairer one is taken. False where that was cancelled.
+  template <typename Put>
+  bool find(Put put) {
+    progress_.report("preparing", 0);
+    const CancellationScope cancellation(context_);
+    std::optional<Attempt> best;
+    try {
+      if (input_.options().outliers > 0) input_.leave_outliers_out();
+      CurveFitTask task = input_.task();
+      for (const bool evenly : {false, true}) {
+        if (evenly && !input_.options().tolerance()) break;
+        task.evenly = evenly;
+        found_ = vspring::fit_curve(task, [&](double share) { progress_.report("curve", (share + evenly) / 2); });
+        Attempt attempt{found_, put()};
+        std::vector<Vector3> positions = attempt.nodes.curve.positions();
+        draw_chords_in(positions, attempt.nodes);
+        attempt.nodes.curve.set_positions(std::move(positions));
+        attempt.figure = figure(distances(attempt.nodes.curve));
+        attempt.figures = measure_curve(attempt.nodes.curve, &attempt.nodes.constraints);
+        if (!best || is_better(attempt, *best)) best = std::move(attempt);
+      }
+    } catch (const Cancelled&) {
+    }
+    if (!best) return false;
+    found_ = std::move(best->found);
+    nodes_ = std::move(best->nodes);
+    return true;
+  }
+
+  /// Those that were found.
+  [[nodiscard]] const Resampled& nodes() const { return nodes_; }
+
+  [[nodiscard]] const CurveFitInput& input() const { return input_; }
+
+  /// The file's nodes on it.
+  [[nodiscard]] Resampled own_nodes() const {
+    Resampled own{input_.curve(), input_.constraints(), {}};
+    own.curve.set_positions(positions_on_curve());
+    return own;
+  }
+
+  [[nodiscard]] std::vector<Vector3> positions_on_curve() const {
+    const PolygonCurve& curve = input_.curve();
+    const Constraints& constraints = input_.constraints();
+    const Distribution distribution = input_.options().fair.distribution.value_or(Distribution::even);
+    std::vector<Vector3> places(curve.positions().size());
+    std::vector<std::uint8_t> in_chain(places.size(), 0);
+    for (const auto& chain : curve.chains()) {
+      for (const Index i : chain.nodes) {
+        places[static_cast<std::size_t>(i)] = input_.to_local(input_.place(i));
+        in_chain[static_cast<std::size_t>(i)] = 1;
+      }
+    }
+    place_nodes(curve, found_, {.own_points = input_.own_nodes(), .even = distribution == Distribution::even}, places);
+    std::vector<Vector3> positions = curve.positions();
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const auto node = static_cast<Index>(i);
+      if (constraints.position_fixed(node))
+        positions[i] = constraints.position(node);
+      else if (in_chain[i] != 0)
+        positions[i] = input_.to_input(places[i]);
+    }
+    return positions;
+  }
+
+  /// New nodes on it, spaced as they are to be.
+  [[nodiscard]] Resampled resampled(const Resampling& how) const {
+    const Constraints& constraints = input_.constraints();
+    const DenseCurve& on = found_.curve;
+    const PolygonCurve dense = polygon();
+    Constraints held(dense.node_count());
+    for (std::uint32_t i = 0; i < on.size(); ++i) {
+      const Index from = on.node(i).from;
+      const auto node = static_cast<Index>(i);
+      if (from < 0) continue;
+      if (constraints.position_fixed(from)) held.fix_position(node, constraints.position(from));
+      if (constraints.tangent_fixed(from)) held.fix_tangent(node, constraints.tangent(from));
+      if (constraints.normal_fixed(from)) held.fix_normal(node, constraints.normal(from));
+    }
+    for (const Index node : sharp_nodes(on, how, 1 / input_.scale())) held.fix_position(node, dense.position(node));
+    Resampled made = resample(dense, held, how);
+    for (std::size_t k = 0; k < made.from.size(); ++k) {
+      Index& from = made.from[k];
+      if (from >= 0) from = on.node(static_cast<std::uint32_t>(from)).from;
+      if (from < 0 || !constraints.position_fixed(from)) made.constraints.free_position(static_cast<Index>(k));
+    }
+    return made;
+  }
+
+  /// Nodes that are far apart cut off what the curve does between them: where that is more than the tolerance allows
+  /// for, they go to where their chords are within it. Elsewhere too, if these are fairer then, as where a table is
+  /// coarse.
+  void draw_chords_in(std::vector<Vector3>& positions, const Resampled& nodes) {
+    const auto tolerance = input_.options().tolerance();
+    if (!tolerance) return;
+    const PolygonCurve& shape = nodes.curve;
+    const Constraints& constraints = nodes.constraints;
+    PolygonCurve moved = shape;
+    const double before = figure(distances(moved));
+    if (before <= *tolerance && !(input_.options().within() && are_sparse(moved))) return;
+    DenseCurve chords(true);
+    for (const auto& chain : shape.chains()) {
+      std::vector<DenseCurve::Node> along;
+      for (const Index i : chain.nodes) {
+        DenseCurve::Node& node = along.emplace_back();
+        node.place = input_.to_local(moved.position(i));
+        node.held = constraints.position_fixed(i);
+        if (constraints.tangent_fixed(i)) node.tangent = constraints.tangent(i);
+        node.from = i;
+      }
+      chords.add_chain(along, chain.closed);
+    }
+    CurveFitTask task = input_.task();
+    task.nodes = &chords;
+    task.evenly = found_.evenly;
+    task.scattered = found_.points;
+    carry_places(found_.curve, chords, task.scattered);
+    std::vector<Vector3> places;
+    const auto draw = [&] {
+      const CurveFound drawn = vspring::fit_curve(task, [](double) {});
+      places = positions;
+      for (std::uint32_t i = 0; i < drawn.curve.size(); ++i) {
+        const auto& node = drawn.curve.node(i);
+        if (!node.held) places[static_cast<std::size_t>(node.from)] = input_.to_input(node.place);
+      }
+      PolygonCurve curve = shape;
+      curve.set_positions(places);
+      return figure(distances(curve));
+    };
+    // Nodes that are the points keep the way between them; others may, if that leaves them enough room.
+    task.in_order = task.in_order && !nodes.from.empty();
+    double after = draw();
+    if (task.in_order && after > *tolerance) {
+      task.in_order = false;
+      after = draw();
+    }
+    const CurveFigures of_positions = measure_curve(moved, &constraints);
+    moved.set_positions(places);
+    const CurveFigures of_places = measure_curve(moved, &constraints);
+    const bool fairer = of_places.curvature_variation < of_positions.curvature_variation &&
+                        of_places.curvature_extrema <= of_positions.curvature_extrema &&
+                        of_places.inflections <= of_positions.inflections;
+    if (before > *tolerance ? after < before : after <= *tolerance && fairer) positions = std::move(places);
+  }
+
+  /// positions: of `shape`, which has the file's nodes or new ones.
+  FitResult result(std::vector<Vector3> positions, const PolygonCurve& shape, const Constraints& constraints) {
+    FitResult result;
+    FitReport& report = result.report;
+    FairReport& fair = report.fair;
+    fair.method = Method::equilibrium;
+    fair.threads = context_.thread_count();
+    fair.warnings = input_.warnings();
+    fair.iterations = found_.steps;
+    fair.nodes = shape.node_count();
+    for (Index i = 0; i < fair.nodes; ++i) {
+      ++(constraints.position_fixed(i) ? fair.fixed_positions : fair.moving_nodes);
+      fair.fixed_normals += constraints.normal_fixed(i) ? 1 : 0;
+      fair.fixed_tangents += constraints.tangent_fixed(i) ? 1 : 0;
+    }
+    result.positions = std::move(positions);
+    PolygonCurve moved = shape;
+    moved.set_positions(result.positions);
+    const auto& kept = input_.kept();
+    result.distances = point_distances(input_.points().positions, moved, measuring_);
+    report.before = summary(distances(input_.curve()), input_.counted());
+    report.after = summary(result.distances, kept);
+    report.points = static_cast<Index>(std::count(input_.counted().begin(), input_.counted().end(), 1));
+    report.outliers = report.points - static_cast<Index>(std::count(kept.begin(), kept.end(), 1));
+    report.pulling_points = input_.pulling_points();
+    report.pulled_nodes = input_.pulled_nodes();
+    report.most_points = input_.most_points();
+    conclude(result);
+    return result;
+  }
+
+ private:
+  [[nodiscard]] std::vector<double> distances(const PolygonCurve& from) const {
+    return point_distances(input_.points().positions, from, measuring_);
+  }
+
+  /// Within the tolerance first, then with fewer inflections, fewer extremes of curvature, less variation.
+  [[nodiscard]] bool is_better(const Attempt& a, const Attempt& b) const {
+    const double tolerance = *input_.options().tolerance();
+    const bool within = a.figure <= tolerance;
+    if (within != (b.figure <= tolerance)) return within;
+    if (a.found.converged != b.found.converged) return a.found.converged;
+    if (a.figures.inflections != b.figures.inflections) return a.figures.inflections < b.figures.inflections;
+    if (a.figures.curvature_extrema != b.figures.curvature_extrema)
+      return a.figures.curvature_extrema < b.figures.curvature_extrema;
+    return a.figures.curvature_variation < b.figures.curvature_variation;
+  }
+
+  /// What is to be within the tolerance.
+  [[nodiscard]] double figure(const std::vector<double>& distances) const {
+    const Distance all = summary(distances, input_.kept()).all;
+    return input_.options().within() ? all.greatest : all.rms;
+  }
+
+  /// Whether no edge is much shorter than those about it, and none shorter than the tolerance.
+  [[nodiscard]] bool are_sparse(const PolygonCurve& curve) const {
+    for (const auto& chain : curve.chains()) {
+      const std::size_t count = chain.nodes.size();
+      double before = 0;
+      for (std::size_t k = 0; k + 1 < count + (chain.closed ? 1 : 0); ++k) {
+        const double edge = (curve.position(chain.nodes[(k + 1) % count]) - curve.position(chain.nodes[k])).norm();
+        if (edge < *input_.options().within() || edge < sparse_share * before ||
+            before < sparse_share * edge * (k > 0 ? 1 : 0))
+          return false;
+        before = edge;
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] PolygonCurve polygon() const {
+    const Constraints& constraints = input_.constraints();
+    std::vector<Vector3> places;
+    std::vector<PolygonCurve::Chain> chains;
+    for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
+      const auto& node = found_.curve.node(i);
+      const bool held = node.from >= 0 && constraints.position_fixed(node.from);
+      places.push_back(held ? constraints.position(node.from) : input_.to_input(node.place));
+    }
+    for (const auto& chain : found_.curve.chains()) {
+      auto& made = chains.emplace_back();
+      made.closed = chain.closed;
+      for (std::uint32_t k = 0; k < chain.count; ++k) made.nodes.push_back(static_cast<Index>(chain.begin + k));
+    }
+    return {std::move(places), std::move(chains)};
+  }
+
+  void conclude(FitResult& result) const {
+    FitReport& report = result.report;
+    FairReport& fair = report.fair;
+    if (context_.cancelled()) {
+      fair.outcome = Outcome::cancelled;
+      return;
+    }
+    fair.outcome = found_.converged ? Outcome::converged : Outcome::work_limit;
+    fair.expected_error = found_.error;
+    fair.residual = found_.error;
+    fair.levels.push_back({.moving_nodes = static_cast<Index>(found_.curve.size()),
+                           .iterations = found_.steps,
+                           .outcome = fair.outcome,
+                           .strategy = "curve through points",
+                           .seconds = 0});
+    const auto& options = input_.options();
+    const auto tolerance = options.tolerance();
+    if (!tolerance) {
+      report.smoothing_length = found_.smoothing / input_.scale();
+      warn_if_left_behind(report, input_.points().positions);
+      return;
+    }
+    const auto& kept = input_.kept();
+    for (std::size_t j = 0; j < kept.size(); ++j)
+      report.outside_points += kept[j] != 0 && result.distances[j] > *tolerance ? 1 : 0;
+    if (options.within()) report.active_points = active_points(result.distances, kept, *tolerance);
+    if (figure(result.distances) > *tolerance) {
+      fair.outcome = Outcome::stalled;
+      fair.warnings.push_back({WarningCode::outside_tolerance,
+                               fmt::format("no shape within {:g} was found: this is the nearest; points lie at what is "
+                                           "held, or edges are too long",
+                                           *tolerance)});
+    } else if (!found_.converged) {
+      fair.warnings.push_back(
+          {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest"});
+    }
+  }
+
+  CurveFitInput input_;
+  Context& context_;
+  Context measuring_;  // after somebody has cancelled, too
+  ProgressReporter progress_;
+  CurveFound found_;
+  Resampled nodes_{.curve = {}, .constraints = Constraints(0), .from = {}};
+};
+
+/// As they came, where they are held.
+std::vector<Vector3> unchanged(const CurveFitInput& input) {
+  std::vector<Vector3> positions = input.curve().positions();
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = input.place(static_cast<Index>(i));
+  return positions;
+}
+
+}  // namespace
+
+FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+                    const FitOptions& options, Context& context) {
+  const Stopwatch stopwatch;
+  CurveFit run(curve, constraints, points, options, context);
+  if (!run.input().pulls()) {
+    FairResult plain = fair(curve, constraints, options.fair, context);
+    FitResult result = run.result(std::move(plain.positions), curve, constraints);
+    result.report.fair = std::move(plain.report);
+    return result;
+  }
+  if (auto plain = run.plain_fairing()) return *std::move(plain);
+  std::vector<Vector3> positions;
+  if (run.find([&] { return run.own_nodes(); })) {
+    positions = run.nodes().curve.positions();
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      if (options.fair.strength < 1 && !constraints.position_fixed(static_cast<Index>(i)))
+        positions[i] = curve.positions()[i] + options.fair.strength * (positions[i] - curve.positions()[i]);
+    }
+  } else {
+    positions = unchanged(run.input());
+  }
+  FitResult result = run.result(std::move(positions), curve, constraints);
+  FairReport& fair = result.report.fair;
+  double squares = 0;
+  for (std::size_t i = 0; i < result.positions.size(); ++i) {
+    if (constraints.position_fixed(static_cast<Index>(i))) continue;
+    const double move = (result.positions[i] - curve.positions()[i]).norm();
+    fair.greatest_move = std::max(fair.greatest_move, move);
+    squares += move * move;
+  }
+  fair.rms_move = std::sqrt(squares / std::max<double>(1, fair.moving_nodes));
+  fair.seconds = stopwatch.seconds();
+  return result;
+}
+
+ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,
+                                 const FitOptions& options, Context& context) {
+  const Stopwatch stopwatch;
+  const ScatteredPoints points{.positions = curve.positions()};
+  ResampledFit made{resample(curve, constraints, how), {}};
+  CurveFit run(curve, constraints, points, options, context);
+  if (run.input().pulls() && run.find([&] { return run.resampled(how); })) made.resampled = run.nodes();
+  made.fit = run.result(made.resampled.curve.positions(), made.resampled.curve, made.resampled.constraints);
+  FairReport& fair = made.fit.report.fair;
+  const Distance moves = distance(made.fit.positions, curve);
+  fair.greatest_move = moves.greatest;
+  fair.rms_move = moves.rms;
+  fair.seconds = stopwatch.seconds();
+  return made;
+}
+
+}  // namespace vspring

@@ -1,0 +1,333 @@
+#include "linear/ball_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+
+#include "base/cancellation.hpp"
+#include "linear/band_triangle.hpp"
+
+namespace vspring {
+
+namespace {
+
+constexpr int most_steps = 40;
+// Of the objective.
+constexpr double enough_gap = 1e-6;
+constexpr double next_to_nothing_left = 1e-9;
+// Of the bounds.
+constexpr double enough_miss = 1e-6;
+// Of the gradient of the objective at the start.
+constexpr double enough_balance = 1e-6;
+// Of half a bound.
+constexpr double first_slack = 0.1;
+constexpr double first_gap = 0.1;
+// Of the objective.
+constexpr double hopeless_gap = 1e4;
+// Of the way to where a slack or a multiplier vanishes.
+constexpr double share_to_bound = 0.99;
+// Of the greatest entry: so that no unknown is left without a row.
+constexpr double least_diagonal = 1e-12;
+
+template <int K>
+class InteriorPoint {
+  using Row = typename BallProgram<K>::Row;
+  using Value = Eigen::Matrix<double, K, 1>;
+  using Local = Eigen::Matrix<double, 4 * K, 1>;
+
+  /// What a bounded row has.
+  struct Bound {
+    std::size_t row;
+    double slack = 0;
+    double multiplier = 0;
+    double slack_step = 0;
+    double multiplier_step = 0;
+    double target = 0;  ///< of slack · multiplier, less what the predictor makes of both steps
+    double bend = 0;    ///< what the predictor leaves of the bound, as that is not linear
+  };
+
+ public:
+  explicit InteriorPoint(const BallProgram<K>& program)
+      : program_(program),
+        x_(program.blocks * K, 0),
+        step_(x_.size()),
+        gradient_(x_.size()),
+        values_(program.rows.size()),
+        objective_triangle_(x_.size(), width_of(program)),
+        triangle_(x_.size(), width_of(program)) {
+    for (std::size_t r = 0; r < program.rows.size(); ++r) {
+      if (program.rows[r].bound > 0) bounds_.push_back({r});
+    }
+  }
+
+  BallSolution run() {
+    BallSolution result;
+    begin();
+    begin_triangle();
+    for (; result.steps < most_steps; ++result.steps) {
+      end_if_cancelled();
+      find_gradient();
+      const double gap = this->gap();
+      if (is_done(gap)) {
+        result.found = true;
+        break;
+      }
+      // Multipliers that grow so far have no bounds to go to.
+      if (!(gap <= hopeless_gap * objective_)) break;
+      factor();
+      for (Bound& bound : bounds_) bound.target = bound.bend = 0;
+      find_step();
+      if (!bounds_.empty()) {
+        // The predictor goes straight for the optimum; what it finds tells how far to aim.
+        const double ahead = std::min(1.0, share_of_step());
+        double after = 0;
+        for (const Bound& bound : bounds_)
+          after += (bound.slack + ahead * bound.slack_step) * (bound.multiplier + ahead * bound.multiplier_step);
+        const double centre = gap > 0 ? std::pow(after / gap, 3) * gap / static_cast<double>(bounds_.size()) : 0;
+        for (Bound& bound : bounds_) {
+          const Row& row = program_.rows[bound.row];
+          bound.target = centre - bound.slack_step * bound.multiplier_step;
+          bound.bend = change(row).squaredNorm() / (2 * row.bound);
+        }
+        find_step();
+      }
+      const double share = bounds_.empty() ? 1 : std::min(1.0, share_to_bound * share_of_step());
+      for (std::size_t i = 0; i < x_.size(); ++i) x_[i] += share * step_[i];
+      for (Bound& bound : bounds_) {
+        bound.slack += share * bound.slack_step;
+        bound.multiplier += share * bound.multiplier_step;
+      }
+      find_values();
+    }
+    result.x = x_;
+    result.multipliers.assign(program_.rows.size(), 0);
+    for (const Bound& bound : bounds_) result.multipliers[bound.row] = bound.multiplier;
+    return result;
+  }
+
+ private:
+  static std::size_t width_of(const BallProgram<K>& program) {
+    std::int32_t width = 0;
+    for (const auto& window : program.windows) {
+      for (const std::int32_t a : window) {
+        for (const std::int32_t b : window) {
+          if (a >= 0 && b >= 0) width = std::max(width, a - b);
+        }
+      }
+    }
+    return static_cast<std::size_t>(K) * (static_cast<std::size_t>(width) + 1);
+  }
+
+  void begin() {
+    find_values();
+    double objective = 0;
+    for (std::size_t r = 0; r < values_.size(); ++r) objective += program_.rows[r].weight * values_[r].squaredNorm();
+    const double target = first_gap * objective / static_cast<double>(std::max<std::size_t>(bounds_.size(), 1));
+    for (Bound& bound : bounds_) {
+      bound.slack = std::max(-excess(bound), first_slack * program_.rows[bound.row].bound / 2);
+      bound.multiplier = target / bound.slack;
+    }
+  }
+
+  [[nodiscard]] Value product(const Row& row, const std::vector<double>& x) const {
+    Value sum = Value::Zero();
+    const auto& window = program_.windows[row.window];
+    for (int b = 0; b < 4; ++b) {
+      if (window[b] < 0) continue;
+      const auto first = static_cast<std::size_t>(window[b]) * K;
+      for (int k = 0; k < K; ++k) sum += row.entries.col(b * K + k) * x[first + k];
+    }
+    return sum;
+  }
+
+  [[nodiscard]] Value change(const Row& row) const { return product(row, step_); }
+
+  void find_values() {
+    for (std::size_t r = 0; r < values_.size(); ++r)
+      values_[r] = program_.rows[r].offset + product(program_.rows[r], x_);
+  }
+
+  /// (|value|² − bound²) / (2 bound): what is to be negative.
+  [[nodiscard]] double excess(const Bound& bound) const {
+    const double most = program_.rows[bound.row].bound;
+    return (values_[bound.row].squaredNorm() - most * most) / (2 * most);
+  }
+
+  /// Its slope by the value.
+  [[nodiscard]] Value slope(const Bound& bound) const { return values_[bound.row] / program_.rows[bound.row].bound; }
+
+  void add_to(std::vector<double>& right, const Row& row, const Value& factor) const {
+    const Local product = row.entries.transpose() * factor;
+    const auto& window = program_.windows[row.window];
+    for (int b = 0; b < 4; ++b) {
+      if (window[b] < 0) continue;
+      for (int k = 0; k < K; ++k) right[static_cast<std::size_t>(window[b]) * K + k] += product[b * K + k];
+    }
+  }
+
+  /// Of the Lagrangian; and its size without the bounds.
+  void find_gradient() {
+    std::fill(gradient_.begin(), gradient_.end(), 0);
+    objective_ = 0;
+    for (std::size_t r = 0; r < values_.size(); ++r) {
+      const Row& row = program_.rows[r];
+      if (row.weight == 0) continue;
+      add_to(gradient_, row, row.weight * values_[r]);
+      objective_ += row.weight * values_[r].squaredNorm();
+    }
+    for (const double one : gradient_) size_ = std::max(size_, std::abs(one));
+    for (const Bound& bound : bounds_) add_to(gradient_, program_.rows[bound.row], bound.multiplier * slope(bound));
+  }
+
+  [[nodiscard]] double gap() const {
+    double sum = 0;
+    for (const Bound& bound : bounds_) sum += bound.slack * bound.multiplier;
+    return sum;
+  }
+
+  [[nodiscard]] bool is_done(double gap) {
+    double left = 0;
+    for (const double one : gradient_) left = std::max(left, std::abs(one));
+    if (!(left <= enough_balance * size_)) return false;
+    first_objective_ = std::max(first_objective_, objective_);
+    if (!(gap <= enough_gap * std::max(objective_, next_to_nothing_left * first_objective_))) return false;
+    return std::all_of(bounds_.begin(), bounds_.end(), [&](const Bound& bound) {
+      return excess(bound) <= enough_miss * program_.rows[bound.row].bound;
+    });
+  }
+
+  /// Rows of the objective stay the same from step to step.
+  void begin_triangle() {
+    double greatest = 0;
+    std::vector<std::size_t> order;
+    for (std::size_t r = 0; r < program_.rows.size(); ++r) {
+      const Row& row = program_.rows[r];
+      if (!(row.weight > 0)) continue;
+      greatest = std::max(greatest, std::sqrt(row.weight) * row.entries.cwiseAbs().maxCoeff());
+      order.push_back(r);
+    }
+    objective_triangle_.clear(least_diagonal * greatest);
+    sort_by_first(order, [](std::size_t r) { return r; });
+    for (const std::size_t r : order) add(objective_triangle_, program_.rows[r], std::sqrt(program_.rows[r].weight));
+    bound_order_.resize(bounds_.size());
+    std::iota(bound_order_.begin(), bound_order_.end(), std::size_t{0});
+    sort_by_first(bound_order_, [&](std::size_t k) { return bounds_[k].row; });
+  }
+
+  /// In the order of their first unknown rows take few rotations each.
+  template <typename RowOf>
+  void sort_by_first(std::vector<std::size_t>& order, RowOf row_of) const {
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return first_block(program_.rows[row_of(a)]) < first_block(program_.rows[row_of(b)]);
+    });
+  }
+
+  [[nodiscard]] std::size_t first_block(const Row& row) const {
+    std::size_t first = program_.blocks;
+    for (const std::int32_t block : program_.windows[row.window]) {
+      if (block >= 0) first = std::min(first, static_cast<std::size_t>(block));
+    }
+    return first;
+  }
+
+  void factor() {
+    triangle_.clear(0);
+    std::size_t next = 0;
+    for (std::size_t column = 0; column < triangle_.size(); ++column) {
+      triangle_.add(column, objective_triangle_.row(column), 1);
+      if (column % K != 0) continue;
+      for (; next < bound_order_.size(); ++next) {
+        const Bound& bound = bounds_[bound_order_[next]];
+        if (first_block(program_.rows[bound.row]) * K > column) break;
+        add(bound);
+      }
+    }
+  }
+
+  void add(const Bound& bound) {
+    const Row& row = program_.rows[bound.row];
+    const Value across = slope(bound);
+    const auto& window = program_.windows[row.window];
+    const double alike = bound.multiplier / row.bound;
+    const double steep = bound.multiplier / bound.slack;
+    if constexpr (K == 1) {
+      // Both are multiples of the same row.
+      add_row(triangle_, window, row.entries, std::sqrt(alike + steep * across.squaredNorm()));
+    } else {
+      add(triangle_, row, std::sqrt(alike));
+      add_row(triangle_, window, across.transpose() * row.entries, std::sqrt(steep));
+    }
+  }
+
+  void add(BandTriangle& triangle, const Row& row, double factor) const {
+    for (int k = 0; k < K; ++k) add_row(triangle, program_.windows[row.window], row.entries.row(k), factor);
+  }
+
+  void add_row(BandTriangle& triangle, const typename BallProgram<K>::Window& window,
+               const Eigen::Matrix<double, 1, 4 * K>& entries, double factor) const {
+    std::int32_t first = std::numeric_limits<std::int32_t>::max();
+    for (const std::int32_t block : window) {
+      if (block >= 0) first = std::min(first, block);
+    }
+    if (first == std::numeric_limits<std::int32_t>::max() || !(factor > 0)) return;
+    BandTriangle::Row row{};
+    for (int b = 0; b < 4; ++b) {
+      const std::int32_t block = window[static_cast<std::size_t>(b)];
+      if (block < 0) continue;
+      for (int k = 0; k < K; ++k) row[static_cast<std::size_t>((block - first) * K + k)] += entries[b * K + k];
+    }
+    triangle.add(static_cast<std::size_t>(first) * K, row, factor);
+  }
+
+  void find_step() {
+    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
+    for (const Bound& bound : bounds_) {
+      const double miss = excess(bound) + bound.slack + bound.bend;
+      const double pull = bound.target / bound.slack - bound.multiplier + bound.multiplier / bound.slack * miss;
+      add_to(step_, program_.rows[bound.row], -pull * slope(bound));
+    }
+    triangle_.solve(std::span(step_));
+    for (Bound& bound : bounds_) {
+      const double rise = slope(bound).dot(change(program_.rows[bound.row]));
+      bound.slack_step = -(excess(bound) + bound.slack + bound.bend) - rise;
+      bound.multiplier_step =
+          bound.target / bound.slack - bound.multiplier - bound.multiplier / bound.slack * bound.slack_step;
+    }
+  }
+
+  [[nodiscard]] double share_of_step() const {
+    double share = 1 / share_to_bound;
+    for (const Bound& bound : bounds_) {
+      if (bound.slack_step < 0) share = std::min(share, -bound.slack / bound.slack_step);
+      if (bound.multiplier_step < 0) share = std::min(share, -bound.multiplier / bound.multiplier_step);
+    }
+    return share;
+  }
+
+  const BallProgram<K>& program_;
+  std::vector<double> x_;
+  std::vector<double> step_;
+  std::vector<double> gradient_;
+  std::vector<Value> values_;
+  std::vector<Bound> bounds_;
+  std::vector<std::size_t> bound_order_;  // by their first unknown
+  BandTriangle objective_triangle_;
+  BandTriangle triangle_;
+  double objective_ = 0;
+  double first_objective_ = 0;
+  double size_ = 0;
+};
+
+}  // namespace
+
+template <int K>
+BallSolution solve(const BallProgram<K>& program) {
+  return InteriorPoint<K>(program).run();
+}
+
+template BallSolution solve<1>(const BallProgram<1>&);
+template BallSolution solve<2>(const BallProgram<2>&);
+
+}  // namespace vspring

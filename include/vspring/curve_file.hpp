@@ -45,7 +45,8 @@ struct CurveFile {
 /// OBJ: `l` elements, several curves in one file, segments in any order (chains_of_segments()); nodes are all `v`, in
 /// file order; a segment given twice counts once. CSV: one node per row, 2 or 3 columns x, y[, z], separated by commas,
 /// semicolons, tabs or spaces: those that a header names, with or without units, else the first that hold numbers;
-/// refused where they cannot be told from other columns. An empty row begins another chain. XYZ: the same without
+/// refused where they cannot be told from other columns. Numbers may have decimal commas where semicolons, tabs or
+/// quotes part them, and are written so again. An empty row begins another chain. XYZ: the same without
 /// header, separated by white space. DAT: aerofoils as Selig (name, then x y around from the trailing edge) or Lednicer
 /// (name, numbers of points of upper and lower side, each from the leading edge on) arranged them. Lednicer's become
 /// one chain from the trailing edge over the upper side and back; the leading edge is one node where both sides give

@@ -44,9 +44,9 @@ std::vector<TableLine> first_rows(std::string_view bytes) {
   return rows;
 }
 
-std::size_t count_numbers(const Cells& cells) {
-  return static_cast<std::size_t>(
-      std::count_if(cells.begin(), cells.end(), [](std::string_view cell) { return number_of(cell).has_value(); }));
+std::size_t count_numbers(const Cells& cells, char decimal_mark) {
+  const auto is_number = [&](std::string_view cell) { return number_of(cell, decimal_mark).has_value(); };
+  return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), is_number));
 }
 
 /// "1,5;2,5" cut at its commas leaves "5;2" in the middle.
@@ -59,29 +59,68 @@ bool is_two_numbers(std::string_view cell) {
 
 constexpr std::array delimiters = {';', '\t', ',', ' '};
 
-/// The delimiter that leaves two numbers in most rows; the first of them where several do.
+/// What a delimiter and a decimal mark make of rows.
+struct TriedCutter {
+  CellCutter cutter;
+  std::size_t numbers = 0;
+  std::size_t fitting = 0;  ///< rows of two numbers or more
+};
+
+TriedCutter try_cutter(const std::vector<TableLine>& rows, char delimiter, char decimal_mark) {
+  TriedCutter tried{{delimiter, true, decimal_mark}};
+  for (const TableLine& row : rows) {
+    const std::size_t numbers = count_numbers(tried.cutter.cut(row.text), decimal_mark);
+    tried.numbers += numbers;
+    if (numbers > 1) ++tried.fitting;
+  }
+  return tried;
+}
+
+/// Whether the first row with a number that is none with the other decimal mark has a comma. The first rows of a table
+/// may be whole numbers alone.
+bool has_commas_below(std::string_view bytes, CellCutter cutter) {
+  bool commas = false;
+  walk_lines(bytes, [&](const TableLine& line) {
+    if (line.kind != TableLine::Kind::row) return true;
+    const Cells& cells = cutter.cut(line.text);
+    const std::size_t with_points = count_numbers(cells, '.');
+    const std::size_t with_commas = count_numbers(cells, ',');
+    commas = with_commas > with_points;
+    return with_commas == with_points;
+  });
+  return commas;
+}
+
+/// The delimiter that leaves two numbers in most rows; the first of them where several do. Decimal commas where they
+/// leave more numbers than points.
 CellCutter find_cutter(const InputFile& file, const std::vector<TableLine>& rows) {
-  char best = ' ';
-  std::size_t most = 0;
+  TriedCutter best{{' ', true}};
+  bool whole = false;
+  char cuts = ' ';
   for (const char delimiter : delimiters) {
-    CellCutter cutter(delimiter, true);
-    const auto fitting = static_cast<std::size_t>(std::count_if(
-        rows.begin(), rows.end(), [&](const TableLine& row) { return count_numbers(cutter.cut(row.text)) > 1; }));
-    if (fitting <= most) continue;
-    most = fitting;
-    best = delimiter;
+    TriedCutter tried = try_cutter(rows, delimiter, '.');
+    const TriedCutter with_commas = try_cutter(rows, delimiter, delimiter == ' ' ? '.' : ',');
+    const bool same = tried.numbers == with_commas.numbers;
+    if (with_commas.numbers > tried.numbers) tried = with_commas;
+    if (tried.fitting <= best.fitting) continue;
+    best = tried;
+    whole = same;
+    cuts = delimiter;
   }
-  // With decimal commas no delimiter leaves numbers, or the commas themselves do.
-  for (const char delimiter : delimiters) {
-    if (most > 0 && (delimiter != ',' || best != ',')) continue;
-    CellCutter cutter(delimiter, true);
-    for (const TableLine& row : rows) {
-      const Cells& cells = cutter.cut(row.text);
-      if (std::any_of(cells.begin(), cells.end(), most > 0 ? is_two_numbers : has_decimal_comma))
-        file.refuse_line(row.offset, "its numbers have decimal commas; write decimal points");
-    }
+  // Between blanks the program would have to guess which commas are decimal ones: then no delimiter leaves numbers, or
+  // the commas themselves do.
+  for (const TableLine& row : rows) {
+    if (best.fitting > 0 && cuts != ',') break;
+    const Cells& cells = best.cutter.cut(row.text);
+    if (std::any_of(cells.begin(), cells.end(), best.fitting > 0 ? is_two_numbers : has_decimal_comma))
+      file.refuse_line(row.offset,
+                       "its numbers have decimal commas, and blanks between them; write decimal points, or "
+                       "semicolons in place of the blanks");
   }
-  return {best, true};
+  const bool may_have_commas =
+      cuts == ';' || cuts == '\t' || (cuts == ',' && file.bytes.find('"') != std::string::npos);
+  if (whole && may_have_commas && has_commas_below(file.bytes, best.cutter)) return {cuts, true, ','};
+  return best.cutter;
 }
 
 std::optional<std::size_t> weight_column(const Cells& header) {
@@ -115,10 +154,10 @@ Cells with_units(const Cells& cells) {
   return header;
 }
 
-std::vector<std::size_t> number_columns(const Cells& cells) {
+std::vector<std::size_t> number_columns(const Cells& cells, char decimal_mark) {
   std::vector<std::size_t> columns;
   for (std::size_t column = 0; column < cells.size(); ++column) {
-    if (number_of(cells[column])) columns.push_back(column);
+    if (number_of(cells[column], decimal_mark)) columns.push_back(column);
   }
   return columns;
 }
@@ -130,7 +169,8 @@ bool counts_rows(std::span<const TableLine> rows, CellCutter cutter, std::size_t
   double first = 0;
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const Cells& cells = cutter.cut(rows[row].text);
-    const std::optional<double> number = column < cells.size() ? number_of(cells[column]) : std::nullopt;
+    const std::optional<double> number =
+        column < cells.size() ? number_of(cells[column], cutter.decimal_mark()) : std::nullopt;
     if (row == 0) first = number.value_or(-1);
     if (number != first + static_cast<double>(row)) return false;
   }
@@ -146,7 +186,7 @@ std::string numbers_of(std::span<const std::size_t> columns, const char* between
 
 /// Takes the first two or three columns of numbers for coordinates, where nothing speaks against it.
 void guess_columns(const InputFile& file, std::span<const TableLine> rows, CsvLayout& layout) {
-  std::vector<std::size_t> columns = number_columns(layout.cutter.cut(rows.front().text));
+  std::vector<std::size_t> columns = number_columns(layout.cutter.cut(rows.front().text), layout.cutter.decimal_mark());
   if (columns.size() > 3)
     std::erase_if(columns, [&](std::size_t column) {
       return column == layout.weight || std::count(layout.normal.begin(), layout.normal.end(), column) > 0;
@@ -176,18 +216,22 @@ void guess_columns(const InputFile& file, std::span<const TableLine> rows, CsvLa
 }
 
 /// Whether the first row is a header, with columns that were chosen.
-bool is_header(const Cells& first, const std::vector<std::size_t>& columns, const ColumnChoice& choice) {
+bool is_header(const Cells& first, char decimal_mark, const std::vector<std::size_t>& columns,
+               const ColumnChoice& choice) {
   const auto is_name = [](const std::string& chosen) { return !number_of(chosen); };
-  const auto holds_number = [&](std::size_t column) { return column < first.size() && number_of(first[column]); };
+  const auto holds_number = [&](std::size_t column) {
+    return column < first.size() && number_of(first[column], decimal_mark);
+  };
   const auto is_there = [&](std::size_t column) { return column < first.size(); };
   if (std::any_of(choice.begin(), choice.end(), is_name)) return true;
   if (std::any_of(columns.begin(), columns.end(), holds_number)) return false;
-  return count_numbers(first) == 0 || std::any_of(columns.begin(), columns.end(), is_there);
+  return count_numbers(first, decimal_mark) == 0 || std::any_of(columns.begin(), columns.end(), is_there);
 }
 
 /// Below names, above numbers: "mm,mm".
 bool is_row_of_units(CellCutter cutter, const TableLine& row, const TableLine& next) {
-  return count_numbers(cutter.cut(row.text)) == 0 && count_numbers(cutter.cut(next.text)) > 1;
+  const char mark = cutter.decimal_mark();
+  return count_numbers(cutter.cut(row.text), mark) == 0 && count_numbers(cutter.cut(next.text), mark) > 1;
 }
 
 CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
@@ -207,7 +251,9 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
     layout.columns = chosen_columns(file, first, offset, choice);
   if (!named.doubt.empty())
     file.refuse_line(offset, named.doubt + "; rename one, or choose columns by number, such as 2,3");
-  if (choice.empty() ? !named.columns.empty() || count_numbers(first) == 0 : is_header(first, layout.columns, choice)) {
+  const char mark = layout.cutter.decimal_mark();
+  if (choice.empty() ? !named.columns.empty() || count_numbers(first, mark) == 0
+                     : is_header(first, mark, layout.columns, choice)) {
     layout.header = offset;
     layout.weight = weight_column(first);
     layout.normal = normal_columns(first);

@@ -81,19 +81,15 @@ const std::vector<std::string_view>& CellCutter::cut(std::string_view row) {
   }
 }
 
-std::optional<double> number_of(std::string_view cell) {
+std::optional<double> number_of(std::string_view cell, char decimal_mark) {
   double value = 0;
   const char* const end = cell.data() + cell.size();
-  if (cell.empty() || parse_number(cell.data(), end, value) != end) return std::nullopt;
+  if (cell.empty() || parse_number(cell.data(), end, value, decimal_mark) != end) return std::nullopt;
   return value;
 }
 
 bool has_decimal_comma(std::string_view cell) {
-  const std::size_t comma = cell.find(',');
-  if (comma == std::string_view::npos) return false;
-  std::string pointed(cell);
-  pointed[comma] = '.';
-  return number_of(pointed).has_value();
+  return cell.find(',') != std::string_view::npos && number_of(cell, ',').has_value();
 }
 
 std::string TableSource::rewritten(const std::vector<Vector3>& places, const std::vector<std::uint8_t>& moved) const {
@@ -114,6 +110,7 @@ std::string TableSource::rewritten(const std::vector<Vector3>& places, const std
       const auto begin = static_cast<std::size_t>(cell.data() - file.bytes.data());
       number.clear();
       append_number(number, places[node][static_cast<Eigen::Index>(k)]);
+      std::replace(number.begin(), number.end(), '.', cutter.decimal_mark());
       out.replace(begin, begin + cell.size(), number);
     }
   }
@@ -121,17 +118,19 @@ std::string TableSource::rewritten(const std::vector<Vector3>& places, const std
 }
 
 double number_in(const InputFile& file, const TableLine& line, std::span<const std::string_view> cells,
-                 std::size_t column, std::string_view name) {
+                 std::size_t column, std::string_view name, char decimal_mark) {
   if (column >= cells.size()) {
     const bool at_end = line.offset + line.text.size() == file.bytes.size();
     file.refuse_line(line.offset, at_end ? fmt::format("the file ends where {} belongs; it is cut off", name)
                                          : fmt::format("the line ends where {} belongs; repair the line", name));
   }
   const std::string_view cell = cells[column];
-  if (const std::optional<double> value = number_of(cell)) return *value;
-  file.refuse_line(line.offset,
-                   fmt::format("{} stands where {} belongs; {}", cell.empty() ? "nothing" : in_quotes(cell), name,
-                               has_decimal_comma(cell) ? "write decimal points, not commas" : "repair the line"));
+  if (const std::optional<double> value = number_of(cell, decimal_mark)) return *value;
+  const char* advice = "repair the line";
+  if (decimal_mark == '.' && has_decimal_comma(cell)) advice = "write decimal points, not commas";
+  if (decimal_mark == ',' && number_of(cell)) advice = "write a decimal comma, as other rows do";
+  file.refuse_line(line.offset, fmt::format("{} stands where {} belongs; {}",
+                                            cell.empty() ? "nothing" : in_quotes(cell), name, advice));
 }
 
 TableReader::TableReader(const InputFile& file, CellCutter cutter, std::vector<std::size_t> columns) : file_(file) {
@@ -157,7 +156,8 @@ Vector3 TableReader::position_in(const TableLine& line) {
   constexpr std::array names = {"x", "y", "z"};
   Vector3 position = Vector3::Zero();
   for (std::size_t k = 0; k < source_->columns.size(); ++k)
-    position[static_cast<Eigen::Index>(k)] = number_in(file_, line, cells, source_->columns[k], names[k]);
+    position[static_cast<Eigen::Index>(k)] =
+        number_in(file_, line, cells, source_->columns[k], names[k], source_->cutter.decimal_mark());
   if (cells.size() > source_->columns.size()) carry("other columns");
   return position;
 }
@@ -203,13 +203,14 @@ ScatteredPoints read_point_rows(const InputFile& file, CellCutter cutter, const 
     const auto vector_in = [&](const std::vector<std::size_t>& of, const std::array<const char*, 3>& named) {
       Vector3 vector = Vector3::Zero();
       for (std::size_t k = 0; k < of.size(); ++k)
-        vector[static_cast<Eigen::Index>(k)] = number_in(file, line, cells, of[k], named[k]);
+        vector[static_cast<Eigen::Index>(k)] = number_in(file, line, cells, of[k], named[k], cutter.decimal_mark());
       return vector;
     };
     points.positions.push_back(vector_in(columns.coordinates, names));
     if (!columns.normal.empty()) points.normals.push_back(vector_in(columns.normal, normal_names));
     if (!columns.weight) return true;
-    const double weight = points.weights.emplace_back(number_in(file, line, cells, *columns.weight, "the weight"));
+    const double weight =
+        points.weights.emplace_back(number_in(file, line, cells, *columns.weight, "the weight", cutter.decimal_mark()));
     if (!is_point_weight(weight))
       file.refuse_line(line.offset, fmt::format("the weight is {}; give 0 or more", weight));
     return true;

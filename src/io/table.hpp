@@ -45,16 +45,18 @@ void walk_lines(std::string_view bytes, const Use& use) {
 /// All lines of a file, without a byte order mark.
 std::vector<TableLine> table_lines(std::string_view bytes);
 
-/// Cuts rows into cells.
+/// Cuts rows into cells, and says how numbers are written in them.
 class CellCutter {
  public:
   /// delimiter: what stands between two cells; a blank stands for any run of blanks. quotes: a cell may stand in
-  /// quotes, and delimiters in them.
-  CellCutter(char delimiter, bool quotes) : delimiter_(delimiter), quotes_(quotes) {}
+  /// quotes, and delimiters in them. decimal_mark: a point or a comma.
+  CellCutter(char delimiter, bool quotes, char decimal_mark = '.')
+      : delimiter_(delimiter), quotes_(quotes), decimal_mark_(decimal_mark) {}
 
   /// The cells of a row, without the blanks and quotes around them; valid until the next call.
   const std::vector<std::string_view>& cut(std::string_view row);
   [[nodiscard]] bool cuts_at_blanks() const { return delimiter_ == ' '; }
+  [[nodiscard]] char decimal_mark() const { return decimal_mark_; }
 
  private:
   [[nodiscard]] std::size_t cell_end(std::string_view row, std::size_t begin) const;
@@ -62,13 +64,14 @@ class CellCutter {
 
   char delimiter_;
   bool quotes_;
+  char decimal_mark_;
   std::vector<std::string_view> cells_;
 };
 
 /// The number that a cell is, if it is one; "nan" and "inf" are.
-std::optional<double> number_of(std::string_view cell);
+std::optional<double> number_of(std::string_view cell, char decimal_mark = '.');
 
-/// Whether a cell is a number but for a comma in the place of its point.
+/// Whether a cell is a number with a comma in the place of its point.
 bool has_decimal_comma(std::string_view cell);
 
 /// A file of rows that give the position of one node each.
@@ -89,7 +92,7 @@ class TableSource : public CurveSource {
 /// The number in a column of a row. Throws Error(unusable_file) naming the line and what is missing or is no number;
 /// name: of the column.
 double number_in(const InputFile& file, const TableLine& line, std::span<const std::string_view> cells,
-                 std::size_t column, std::string_view name);
+                 std::size_t column, std::string_view name, char decimal_mark);
 
 /// Gathers the nodes of a table. Blank lines end chains.
 class TableReader {

@@ -148,6 +148,15 @@ class Curve(Case):
             self.assert_one_line(self.curve(other, "--columns", columns, status=status))
         self.assert_one_line(self.curve("v 0 0 0\nv 1 0 0\nl 1 2\n", "--columns", "1,2", name="in.obj", status=1))
 
+    def test_decimal_commas_stay(self):
+        points = arc(20, noise=0.02)
+        text = "no;x;y\r\n" + "".join(f"{k};{x!r};{y!r}\r\n".replace(".", ",") for k, (x, y) in enumerate(points))
+        self.curve(text)
+        commas = (self.folder / "out.csv").read_bytes().decode()
+        self.curve(text.replace(",", "."))
+        self.assertEqual(commas.replace(",", "."), (self.folder / "out.csv").read_bytes().decode())
+        self.assertEqual(commas.split("\r\n")[:2] + commas.split("\r\n")[-2:], text.split("\r\n")[:2] + text.split("\r\n")[-2:])
+
     def test_resample_and_spacing(self):
         points = [(math.cos(2 * (k / 30) ** 2), math.sin(2 * (k / 30) ** 2)) for k in range(31)]
         rules = self.write("held.json", json.dumps({"rules": [{"nodes": [0, 30], "tangent": "fixed"}]}))

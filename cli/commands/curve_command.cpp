@@ -1,13 +1,16 @@
 #include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "closed_chains.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_kinds.hpp"
 #include "commands/shared_options.hpp"
+#include "degrees.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "framing.hpp"
@@ -76,20 +79,20 @@ int run_curve(CurveArguments arguments) {
   const auto draw = [&] {
     return draw_curve(file, positions, {.before = &before, .points = {}, .part = moved_part(before, after)});
   };
+  nlohmann::ordered_json figures = done.figures();
+  figures.update(figures_of(file.plane));
   return fairing.finish<PolygonCurve>({file.curve, after, constraints, done.faired.report}, before.positions(),
                                       file.warnings,
                                       {.write = write,
                                        .picture = draw,
-                                       .figures = done.figures(),
-                                       .lines = done.lines() + closed.note(),
+                                       .figures = std::move(figures),
+                                       .lines = done.lines() + closed.note() + note_of(file.plane),
                                        .facts = {.resamples = resamples}});
 }
 
-const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj},
-                                                          {"csv", CurveFormat::csv},
-                                                          {"dat", CurveFormat::dat},
-                                                          {"xyz", CurveFormat::xyz},
-                                                          {"svg", CurveFormat::svg}};
+const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj}, {"csv", CurveFormat::csv},
+                                                          {"dat", CurveFormat::dat}, {"xyz", CurveFormat::xyz},
+                                                          {"gpx", CurveFormat::gpx}, {"svg", CurveFormat::svg}};
 const std::map<std::string, NormalPlane> normal_planes = {{"full", NormalPlane::full},
                                                           {"principal", NormalPlane::principal}};
 
@@ -153,7 +156,9 @@ void add_curve_method(CLI::App& command, CurveArguments& arguments, const Fairin
 
 void add_curve_command(CLI::App& app, std::function<int()>& run) {
   const FairingWords words = {.shape = "curve",
-                              .input = ".obj (l elements), .csv, .dat (aerofoils) or .xyz",
+                              .input =
+                                  ".obj (l elements), .csv, .dat (aerofoils), .xyz or .gpx (tracks: "
+                                  "tolerances and all other lengths are metres)",
                               .ends = "End nodes",
                               .directions = "tangents",
                               .rules = "positions, tangents and normals"};

@@ -15,6 +15,7 @@
 #include "vspring/fit.hpp"
 #include "vspring/generate.hpp"
 #include "vspring/input_file.hpp"
+#include "vspring/local_plane.hpp"
 #include "vspring/model.hpp"
 #include "vspring/noise.hpp"
 #include "vspring/output_file.hpp"

@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "io/column_names.hpp"
+#include "io/csv_cutter.hpp"
+#include "io/degrees.hpp"
+#include "io/rewriter.hpp"
 #include "io/table.hpp"
 
 namespace vspring {
@@ -25,103 +28,13 @@ struct CsvLayout {
   std::optional<std::size_t> weight;  ///< column that the header names weight or, without one, confidence
   std::vector<std::size_t> normal;    ///< columns that the header names nx, ny and nz; or none
   std::string warning;                ///< of columns that had to be guessed; empty without
+  bool degrees = false;               ///< the first two columns are longitude and latitude
 };
 
-/// Finds the delimiter and the columns of coordinates: those that are chosen, else those that a header names, see
-/// find_coordinates(), else the first ones of numbers, where these can be told from others. Throws
+/// Finds the columns of coordinates: those that are chosen, else those that a header names, see
+/// find_coordinates() and find_degrees(), else the first ones of numbers, where these can be told from others. Throws
 /// Error(unusable_file), and Error(invalid_argument) for a choice that is none.
 CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice);
-
-/// The rows that a delimiter is found from.
-constexpr std::size_t rows_looked_at = 20;
-
-std::vector<TableLine> first_rows(std::string_view bytes) {
-  std::vector<TableLine> rows;
-  walk_lines(bytes, [&](const TableLine& line) {
-    if (line.kind == TableLine::Kind::row) rows.push_back(line);
-    return rows.size() < rows_looked_at;
-  });
-  return rows;
-}
-
-std::size_t count_numbers(const Cells& cells, char decimal_mark) {
-  const auto is_number = [&](std::string_view cell) { return number_of(cell, decimal_mark).has_value(); };
-  return static_cast<std::size_t>(std::count_if(cells.begin(), cells.end(), is_number));
-}
-
-/// "1,5;2,5" cut at its commas leaves "5;2" in the middle.
-bool is_two_numbers(std::string_view cell) {
-  return std::any_of(cell.begin(), cell.end(), [&](const char& c) {
-    const auto at = static_cast<std::size_t>(&c - cell.data());
-    return (c == ';' || c == '\t' || c == ' ') && number_of(cell.substr(0, at)) && number_of(cell.substr(at + 1));
-  });
-}
-
-constexpr std::array delimiters = {';', '\t', ',', ' '};
-
-/// What a delimiter and a decimal mark make of rows.
-struct TriedCutter {
-  CellCutter cutter;
-  std::size_t numbers = 0;
-  std::size_t fitting = 0;  ///< rows of two numbers or more
-};
-
-TriedCutter try_cutter(const std::vector<TableLine>& rows, char delimiter, char decimal_mark) {
-  TriedCutter tried{{delimiter, true, decimal_mark}};
-  for (const TableLine& row : rows) {
-    const std::size_t numbers = count_numbers(tried.cutter.cut(row.text), decimal_mark);
-    tried.numbers += numbers;
-    if (numbers > 1) ++tried.fitting;
-  }
-  return tried;
-}
-
-/// Whether the first row with a number that is none with the other decimal mark has a comma. The first rows of a table
-/// may be whole numbers alone.
-bool has_commas_below(std::string_view bytes, CellCutter cutter) {
-  bool commas = false;
-  walk_lines(bytes, [&](const TableLine& line) {
-    if (line.kind != TableLine::Kind::row) return true;
-    const Cells& cells = cutter.cut(line.text);
-    const std::size_t with_points = count_numbers(cells, '.');
-    const std::size_t with_commas = count_numbers(cells, ',');
-    commas = with_commas > with_points;
-    return with_commas == with_points;
-  });
-  return commas;
-}
-
-/// The delimiter that leaves two numbers in most rows; the first of them where several do. Decimal commas where they
-/// leave more numbers than points.
-CellCutter find_cutter(const InputFile& file, const std::vector<TableLine>& rows) {
-  TriedCutter best{{' ', true}};
-  bool whole = false;
-  char cuts = ' ';
-  for (const char delimiter : delimiters) {
-    TriedCutter tried = try_cutter(rows, delimiter, '.');
-    const TriedCutter with_commas = try_cutter(rows, delimiter, delimiter == ' ' ? '.' : ',');
-    const bool same = tried.numbers == with_commas.numbers;
-    if (with_commas.numbers > tried.numbers) tried = with_commas;
-    if (tried.fitting <= best.fitting) continue;
-    best = tried;
-    whole = same;
-    cuts = delimiter;
-  }
-  // Between blanks the program would have to guess which commas are decimal ones: then no delimiter leaves numbers, or
-  // the commas themselves do.
-  for (const TableLine& row : rows) {
-    if (best.fitting > 0 && cuts != ',') break;
-    const Cells& cells = best.cutter.cut(row.text);
-    if (std::any_of(cells.begin(), cells.end(), best.fitting > 0 ? is_two_numbers : has_decimal_comma))
-      file.refuse_line(row.offset,
-                       "its numbers have decimal commas, and blanks between them; write decimal points, or "
-                       "semicolons in place of the blanks");
-  }
-  const bool may_have_commas =
-      cuts == ';' || cuts == '\t' || (cuts == ',' && file.bytes.find('"') != std::string::npos);
-  if (whole && may_have_commas && has_commas_below(file.bytes, best.cutter)) return {cuts, true, ','};
-  return best.cutter;
-}
 
 std::optional<std::size_t> weight_column(const Cells& header) {
   for (const std::string_view name : {"weight", "confidence"}) {
@@ -234,6 +147,18 @@ bool is_row_of_units(CellCutter cutter, const TableLine& row, const TableLine& n
   return count_numbers(cutter.cut(row.text), mark) == 0 && count_numbers(cutter.cut(next.text), mark) > 1;
 }
 
+/// Of columns that were chosen, longitude and latitude are x and y, in whatever order; what is chosen besides is z.
+void put_degrees_first(const Cells& header, CsvLayout& layout) {
+  Cells chosen;
+  for (const std::size_t column : layout.columns) chosen.push_back(column < header.size() ? header[column] : "");
+  const auto degrees = find_degrees(chosen);
+  if (!degrees) return;
+  layout.degrees = true;
+  std::vector<std::size_t> columns = {layout.columns[(*degrees)[0]], layout.columns[(*degrees)[1]]};
+  if (chosen.size() > 2) columns.push_back(layout.columns[3 - (*degrees)[0] - (*degrees)[1]]);
+  layout.columns = std::move(columns);
+}
+
 CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
   const char* const no_rows = "no row of two or three numbers is in it; choose another file";
   const std::vector<TableLine> all_rows = first_rows(file.bytes);
@@ -252,6 +177,12 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
   if (!named.doubt.empty())
     file.refuse_line(offset, named.doubt + "; rename one, or choose columns by number, such as 2,3");
   const char mark = layout.cutter.decimal_mark();
+  if (choice.empty() && named.columns.empty()) {
+    if (const auto degrees = find_degrees(first)) {
+      named.columns.assign(degrees->begin(), degrees->end());
+      layout.degrees = true;
+    }
+  }
   if (choice.empty() ? !named.columns.empty() || count_numbers(first, mark) == 0
                      : is_header(first, mark, layout.columns, choice)) {
     layout.header = offset;
@@ -266,6 +197,7 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
   }
   if (!choice.empty()) {
     require_columns(file, layout.cutter.cut(rows.front().text), rows.front().offset, layout.columns);
+    if (layout.header) put_degrees_first(first, layout);
   } else if (named.columns.empty()) {
     guess_columns(file, rows, layout);
   } else {
@@ -277,10 +209,10 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
 
 }  // namespace
 
-CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice) {
+CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice, const std::optional<LocalPlane>& plane) {
   const CsvLayout layout = find_csv_layout(file, choice);
   const std::vector<TableLine> lines = table_lines(file.bytes);
-  TableReader reader(file, layout.cutter, layout.columns);
+  TableReader reader(file, layout.cutter, layout.columns, layout.degrees);
   std::span<const TableLine> body = lines;
   if (layout.header) {
     reader.carry("names of columns");
@@ -291,23 +223,40 @@ CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice) {
     body = body.subspan(1);
   }
   reader.read(body);
-  CurveFile curve = reader.take(std::move(file), CurveFormat::csv);
+  CurveFile curve = reader.take(std::move(file), CurveFormat::csv, plane);
   if (!layout.warning.empty()) curve.warnings.push_back(layout.warning);
   return curve;
 }
 
-ScatteredPoints read_csv_points(const InputFile& file, const ColumnChoice& choice) {
+ScatteredPoints read_csv_points(const InputFile& file, const ColumnChoice& choice,
+                                const std::optional<LocalPlane>& plane) {
   const CsvLayout layout = find_csv_layout(file, choice);
-  ScatteredPoints points = read_point_rows(file, layout.cutter, {layout.columns, layout.weight, layout.normal},
-                                           layout.header ? *layout.header + 1 : 0);
+  ScatteredPoints points =
+      read_point_rows(file, layout.cutter, {layout.columns, layout.weight, layout.normal, layout.degrees},
+                      layout.header ? *layout.header + 1 : 0, {}, plane);
   if (!layout.warning.empty()) points.warnings.push_back(layout.warning);
   return points;
 }
 
 std::string fresh_csv(const FreshCurve& curve, std::vector<std::string>& losses) {
   name_losses_of_rows(curve, losses);
-  std::string text = curve.planar ? "x,y\n" : "x,y,z\n";
-  append_rows(text, curve, ',');
+  std::string text;
+  if (curve.plane == nullptr) {
+    text = curve.planar ? "x,y\n" : "x,y,z\n";
+    append_rows(text, curve, ',');
+    return text;
+  }
+  text = curve.planar ? "lat,lon\n" : "lat,lon,ele\n";
+  const auto append_row = [&](const Vector3& position) {
+    const LocalPlane::Place place = curve.plane->place(position);
+    append_degrees(text, place.latitude);
+    text += ',';
+    append_degrees(text, place.longitude);
+    if (!curve.planar) text += ',';
+    if (!curve.planar) append_number(text, position.z());
+    text += '\n';
+  };
+  walk_rows(curve, append_row, [&] { text += '\n'; });
   return text;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,9 +19,14 @@ class CurveSource {
   CurveSource(const CurveSource&) = delete;
   CurveSource& operator=(const CurveSource&) = delete;
 
+  /// What is to change in the file.
+  struct Rewriting {
+    const std::vector<Vector3>& places;
+    const std::vector<std::uint8_t>& moved;  ///< 1 for nodes that get their place
+  };
+
   /// The bytes with the coordinates of moved nodes. Cost: linear.
-  [[nodiscard]] virtual std::string rewritten(const std::vector<Vector3>& places,
-                                              const std::vector<std::uint8_t>& moved) const = 0;
+  [[nodiscard]] virtual std::string rewritten(const Rewriting& what) const = 0;
 
   InputFile file;
   std::vector<Vector3> positions;    ///< as the file gives them
@@ -33,9 +39,10 @@ inline constexpr const char* name_carried = "the name";
 /// Each reads the whole of a file that is said to be of its format. They throw Error(unusable_file), and
 /// Error(invalid_argument) for a choice of columns that is none.
 CurveFile read_obj_curve(InputFile file);
-CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice);
+CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice, const std::optional<LocalPlane>& plane);
 CurveFile read_dat_curve(InputFile file);
 CurveFile read_xyz_curve(InputFile file, const ColumnChoice& choice);
+CurveFile read_gpx_curve(InputFile file, const std::optional<LocalPlane>& plane);
 
 /// What a file of a curve is to be made from.
 struct FreshCurve {
@@ -43,17 +50,20 @@ struct FreshCurve {
   std::span<const Vector3> positions;
   bool planar;  ///< two coordinates
   std::string name;
+  const LocalPlane* plane = nullptr;  ///< where its positions come from degrees; else null
 };
 
 /// A file of another format than SVG made from nothing but a curve. losses: what the format cannot hold is added.
-/// Throws Error(invalid_argument) for DAT of several chains or of a curve in space.
+/// Throws Error(invalid_argument) for DAT of several chains or of a curve in space, and for GPX without a plane.
 std::string fresh_curve(CurveFormat format, const FreshCurve& curve, std::vector<std::string>& losses);
 
-/// The same of each format. Rows of numbers are separated by a comma in CSV, else by blanks.
+/// The same of each format. Rows of numbers are separated by a comma in CSV, else by blanks. CSV and GPX give degrees
+/// where there is a plane.
 std::string fresh_curve_obj(const FreshCurve& curve);
 std::string fresh_csv(const FreshCurve& curve, std::vector<std::string>& losses);
 std::string fresh_dat(const FreshCurve& curve, std::vector<std::string>& losses);
 std::string fresh_xyz(const FreshCurve& curve, std::vector<std::string>& losses);
+std::string fresh_gpx(const FreshCurve& curve, std::vector<std::string>& losses);
 
 /// The first node that does not lie in the plane z = 0; the number of nodes where there is none.
 std::size_t first_off_plane(std::span<const Vector3> positions);

@@ -13,17 +13,18 @@
 #include <vector>
 
 #include "base/message_text.hpp"
+#include "io/degrees.hpp"
 #include "io/face_list.hpp"
 #include "io/rewriter.hpp"
 
 namespace vspring {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return text;
-}
+/// The names of columns in messages.
+using ColumnNames = std::array<const char*, 3>;
+constexpr ColumnNames coordinate_names = {"x", "y", "z"};
+constexpr ColumnNames degree_names = {"the longitude", "the latitude", "z"};
+constexpr ColumnNames normal_names = {"nx", "ny", "nz"};
 
 TableLine::Kind kind_of(std::string_view text) {
   const auto first = std::find_if_not(text.begin(), text.end(), is_space);
@@ -33,6 +34,12 @@ TableLine::Kind kind_of(std::string_view text) {
 }
 
 }  // namespace
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+  return text;
+}
 
 char line_end_of(std::string_view bytes) { return bytes.find('\n') == std::string_view::npos ? '\r' : '\n'; }
 
@@ -92,7 +99,13 @@ bool has_decimal_comma(std::string_view cell) {
   return cell.find(',') != std::string_view::npos && number_of(cell, ',').has_value();
 }
 
-std::string TableSource::rewritten(const std::vector<Vector3>& places, const std::vector<std::uint8_t>& moved) const {
+Vector3 TableSource::numbers_at(const Vector3& position) const {
+  if (!plane) return position;
+  const LocalPlane::Place place = plane->place(position);
+  return {place.longitude < 0 && counts_to_360 ? place.longitude + 360 : place.longitude, place.latitude, position.z()};
+}
+
+std::string TableSource::rewritten(const Rewriting& what) const {
   TextRewriter out(file.bytes);
   const char line_end = line_end_of(file.bytes);
   CellCutter knife = cutter;
@@ -103,13 +116,17 @@ std::string TableSource::rewritten(const std::vector<Vector3>& places, const std
   std::string number;
   for (const Row& row : rows) {
     const auto node = static_cast<std::size_t>(row.node);
-    if (moved[node] == 0) continue;
+    if (what.moved[node] == 0) continue;
+    const Vector3 numbers = numbers_at(what.places[node]);
     const std::vector<std::string_view>& cells = knife.cut(line_at(file.bytes, row.offset, line_end).text);
     for (const std::size_t k : order) {
       const std::string_view cell = cells[columns[k]];
       const auto begin = static_cast<std::size_t>(cell.data() - file.bytes.data());
       number.clear();
-      append_number(number, places[node][static_cast<Eigen::Index>(k)]);
+      if (plane && k < 2)
+        append_degrees(number, numbers[static_cast<Eigen::Index>(k)]);
+      else
+        append_number(number, numbers[static_cast<Eigen::Index>(k)]);
       std::replace(number.begin(), number.end(), '.', cutter.decimal_mark());
       out.replace(begin, begin + cell.size(), number);
     }
@@ -133,7 +150,8 @@ double number_in(const InputFile& file, const TableLine& line, std::span<const s
                                             cell.empty() ? "nothing" : in_quotes(cell), name, advice));
 }
 
-TableReader::TableReader(const InputFile& file, CellCutter cutter, std::vector<std::size_t> columns) : file_(file) {
+TableReader::TableReader(const InputFile& file, CellCutter cutter, std::vector<std::size_t> columns, bool degrees)
+    : file_(file), degrees_(degrees) {
   source_->cutter = std::move(cutter);
   source_->columns = std::move(columns);
 }
@@ -153,11 +171,15 @@ void TableReader::read(std::span<const TableLine> lines) {
 
 Vector3 TableReader::position_in(const TableLine& line) {
   const std::vector<std::string_view>& cells = source_->cutter.cut(line.text);
-  constexpr std::array names = {"x", "y", "z"};
+  const ColumnNames& names = degrees_ ? degree_names : coordinate_names;
   Vector3 position = Vector3::Zero();
   for (std::size_t k = 0; k < source_->columns.size(); ++k)
     position[static_cast<Eigen::Index>(k)] =
         number_in(file_, line, cells, source_->columns[k], names[k], source_->cutter.decimal_mark());
+  if (degrees_) {
+    require_place(file_, line.offset, {position.y(), position.x()});
+    source_->counts_to_360 = source_->counts_to_360 || position.x() > 180;
+  }
   if (cells.size() > source_->columns.size()) carry("other columns");
   return position;
 }
@@ -169,13 +191,18 @@ void TableReader::add_node(const TableLine& line, const Vector3& position) {
   source_->positions.push_back(position);
 }
 
-CurveFile TableReader::take(InputFile file, CurveFormat format) {
+CurveFile TableReader::take(InputFile file, CurveFormat format, const std::optional<LocalPlane>& plane) {
   if (positions().empty()) file.refuse("no row of two or three numbers is in it; choose the file of a curve");
   if (std::none_of(chains.begin(), chains.end(), [](const auto& chain) { return chain.nodes.size() > 1; }))
     file.refuse("no two of its nodes follow each other; choose the file of a curve");
   CurveFile curve;
   curve.format = format;
   curve.planar = source_->columns.size() == 2;
+  if (degrees_) {
+    curve.plane = source_->plane = take_to_plane(source_->positions, plane);
+    const std::string warning = stretch_warning(file, *curve.plane, source_->positions);
+    if (!warning.empty()) curve.warnings.push_back(warning);
+  }
   curve.curve = PolygonCurve(source_->positions, std::move(chains));
   source_->carried.assign(carried_.begin(), carried_.end());
   source_->file = std::move(file);
@@ -184,9 +211,7 @@ CurveFile TableReader::take(InputFile file, CurveFormat format) {
 }
 
 ScatteredPoints read_point_rows(const InputFile& file, CellCutter cutter, const PointColumns& columns,
-                                std::size_t behind, const RowCheck& check) {
-  constexpr std::array names = {"x", "y", "z"};
-  constexpr std::array normal_names = {"nx", "ny", "nz"};
+                                std::size_t behind, const RowCheck& check, const std::optional<LocalPlane>& plane) {
   ScatteredPoints points;
   // Room that is not used is never touched.
   const auto lines =
@@ -200,13 +225,15 @@ ScatteredPoints read_point_rows(const InputFile& file, CellCutter cutter, const 
       file.refuse_line(line.offset, "more than 2^30 points; split the file");
     const std::vector<std::string_view>& cells = cutter.cut(line.text);
     if (check) check(line, cells);
-    const auto vector_in = [&](const std::vector<std::size_t>& of, const std::array<const char*, 3>& named) {
+    const auto vector_in = [&](const std::vector<std::size_t>& of, const ColumnNames& named) {
       Vector3 vector = Vector3::Zero();
       for (std::size_t k = 0; k < of.size(); ++k)
         vector[static_cast<Eigen::Index>(k)] = number_in(file, line, cells, of[k], named[k], cutter.decimal_mark());
       return vector;
     };
-    points.positions.push_back(vector_in(columns.coordinates, names));
+    const Vector3 position = vector_in(columns.coordinates, columns.degrees ? degree_names : coordinate_names);
+    if (columns.degrees) require_place(file, line.offset, {position.y(), position.x()});
+    points.positions.push_back(position);
     if (!columns.normal.empty()) points.normals.push_back(vector_in(columns.normal, normal_names));
     if (!columns.weight) return true;
     const double weight =
@@ -215,23 +242,17 @@ ScatteredPoints read_point_rows(const InputFile& file, CellCutter cutter, const 
       file.refuse_line(line.offset, fmt::format("the weight is {}; give 0 or more", weight));
     return true;
   });
+  if (columns.degrees && !points.positions.empty()) points.plane = take_to_plane(points.positions, plane);
   return points;
 }
 
 void append_rows(std::string& text, const FreshCurve& curve, char between) {
   text.reserve(text.size() + 60 * curve.positions.size());
-  bool first = true;
-  for (const PolygonCurve::Chain& chain : curve.chains) {
-    if (chain.nodes.empty()) continue;
-    if (!first) text += '\n';
-    first = false;
-    const auto append_node = [&](Index node) {
-      append_numbers(text, curve.positions[static_cast<std::size_t>(node)], curve.planar ? 2 : 3, between);
-      text += '\n';
-    };
-    for (const Index node : chain.nodes) append_node(node);
-    if (chain.closed) append_node(chain.nodes.front());
-  }
+  const auto append_row = [&](const Vector3& position) {
+    append_numbers(text, position, curve.planar ? 2 : 3, between);
+    text += '\n';
+  };
+  walk_rows(curve, append_row, [&] { text += '\n'; });
 }
 
 void name_losses_of_rows(const FreshCurve& curve, std::vector<std::string>& losses) {

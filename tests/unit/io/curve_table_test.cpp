@@ -184,6 +184,11 @@ TEST_F(CurveTable, FindsDecimalCommasBelowRowsOfWholeNumbers) {
   EXPECT_EQ(moved(text + below, "csv", {{0, {0.5, 7, 0}}}), replaced(text + below, "\n0;0;7", "\n0;0,5;7"));
   EXPECT_EQ(moved(text, "csv", {{0, {0.5, 7, 0}}}), replaced(text, "\n0;0;7", "\n0;0.5;7"));
   EXPECT_EQ(read(text + "40;40.5;7\n", "csv").curve.position(40), Vector3(40.5, 7, 0));
+  // Names with numbers and commas between them part nothing.
+  const std::string named = "x;y;a,7,b,7\n0;0\n0;0;,5\n";
+  const std::string changed = moved(named, "csv", {{0, {0.75, 0.25, 0}}, {1, {0.5, 0.25, 0}}});
+  EXPECT_EQ(changed, "x;y;a,7,b,7\n0,75;0,25\n0,5;0,25;,5\n");
+  EXPECT_EQ(read(changed, "csv").curve.position(1), Vector3(0.5, 0.25, 0));
   // A text with a comma in it is no number.
   EXPECT_EQ(read("x;y;note\n0.5;1;2,5\n1.5;2;3,5\n2.5;3;no\n", "csv").curve.position(1), Vector3(1.5, 2, 0));
 }

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
@@ -27,6 +29,7 @@ struct CurveArguments : FairingArguments {
   std::optional<CurveFormat> format;
   ColumnChoice columns;
   bool closed = false;
+  bool order = false;
   Resampling resampling;
   PullArguments pull;
 };
@@ -47,8 +50,16 @@ FairedOrFitted resample_and_fair(const CurveArguments& arguments, CurveFile& fil
   // What the file carried belongs to nodes that are no longer there.
   file.source = nullptr;
   file.groups.clear();
+  file.row_order.clear();
   if (fitted) return account_for(std::move(*fitted), file.curve, arguments, arguments.pull, context);
   return {fair(file.curve, constraints, arguments.options, context), std::nullopt};
+}
+
+/// reordered: how many nodes were put elsewhere, where an order was asked for.
+std::string note_of_order(std::optional<Index> reordered, const PolygonCurve& curve) {
+  if (!reordered) return {};
+  return fmt::format("note: {} of {} rows changed place, and all come in order along the curve\n", *reordered,
+                     curve.node_count());
 }
 
 int run_curve(CurveArguments arguments) {
@@ -58,6 +69,8 @@ int run_curve(CurveArguments arguments) {
   Fairing fairing(arguments);
 
   CurveFile file = read_curve(arguments.input, arguments.format, arguments.columns);
+  const std::optional<Index> reordered =
+      arguments.order ? std::optional(order_nodes(file, arguments.closed)) : std::nullopt;
   const ClosedChains closed(file.curve, arguments.closed);
   const PolygonCurve before = file.curve;
   settle_by_noise(arguments.pull, before, fairing.context());
@@ -81,13 +94,14 @@ int run_curve(CurveArguments arguments) {
   };
   nlohmann::ordered_json figures = done.figures();
   figures.update(figures_of(file.plane));
-  return fairing.finish<PolygonCurve>({file.curve, after, constraints, done.faired.report}, before.positions(),
-                                      file.warnings,
-                                      {.write = write,
-                                       .picture = draw,
-                                       .figures = std::move(figures),
-                                       .lines = done.lines() + closed.note() + note_of(file.plane),
-                                       .facts = {.resamples = resamples}});
+  if (reordered) figures["reordered_nodes"] = *reordered;
+  return fairing.finish<PolygonCurve>(
+      {file.curve, after, constraints, done.faired.report}, before.positions(), file.warnings,
+      {.write = write,
+       .picture = draw,
+       .figures = std::move(figures),
+       .lines = done.lines() + closed.note() + note_of_order(reordered, before) + note_of(file.plane),
+       .facts = {.resamples = resamples}});
 }
 
 const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj}, {"csv", CurveFormat::csv},
@@ -105,6 +119,11 @@ void add_node_options(CLI::App& command, CurveArguments& arguments) {
       .add_flag("--closed", arguments.closed,
                 "The last node of every chain joins the first; one at the same place becomes one with it (default: "
                 "from the file)")
+      ->group(group);
+  command
+      .add_flag("--order", arguments.order,
+                "The rows come in no order: put those of every chain in one along the curve, and write them so; "
+                "tables and tracks (default: the file's order)")
       ->group(group);
   CLI::Option* number =
       command

@@ -37,6 +37,8 @@ struct CurveFile {
   CurveFormat format = CurveFormat::obj;
   /// For people: what was skipped or joined while reading.
   std::vector<std::string> warnings;
+  /// The nodes in the order in which rows of a table and points of a track are written; empty: as they were read.
+  std::vector<Index> row_order = {};
   /// Keeps what the format carried besides positions, for writing; null for a curve that no file gave.
   std::shared_ptr<const CurveSource> source;
 };
@@ -77,6 +79,14 @@ struct CurveFile {
                                          const ColumnChoice& columns = {},
                                          const std::optional<LocalPlane>& plane = std::nullopt);
 
+/// Puts the nodes of every chain in order along the curve, see order_along_curve(). The curve gets other chains, nodes
+/// keep their numbers; the rows of the file come out in that order, with all that is in them. closed: every chain joins
+/// its last node to its first. Returns how many nodes changed their place along their chain.
+///
+/// Throws Error(invalid_argument) for files that say themselves in which order nodes come (OBJ; DAT by sides), and
+/// Error(unusable_shape) naming a node that is not finite. Cost: of order_along_curve().
+Index order_nodes(CurveFile& file, bool closed);
+
 /// What a written picture shows.
 struct CurvePicture {
   /// The curve before, drawn thin behind; null draws none. It has chains of its own.
@@ -103,8 +113,9 @@ struct CurvePicture {
 /// picture. The file appears whole or not at all, see write_file().
 ///
 /// Throws Error(unusable_file) when it cannot be written; Error(invalid_argument) unless there is one position per
-/// node, finite where it is not the one that was read, for a node that leaves z = 0 in a file of two columns, and for
-/// several chains or a space curve as DAT, and for a curve without a plane of degrees as GPX. Cost: linear.
+/// node, finite where it is not the one that was read, for a row_order that is none, for a node that leaves z = 0 in a
+/// file of two columns, and for several chains or a space curve as DAT, and for a curve without a plane of degrees as
+/// GPX. Cost: linear.
 std::vector<std::string> write_curve(const std::string& path, const CurveFile& file,
                                      const std::vector<Vector3>& positions,
                                      std::optional<CurveFormat> format = std::nullopt,

@@ -18,6 +18,7 @@
 #include "vspring/local_plane.hpp"
 #include "vspring/model.hpp"
 #include "vspring/noise.hpp"
+#include "vspring/order.hpp"
 #include "vspring/output_file.hpp"
 #include "vspring/point_file.hpp"
 #include "vspring/polygon_curve.hpp"

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
+#include <utility>
 
 #include "io/column_names.hpp"
 #include "io/curve_formats.hpp"
@@ -39,6 +41,19 @@ void require_all(const CurveFile& file, const std::vector<Vector3>& positions) {
   if (positions.size() != file.curve.positions().size())
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("{} positions given for {} nodes", positions.size(), file.curve.node_count()));
+}
+
+void require_order(const CurveFile& file) {
+  std::vector<std::uint8_t> seen(file.curve.positions().size(), 0);
+  const bool whole = file.row_order.size() == seen.size() &&
+                     std::all_of(file.row_order.begin(), file.row_order.end(), [&](Index node) {
+                       return node >= 0 && node < file.curve.node_count() &&
+                              std::exchange(seen[static_cast<std::size_t>(node)], std::uint8_t{1}) == 0;
+                     });
+  if (!file.row_order.empty() && !(whole && file.source->has_rows))
+    throw Error(
+        ErrorCode::invalid_argument,
+        fmt::format("{}: the order of its rows is not one of all its nodes; leave it out", file.source->file.name));
 }
 
 /// A file in another format than the source's, or of a curve that no file gave.
@@ -111,7 +126,8 @@ FileBytes curve_bytes(const std::string& name, const CurveFile& file, const std:
     made.bytes = draw_curve(file, positions, picture);
   } else if (source != nullptr && target == file.format) {
     if (file.planar) require_plane(positions);
-    made.bytes = source->rewritten({positions, moved});
+    require_order(file);
+    made.bytes = source->rewritten({positions, moved, file.row_order});
   } else {
     made.bytes = converted(target, file, positions, made.losses);
   }

@@ -23,13 +23,20 @@ class CurveSource {
   struct Rewriting {
     const std::vector<Vector3>& places;
     const std::vector<std::uint8_t>& moved;  ///< 1 for nodes that get their place
+    const std::vector<Index>& row_order;     ///< see CurveFile
+
+    /// The node whose row is to stand where that of `slot` stood.
+    [[nodiscard]] std::size_t node_in(std::size_t slot) const {
+      return row_order.empty() ? slot : static_cast<std::size_t>(row_order[slot]);
+    }
   };
 
-  /// The bytes with the coordinates of moved nodes. Cost: linear.
+  /// The bytes with the coordinates of moved nodes, and rows in another order where they have one. Cost: linear.
   [[nodiscard]] virtual std::string rewritten(const Rewriting& what) const = 0;
 
   InputFile file;
   std::vector<Vector3> positions;    ///< as the file gives them
+  bool has_rows = false;             ///< each node has one row of its own, and nothing else says their order
   std::vector<std::string> carried;  ///< what other formats are not given, one line each
 };
 

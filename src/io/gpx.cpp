@@ -64,8 +64,9 @@ std::string GpxSource::point_text(std::size_t node, const Rewriting& what) const
 std::string GpxSource::rewritten(const Rewriting& what) const {
   TextRewriter out(file.bytes);
   for (std::size_t slot = 0; slot < points.size(); ++slot) {
-    if (what.moved[slot] != 0)
-      out.replace(points[slot].element.begin, points[slot].element.end, point_text(slot, what));
+    const std::size_t node = what.node_in(slot);
+    if (node != slot || what.moved[node] != 0)
+      out.replace(points[slot].element.begin, points[slot].element.end, point_text(node, what));
   }
   return out.finish();
 }
@@ -174,6 +175,7 @@ CurveFile GpxReader::take(InputFile file, const std::optional<LocalPlane>& plane
   if (!warning.empty()) curve.warnings.push_back(warning);
   curve.curve = PolygonCurve(source_->positions, std::move(chains_));
   source_->plane = curve.plane;
+  source_->has_rows = true;
   source_->carried.assign(carried_.begin(), carried_.end());
   source_->file = std::move(file);
   curve.source = std::move(source_);

@@ -105,31 +105,48 @@ Vector3 TableSource::numbers_at(const Vector3& position) const {
   return {place.longitude < 0 && counts_to_360 ? place.longitude + 360 : place.longitude, place.latitude, position.z()};
 }
 
+std::string_view TableSource::text_of(const Row& row) const {
+  return line_at(file.bytes, row.offset, line_end_of(file.bytes)).text;
+}
+
+std::string TableSource::with_numbers(std::string_view row, const Vector3& numbers,
+                                      const std::vector<std::size_t>& by_place) const {
+  CellCutter knife = cutter;
+  const std::vector<std::string_view>& cells = knife.cut(row);
+  TextRewriter out(row);
+  std::string number;
+  for (const std::size_t k : by_place) {
+    const std::string_view cell = cells[columns[k]];
+    const auto begin = static_cast<std::size_t>(cell.data() - row.data());
+    number.clear();
+    if (plane && k < 2)
+      append_degrees(number, numbers[static_cast<Eigen::Index>(k)]);
+    else
+      append_number(number, numbers[static_cast<Eigen::Index>(k)]);
+    std::replace(number.begin(), number.end(), '.', cutter.decimal_mark());
+    out.replace(begin, begin + cell.size(), number);
+  }
+  return out.finish();
+}
+
 std::string TableSource::rewritten(const Rewriting& what) const {
   TextRewriter out(file.bytes);
-  const char line_end = line_end_of(file.bytes);
-  CellCutter knife = cutter;
   // Columns may stand in any order, places in the file have to ascend.
-  std::vector<std::size_t> order(columns.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return columns[a] < columns[b]; });
-  std::string number;
-  for (const Row& row : rows) {
-    const auto node = static_cast<std::size_t>(row.node);
-    if (what.moved[node] == 0) continue;
-    const Vector3 numbers = numbers_at(what.places[node]);
-    const std::vector<std::string_view>& cells = knife.cut(line_at(file.bytes, row.offset, line_end).text);
-    for (const std::size_t k : order) {
-      const std::string_view cell = cells[columns[k]];
-      const auto begin = static_cast<std::size_t>(cell.data() - file.bytes.data());
-      number.clear();
-      if (plane && k < 2)
-        append_degrees(number, numbers[static_cast<Eigen::Index>(k)]);
-      else
-        append_number(number, numbers[static_cast<Eigen::Index>(k)]);
-      std::replace(number.begin(), number.end(), '.', cutter.decimal_mark());
-      out.replace(begin, begin + cell.size(), number);
-    }
+  std::vector<std::size_t> by_place(columns.size());
+  std::iota(by_place.begin(), by_place.end(), std::size_t{0});
+  std::sort(by_place.begin(), by_place.end(), [&](std::size_t a, std::size_t b) { return columns[a] < columns[b]; });
+  for (std::size_t slot = 0; slot < rows.size(); ++slot) {
+    // Where the order is another one, every node has one row.
+    const std::size_t from = what.node_in(slot);
+    const auto node = static_cast<std::size_t>(rows[from].node);
+    if (from == slot && what.moved[node] == 0) continue;
+    const std::string_view text = text_of(rows[from]);
+    const std::size_t begin = rows[slot].offset;
+    const std::size_t end = begin + text_of(rows[slot]).size();
+    if (what.moved[node] != 0)
+      out.replace(begin, end, with_numbers(text, numbers_at(what.places[node]), by_place));
+    else
+      out.replace(begin, end, text);
   }
   return out.finish();
 }
@@ -157,6 +174,7 @@ TableReader::TableReader(const InputFile& file, CellCutter cutter, std::vector<s
 }
 
 void TableReader::read(std::span<const TableLine> lines) {
+  source_->has_rows = true;
   bool open = false;
   for (const TableLine& line : lines) {
     if (line.kind == TableLine::Kind::comment) carry("comments");

@@ -97,6 +97,10 @@ class TableSource : public CurveSource {
  private:
   /// What stands in the columns.
   [[nodiscard]] Vector3 numbers_at(const Vector3& position) const;
+  [[nodiscard]] std::string_view text_of(const Row& row) const;
+  /// A row with other numbers in its columns. by_place: which column comes first, second and third in a row.
+  [[nodiscard]] std::string with_numbers(std::string_view row, const Vector3& numbers,
+                                         const std::vector<std::size_t>& by_place) const;
 };
 
 /// The number in a column of a row. Throws Error(unusable_file) naming the line and what is missing or is no number;

@@ -157,6 +157,45 @@ class Curve(Case):
         self.assertEqual(commas.replace(",", "."), (self.folder / "out.csv").read_bytes().decode())
         self.assertEqual(commas.split("\r\n")[:2] + commas.split("\r\n")[-2:], text.split("\r\n")[:2] + text.split("\r\n")[-2:])
 
+    def test_rows_in_no_order(self):
+        points = arc(120, noise=0.004)
+        rows = [f"{k},{x!r},{y!r}" for k, (x, y) in enumerate(points)]
+        self.curve("id,x,y\n" + "\n".join(rows) + "\n", "--within", "0.01")
+        in_order = (self.folder / "out.csv").read_text()
+        random.Random(2).shuffle(rows)
+        shuffled = "id,x,y\n" + "\n".join(rows) + "\n"
+        said = self.curve(shuffled, "--within", "0.01", "--order", "--report", self.folder / "r.json").stdout.decode()
+        changed = self.read_json("r.json")["reordered_nodes"]
+        self.assertGreater(changed, 100)
+        self.assertIn(f"note: {changed} of 120 rows changed place, and all come in order along the curve", said)
+        after = (self.folder / "out.csv").read_text().splitlines()
+        numbers = [int(line.split(",")[0]) for line in after[1:]]
+        self.assertIn(numbers, (list(range(120)), list(range(119, -1, -1))))
+        # The ends are those of the curve, not of the table, and stay.
+        self.assertEqual({after[1], after[-1]}, {f"{k},{points[k][0]!r},{points[k][1]!r}" for k in (0, 119)})
+        distances = [math.dist(a[1:], b[1:]) for a, b in zip(*(sorted(tuple(map(float, line.split(","))) for line in text[1:])
+                                                               for text in (in_order.splitlines(), after)))]
+        self.assertLess(max(distances), 1e-3)
+        # Rules count the rows of the input.
+        held = rows.index(next(row for row in rows if row.startswith("60,")))
+        rules = self.write("held.json", json.dumps({"rules": [{"nodes": [held], "position": "fixed"}]}))
+        self.curve(shuffled, "--order", "--constraints", rules)
+        self.assertIn(rows[held], (self.folder / "out.csv").read_text().splitlines())
+        self.curve(shuffled, "--order", "--within", "0.01", "--resample", "40")
+        self.assertEqual(len(read(self.folder / "out.csv")), 40)
+        line = self.assert_one_line(self.curve("v 0 0 0\nv 1 0 0\nl 1 2\n", "--order", name="in.obj", output="out.obj", status=1))
+        self.assertIn("leave the order along the curve (--order) out", line)
+
+    def test_rows_of_a_closed_curve_in_no_order(self):
+        points = [(1.2 * math.cos(k * math.pi / 30), math.sin(k * math.pi / 30)) for k in range(60)]
+        rows = [f"{k},{x!r},{y!r}" for k, (x, y) in enumerate(points)]
+        random.Random(4).shuffle(rows)
+        self.curve("id,x,y\n" + "\n".join(rows) + "\n", "--order", "--closed", "--within", "0.01")
+        numbers = [int(line.split(",")[0]) for line in (self.folder / "out.csv").read_text().splitlines()[1:]]
+        steps = {(b - a) % 60 for a, b in zip(numbers, numbers[1:] + numbers[:1])}
+        self.assertIn(steps, ({1}, {59}))
+        self.assertEqual(numbers[0], int(rows[0].split(",")[0]))
+
     def test_resample_and_spacing(self):
         points = [(math.cos(2 * (k / 30) ** 2), math.sin(2 * (k / 30) ** 2)) for k in range(31)]
         rules = self.write("held.json", json.dumps({"rules": [{"nodes": [0, 30], "tangent": "fixed"}]}))

@@ -57,6 +57,7 @@ STAND_INS = {
     "outline.csv": outline,
     "track.gpx": lambda: gpx(track(60, 3)),
     "log.csv": lambda: "time,lat,lon\n" + "".join(f"{k},{a!r},{b!r}\n" for k, (a, b) in enumerate(track(60, 3))),
+    "cloud.csv": lambda: "".join(sorted(f"{math.sin(7 * k):.3f},{k + 0.01 * math.cos(11 * k):.3f}\n" for k in (j / 40 for j in range(41)))),
     "soup.obj": lambda: soup(8),
     "rules.json": lambda: rules(nodes="boundary"),
     "held.json": lambda: rules(nodes=[0, 10, 20, 30]),

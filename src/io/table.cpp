@@ -180,10 +180,12 @@ void TableReader::read(std::span<const TableLine> lines) {
     if (line.kind == TableLine::Kind::comment) carry("comments");
     if (line.kind == TableLine::Kind::blank) open = false;
     if (line.kind != TableLine::Kind::row) continue;
+    const Vector3 position = position_in(line);
+    if (open && position == positions().back()) repeats_.push_back(line.offset);
     if (!open) chains.emplace_back();
     open = true;
     chains.back().nodes.push_back(static_cast<Index>(positions().size()));
-    add_node(line, position_in(line));
+    add_node(line, position);
   }
 }
 
@@ -221,6 +223,11 @@ CurveFile TableReader::take(InputFile file, CurveFormat format, const std::optio
     const std::string warning = stretch_warning(file, *curve.plane, source_->positions);
     if (!warning.empty()) curve.warnings.push_back(warning);
   }
+  if (!repeats_.empty())
+    curve.warnings.push_back(
+        fmt::format("{}:{}: this row is at the same place as the one above{}; leave it out unless it is meant",
+                    file.name, file.line_of(repeats_.front()),
+                    repeats_.size() > 1 ? fmt::format(", and so are {} more below", repeats_.size() - 1) : ""));
   curve.curve = PolygonCurve(source_->positions, std::move(chains));
   source_->carried.assign(carried_.begin(), carried_.end());
   source_->file = std::move(file);

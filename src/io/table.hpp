@@ -126,8 +126,8 @@ class TableReader {
   [[nodiscard]] const std::vector<Vector3>& positions() const { return source_->positions; }
   std::vector<PolygonCurve::Chain> chains;
 
-  /// Hands over what was read; file becomes the source's. plane: of degrees, see take_to_plane(). Throws
-  /// Error(unusable_file) where it is no curve.
+  /// Hands over what was read, with a warning of rows that repeat the one above; file becomes the source's. plane: of
+  /// degrees, see take_to_plane(). Throws Error(unusable_file) where it is no curve.
   CurveFile take(InputFile file, CurveFormat format, const std::optional<LocalPlane>& plane = std::nullopt);
 
  private:
@@ -135,6 +135,7 @@ class TableReader {
   bool degrees_;
   std::shared_ptr<TableSource> source_ = std::make_shared<TableSource>();
   std::set<std::string> carried_;
+  std::vector<std::size_t> repeats_;  ///< offsets of rows at the place of the row above
 };
 
 /// Which columns of a table of points hold what.

@@ -128,6 +128,23 @@ class Curve(Case):
         result = self.curve(csv(points + points[:1]), "--closed", "--constraints", self.write("fixed.json", json.dumps(rules)), status=2)
         self.assertIn("nodes 0 and 24 are one", self.assert_one_line(result))
 
+    def test_a_blunt_trailing_edge_keeps_its_corners(self):
+        side = [(k / 20, 0.01 * k / 20 + 0.3 * math.sqrt(k / 20) * (1 - k / 20)) for k in range(21)]
+        outline = [(x, y) for x, y in side[::-1]] + [(x, -y) for x, y in side[1:]]
+        table = lambda rows: "blunt\n" + "".join(f"{x!r} {y!r}\n" for x, y in rows)
+        names = {"name": "in.dat", "output": "out.dat"}
+        self.assertNotIn(b"note", self.curve(table(outline), "--within", "0.001", **names).stdout)
+        said = self.curve(table(outline + outline[:1]), "--within", "0.001", **names).stdout.decode()
+        self.assertIn("note: node 41 is where node 0 is, and node 40 beside them is a corner, as of a blunt trailing edge, which is", said)
+        self.assertNotIn("--closed", said)
+        # The base is a chain of its own.
+        parted = table(outline) + "\n" + table([outline[-1], outline[0]]).split("\n", 1)[1]
+        self.assertNotIn(b"note", self.curve(parted, "--within", "0.001", **names).stdout)
+        rows, before = (self.folder / "out.dat").read_text().splitlines(), parted.splitlines()
+        self.assertEqual((len(rows), rows[1], rows[41:]), (45, before[1], before[41:]))
+        twice = self.curve(table(outline[:1] + outline), "--within", "0.001", **names)
+        self.assertIn("in.dat:3: this row is at the same place as the one above; leave it out", twice.stderr.decode())
+
     def test_columns_by_name_and_by_choice(self):
         points = arc(20, noise=0.02)
         text = "index,X [mm],Y [mm]\n" + "".join(f"{k},{x!r},{y!r}\n" for k, (x, y) in enumerate(points))

@@ -204,6 +204,22 @@ TEST_F(CurveTable, BeginsAChainBehindEmptyRows) {
   }
 }
 
+TEST_F(CurveTable, WarnsOfRowsThatRepeatTheOneAbove) {
+  const auto warnings = [&](const std::string& text, const std::string& extension) {
+    std::vector<std::string> said = read(text, extension).warnings;
+    for (std::string& warning : said) warning = warning.substr(warning.rfind('/') + 1);
+    return said;
+  };
+  const std::string rest = "; leave it out unless it is meant";
+  EXPECT_EQ(warnings("foil\n1 0\n1.0 0.0 twice\n0 0\n", "dat"),
+            std::vector<std::string>{"in.dat:3: this row is at the same place as the one above" + rest});
+  EXPECT_EQ(warnings("x,y\n0,0\n1,0\n1,0\n# c\n1,0\n2,0\n2,0\n", "csv"),
+            std::vector<std::string>{
+                "in.csv:4: this row is at the same place as the one above, and so are 2 more below" + rest});
+  // Chains may meet, and a curve may come back.
+  EXPECT_TRUE(warnings("0 0\n1 0\n\n1 0\n1 1\n0 0\n", "xyz").empty());
+}
+
 TEST_F(CurveTable, StaysOpenWhereTheLastNodeRepeatsTheFirst) {
   const CurveFile file = read("0,0\n1,0\n0,1\n0,0\n", "csv");
   EXPECT_EQ(file.curve.node_count(), 4);

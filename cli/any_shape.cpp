@@ -31,9 +31,11 @@ bool may_have_columns(std::optional<CurveFormat> format) {
 
 }  // namespace
 
-AnyShape read_shape(const std::string& path, std::optional<AnyFormat> format, bool curve, const ColumnChoice& columns) {
+AnyShape read_shape(const std::string& path, std::optional<AnyFormat> format, bool curve, const ColumnChoice& columns,
+                    const std::optional<LocalPlane>& plane) {
   if (is_read_as_curve(path, format, curve))
-    return read_curve(path, curve_format_of(format), may_be_table(path, format, curve) ? columns : ColumnChoice{});
+    return read_curve(path, curve_format_of(format), may_be_table(path, format, curve) ? columns : ColumnChoice{},
+                      plane);
   SurfaceFile surface = read_surface(path, format_as<SurfaceFormat>(format));
   if (surface.mesh.face_count() > 0 || surface.format != SurfaceFormat::obj) return surface;
   if (path == "-") throw Error(ErrorCode::unusable_file, "standard input: no face in it; for a curve say --curve");

@@ -9,6 +9,7 @@
 
 #include "vspring/constraints.hpp"
 #include "vspring/curve_file.hpp"
+#include "vspring/local_plane.hpp"
 #include "vspring/surface_file.hpp"
 
 namespace vspring::cli {
@@ -18,9 +19,9 @@ using AnyFormat = std::variant<SurfaceFormat, CurveFormat>;
 
 /// Reads a surface or a curve: as `curve` says, else as the format or the extension says; an OBJ file is a curve where
 /// it has no faces. Of standard input and of unknown extensions, a surface.
-/// columns: as in read_curve(); looked at only where may_be_table().
+/// columns: as in read_curve(); looked at only where may_be_table(). plane: of degrees, as there.
 [[nodiscard]] AnyShape read_shape(const std::string& path, std::optional<AnyFormat> format, bool curve,
-                                  const ColumnChoice& columns);
+                                  const ColumnChoice& columns, const std::optional<LocalPlane>& plane = std::nullopt);
 
 /// Whether read_shape() would take a file for a curve of columns, or has to look into it.
 [[nodiscard]] bool may_be_table(const std::string& path, std::optional<AnyFormat> format, bool curve);
@@ -38,7 +39,11 @@ std::optional<Format> format_as(const std::optional<AnyFormat>& format) {
 /// Values of --format.
 inline const std::map<std::string, AnyFormat> any_formats = {
     {"obj", SurfaceFormat::obj}, {"off", SurfaceFormat::off}, {"ply", SurfaceFormat::ply}, {"stl", SurfaceFormat::stl},
-    {"csv", CurveFormat::csv},   {"dat", CurveFormat::dat},   {"xyz", CurveFormat::xyz}};
+    {"csv", CurveFormat::csv},   {"dat", CurveFormat::dat},   {"xyz", CurveFormat::xyz},   {"gpx", CurveFormat::gpx}};
+
+/// The plane that a shape's degrees were taken to; surfaces have none.
+inline std::optional<LocalPlane> plane_of(const SurfaceFile& /*file*/) { return std::nullopt; }
+inline std::optional<LocalPlane> plane_of(const CurveFile& file) { return file.plane; }
 
 inline PolygonMesh& shape_of(SurfaceFile& file) { return file.mesh; }
 inline PolygonCurve& shape_of(CurveFile& file) { return file.curve; }

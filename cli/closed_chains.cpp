@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "vspring/error.hpp"
@@ -10,6 +13,24 @@
 namespace vspring::cli {
 
 namespace {
+
+/// By how many degrees a polygon turns at b.
+double turn_at(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const Vector3 before = b - a;
+  const Vector3 behind = c - b;
+  return std::atan2(before.cross(behind).norm(), before.dot(behind)) * 180 / std::numbers::pi;
+}
+
+/// The node beside the ends of a chain at which it turns sharply, as at one corner of a blunt trailing edge whose other
+/// corner the ends are; −1 where there is none.
+Index blunt_corner(const PolygonCurve& curve, const PolygonCurve::Chain& chain) {
+  constexpr double least_turn = 45;
+  const auto place = [&](std::size_t k) { return curve.position(chain.nodes[k]); };
+  const std::size_t last = chain.nodes.size() - 1;
+  if (turn_at(place(last - 2), place(last - 1), place(last)) > least_turn) return chain.nodes[last - 1];
+  if (turn_at(place(0), place(1), place(2)) > least_turn) return chain.nodes[1];
+  return -1;
+}
 
 std::string note_of_repeats(const PolygonCurve& curve) {
   constexpr std::size_t fewest = 4;
@@ -21,11 +42,18 @@ std::string note_of_repeats(const PolygonCurve& curve) {
   const auto first = std::find_if(chains.begin(), chains.end(), repeats);
   if (first == chains.end()) return {};
   const auto others = std::count_if(first + 1, chains.end(), repeats);
+  const std::string where =
+      fmt::format("note: node {} is where node {} is{}", first->nodes.back(), first->nodes.front(),
+                  others > 0 ? fmt::format(" (and so in {} more chains)", others) : "");
+  if (const Index corner = blunt_corner(curve, *first); corner >= 0)
+    return fmt::format(
+        "{}, and node {} beside them is a corner, as of a blunt trailing edge, which is rounded off: to keep it, leave "
+        "the row out that closes the curve, or part the sides by empty rows\n",
+        where, corner);
   return fmt::format(
-      "note: node {} is where node {} is{}, and the curve stays open there: with a corner, as at the trailing edge of "
-      "an "
-      "aerofoil, that is right; --closed makes the two one node of a smooth closed curve\n",
-      first->nodes.back(), first->nodes.front(), others > 0 ? fmt::format(" (and so in {} more chains)", others) : "");
+      "{}, and the curve stays open there: with a corner, as at the trailing edge of an aerofoil, that is right; "
+      "--closed makes the two one node of a smooth closed curve\n",
+      where);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 // Feeds any bytes to the readers of curves. What they take is written again: as it is, it has to come out as it came
 // in; with every node moved, it has to read back with the same nodes and chains.
-//   fuzz_read_curve -max_total_time=60 FOLDER     the first byte of an input modulo 4: OBJ, CSV, DAT, XYZ
+//   fuzz_read_curve -max_total_time=60 FOLDER     the first byte of an input modulo 5: OBJ, CSV, DAT, XYZ, GPX
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -29,20 +31,48 @@ bool same_chains(const PolygonCurve& a, const PolygonCurve& b) {
   return true;
 }
 
-void write_again(const CurveFile& file, CurveFile (*reader)(InputFile)) {
+using Reader = CurveFile (*)(InputFile, const std::optional<LocalPlane>&);
+
+/// To the bit; where they were degrees meanwhile, to a micrometre.
+bool same_places(const std::vector<Vector3>& a, const std::vector<Vector3>& b, bool degrees) {
+  if (!degrees || a.size() != b.size()) return a == b;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (!((a[k] - b[k]).norm() < 1e-6)) return false;
+  }
+  return true;
+}
+
+void write_again(const CurveFile& file, Reader reader) {
   const std::vector<Vector3>& read = file.curve.positions();
-  require(file.source->rewritten(read, std::vector<std::uint8_t>(read.size(), 0)) == file.source->file.bytes);
+  const std::vector<std::uint8_t> none(read.size(), 0);
+  const std::vector<std::uint8_t> all(read.size(), 1);
+  require(file.source->rewritten({read, none, {}}) == file.source->file.bytes);
+
+  // Rows in another order are the same bytes in another order.
+  CurveFile ordered = file;
+  const bool finite = std::all_of(read.begin(), read.end(), [](const Vector3& place) { return place.allFinite(); });
+  if (file.source->has_rows && finite) {
+    order_nodes(ordered, false);
+    std::string bytes = file.source->rewritten({read, none, ordered.row_order});
+    std::string as_read = file.source->file.bytes;
+    std::sort(bytes.begin(), bytes.end());
+    std::sort(as_read.begin(), as_read.end());
+    require(bytes == as_read);
+  }
 
   // Below 1, so that they are not counts of an aerofoil.
   std::vector<Vector3> places;
   for (std::size_t node = 0; node < read.size(); ++node)
     places.emplace_back(1 / (static_cast<double>(node) + 1.5), 0.25, file.planar ? 0 : 1);
-  const CurveFile again = reader({"again", file.source->rewritten(places, std::vector<std::uint8_t>(read.size(), 1))});
-  require(again.curve.positions() == places);
+  const CurveFile again = reader({"again", file.source->rewritten({places, all, {}})}, file.plane);
+  require(same_places(again.curve.positions(), places, file.plane.has_value()));
   require(same_chains(again.curve, file.curve));
   std::vector<std::string> losses;
-  for (const CurveFormat format : {CurveFormat::obj, CurveFormat::csv, CurveFormat::xyz})
-    require(!fresh_curve(format, {file.curve.chains(), places, file.planar, file.name}, losses).empty());
+  const LocalPlane* const plane = file.plane ? &*file.plane : nullptr;
+  for (const CurveFormat format : {CurveFormat::obj, CurveFormat::csv, CurveFormat::xyz, CurveFormat::gpx}) {
+    if (format != CurveFormat::gpx || plane != nullptr)
+      require(!fresh_curve(format, {file.curve.chains(), places, file.planar, file.name, plane}, losses).empty());
+  }
   const DrawnCurve before{file.curve.chains(), read};
   Eigen::AlignedBox<double, 3> part(places.front());
   part.extend(places[places.size() / 2]);
@@ -65,14 +95,16 @@ bool is_taken(const Action& action) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using Reader = CurveFile (*)(InputFile);
-  constexpr std::array<Reader, 4> readers = {
-      read_obj_curve, [](InputFile file) { return read_csv_curve(std::move(file), {}); }, read_dat_curve,
-      [](InputFile file) { return read_xyz_curve(std::move(file), {}); }};
+  using Plane = std::optional<LocalPlane>;
+  constexpr std::array<Reader, 5> readers = {
+      [](InputFile file, const Plane&) { return read_obj_curve(std::move(file)); },
+      [](InputFile file, const Plane& plane) { return read_csv_curve(std::move(file), {}, plane); },
+      [](InputFile file, const Plane&) { return read_dat_curve(std::move(file)); },
+      [](InputFile file, const Plane&) { return read_xyz_curve(std::move(file), {}); }, read_gpx_curve};
   if (size < 2) return 0;
   const auto reader = readers[data[0] % readers.size()];
   const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
   CurveFile file;
-  if (is_taken([&] { file = reader({"fuzz", bytes}); })) write_again(file, reader);
+  if (is_taken([&] { file = reader({"fuzz", bytes}, {}); })) write_again(file, reader);
   return 0;
 }

@@ -285,6 +285,21 @@ MUTATIONS = {
     "src/shape/segment.hpp": [
         ("segment-ends", "distance from a segment", "std::clamp((point - a).dot(edge) / length2, 0.0, 1.0)", "(point - a).dot(edge) / length2"),
     ],
+    "src/io/local_plane.cpp": [
+        ("plane-exponent", "Gauss's sphere: n = √(1 + e² cos⁴φ / (1 − e²))", "std::sqrt(1 + eccentricity2 * cosine4 / (1 - eccentricity2))", "1.0"),
+        ("plane-radius", "Gauss's sphere: R² = ρν", "2 * semi_major_axis * std::sqrt(1 - eccentricity2) / (1 - eccentricity2 * sine2)",
+         "2 * semi_major_axis"),
+        ("plane-latitude", "isometric latitude of the ellipsoid", "std::asinh(std::tan(latitude)) - e * std::atanh(e * std::sin(latitude))",
+         "std::asinh(std::tan(latitude))"),
+        ("plane-stretch", "oblique stereographic: k = 1 + r²/4R²",
+         "(position.x() * position.x() + position.y() * position.y()) / (diameter_ * diameter_)",
+         "2 * (position.x() * position.x() + position.y() * position.y()) / (diameter_ * diameter_)"),
+    ],
+    "src/shape/tour.cpp": [
+        ("tour-turn", "2-opt: the steps that go", "length + distance(other, behind)", "length"),
+        ("tour-move", "Or-opt: what is saved where a piece was", "here - distance(before, behind)", "here"),
+        ("tour-move-turned", "Or-opt: which way a piece runs in its new place", "(side > 0) != (step > 0)", "(side > 0) == (step > 0)"),
+    ],
     "src/fit/fit_resampled.cpp": [
         ("raised-points", "the dense curve is as far from its points as chords are from the table's", "point += over_chord(", "point -= over_chord("),
     ],

@@ -5,7 +5,14 @@
 namespace vspring {
 
 Points::Points(const val& bytes, const std::string& name) {
-  forwarding_errors([&] { points_ = read_points_bytes(bytes.as<std::string>(), name); });
+  forwarding_errors([&] {
+    points_ = read_points_bytes(bytes.as<std::string>(), name);
+    // They would need the plane of the curve.
+    if (points_.plane)
+      throw Error(
+          ErrorCode::unusable_file,
+          name + ": gives latitudes and longitudes, which points cannot have here; fit them on the command line");
+  });
 }
 
 Points Points::at(const val& positions) { return Points(ScatteredPoints{.positions = vectors_of(positions)}); }

@@ -1,13 +1,18 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "closed_chains.hpp"
 #include "commands/commands.hpp"
 #include "commands/option_kinds.hpp"
 #include "commands/shared_options.hpp"
+#include "degrees.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "framing.hpp"
@@ -24,6 +29,7 @@ struct CurveArguments : FairingArguments {
   std::optional<CurveFormat> format;
   ColumnChoice columns;
   bool closed = false;
+  bool order = false;
   Resampling resampling;
   PullArguments pull;
 };
@@ -44,8 +50,16 @@ FairedOrFitted resample_and_fair(const CurveArguments& arguments, CurveFile& fil
   // What the file carried belongs to nodes that are no longer there.
   file.source = nullptr;
   file.groups.clear();
+  file.row_order.clear();
   if (fitted) return account_for(std::move(*fitted), file.curve, arguments, arguments.pull, context);
   return {fair(file.curve, constraints, arguments.options, context), std::nullopt};
+}
+
+/// reordered: how many nodes were put elsewhere, where an order was asked for.
+std::string note_of_order(std::optional<Index> reordered, const PolygonCurve& curve) {
+  if (!reordered) return {};
+  return fmt::format("note: {} of {} rows changed place, and all come in order along the curve\n", *reordered,
+                     curve.node_count());
 }
 
 int run_curve(CurveArguments arguments) {
@@ -55,6 +69,8 @@ int run_curve(CurveArguments arguments) {
   Fairing fairing(arguments);
 
   CurveFile file = read_curve(arguments.input, arguments.format, arguments.columns);
+  const std::optional<Index> reordered =
+      arguments.order ? std::optional(order_nodes(file, arguments.closed)) : std::nullopt;
   const ClosedChains closed(file.curve, arguments.closed);
   const PolygonCurve before = file.curve;
   settle_by_noise(arguments.pull, before, fairing.context());
@@ -76,20 +92,21 @@ int run_curve(CurveArguments arguments) {
   const auto draw = [&] {
     return draw_curve(file, positions, {.before = &before, .points = {}, .part = moved_part(before, after)});
   };
-  return fairing.finish<PolygonCurve>({file.curve, after, constraints, done.faired.report}, before.positions(),
-                                      file.warnings,
-                                      {.write = write,
-                                       .picture = draw,
-                                       .figures = done.figures(),
-                                       .lines = done.lines() + closed.note(),
-                                       .facts = {.resamples = resamples}});
+  nlohmann::ordered_json figures = done.figures();
+  figures.update(figures_of(file.plane));
+  if (reordered) figures["reordered_nodes"] = *reordered;
+  return fairing.finish<PolygonCurve>(
+      {file.curve, after, constraints, done.faired.report}, before.positions(), file.warnings,
+      {.write = write,
+       .picture = draw,
+       .figures = std::move(figures),
+       .lines = done.lines() + closed.note() + note_of_order(reordered, before) + note_of(file.plane),
+       .facts = {.resamples = resamples}});
 }
 
-const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj},
-                                                          {"csv", CurveFormat::csv},
-                                                          {"dat", CurveFormat::dat},
-                                                          {"xyz", CurveFormat::xyz},
-                                                          {"svg", CurveFormat::svg}};
+const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj}, {"csv", CurveFormat::csv},
+                                                          {"dat", CurveFormat::dat}, {"xyz", CurveFormat::xyz},
+                                                          {"gpx", CurveFormat::gpx}, {"svg", CurveFormat::svg}};
 const std::map<std::string, NormalPlane> normal_planes = {{"full", NormalPlane::full},
                                                           {"principal", NormalPlane::principal}};
 
@@ -102,6 +119,11 @@ void add_node_options(CLI::App& command, CurveArguments& arguments) {
       .add_flag("--closed", arguments.closed,
                 "The last node of every chain joins the first; one at the same place becomes one with it (default: "
                 "from the file)")
+      ->group(group);
+  command
+      .add_flag("--order", arguments.order,
+                "The rows come in no order: put those of every chain in one along the curve, and write them so; "
+                "tables and tracks (default: the file's order)")
       ->group(group);
   CLI::Option* number =
       command
@@ -153,7 +175,9 @@ void add_curve_method(CLI::App& command, CurveArguments& arguments, const Fairin
 
 void add_curve_command(CLI::App& app, std::function<int()>& run) {
   const FairingWords words = {.shape = "curve",
-                              .input = ".obj (l elements), .csv, .dat (aerofoils) or .xyz",
+                              .input =
+                                  ".obj (l elements), .csv, .dat (aerofoils), .xyz or .gpx (tracks: "
+                                  "tolerances and all other lengths are metres)",
                               .ends = "End nodes",
                               .directions = "tangents",
                               .rules = "positions, tangents and normals"};

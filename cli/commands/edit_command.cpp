@@ -59,8 +59,8 @@ void check_format(const std::string& path) {
   if (surface_format(extension) || curve_format(extension)) return;
   throw Error(
       ErrorCode::unusable_file,
-      fmt::format("{}: not a surface's or curve's file; name one that ends in .obj, .off, .ply, .stl, .csv, .dat "
-                  "or .xyz",
+      fmt::format("{}: not a surface's or curve's file; name one that ends in .obj, .off, .ply, .stl, .csv, .dat, "
+                  ".xyz or .gpx",
                   path));
 }
 
@@ -105,7 +105,7 @@ void add_edit_command(CLI::App& app, std::function<int()>& run) {
   CLI::Option* shape = command
                            .add_option("shape", arguments->input,
                                        "The surface (.obj, .off, .ply, .stl) or curve (.obj with l elements and no "
-                                       "faces, .csv, .dat, .xyz) to open (default: an example)")
+                                       "faces, .csv, .dat, .xyz, .gpx) to open (default: an example)")
                            ->type_name("SHAPE");
   command
       .add_option("-o,--output", arguments->output,

@@ -15,6 +15,7 @@
 #include "commands/commands.hpp"
 #include "commands/option_kinds.hpp"
 #include "commands/shared_options.hpp"
+#include "degrees.hpp"
 #include "fairing.hpp"
 #include "fitting.hpp"
 #include "framing.hpp"
@@ -73,7 +74,9 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   const Shape& shape = welding.shape(file);
   Constraints constraints = make_constraints(arguments, shape, welding.rules(file));
   closed.hold(constraints);
-  ScatteredPoints points = read_points(arguments.points, columns_of_points(arguments));
+  const std::optional<LocalPlane> plane = plane_of(file);
+  ScatteredPoints points = read_points(arguments.points, columns_of_points(arguments), plane);
+  require_same_units(arguments.input, plane, arguments.points, points.plane);
   std::vector<std::string> warnings = file.warnings;
   std::ranges::copy(points.warnings, std::back_inserter(warnings));
   const bool points_face = !points.normals.empty();
@@ -110,6 +113,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   };
   auto figures = account.figures();
   figures.update(welding.figures());
+  figures.update(figures_of(plane));
   return fairing.finish<Shape>({shape, after, constraints, result.report.fair}, shape.positions(),
                                welding.with_warnings(std::move(warnings)),
                                {.write = write_shape,
@@ -118,7 +122,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
                                 .scalars = point_deviation,
                                 .welding = &welding,
                                 .figures = std::move(figures),
-                                .lines = welding.lines() + account.lines() + closed.note(),
+                                .lines = welding.lines() + account.lines() + closed.note() + note_of(plane),
                                 .facts = {.points_face = points_face}});
 }
 
@@ -200,7 +204,7 @@ void add_fit_command(CLI::App& app, std::function<int()>& run) {
   const FairingWords words = {.shape = "shape",
                               .input =
                                   "a surface (.obj, .off, .ply, .stl) or a curve (.obj with l elements and no "
-                                  "faces, .csv, .dat, .xyz)",
+                                  "faces, .csv, .dat, .xyz, .gpx)",
                               .ends = "Boundary or end nodes",
                               .directions = "normals (curves: tangents)",
                               .rules = "positions and normals"};

@@ -20,6 +20,7 @@
 #include "commands/commands.hpp"
 #include "commands/option_kinds.hpp"
 #include "commands/shared_options.hpp"
+#include "degrees.hpp"
 #include "exit_status.hpp"
 #include "figures.hpp"
 #include "framing.hpp"
@@ -119,11 +120,12 @@ int measure_files(const MeasureArguments& arguments, std::vector<File> read) {
   using Shape = ShapeOf<File>;
   const auto begin = std::chrono::steady_clock::now();
   refuse_views(arguments, std::is_same_v<File, CurveFile>);
+  const std::optional<LocalPlane> plane = plane_of(read[0]);
   std::string note;
   WeldedFiles<File> files;
   for (File& file : read) {
     const ClosedChains closed(shape_of(file), arguments.closed);
-    if (files.empty()) note = closed.note();
+    if (files.empty()) note = closed.note() + note_of(plane);
     files.emplace_back(std::move(file), arguments);
   }
   if (arguments.picture.shows("deviation")) refuse_deviation(files);
@@ -146,6 +148,7 @@ int measure_files(const MeasureArguments& arguments, std::vector<File> read) {
   if (!arguments.report.empty() || !arguments.html.empty()) {
     json = report_of<Shape>({arguments.input, arguments.compare}, shapes, apart);
     json.update(files[0].welding.figures());
+    json.update(figures_of(plane));
     json["warnings"] = warnings;
     json["seconds"] = seconds.count();
     json["threads"] = context.thread_count();
@@ -179,7 +182,8 @@ int run_measure(MeasureArguments arguments) {
   AnyShape shape = read_shape(arguments.input, arguments.format, arguments.curve, arguments.columns);
   std::optional<AnyShape> other;
   if (!arguments.compare.empty())
-    other = read_shape(arguments.compare, std::nullopt, std::holds_alternative<CurveFile>(shape), arguments.columns);
+    other = read_shape(arguments.compare, std::nullopt, std::holds_alternative<CurveFile>(shape), arguments.columns,
+                       std::visit([](const auto& file) { return plane_of(file); }, shape));
   if (other && other->index() != shape.index())
     throw Error(ErrorCode::unusable_file, fmt::format("{}: a curve, and {} is a surface; compare shapes of one kind",
                                                       input_name(arguments.compare), input_name(arguments.input)));
@@ -187,7 +191,11 @@ int run_measure(MeasureArguments arguments) {
       [&]<typename File>(File& file) {
         std::vector<File> files;
         files.push_back(std::move(file));
-        if (other) files.push_back(std::move(std::get<File>(*other)));
+        if (other) {
+          File& second = std::get<File>(*other);
+          require_same_units(arguments.input, plane_of(files[0]), arguments.compare, plane_of(second));
+          files.push_back(std::move(second));
+        }
         return measure_files(arguments, std::move(files));
       },
       shape);
@@ -196,8 +204,8 @@ int run_measure(MeasureArguments arguments) {
 void add_shape_options(CLI::App& command, MeasureArguments& arguments) {
   command
       .add_option("shape", arguments.input,
-                  "The surface (.obj, .off, .ply, .stl) or curve (.obj with l elements and no faces, .csv, .dat, .xyz) "
-                  "to measure; - for standard input")
+                  "The surface (.obj, .off, .ply, .stl) or curve (.obj with l elements and no faces, .csv, .dat, .xyz, "
+                  ".gpx) to measure; - for standard input")
       ->required()
       ->type_name("SHAPE");
   command

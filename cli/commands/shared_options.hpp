@@ -44,7 +44,9 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments, bool su
 
 inline const std::string columns_of_curves =
     "CSV and XYZ: the columns of x, y and, in space, z, by number from 1 or, in CSV, by the names in the header "
-    "(default: those that the header names x, y, z, with units or without; else two or three of numbers)";
+    "(default: those that the header names x, y, z, with units or without, or lat and lon; else two or three of "
+    "numbers). Named lat or latitude and lon, lng, long or longitude, they are degrees, and "
+    "all lengths metres, as of .gpx";
 inline const std::string pull_of_own_nodes = "How the nodes of the input pull as points: none or one of";
 inline const std::string holding_group = "What holds the shape";
 inline const std::string fairing_group = "How it is faired";

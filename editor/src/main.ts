@@ -53,7 +53,7 @@ const loopCount = document.querySelector<HTMLInputElement>('#loop-nodes input')!
 const firstExample = 'examples/annulus.obj';
 /** Pixels between nodes from which on each is a target of its own, and where there are fewer a drag turns the view. */
 const distinct = 40;
-const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz';
+const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz,.gpx';
 let coloured: Field | null = null;
 let dotted: { fit: Fit | undefined; report: Report | null } = { fit: undefined, report: null };
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "vspring/column_choice.hpp"
+#include "vspring/local_plane.hpp"
 #include "vspring/types.hpp"
 
 namespace vspring {
@@ -17,13 +19,16 @@ struct ScatteredPoints {
   /// Which way the surface faces at each point: unit vectors, to 1 %; zero where that is not known. Empty: nowhere
   /// known. A point pulls only at nodes whose normal is within 90° of its own, see fit(). Ignored for curves.
   std::vector<Vector3> normals = {};
+  /// Where the file gives latitudes and longitudes: the plane in which the points lie, in metres, see CurveFile.
+  std::optional<LocalPlane> plane = std::nullopt;
   /// For people: which columns were guessed.
   std::vector<std::string> warnings = {};
 };
 
-/// Reads scattered points: the nodes of a file of a surface or a curve (OBJ, OFF, PLY, STL, CSV, XYZ, DAT),
+/// Reads scattered points: the nodes of a file of a surface or a curve (OBJ, OFF, PLY, STL, CSV, XYZ, DAT, GPX),
 /// connectivity ignored. path: a file, or "-" for standard input. The format is that of the extension for curves, else
-/// found from the content. columns: of the coordinates, in CSV and XYZ; empty: found as by read_curve().
+/// found from the content. columns: of the coordinates, in CSV and XYZ; empty: found as by read_curve(). plane: of
+/// latitudes and longitudes, as there.
 ///
 /// Weights: in PLY the property `weight` of the vertices, or without one `confidence`; in CSV the column with that
 /// name; in XYZ the last column of rows of four or seven numbers (x y z weight, x y z nx ny nz weight). Other files
@@ -38,11 +43,13 @@ struct ScatteredPoints {
 /// weight that is not finite or below 0; Error(invalid_argument) for columns that are no choice of columns. Cost:
 /// linear. Memory: the bytes of the file, and 24 bytes a point, 8 more with weights, 24 more with normals; OFF and STL
 /// are read as surfaces are.
-[[nodiscard]] ScatteredPoints read_points(const std::string& path, const ColumnChoice& columns = {});
+[[nodiscard]] ScatteredPoints read_points(const std::string& path, const ColumnChoice& columns = {},
+                                          const std::optional<LocalPlane>& plane = std::nullopt);
 
 /// The same from the bytes of a file in memory. name: what messages call it; its extension decides as a path's does.
 /// bytes: moved in without a copy. Throws and costs what read_points() does.
 [[nodiscard]] ScatteredPoints read_points_bytes(std::string bytes, const std::string& name,
-                                                const ColumnChoice& columns = {});
+                                                const ColumnChoice& columns = {},
+                                                const std::optional<LocalPlane>& plane = std::nullopt);
 
 }  // namespace vspring

@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -107,6 +108,20 @@ NamedCoordinates find_axes(const Cells& header, const Axes& axes) {
   return named;
 }
 
+/// Whether a cell begins with one of the names, and has a unit of degrees behind it or nothing.
+bool has_name_in_degrees(std::string_view cell, std::span<const std::string_view> names) {
+  constexpr std::string_view separators = " \t_-.";
+  constexpr std::array<std::string_view, 5> units = {"", "deg", "degree", "degrees", "\u00b0"};
+  cell = without_brackets(cell);
+  return std::any_of(names.begin(), names.end(), [&](std::string_view name) {
+    if (!is_same(cell.substr(0, name.size()), name)) return false;
+    const std::string_view behind = cell.substr(name.size());
+    const std::string_view unit = behind.substr(std::min(behind.find_first_not_of(separators), behind.size()));
+    return std::any_of(units.begin(), units.end(), [&](std::string_view known) { return is_same(unit, known); }) &&
+           (behind.empty() || unit.size() < behind.size());
+  });
+}
+
 std::string list_of(const Cells& header) {
   constexpr std::size_t most = 8;
   std::string list;
@@ -135,6 +150,19 @@ NamedCoordinates find_coordinates(const Cells& header) {
     if (named.columns.size() > best.columns.size()) best = std::move(named);
   }
   return best;
+}
+
+std::optional<std::array<std::size_t, 2>> find_degrees(const Cells& header) {
+  constexpr std::array<std::string_view, 4> longitudes = {"longitude", "lon", "lng", "long"};
+  constexpr std::array<std::string_view, 2> latitudes = {"latitude", "lat"};
+  const auto find = [&](std::span<const std::string_view> names) {
+    const auto found = std::find_if(header.begin(), header.end(),
+                                    [&](std::string_view cell) { return has_name_in_degrees(cell, names); });
+    return static_cast<std::size_t>(found - header.begin());
+  };
+  const std::array found = {find(longitudes), find(latitudes)};
+  if (found[0] == header.size() || found[1] == header.size()) return std::nullopt;
+  return found;
 }
 
 std::size_t column_named(const Cells& header, std::string_view name) {

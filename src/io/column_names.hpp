@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +25,10 @@ struct NamedCoordinates {
 /// hyphen ("X [mm]", "y_m", "Z-coordinate (in)"), or as a ratio ("x/c"). Without x, "station" is one. "Points:0" to
 /// "Points:2", as ParaView names them, are coordinates too. A name alone goes before one with a unit.
 NamedCoordinates find_coordinates(const Cells& header);
+
+/// The columns of longitude and latitude, in this order: those with such a name, in any case, alone or with a unit of
+/// degrees ("lat", "Longitude [deg]", "lng"); nothing unless there are both.
+std::optional<std::array<std::size_t, 2>> find_degrees(const Cells& header);
 
 /// The column that is called so, in any case, or the number of cells.
 std::size_t column_named(const Cells& header, std::string_view name);

@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "io/column_names.hpp"
+#include "io/csv_cutter.hpp"
+#include "io/degrees.hpp"
+#include "io/rewriter.hpp"
 #include "io/table.hpp"
 
 namespace vspring {
@@ -25,64 +28,13 @@ struct CsvLayout {
   std::optional<std::size_t> weight;  ///< column that the header names weight or, without one, confidence
   std::vector<std::size_t> normal;    ///< columns that the header names nx, ny and nz; or none
   std::string warning;                ///< of columns that had to be guessed; empty without
+  bool degrees = false;               ///< the first two columns are longitude and latitude
 };
 
-/// Finds the delimiter and the columns of coordinates: those that are chosen, else those that a header names, see
-/// find_coordinates(), else the first ones of numbers, where these can be told from others. Throws
+/// Finds the columns of coordinates: those that are chosen, else those that a header names, see
+/// find_coordinates() and find_degrees(), else the first ones of numbers, where these can be told from others. Throws
 /// Error(unusable_file), and Error(invalid_argument) for a choice that is none.
 CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice);
-
-/// The rows that a delimiter is found from.
-constexpr std::size_t rows_looked_at = 20;
-
-std::vector<TableLine> first_rows(std::string_view bytes) {
-  std::vector<TableLine> rows;
-  walk_lines(bytes, [&](const TableLine& line) {
-    if (line.kind == TableLine::Kind::row) rows.push_back(line);
-    return rows.size() < rows_looked_at;
-  });
-  return rows;
-}
-
-std::size_t count_numbers(const Cells& cells) {
-  return static_cast<std::size_t>(
-      std::count_if(cells.begin(), cells.end(), [](std::string_view cell) { return number_of(cell).has_value(); }));
-}
-
-/// "1,5;2,5" cut at its commas leaves "5;2" in the middle.
-bool is_two_numbers(std::string_view cell) {
-  return std::any_of(cell.begin(), cell.end(), [&](const char& c) {
-    const auto at = static_cast<std::size_t>(&c - cell.data());
-    return (c == ';' || c == '\t' || c == ' ') && number_of(cell.substr(0, at)) && number_of(cell.substr(at + 1));
-  });
-}
-
-constexpr std::array delimiters = {';', '\t', ',', ' '};
-
-/// The delimiter that leaves two numbers in most rows; the first of them where several do.
-CellCutter find_cutter(const InputFile& file, const std::vector<TableLine>& rows) {
-  char best = ' ';
-  std::size_t most = 0;
-  for (const char delimiter : delimiters) {
-    CellCutter cutter(delimiter, true);
-    const auto fitting = static_cast<std::size_t>(std::count_if(
-        rows.begin(), rows.end(), [&](const TableLine& row) { return count_numbers(cutter.cut(row.text)) > 1; }));
-    if (fitting <= most) continue;
-    most = fitting;
-    best = delimiter;
-  }
-  // With decimal commas no delimiter leaves numbers, or the commas themselves do.
-  for (const char delimiter : delimiters) {
-    if (most > 0 && (delimiter != ',' || best != ',')) continue;
-    CellCutter cutter(delimiter, true);
-    for (const TableLine& row : rows) {
-      const Cells& cells = cutter.cut(row.text);
-      if (std::any_of(cells.begin(), cells.end(), most > 0 ? is_two_numbers : has_decimal_comma))
-        file.refuse_line(row.offset, "its numbers have decimal commas; write decimal points");
-    }
-  }
-  return {best, true};
-}
 
 std::optional<std::size_t> weight_column(const Cells& header) {
   for (const std::string_view name : {"weight", "confidence"}) {
@@ -115,10 +67,10 @@ Cells with_units(const Cells& cells) {
   return header;
 }
 
-std::vector<std::size_t> number_columns(const Cells& cells) {
+std::vector<std::size_t> number_columns(const Cells& cells, char decimal_mark) {
   std::vector<std::size_t> columns;
   for (std::size_t column = 0; column < cells.size(); ++column) {
-    if (number_of(cells[column])) columns.push_back(column);
+    if (number_of(cells[column], decimal_mark)) columns.push_back(column);
   }
   return columns;
 }
@@ -130,7 +82,8 @@ bool counts_rows(std::span<const TableLine> rows, CellCutter cutter, std::size_t
   double first = 0;
   for (std::size_t row = 0; row < rows.size(); ++row) {
     const Cells& cells = cutter.cut(rows[row].text);
-    const std::optional<double> number = column < cells.size() ? number_of(cells[column]) : std::nullopt;
+    const std::optional<double> number =
+        column < cells.size() ? number_of(cells[column], cutter.decimal_mark()) : std::nullopt;
     if (row == 0) first = number.value_or(-1);
     if (number != first + static_cast<double>(row)) return false;
   }
@@ -146,7 +99,7 @@ std::string numbers_of(std::span<const std::size_t> columns, const char* between
 
 /// Takes the first two or three columns of numbers for coordinates, where nothing speaks against it.
 void guess_columns(const InputFile& file, std::span<const TableLine> rows, CsvLayout& layout) {
-  std::vector<std::size_t> columns = number_columns(layout.cutter.cut(rows.front().text));
+  std::vector<std::size_t> columns = number_columns(layout.cutter.cut(rows.front().text), layout.cutter.decimal_mark());
   if (columns.size() > 3)
     std::erase_if(columns, [&](std::size_t column) {
       return column == layout.weight || std::count(layout.normal.begin(), layout.normal.end(), column) > 0;
@@ -176,18 +129,34 @@ void guess_columns(const InputFile& file, std::span<const TableLine> rows, CsvLa
 }
 
 /// Whether the first row is a header, with columns that were chosen.
-bool is_header(const Cells& first, const std::vector<std::size_t>& columns, const ColumnChoice& choice) {
+bool is_header(const Cells& first, char decimal_mark, const std::vector<std::size_t>& columns,
+               const ColumnChoice& choice) {
   const auto is_name = [](const std::string& chosen) { return !number_of(chosen); };
-  const auto holds_number = [&](std::size_t column) { return column < first.size() && number_of(first[column]); };
+  const auto holds_number = [&](std::size_t column) {
+    return column < first.size() && number_of(first[column], decimal_mark);
+  };
   const auto is_there = [&](std::size_t column) { return column < first.size(); };
   if (std::any_of(choice.begin(), choice.end(), is_name)) return true;
   if (std::any_of(columns.begin(), columns.end(), holds_number)) return false;
-  return count_numbers(first) == 0 || std::any_of(columns.begin(), columns.end(), is_there);
+  return count_numbers(first, decimal_mark) == 0 || std::any_of(columns.begin(), columns.end(), is_there);
 }
 
 /// Below names, above numbers: "mm,mm".
 bool is_row_of_units(CellCutter cutter, const TableLine& row, const TableLine& next) {
-  return count_numbers(cutter.cut(row.text)) == 0 && count_numbers(cutter.cut(next.text)) > 1;
+  const char mark = cutter.decimal_mark();
+  return count_numbers(cutter.cut(row.text), mark) == 0 && count_numbers(cutter.cut(next.text), mark) > 1;
+}
+
+/// Of columns that were chosen, longitude and latitude are x and y, in whatever order; what is chosen besides is z.
+void put_degrees_first(const Cells& header, CsvLayout& layout) {
+  Cells chosen;
+  for (const std::size_t column : layout.columns) chosen.push_back(column < header.size() ? header[column] : "");
+  const auto degrees = find_degrees(chosen);
+  if (!degrees) return;
+  layout.degrees = true;
+  std::vector<std::size_t> columns = {layout.columns[(*degrees)[0]], layout.columns[(*degrees)[1]]};
+  if (chosen.size() > 2) columns.push_back(layout.columns[3 - (*degrees)[0] - (*degrees)[1]]);
+  layout.columns = std::move(columns);
 }
 
 CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
@@ -207,7 +176,15 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
     layout.columns = chosen_columns(file, first, offset, choice);
   if (!named.doubt.empty())
     file.refuse_line(offset, named.doubt + "; rename one, or choose columns by number, such as 2,3");
-  if (choice.empty() ? !named.columns.empty() || count_numbers(first) == 0 : is_header(first, layout.columns, choice)) {
+  const char mark = layout.cutter.decimal_mark();
+  if (choice.empty() && named.columns.empty()) {
+    if (const auto degrees = find_degrees(first)) {
+      named.columns.assign(degrees->begin(), degrees->end());
+      layout.degrees = true;
+    }
+  }
+  if (choice.empty() ? !named.columns.empty() || count_numbers(first, mark) == 0
+                     : is_header(first, mark, layout.columns, choice)) {
     layout.header = offset;
     layout.weight = weight_column(first);
     layout.normal = normal_columns(first);
@@ -220,6 +197,7 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
   }
   if (!choice.empty()) {
     require_columns(file, layout.cutter.cut(rows.front().text), rows.front().offset, layout.columns);
+    if (layout.header) put_degrees_first(first, layout);
   } else if (named.columns.empty()) {
     guess_columns(file, rows, layout);
   } else {
@@ -231,10 +209,10 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
 
 }  // namespace
 
-CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice) {
+CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice, const std::optional<LocalPlane>& plane) {
   const CsvLayout layout = find_csv_layout(file, choice);
   const std::vector<TableLine> lines = table_lines(file.bytes);
-  TableReader reader(file, layout.cutter, layout.columns);
+  TableReader reader(file, layout.cutter, layout.columns, layout.degrees);
   std::span<const TableLine> body = lines;
   if (layout.header) {
     reader.carry("names of columns");
@@ -245,23 +223,40 @@ CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice) {
     body = body.subspan(1);
   }
   reader.read(body);
-  CurveFile curve = reader.take(std::move(file), CurveFormat::csv);
+  CurveFile curve = reader.take(std::move(file), CurveFormat::csv, plane);
   if (!layout.warning.empty()) curve.warnings.push_back(layout.warning);
   return curve;
 }
 
-ScatteredPoints read_csv_points(const InputFile& file, const ColumnChoice& choice) {
+ScatteredPoints read_csv_points(const InputFile& file, const ColumnChoice& choice,
+                                const std::optional<LocalPlane>& plane) {
   const CsvLayout layout = find_csv_layout(file, choice);
-  ScatteredPoints points = read_point_rows(file, layout.cutter, {layout.columns, layout.weight, layout.normal},
-                                           layout.header ? *layout.header + 1 : 0);
+  ScatteredPoints points =
+      read_point_rows(file, layout.cutter, {layout.columns, layout.weight, layout.normal, layout.degrees},
+                      layout.header ? *layout.header + 1 : 0, {}, plane);
   if (!layout.warning.empty()) points.warnings.push_back(layout.warning);
   return points;
 }
 
 std::string fresh_csv(const FreshCurve& curve, std::vector<std::string>& losses) {
   name_losses_of_rows(curve, losses);
-  std::string text = curve.planar ? "x,y\n" : "x,y,z\n";
-  append_rows(text, curve, ',');
+  std::string text;
+  if (curve.plane == nullptr) {
+    text = curve.planar ? "x,y\n" : "x,y,z\n";
+    append_rows(text, curve, ',');
+    return text;
+  }
+  text = curve.planar ? "lat,lon\n" : "lat,lon,ele\n";
+  const auto append_row = [&](const Vector3& position) {
+    const LocalPlane::Place place = curve.plane->place(position);
+    append_degrees(text, place.latitude);
+    text += ',';
+    append_degrees(text, place.longitude);
+    if (!curve.planar) text += ',';
+    if (!curve.planar) append_number(text, position.z());
+    text += '\n';
+  };
+  walk_rows(curve, append_row, [&] { text += '\n'; });
   return text;
 }
 

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
+#include <utility>
 
 #include "io/column_names.hpp"
 #include "io/curve_formats.hpp"
+#include "io/degrees.hpp"
 #include "io/formats.hpp"
 #include "io/rewriter.hpp"
 #include "io/svg.hpp"
@@ -17,7 +20,7 @@
 namespace vspring {
 namespace {
 
-constexpr std::array curve_format_names = {"obj", "csv", "dat", "xyz", "svg"};
+constexpr std::array curve_format_names = {"obj", "csv", "dat", "xyz", "gpx", "svg"};
 constexpr Formats<CurveFormat> curve_formats(curve_format_names);
 
 void require_plane(std::span<const Vector3> positions) {
@@ -40,6 +43,19 @@ void require_all(const CurveFile& file, const std::vector<Vector3>& positions) {
                 fmt::format("{} positions given for {} nodes", positions.size(), file.curve.node_count()));
 }
 
+void require_order(const CurveFile& file) {
+  std::vector<std::uint8_t> seen(file.curve.positions().size(), 0);
+  const bool whole = file.row_order.size() == seen.size() &&
+                     std::all_of(file.row_order.begin(), file.row_order.end(), [&](Index node) {
+                       return node >= 0 && node < file.curve.node_count() &&
+                              std::exchange(seen[static_cast<std::size_t>(node)], std::uint8_t{1}) == 0;
+                     });
+  if (!file.row_order.empty() && !(whole && file.source->has_rows))
+    throw Error(
+        ErrorCode::invalid_argument,
+        fmt::format("{}: the order of its rows is not one of all its nodes; leave it out", file.source->file.name));
+}
+
 /// A file in another format than the source's, or of a curve that no file gave.
 std::string converted(CurveFormat format, const CurveFile& file, const std::vector<Vector3>& positions,
                       std::vector<std::string>& losses) {
@@ -50,11 +66,15 @@ std::string converted(CurveFormat format, const CurveFile& file, const std::vect
   } else if (!file.groups.empty()) {
     losses.emplace_back("groups");
   }
+  if (file.plane && format != CurveFormat::gpx && format != CurveFormat::csv)
+    losses.push_back("degrees: its x and y are metres east and north of " + origin_of(*file.plane));
   const bool planar = file.planar && first_off_plane(positions) == positions.size();
-  return fresh_curve(format, {file.curve.chains(), positions, planar, file.name}, losses);
+  return fresh_curve(format, {file.curve.chains(), positions, planar, file.name, file.plane ? &*file.plane : nullptr},
+                     losses);
 }
 
-CurveFile curve_of(InputFile file, std::optional<CurveFormat> format, const ColumnChoice& columns) {
+CurveFile curve_of(InputFile file, std::optional<CurveFormat> format, const ColumnChoice& columns,
+                   const std::optional<LocalPlane>& plane) {
   const std::optional<CurveFormat> said = format ? format : curve_format(extension_of(file.name));
   const CurveFormat taken = said ? *said : detect_curve_format(file);
   if (taken != CurveFormat::csv && taken != CurveFormat::xyz) refuse_choice(file, columns);
@@ -62,28 +82,31 @@ CurveFile curve_of(InputFile file, std::optional<CurveFormat> format, const Colu
     case CurveFormat::obj:
       return read_obj_curve(std::move(file));
     case CurveFormat::csv:
-      return read_csv_curve(std::move(file), columns);
+      return read_csv_curve(std::move(file), columns, plane);
     case CurveFormat::dat:
       return read_dat_curve(std::move(file));
     case CurveFormat::xyz:
       return read_xyz_curve(std::move(file), columns);
+    case CurveFormat::gpx:
+      return read_gpx_curve(std::move(file), plane);
     case CurveFormat::svg:
       break;
   }
-  file.refuse("SVG is a picture, it can only be written; choose a file of OBJ, CSV, DAT or XYZ");
+  file.refuse("SVG is a picture, it can only be written; choose a file of OBJ, CSV, DAT, XYZ or GPX");
 }
 
 }  // namespace
 
 std::optional<CurveFormat> curve_format(std::string_view extension) { return curve_formats.of_extension(extension); }
 
-CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format, const ColumnChoice& columns) {
-  return curve_of(read_input(path), format, columns);
+CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format, const ColumnChoice& columns,
+                     const std::optional<LocalPlane>& plane) {
+  return curve_of(read_input(path), format, columns, plane);
 }
 
 CurveFile read_curve_bytes(std::string bytes, const std::string& name, std::optional<CurveFormat> format,
-                           const ColumnChoice& columns) {
-  return curve_of(input_of(std::move(bytes), name), format, columns);
+                           const ColumnChoice& columns, const std::optional<LocalPlane>& plane) {
+  return curve_of(input_of(std::move(bytes), name), format, columns, plane);
 }
 
 FileBytes curve_bytes(const std::string& name, const CurveFile& file, const std::vector<Vector3>& positions,
@@ -103,7 +126,8 @@ FileBytes curve_bytes(const std::string& name, const CurveFile& file, const std:
     made.bytes = draw_curve(file, positions, picture);
   } else if (source != nullptr && target == file.format) {
     if (file.planar) require_plane(positions);
-    made.bytes = source->rewritten(positions, moved);
+    require_order(file);
+    made.bytes = source->rewritten({positions, moved, file.row_order});
   } else {
     made.bytes = converted(target, file, positions, made.losses);
   }
@@ -153,6 +177,11 @@ std::string fresh_curve(CurveFormat format, const FreshCurve& curve, std::vector
       return fresh_csv(curve, losses);
     case CurveFormat::dat:
       return fresh_dat(curve, losses);
+    case CurveFormat::gpx:
+      if (curve.plane == nullptr)
+        throw Error(ErrorCode::invalid_argument,
+                    "GPX has its points in degrees, which this curve does not come from; write another format");
+      return fresh_gpx(curve, losses);
     default:
       return fresh_xyz(curve, losses);
   }

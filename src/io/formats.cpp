@@ -82,6 +82,13 @@ bool is_text_stl(std::string_view bytes) {
   return start.find("facet") != std::string_view::npos || start.find("endsolid") != std::string_view::npos;
 }
 
+/// XML whose first element may well be <gpx>.
+bool is_gpx(std::string_view bytes) {
+  const std::string_view start = bytes.substr(byte_order_mark_length(bytes), bytes_looked_at);
+  return first_word(start).starts_with('<') &&
+         (start.find("<gpx") != std::string_view::npos || start.find(":gpx") != std::string_view::npos);
+}
+
 bool begins_with_numbers(const std::vector<std::string_view>& cells) {
   return cells.size() > 1 && number_of(cells[0]) && number_of(cells[1]);
 }
@@ -145,6 +152,7 @@ CurveFormat detect_curve_format(const InputFile& file) {
     if (*surface == SurfaceFormat::obj) return CurveFormat::obj;
     file.refuse(fmt::format("its content is {}, which holds surfaces; use `vspring fair` for it", name_of(*surface)));
   }
+  if (is_gpx(file.bytes)) return CurveFormat::gpx;
   const std::vector<TableLine> lines = table_lines(file.bytes);
   const auto is_row = [](const TableLine& line) { return line.kind == TableLine::Kind::row; };
   const auto first = std::find_if(lines.begin(), lines.end(), is_row);
@@ -155,7 +163,8 @@ CurveFormat detect_curve_format(const InputFile& file) {
   // Names of columns are cut like the rows below them; the name of an aerofoil may hold anything.
   if (!text_first) return CurveFormat::xyz;
   const Cells& names = cutter.cut(first->text);
-  if (names_x(names) || !find_coordinates(names).columns.empty() || second == lines.end()) return CurveFormat::csv;
+  if (names_x(names) || !find_coordinates(names).columns.empty() || find_degrees(names) || second == lines.end())
+    return CurveFormat::csv;
   return begins_with_numbers(cutter.cut(second->text)) ? CurveFormat::dat : CurveFormat::csv;
 }
 

@@ -174,11 +174,10 @@ SurfaceFile ObjReader::take(InputFile file) {
 /// An OBJ file of curves: where its nodes are.
 class ObjCurveSource : public CurveSource {
  public:
-  [[nodiscard]] std::string rewritten(const std::vector<Vector3>& places,
-                                      const std::vector<std::uint8_t>& moved) const override {
+  [[nodiscard]] std::string rewritten(const Rewriting& what) const override {
     TextRewriter out(file.bytes);
     for (std::size_t node = 0; node < rows.size(); ++node) {
-      if (moved[node] != 0) out.replace_words(rows[node], row_of(places[node]));
+      if (what.moved[node] != 0) out.replace_words(rows[node], row_of(what.places[node]));
     }
     return out.finish();
   }

@@ -29,7 +29,12 @@ ScatteredPoints read_surface_points(InputFile file, SurfaceFormat format) {
   return {read_stl(std::move(file)).mesh.positions()};
 }
 
-ScatteredPoints points_of(InputFile file, const ColumnChoice& columns) {
+ScatteredPoints read_gpx_points(InputFile file, const std::optional<LocalPlane>& plane) {
+  const CurveFile curve = read_gpx_curve(std::move(file), plane);
+  return {.positions = curve.curve.positions(), .plane = curve.plane, .warnings = curve.warnings};
+}
+
+ScatteredPoints points_of(InputFile file, const ColumnChoice& columns, const std::optional<LocalPlane>& plane) {
   const std::string extension = extension_of(file.name);
   std::optional<CurveFormat> curve = curve_format(extension);
   if (!curve || *curve == CurveFormat::obj) {
@@ -44,11 +49,13 @@ ScatteredPoints points_of(InputFile file, const ColumnChoice& columns) {
   if (*curve != CurveFormat::csv && *curve != CurveFormat::xyz) refuse_choice(file, columns);
   switch (*curve) {
     case CurveFormat::csv:
-      return read_csv_points(file, columns);
+      return read_csv_points(file, columns, plane);
     case CurveFormat::dat:
       return {read_dat_curve(std::move(file)).curve.positions()};
     case CurveFormat::xyz:
       return read_xyz_points(file, columns);
+    case CurveFormat::gpx:
+      return read_gpx_points(std::move(file), plane);
     default:
       break;
   }
@@ -64,12 +71,14 @@ bool is_point_normal(const Vector3& normal) {
 
 bool is_point_weight(double weight) { return std::isfinite(weight) && weight >= 0; }
 
-ScatteredPoints read_points(const std::string& path, const ColumnChoice& columns) {
-  return points_of(read_input(path), columns);
+ScatteredPoints read_points(const std::string& path, const ColumnChoice& columns,
+                            const std::optional<LocalPlane>& plane) {
+  return points_of(read_input(path), columns, plane);
 }
 
-ScatteredPoints read_points_bytes(std::string bytes, const std::string& name, const ColumnChoice& columns) {
-  return points_of(input_of(std::move(bytes), name), columns);
+ScatteredPoints read_points_bytes(std::string bytes, const std::string& name, const ColumnChoice& columns,
+                                  const std::optional<LocalPlane>& plane) {
+  return points_of(input_of(std::move(bytes), name), columns, plane);
 }
 
 }  // namespace vspring

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "io/input_file.hpp"
 #include "vspring/point_file.hpp"
 
@@ -9,7 +11,8 @@ namespace vspring {
 /// Error(invalid_argument) for a choice of columns that is none.
 ScatteredPoints read_obj_points(const InputFile& file);
 ScatteredPoints read_ply_points(const InputFile& file);
-ScatteredPoints read_csv_points(const InputFile& file, const ColumnChoice& choice);
+ScatteredPoints read_csv_points(const InputFile& file, const ColumnChoice& choice,
+                                const std::optional<LocalPlane>& plane);
 ScatteredPoints read_xyz_points(const InputFile& file, const ColumnChoice& choice);
 
 /// Whether a point may have this weight.

@@ -13,8 +13,12 @@
 #include "io/curve_formats.hpp"
 #include "io/point_formats.hpp"
 #include "io/text_cursor.hpp"
+#include "vspring/local_plane.hpp"
 
 namespace vspring {
+
+/// A text without the blanks around it.
+std::string_view trimmed(std::string_view text);
 
 /// A line of a file of rows.
 struct TableLine {
@@ -45,16 +49,18 @@ void walk_lines(std::string_view bytes, const Use& use) {
 /// All lines of a file, without a byte order mark.
 std::vector<TableLine> table_lines(std::string_view bytes);
 
-/// Cuts rows into cells.
+/// Cuts rows into cells, and says how numbers are written in them.
 class CellCutter {
  public:
   /// delimiter: what stands between two cells; a blank stands for any run of blanks. quotes: a cell may stand in
-  /// quotes, and delimiters in them.
-  CellCutter(char delimiter, bool quotes) : delimiter_(delimiter), quotes_(quotes) {}
+  /// quotes, and delimiters in them. decimal_mark: a point or a comma.
+  CellCutter(char delimiter, bool quotes, char decimal_mark = '.')
+      : delimiter_(delimiter), quotes_(quotes), decimal_mark_(decimal_mark) {}
 
   /// The cells of a row, without the blanks and quotes around them; valid until the next call.
   const std::vector<std::string_view>& cut(std::string_view row);
   [[nodiscard]] bool cuts_at_blanks() const { return delimiter_ == ' '; }
+  [[nodiscard]] char decimal_mark() const { return decimal_mark_; }
 
  private:
   [[nodiscard]] std::size_t cell_end(std::string_view row, std::size_t begin) const;
@@ -62,20 +68,20 @@ class CellCutter {
 
   char delimiter_;
   bool quotes_;
+  char decimal_mark_;
   std::vector<std::string_view> cells_;
 };
 
 /// The number that a cell is, if it is one; "nan" and "inf" are.
-std::optional<double> number_of(std::string_view cell);
+std::optional<double> number_of(std::string_view cell, char decimal_mark = '.');
 
-/// Whether a cell is a number but for a comma in the place of its point.
+/// Whether a cell is a number with a comma in the place of its point.
 bool has_decimal_comma(std::string_view cell);
 
 /// A file of rows that give the position of one node each.
 class TableSource : public CurveSource {
  public:
-  [[nodiscard]] std::string rewritten(const std::vector<Vector3>& places,
-                                      const std::vector<std::uint8_t>& moved) const override;
+  [[nodiscard]] std::string rewritten(const Rewriting& what) const override;
 
   struct Row {
     std::size_t offset;
@@ -84,17 +90,29 @@ class TableSource : public CurveSource {
   std::vector<Row> rows;  ///< ascending
   CellCutter cutter = CellCutter(' ', false);
   std::vector<std::size_t> columns = {0, 1};  ///< of x, y and, in space, z
+  /// Where x and y come from: columns of longitude and latitude.
+  std::optional<LocalPlane> plane;
+  bool counts_to_360 = false;  ///< longitudes, and not from -180 to 180
+
+ private:
+  /// What stands in the columns.
+  [[nodiscard]] Vector3 numbers_at(const Vector3& position) const;
+  [[nodiscard]] std::string_view text_of(const Row& row) const;
+  /// A row with other numbers in its columns. by_place: which column comes first, second and third in a row.
+  [[nodiscard]] std::string with_numbers(std::string_view row, const Vector3& numbers,
+                                         const std::vector<std::size_t>& by_place) const;
 };
 
 /// The number in a column of a row. Throws Error(unusable_file) naming the line and what is missing or is no number;
 /// name: of the column.
 double number_in(const InputFile& file, const TableLine& line, std::span<const std::string_view> cells,
-                 std::size_t column, std::string_view name);
+                 std::size_t column, std::string_view name, char decimal_mark);
 
 /// Gathers the nodes of a table. Blank lines end chains.
 class TableReader {
  public:
-  TableReader(const InputFile& file, CellCutter cutter, std::vector<std::size_t> columns);
+  /// degrees: the first two columns are longitude and latitude; positions are these until they are handed over.
+  TableReader(const InputFile& file, CellCutter cutter, std::vector<std::size_t> columns, bool degrees = false);
 
   /// Reads every row of the lines.
   void read(std::span<const TableLine> lines);
@@ -108,13 +126,16 @@ class TableReader {
   [[nodiscard]] const std::vector<Vector3>& positions() const { return source_->positions; }
   std::vector<PolygonCurve::Chain> chains;
 
-  /// Hands over what was read; file becomes the source's. Throws Error(unusable_file) where it is no curve.
-  CurveFile take(InputFile file, CurveFormat format);
+  /// Hands over what was read, with a warning of rows that repeat the one above; file becomes the source's. plane: of
+  /// degrees, see take_to_plane(). Throws Error(unusable_file) where it is no curve.
+  CurveFile take(InputFile file, CurveFormat format, const std::optional<LocalPlane>& plane = std::nullopt);
 
  private:
   const InputFile& file_;
+  bool degrees_;
   std::shared_ptr<TableSource> source_ = std::make_shared<TableSource>();
   std::set<std::string> carried_;
+  std::vector<std::size_t> repeats_;  ///< offsets of rows at the place of the row above
 };
 
 /// Which columns of a table of points hold what.
@@ -122,14 +143,31 @@ struct PointColumns {
   std::vector<std::size_t> coordinates;
   std::optional<std::size_t> weight = std::nullopt;
   std::vector<std::size_t> normal = {};  ///< three or none
+  bool degrees = false;                  ///< the first two coordinates are longitude and latitude
 };
 
 /// May refuse a row, by its cells.
 using RowCheck = std::function<void(const TableLine&, std::span<const std::string_view>)>;
 
-/// The points of the rows from the offset `behind` on. Throws as number_in(), and for a weight that is none.
+/// The points of the rows from the offset `behind` on. Throws as number_in(), and for a weight that is none. plane: of
+/// degrees, see take_to_plane().
 ScatteredPoints read_point_rows(const InputFile& file, CellCutter cutter, const PointColumns& columns,
-                                std::size_t behind, const RowCheck& check = {});
+                                std::size_t behind, const RowCheck& check = {},
+                                const std::optional<LocalPlane>& plane = std::nullopt);
+
+/// Calls use(position) for each node along the chains, the first one of a closed chain once more, and begin_next()
+/// between two chains.
+template <typename Use, typename BeginNext>
+void walk_rows(const FreshCurve& curve, const Use& use, const BeginNext& begin_next) {
+  bool first = true;
+  for (const PolygonCurve::Chain& chain : curve.chains) {
+    if (chain.nodes.empty()) continue;
+    if (!first) begin_next();
+    first = false;
+    for (const Index node : chain.nodes) use(curve.positions[static_cast<std::size_t>(node)]);
+    if (chain.closed) use(curve.positions[static_cast<std::size_t>(chain.nodes.front())]);
+  }
+}
 
 /// Appends a row for each node along the chains, with a blank row between two chains.
 void append_rows(std::string& text, const FreshCurve& curve, char between);

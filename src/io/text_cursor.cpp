@@ -11,9 +11,10 @@
 
 namespace vspring {
 
-const char* parse_number(const char* begin, const char* end, double& value) {
+const char* parse_number(const char* begin, const char* end, double& value, char decimal_mark) {
   if (end - begin > 1 && *begin == '+' && begin[1] != '-') ++begin;
-  const auto [stop, fault] = fast_float::from_chars(begin, end, value);
+  const fast_float::parse_options options(fast_float::chars_format::general, decimal_mark);
+  const auto [stop, fault] = fast_float::from_chars_advanced(begin, end, value, options);
   return fault == std::errc() || fault == std::errc::result_out_of_range ? stop : nullptr;
 }
 

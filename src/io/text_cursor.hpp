@@ -24,7 +24,7 @@ constexpr std::size_t byte_order_mark_length(std::string_view bytes) {
 }
 
 /// Reads a number as far as it goes and returns its end, or null where none begins. "nan" and "inf" are numbers too.
-const char* parse_number(const char* begin, const char* end, double& value);
+const char* parse_number(const char* begin, const char* end, double& value, char decimal_mark = '.');
 
 /// Walks the words and lines of a file. Numbers mean the same in every locale.
 class TextCursor {

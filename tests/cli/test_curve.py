@@ -128,6 +128,23 @@ class Curve(Case):
         result = self.curve(csv(points + points[:1]), "--closed", "--constraints", self.write("fixed.json", json.dumps(rules)), status=2)
         self.assertIn("nodes 0 and 24 are one", self.assert_one_line(result))
 
+    def test_a_blunt_trailing_edge_keeps_its_corners(self):
+        side = [(k / 20, 0.01 * k / 20 + 0.3 * math.sqrt(k / 20) * (1 - k / 20)) for k in range(21)]
+        outline = [(x, y) for x, y in side[::-1]] + [(x, -y) for x, y in side[1:]]
+        table = lambda rows: "blunt\n" + "".join(f"{x!r} {y!r}\n" for x, y in rows)
+        names = {"name": "in.dat", "output": "out.dat"}
+        self.assertNotIn(b"note", self.curve(table(outline), "--within", "0.001", **names).stdout)
+        said = self.curve(table(outline + outline[:1]), "--within", "0.001", **names).stdout.decode()
+        self.assertIn("note: node 41 is where node 0 is, and node 40 beside them is a corner, as of a blunt trailing edge, which is", said)
+        self.assertNotIn("--closed", said)
+        # The base is a chain of its own.
+        parted = table(outline) + "\n" + table([outline[-1], outline[0]]).split("\n", 1)[1]
+        self.assertNotIn(b"note", self.curve(parted, "--within", "0.001", **names).stdout)
+        rows, before = (self.folder / "out.dat").read_text().splitlines(), parted.splitlines()
+        self.assertEqual((len(rows), rows[1], rows[41:]), (45, before[1], before[41:]))
+        twice = self.curve(table(outline[:1] + outline), "--within", "0.001", **names)
+        self.assertIn("in.dat:3: this row is at the same place as the one above; leave it out", twice.stderr.decode())
+
     def test_columns_by_name_and_by_choice(self):
         points = arc(20, noise=0.02)
         text = "index,X [mm],Y [mm]\n" + "".join(f"{k},{x!r},{y!r}\n" for k, (x, y) in enumerate(points))
@@ -147,6 +164,54 @@ class Curve(Case):
         for columns, status in (("2", 1), ("2,", 1), ("1,2,3,1", 1), ("2,2", 1), ("0,1", 1), ("2,7", 2), ("a,c", 2)):
             self.assert_one_line(self.curve(other, "--columns", columns, status=status))
         self.assert_one_line(self.curve("v 0 0 0\nv 1 0 0\nl 1 2\n", "--columns", "1,2", name="in.obj", status=1))
+
+    def test_decimal_commas_stay(self):
+        points = arc(20, noise=0.02)
+        text = "no;x;y\r\n" + "".join(f"{k};{x!r};{y!r}\r\n".replace(".", ",") for k, (x, y) in enumerate(points))
+        self.curve(text)
+        commas = (self.folder / "out.csv").read_bytes().decode()
+        self.curve(text.replace(",", "."))
+        self.assertEqual(commas.replace(",", "."), (self.folder / "out.csv").read_bytes().decode())
+        self.assertEqual(commas.split("\r\n")[:2] + commas.split("\r\n")[-2:], text.split("\r\n")[:2] + text.split("\r\n")[-2:])
+
+    def test_rows_in_no_order(self):
+        points = arc(120, noise=0.004)
+        rows = [f"{k},{x!r},{y!r}" for k, (x, y) in enumerate(points)]
+        self.curve("id,x,y\n" + "\n".join(rows) + "\n", "--within", "0.01")
+        in_order = (self.folder / "out.csv").read_text()
+        random.Random(2).shuffle(rows)
+        shuffled = "id,x,y\n" + "\n".join(rows) + "\n"
+        said = self.curve(shuffled, "--within", "0.01", "--order", "--report", self.folder / "r.json").stdout.decode()
+        changed = self.read_json("r.json")["reordered_nodes"]
+        self.assertGreater(changed, 100)
+        self.assertIn(f"note: {changed} of 120 rows changed place, and all come in order along the curve", said)
+        after = (self.folder / "out.csv").read_text().splitlines()
+        numbers = [int(line.split(",")[0]) for line in after[1:]]
+        self.assertIn(numbers, (list(range(120)), list(range(119, -1, -1))))
+        # The ends are those of the curve, not of the table, and stay.
+        self.assertEqual({after[1], after[-1]}, {f"{k},{points[k][0]!r},{points[k][1]!r}" for k in (0, 119)})
+        distances = [math.dist(a[1:], b[1:]) for a, b in zip(*(sorted(tuple(map(float, line.split(","))) for line in text[1:])
+                                                               for text in (in_order.splitlines(), after)))]
+        self.assertLess(max(distances), 1e-3)
+        # Rules count the rows of the input.
+        held = rows.index(next(row for row in rows if row.startswith("60,")))
+        rules = self.write("held.json", json.dumps({"rules": [{"nodes": [held], "position": "fixed"}]}))
+        self.curve(shuffled, "--order", "--constraints", rules)
+        self.assertIn(rows[held], (self.folder / "out.csv").read_text().splitlines())
+        self.curve(shuffled, "--order", "--within", "0.01", "--resample", "40")
+        self.assertEqual(len(read(self.folder / "out.csv")), 40)
+        line = self.assert_one_line(self.curve("v 0 0 0\nv 1 0 0\nl 1 2\n", "--order", name="in.obj", output="out.obj", status=1))
+        self.assertIn("leave the order along the curve (--order) out", line)
+
+    def test_rows_of_a_closed_curve_in_no_order(self):
+        points = [(1.2 * math.cos(k * math.pi / 30), math.sin(k * math.pi / 30)) for k in range(60)]
+        rows = [f"{k},{x!r},{y!r}" for k, (x, y) in enumerate(points)]
+        random.Random(4).shuffle(rows)
+        self.curve("id,x,y\n" + "\n".join(rows) + "\n", "--order", "--closed", "--within", "0.01")
+        numbers = [int(line.split(",")[0]) for line in (self.folder / "out.csv").read_text().splitlines()[1:]]
+        steps = {(b - a) % 60 for a, b in zip(numbers, numbers[1:] + numbers[:1])}
+        self.assertIn(steps, ({1}, {59}))
+        self.assertEqual(numbers[0], int(rows[0].split(",")[0]))
 
     def test_resample_and_spacing(self):
         points = [(math.cos(2 * (k / 30) ** 2), math.sin(2 * (k / 30) ** 2)) for k in range(31)]

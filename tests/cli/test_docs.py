@@ -11,6 +11,7 @@ import unittest
 
 import support
 from support import PROGRAM, Case, run
+from test_tracks import gpx, track
 
 ROOT = pathlib.Path(__file__).parents[2]
 DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -54,6 +55,9 @@ STAND_INS = {
     "mesh.obj": "cylinder-patch --radius 0.2236 --angle 150 --height 0.1 --columns 30 --rows 6",
     "aerofoil.dat": ROOT / "examples/naca-2412.dat",
     "outline.csv": outline,
+    "track.gpx": lambda: gpx(track(60, 3)),
+    "log.csv": lambda: "time,lat,lon\n" + "".join(f"{k},{a!r},{b!r}\n" for k, (a, b) in enumerate(track(60, 3))),
+    "cloud.csv": lambda: "".join(sorted(f"{math.sin(7 * k):.3f},{k + 0.01 * math.cos(11 * k):.3f}\n" for k in (j / 40 for j in range(41)))),
     "soup.obj": lambda: soup(8),
     "rules.json": lambda: rules(nodes="boundary"),
     "held.json": lambda: rules(nodes=[0, 10, 20, 30]),

@@ -54,7 +54,7 @@ export interface Core {
 
 /** A surface or a curve, by the rule of the command line: by the extension, and an OBJ file without faces is a curve. */
 export function openShape(core: Core, name: string, bytes: Uint8Array): CoreSurface | CoreCurve {
-  if (!/\.(csv|dat|xyz)$/i.test(name)) {
+  if (!/\.(csv|dat|gpx|xyz)$/i.test(name)) {
     const surface = new core.Surface(bytes, name);
     if (surface.faceCount() > 0 || !/\.obj$/i.test(name)) return surface;
     surface.delete();

@@ -8,7 +8,9 @@ const formats = { surface: ['obj', 'off', 'ply', 'stl'], curve: ['csv', 'dat', '
 export function showFor(shape: Shape, name: string, format: HTMLSelectElement): void {
   const kind = shape.curve ? 'curve' : 'surface';
   for (const element of document.querySelectorAll<HTMLElement>('[data-for]')) element.hidden = element.dataset.for !== kind;
-  format.replaceChildren(...formats[kind].map((which) => new Option(which.toUpperCase(), which)));
   const own = name.split('.').at(-1)!.toLowerCase();
-  format.value = formats[kind].includes(own) ? own : formats[kind][0];
+  // Tracks are made of tracks alone.
+  const offered = own === 'gpx' && shape.curve ? [...formats[kind], own] : formats[kind];
+  format.replaceChildren(...offered.map((which) => new Option(which.toUpperCase(), which)));
+  format.value = offered.includes(own) ? own : offered[0];
 }

@@ -42,11 +42,11 @@ std::vector<Case> cases() {
       {"a.csv", "x,y\n0,0\n", ": no two of its nodes follow each other"},
       {"a.csv", "0,0\n\n1,1\n", ": no two of its nodes follow each other"},
       {"a.csv", "hello\nworld\n", ":2: a node needs two or three numbers, this row has fewer"},
-      {"a.csv", "x;y\n0,5;1,5\n1,5;2,5\n", ":2: its numbers have decimal commas; write decimal points"},
-      {"a.csv", "0,5\t1,5\n1,5\t2,5\n", ":1: its numbers have decimal commas; write decimal points"},
-      {"a.csv", "0,5 1,5\n1,5 2,5\n", ":1: its numbers have decimal commas; write decimal points"},
-      {"a.csv", "0;1\n2;3\n4,5;6\n", ":3: '4,5' stands where x belongs; write decimal points, not commas"},
-      {"a.csv", "\"x\",\"y\"\n\"0,5\",\"1,5\"\n", ":2: its numbers have decimal commas"},
+      {"a.csv", "0,5 1,5\n1,5 2,5\n",
+       ":1: its numbers have decimal commas, and blanks between them; write decimal points"},
+      {"a.csv", "0.5;1\n2.5;3\n4,5;6\n", ":3: '4,5' stands where x belongs; write decimal points, not commas"},
+      {"a.csv", "0,5;1\n2,5;3\n4.5;6\n", ":3: '4.5' stands where x belongs; write a decimal comma, as other rows do"},
+      {"a.csv", "0,5;1\n1.234,5;6\n", ":2: '1.234,5' stands where x belongs; repair the line"},
       {"a.csv", "no,east,north\n1,0,0\n2,1,0\n3,1,1\n",
        ":1: column 1 counts rows and no columns are named x and y, so columns 1, 2, 3 cannot be told apart; name them "
        "x, y "

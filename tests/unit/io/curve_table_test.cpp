@@ -156,6 +156,43 @@ TEST_F(CurveTable, RefusesAChoiceThatIsNone) {
             "a.dat: columns can be chosen in CSV and XYZ only; leave the choice of columns out, or name the format");
 }
 
+TEST_F(CurveTable, ReadsDecimalCommasAndWritesThem) {
+  for (const std::string between : {";", "\t", " ; "}) {
+    const auto row = [&](const std::string& x, const std::string& y) {
+      return fmt::format("{1}{0}{2}\n", between, x, y);
+    };
+    const std::string text = row("x", "y") + row("0", "1,50") + row("-12,5", "1e-2") + row("3", ",25");
+    const CurveFile file = read(text, "csv");
+    ASSERT_EQ(file.curve.node_count(), 3) << between;
+    EXPECT_EQ(file.curve.position(0), Vector3(0, 1.5, 0));
+    EXPECT_EQ(file.curve.position(1), Vector3(-12.5, 0.01, 0));
+    EXPECT_EQ(file.curve.position(2), Vector3(3, 0.25, 0));
+    EXPECT_TRUE(file.warnings.empty());
+    EXPECT_EQ(unmoved(text, "csv"), text);
+    EXPECT_EQ(moved(text, "csv", {{1, {0.125, -7, 0}}}), replaced(text, row("-12,5", "1e-2"), row("0,125", "-7")));
+  }
+  const std::string quoted = "\"x\",\"y\"\n\"0,5\",\"1,5\"\n\"2,5\",\"3\"\n";
+  EXPECT_EQ(moved(quoted, "csv", {{0, {0.25, 1.5, 0}}}), replaced(quoted, "0,5", "0,25"));
+  EXPECT_EQ(read_points(put("in.csv", "x;y;z;weight\n0,5;1;2,5;0,25\n")).weights, std::vector<double>{0.25});
+}
+
+TEST_F(CurveTable, FindsDecimalCommasBelowRowsOfWholeNumbers) {
+  std::string text = "no;x;y\n";
+  for (int k = 0; k < 40; ++k) text += fmt::format("{0};{0};7\n", k);
+  const std::string below = "40;40,5;7\n";
+  EXPECT_EQ(read(text + below, "csv").curve.position(40), Vector3(40.5, 7, 0));
+  EXPECT_EQ(moved(text + below, "csv", {{0, {0.5, 7, 0}}}), replaced(text + below, "\n0;0;7", "\n0;0,5;7"));
+  EXPECT_EQ(moved(text, "csv", {{0, {0.5, 7, 0}}}), replaced(text, "\n0;0;7", "\n0;0.5;7"));
+  EXPECT_EQ(read(text + "40;40.5;7\n", "csv").curve.position(40), Vector3(40.5, 7, 0));
+  // Names with numbers and commas between them part nothing.
+  const std::string named = "x;y;a,7,b,7\n0;0\n0;0;,5\n";
+  const std::string changed = moved(named, "csv", {{0, {0.75, 0.25, 0}}, {1, {0.5, 0.25, 0}}});
+  EXPECT_EQ(changed, "x;y;a,7,b,7\n0,75;0,25\n0,5;0,25;,5\n");
+  EXPECT_EQ(read(changed, "csv").curve.position(1), Vector3(0.5, 0.25, 0));
+  // A text with a comma in it is no number.
+  EXPECT_EQ(read("x;y;note\n0.5;1;2,5\n1.5;2;3,5\n2.5;3;no\n", "csv").curve.position(1), Vector3(1.5, 2, 0));
+}
+
 TEST_F(CurveTable, BeginsAChainBehindEmptyRows) {
   for (const std::string empty : {"\n", "\r\n", " \t\n", ",,\n", "\n# and\n\n"}) {
     const std::string text = "\nx,y\n\n0,0\n1,0\n" + empty + "2,0\n3,0\n4,0\n\n\n";
@@ -165,6 +202,22 @@ TEST_F(CurveTable, BeginsAChainBehindEmptyRows) {
     EXPECT_EQ(chain_of(file, 1), (std::vector<Index>{2, 3, 4}));
     EXPECT_EQ(unmoved(text, "csv"), text);
   }
+}
+
+TEST_F(CurveTable, WarnsOfRowsThatRepeatTheOneAbove) {
+  const auto warnings = [&](const std::string& text, const std::string& extension) {
+    std::vector<std::string> said = read(text, extension).warnings;
+    for (std::string& warning : said) warning = warning.substr(warning.rfind('/') + 1);
+    return said;
+  };
+  const std::string rest = "; leave it out unless it is meant";
+  EXPECT_EQ(warnings("foil\n1 0\n1.0 0.0 twice\n0 0\n", "dat"),
+            std::vector<std::string>{"in.dat:3: this row is at the same place as the one above" + rest});
+  EXPECT_EQ(warnings("x,y\n0,0\n1,0\n1,0\n# c\n1,0\n2,0\n2,0\n", "csv"),
+            std::vector<std::string>{
+                "in.csv:4: this row is at the same place as the one above, and so are 2 more below" + rest});
+  // Chains may meet, and a curve may come back.
+  EXPECT_TRUE(warnings("0 0\n1 0\n\n1 0\n1 1\n0 0\n", "xyz").empty());
 }
 
 TEST_F(CurveTable, StaysOpenWhereTheLastNodeRepeatsTheFirst) {

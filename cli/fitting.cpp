@@ -151,7 +151,11 @@ Json FitAccount::figures() const {
             {"pulling", report_.pulling_points},
             {"nodes_with_points", report_.pulled_nodes},
             {"most_on_a_node", report_.most_points},
-            {"distance", {{"before", to_json(report_.before)}, {"after", to_json(report_.after)}}}}}};
+            {"distance", {{"before", to_json(report_.before)}, {"after", to_json(report_.after)}}},
+            {"shape", report_.shape.count > 0 ? Json{{"greatest", report_.shape.greatest},
+                                                     {"rms", report_.shape.rms},
+                                                     {"greatest_slide", report_.greatest_slide}}
+                                              : Json()}}}};
 }
 
 bool FitAccount::is_measured() const { return report_.after.all.count > 0; }
@@ -178,6 +182,9 @@ std::string FitAccount::lines() const {
     line("99 % within      ", report_.before.percentile99, report_.after.percentile99);
     line("greatest         ", report_.before.all.greatest, report_.after.all.greatest);
   }
+  if (report_.shape.count > 0)
+    text += fmt::format("shape from points {:.4g} units at most; nodes slid by up to {:.4g}\n", report_.shape.greatest,
+                        report_.greatest_slide);
   if (tells_who_is_outside())
     text += fmt::format("further away     {} ({:.3g} %) than {:.4g} units\n", report_.outside_points,
                         100 * outside_share(), arguments_.within ? *arguments_.within : *arguments_.rms);

@@ -27,20 +27,21 @@ struct SmoothingLength {
   double length;
 };
 
-/// The shape of least bending from which no point lies further than this, in units of the input, more than 0. On curves
-/// in space: the shape of least V-Spring energy on the way there. On curves in a plane: the shape whose curvature
-/// changes least in proportion to itself, where that has fewer inflections or extremes of curvature (docs/curves.md).
-/// EquilibriumMethod only. Surfaces whose own nodes are the points, with Distribution::keep, fallbacks and no normals
-/// given, and noise of a sixth to a half of this and of a hundredth of the median edge or more: a third of this is
-/// taken off as noise, by the filters of Noise, and nodes that end further away go back (docs/fit.md).
+/// Surfaces: the shape of least bending from which no point lies further than this, in units of the input, more than 0.
+/// Curves: that whose curvature changes least, and which goes no further than this from the polyline of the points
+/// either, where these are its own nodes (docs/curves.md). EquilibriumMethod only. Surfaces whose own nodes are the
+/// points, with Distribution::keep, fallbacks and no normals given, and noise of a sixth to a half of this and of a
+/// hundredth of the median edge or more: a third of this is taken off as noise, by the filters of Noise, and nodes that
+/// end further away go back (docs/fit.md).
 struct Within {
   double distance;
 };
 
-/// The largest smoothing length for which the root mean square of the distances is not above this, in units of the
-/// input, more than 0. EquilibriumMethod only. Surfaces whose own nodes are the points, with Distribution::keep and
-/// no normals given, take the filters of Noise instead, with this as its deviation; nodes that end further away, in the
-/// root mean square, go back towards where they came from. Where filters leave less than 0.7 of it, they are not used.
+/// Surfaces: the largest smoothing length for which the root mean square of the distances is not above this, in units
+/// of the input, more than 0. Curves: that whose curvature changes least, as for Within. EquilibriumMethod only.
+/// Surfaces whose own nodes are the points, with Distribution::keep and no normals given, take the filters of Noise
+/// instead, with this as its deviation; nodes that end further away, in the root mean square, go back towards where
+/// they came from. Where filters leave less than 0.7 of it, they are not used.
 struct RootMeanSquare {
   double distance;
 };
@@ -59,12 +60,14 @@ using FitCriterion = std::variant<Weight, SmoothingLength, Within, RootMeanSquar
 struct FitOptions {
   FitCriterion criterion = Weight{};
   /// As for fair(). Fallbacks, where no equilibrium is found and max_iterations is not given: on surfaces the shape of
-  /// sweep, on curves the shape that came nearest or the smoothing spline of the points, with a warning. Those do not
-  /// count as converged. With fair_boundary, for a surface whose own nodes are the points, the boundary is fitted to
-  /// its nodes first, as a curve, and the surface then holds it.
+  /// sweep, with a warning, which does not count as converged; on curves one with nodes of its own, on which the
+  /// curve's are put (docs/curves.md). With fair_boundary, for a surface whose own nodes are the points, the boundary
+  /// is fitted to its nodes first, as a curve, and the surface then holds it.
   FairOptions fair = {};
-  /// The share of the points, from 0 to less than 1, that is left out: those furthest from the shape. Shape and
-  /// outliers are found in turns.
+  /// The share of the points, from 0 to less than 1, that may be left out. Surfaces: so many, those furthest from the
+  /// shape; shape and outliers are found in turns. Curves drawn to a tolerance: at most so many, found before that:
+  /// those far aside of the way, and those over 4.5 standard deviations from a curve that single points do not draw
+  /// aside.
   double outliers = 0;
 
   /// Throws Error(invalid_argument) naming the option and its range.
@@ -107,6 +110,12 @@ struct FitReport {
   /// Both without a count where the fit was cancelled and had too many points to measure them then.
   PointDistances before;
   PointDistances after;
+  /// Of the shape's nodes and the middles of its edges from the polyline of the points that count: curves drawn to a
+  /// tolerance of their own nodes. Surfaces drawn to their own nodes: of their nodes from the input. Else without a
+  /// count.
+  Distance shape = {};
+  /// The greatest way of a node along the shape, where the points are its own nodes.
+  double greatest_slide = 0;
 };
 
 struct FitResult {
@@ -140,8 +149,9 @@ struct FitResult {
 /// further in one iteration than their step_tolerance times the mean length of its edges; with small weights nodes then
 /// still have far to go, about a step over k.
 ///
-/// For Within and RootMeanSquare the equilibrium is found some ten to a hundred times. If no shape of this mesh is
-/// within them, the nearest one found is returned, with a warning and an outcome that is not `converged`.
+/// For Within and RootMeanSquare the equilibrium of a surface is found some ten to a hundred times. If no shape of this
+/// mesh is within them, the nearest one found is returned, with a warning and an outcome that is not `converged`.
+/// Curves are drawn to them by convex programs instead, on nodes of their own (docs/curves.md); ends may then be free.
 ///
 /// The result has the same bits for every number of threads. Cancellation returns the shape so far with outcome
 /// `cancelled`. Arguments are unchanged.
@@ -163,28 +173,21 @@ struct FitResult {
                             const FitOptions& options = {});
 
 struct ResampledFit {
-  Resampled resampled;  ///< what resample() gives: what the fit began with
+  Resampled resampled;  ///< as resample() gives it, of the fair curve; of the curve given where nothing was found
   FitResult fit;        ///< positions of its nodes; its points are the nodes of the curve that was given
 };
 
 /// Puts new nodes, as resample() spaces them, on the fair curve that fits the nodes of `curve`. So a table with
 /// rounding or noise gets nodes that have none, between its own nodes too.
 ///
-/// With Within, new nodes in a plane go to the curve within the tolerance whose curvature changes least in proportion
-/// to itself (docs/curves.md). Where there is none that is not strained they go to the nearest, up to eight times as
-/// far.
+/// With Within, RootMeanSquare and SmoothingLength they are places on the curve that fit() finds, so they are as fair.
+/// Where the chords between them cut off more than a tolerance allows for, they go to where these are within it; if
+/// there are too few for that, outcome and a warning say so. Distances are those from the chords. How far nodes moved
+/// is reported as their distance from the curve that was given.
 ///
-/// With RootMeanSquare or SmoothingLength, and in space, a denser curve of up to eight nodes for each new one is
-/// fitted, and the new nodes are some of its nodes; so curvature changes gently between the points as well. Distances
-/// are those from the chords between new nodes, which lie below a curve that bulges over them. How far nodes moved is
-/// reported as their distance from the resampled curve.
+/// With Weight, and by other methods, the curve is resampled first, and the new nodes are fitted themselves.
 ///
-/// With Weight, outliers, a strength or another method, for curves of more than 5,000 nodes, and where the chords of
-/// the denser curve are not within a tolerance, the new nodes are fitted themselves, from where resample() puts them.
-/// If they are not within the tolerance either, the result is the nearest of all shapes tried whose curvature varies no
-/// more than that of the resampled curve, with outcome `stalled` and a warning.
-///
-/// Throws as resample() and fit() do. Cost: that of three to eight fits, with more nodes than come out.
+/// Throws as resample() and fit() do. Cost: that of fit().
 [[nodiscard]] ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints,
                                          const Resampling& how, const FitOptions& options, Context& context);
 [[nodiscard]] ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints,

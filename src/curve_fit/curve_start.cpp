@@ -346,10 +346,10 @@ void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScal
     }
     const bool straight =
         k == first + 1 && stops[first].fixed && stops[k].fixed && stops[first].node + 1 == stops[k].node;
-    const double count = straight ? 1 : std::max(1.0, std::ceil(edges));
+    const auto count = static_cast<std::size_t>(straight ? 1 : std::max(1.0, std::ceil(edges)));
     std::size_t j = first;
-    for (double made = 1; made < count; ++made) {
-      const double want = edges * made / count;
+    for (std::size_t made = 1; made < count; ++made) {
+      const double want = edges * static_cast<double>(made) / static_cast<double>(count);
       while (j + 1 < k && sum[j - first + 1] < want) ++j;
       const double share = (want - sum[j - first]) / (sum[j - first + 1] - sum[j - first]);
       add(way[j] + share * (way[j + 1] - way[j]), length[j] + share * (length[j + 1] - length[j]),
@@ -390,9 +390,11 @@ DenseCurve with_new_nodes(const DenseCurve& curve, double least) {
   DenseCurve result;
   for (const auto& chain : curve.chains()) {
     std::vector<std::uint32_t> way;
+    way.reserve(chain.count + 1);
     for (std::uint32_t k = 0; k < chain.count; ++k) way.push_back(chain.begin + k);
     if (chain.closed) way.push_back(chain.begin);
     std::vector<double> spacing;
+    spacing.reserve(way.size());
     for (const std::uint32_t i : way) spacing.push_back(curve.node(i).spacing);
     std::vector<double> lengths;
     for (std::size_t k = 0; k + 1 < way.size(); ++k) {
@@ -429,10 +431,10 @@ DenseCurve with_new_nodes(const DenseCurve& curve, double least) {
         edges += lengths[j] * 2 / (spacing[j] + spacing[j + 1]);
         sum.push_back(edges);
       }
-      const double count = k == first + 1 ? 1 : std::max(2.0, std::ceil(edges));
+      const auto count = static_cast<std::size_t>(k == first + 1 ? 1 : std::max(2.0, std::ceil(edges)));
       std::size_t j = first;
-      for (double made = 1; made < count; ++made) {
-        const double want = edges * made / count;
+      for (std::size_t made = 1; made < count; ++made) {
+        const double want = edges * static_cast<double>(made) / static_cast<double>(count);
         while (j + 1 < k && sum[j - first + 1] < want) ++j;
         const double share = (want - sum[j - first]) / (sum[j - first + 1] - sum[j - first]);
         Node node;

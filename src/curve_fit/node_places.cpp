@@ -33,8 +33,8 @@ void set_in_order(std::vector<double>& values, double apart, double least, doubl
   for (double& one : from) one *= scale;
   struct Pool {
     double sum;
-    double count;
-    [[nodiscard]] double mean() const { return sum / count; }
+    std::size_t count;
+    [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
   };
   std::vector<Pool> pools;
   for (std::size_t k = 0; k < count; ++k) {
@@ -49,7 +49,7 @@ void set_in_order(std::vector<double>& values, double apart, double least, doubl
   std::size_t k = 0;
   const double spare = std::max(0.0, most - least - from[count]);
   for (const Pool& pool : pools) {
-    for (double n = 0; n < pool.count; ++n, ++k) values[k] = least + from[k] + std::clamp(pool.mean(), 0.0, spare);
+    for (std::size_t n = 0; n < pool.count; ++n, ++k) values[k] = least + from[k] + std::clamp(pool.mean(), 0.0, spare);
   }
 }
 

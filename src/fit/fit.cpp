@@ -110,7 +110,22 @@ class Fitting {
     else if (!options_.tolerance())
       warn_if_left_behind(report, run_.points.positions);
     report.outside_points = count_outside(result.distances);
+    if (run_.points.positions == run_.subject.shape().positions()) measure_shape();
     if (options_.within()) report.active_points = active_points(result.distances, run_.kept, *options_.within());
+  }
+
+  /// How far the shape is from the points, which are its own nodes, and how far these went along it.
+  void measure_shape() {
+    FitReport& report = run_.result.report;
+    const std::vector<Vector3>& before = run_.subject.shape().positions();
+    const std::vector<Vector3>& after = run_.result.positions;
+    if (run_.context.cancelled()) return;
+    report.shape = distance(after, run_.subject.shape(), run_.measuring);
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      // What a node went, less what its point is now away: about the way along.
+      const double way = (after[i] - before[i]).squaredNorm() - run_.result.distances[i] * run_.result.distances[i];
+      if (run_.counted[i] != 0 && way > 0) report.greatest_slide = std::max(report.greatest_slide, std::sqrt(way));
+    }
   }
 
   /// In words, where nodes went far, and away from the points; empty where not.

@@ -25,6 +25,8 @@ namespace {
 
 // Of the edge before or after.
 constexpr double sparse_share = 0.05;
+// Of the tolerance, or of how far another curve is from the polyline of the points.
+constexpr double far_off_way = 1.05;
 
 class CurveFit {
  public:
@@ -61,6 +63,7 @@ class CurveFit {
     CurveFound found;
     Resampled nodes;  ///< with the file's own chains, or new ones
     double figure = 0;
+    double way_off = 0;  ///< from the polyline of the points
     CurveFigures figures = {};
   };
 
@@ -83,6 +86,7 @@ class CurveFit {
         draw_chords_in(positions, attempt.nodes);
         attempt.nodes.curve.set_positions(std::move(positions));
         attempt.figure = figure(distances(attempt.nodes.curve));
+        attempt.way_off = way_off(attempt.nodes.curve).greatest;
         attempt.figures = measure_curve(attempt.nodes.curve, &attempt.nodes.constraints);
         if (!best || is_better(attempt, *best)) best = std::move(attempt);
       }
@@ -202,12 +206,15 @@ class CurveFit {
       after = draw();
     }
     const CurveFigures of_positions = measure_curve(moved, &constraints);
+    const double way_off_before = way_off(moved).greatest;
     moved.set_positions(places);
     const CurveFigures of_places = measure_curve(moved, &constraints);
     const bool fairer = of_places.curvature_variation < of_positions.curvature_variation &&
                         of_places.curvature_extrema <= of_positions.curvature_extrema &&
                         of_places.inflections <= of_positions.inflections;
-    if (before > *tolerance ? after < before : after <= *tolerance && fairer) positions = std::move(places);
+    // Points may be near a curve that goes anywhere between them.
+    const bool stays = way_off(moved).greatest <= std::max(way_off_before, *tolerance);
+    if (stays && (before > *tolerance ? after < before : after <= *tolerance && fairer)) positions = std::move(places);
   }
 
   /// positions: of `shape`, which has the file's nodes or new ones.
@@ -232,6 +239,8 @@ class CurveFit {
     result.distances = point_distances(input_.points().positions, moved, measuring_);
     report.before = summary(distances(input_.curve()), input_.counted());
     report.after = summary(result.distances, kept);
+    report.shape = way_off(moved);
+    if (input_.own_nodes() && nodes_.from.empty()) report.greatest_slide = greatest_slide(moved);
     report.points = static_cast<Index>(std::count(input_.counted().begin(), input_.counted().end(), 1));
     report.outliers = report.points - static_cast<Index>(std::count(kept.begin(), kept.end(), 1));
     report.pulling_points = input_.pulling_points();
@@ -246,10 +255,13 @@ class CurveFit {
     return point_distances(input_.points().positions, from, measuring_);
   }
 
-  /// Within the tolerance first, then with fewer inflections, fewer extremes of curvature, less variation.
+  /// Near the polyline of the points and within the tolerance first, then with fewer inflections, fewer extremes of
+  /// curvature, less variation.
   [[nodiscard]] bool is_better(const Attempt& a, const Attempt& b) const {
     const double tolerance = *input_.options().tolerance();
     const bool within = a.figure <= tolerance;
+    const double most = far_off_way * std::max(tolerance, std::min(a.way_off, b.way_off));
+    if ((a.way_off <= most) != (b.way_off <= most)) return a.way_off <= most;
     if (within != (b.figure <= tolerance)) return within;
     if (a.found.converged != b.found.converged) return a.found.converged;
     if (a.figures.inflections != b.figures.inflections) return a.figures.inflections < b.figures.inflections;
@@ -278,6 +290,44 @@ class CurveFit {
       }
     }
     return true;
+  }
+
+  /// How far the curve's nodes and the middles of its edges are from the polyline of the points, which are its own
+  /// nodes; without a count where they are not.
+  [[nodiscard]] Distance way_off(const PolygonCurve& moved) const {
+    if (!input_.own_nodes()) return {};
+    std::vector<PolygonCurve::Chain> chains = input_.curve().chains();
+    for (auto& chain : chains) {
+      std::erase_if(chain.nodes, [&](Index i) { return input_.kept()[static_cast<std::size_t>(i)] == 0; });
+      if (chain.nodes.size() < 2) return {};
+    }
+    std::vector<Vector3> places;
+    for (const auto& chain : moved.chains()) {
+      const std::size_t count = chain.nodes.size();
+      for (std::size_t k = 0; k < count; ++k) {
+        const Vector3& here = moved.position(chain.nodes[k]);
+        const Vector3& next = moved.position(chain.nodes[(k + 1) % count]);
+        places.push_back(here);
+        if (k + 1 < count || chain.closed) places.emplace_back(here + (next - here) / 2);
+      }
+    }
+    return distance(places, PolygonCurve(input_.curve().positions(), std::move(chains)), measuring_);
+  }
+
+  /// The greatest way of a node along the curve.
+  [[nodiscard]] double greatest_slide(const PolygonCurve& moved) const {
+    double greatest = 0;
+    for (const auto& chain : moved.chains()) {
+      const std::size_t count = chain.nodes.size();
+      for (std::size_t k = 0; k < count && count > 1; ++k) {
+        const std::size_t before = k > 0 ? k - 1 : chain.closed ? count - 1 : 0;
+        const std::size_t after = k + 1 < count ? k + 1 : chain.closed ? 0 : k;
+        const Vector3 along = (moved.position(chain.nodes[after]) - moved.position(chain.nodes[before])).normalized();
+        const Vector3 way = moved.position(chain.nodes[k]) - input_.curve().position(chain.nodes[k]);
+        greatest = std::max(greatest, std::abs(along.dot(way)));
+      }
+    }
+    return greatest;
   }
 
   [[nodiscard]] PolygonCurve polygon() const {

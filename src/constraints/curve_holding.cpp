@@ -28,7 +28,9 @@ class CurveHolding {
       if (chain.closed) {
         check_loop(chain, *moving);
       } else {
-        for (const Index end : {chain.nodes.front(), chain.nodes.back()}) refuse_free_end(end);
+        for (const Index end : {chain.nodes.front(), chain.nodes.back()}) {
+          if (!held(end)) refuse_free_end(end);
+        }
       }
     }
     return std::move(warnings_);
@@ -76,13 +78,11 @@ class CurveHolding {
     }
   }
 
-  void refuse_free_end(Index end) const {
-    if (moves(end))
-      throw Error(
-          ErrorCode::unusable_constraint,
-          fmt::format("the end node {} is free, and the curve would shrink; fix the ends, hold it by a rule, or let "
-                      "only a region move",
-                      end));
+  [[noreturn]] static void refuse_free_end(Index end) {
+    throw Error(ErrorCode::unusable_constraint,
+                fmt::format("the end node {} is free, and the curve would shrink; fix the ends, hold it by a rule, or "
+                            "let only a region move",
+                            end));
   }
 
   void check_loop(const PolygonCurve::Chain& chain, Index moving) {

@@ -18,7 +18,8 @@ namespace {
 // Of a tolerance, at the start, so that there is room to become fairer.
 constexpr double first_share = 0.95;
 // Of a tolerance, so that what is not linear in a step does not go beyond.
-constexpr double aimed_share = 0.995;
+constexpr double aimed_share_of_curve = 0.995;
+constexpr double aimed_share_of_chords = 0.9999;
 constexpr int starts = 2;
 constexpr int robust_starts = 2;
 // Of the noise: what is nearer than that tells nothing.
@@ -45,6 +46,7 @@ constexpr double tie_break = 1e-6;
 constexpr double loosened = 1.02;
 // Of the energy at first.
 constexpr double toll_of_excess = 10;
+constexpr double least_excess = 1e-4;
 // How far from the polyline places may be: of the root mean square, and of the furthest point at the start.
 constexpr double reach_of_rms = 4;
 constexpr double spare_of_reach = 1.5;
@@ -233,8 +235,8 @@ class CurveFitter {
     find_places(found_.curve, found_.points);
     double energy = merit();
     double excess = this->excess();
-    // What a bound that is exceeded by all of it counts for.
-    const double toll = toll_of_excess * energy;
+    // So that keeping all bounds is worth so many times the energy.
+    const double toll = toll_of_excess * energy / std::clamp(excess - 1, least_excess, 1.0);
     double last_step = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps_on_grid && work_ < most_work_; ++step) {
       end_if_cancelled();
@@ -267,6 +269,7 @@ class CurveFitter {
         greatest = turn = 0;
         double squares = 0;
         for (std::uint32_t i = 0; i < before.size(); ++i) {
+          if (!moves[i].allFinite()) greatest = std::numeric_limits<double>::infinity();
           greatest = std::max(greatest, moves[i].norm());
           if (!before.is_edge(i)) continue;
           const double length = before.edge_length(i);
@@ -319,6 +322,8 @@ class CurveFitter {
     found_.converged = false;
   }
 
+  [[nodiscard]] double aimed_share() const { return task_.nodes ? aimed_share_of_chords : aimed_share_of_curve; }
+
   [[nodiscard]] CurveProgram<K> program() const {
     CurveProgram<K> program(found_.curve, plane_);
     if (springs_) {
@@ -329,7 +334,7 @@ class CurveFitter {
     }
     for (CurvePoint point : found_.points) {
       if (!(point.weight > 0) || is_at_held(point)) continue;
-      point.bound *= aimed_share;
+      point.bound *= aimed_share();
       program.add_point(point, data_weight_);
     }
     for (const PolylineBound& one : between_) {
@@ -337,7 +342,7 @@ class CurveFitter {
       point.place = one.nearest(found_.curve.place(one.node));
       if (!(task_.within > 0) && one.distance(found_.curve.place(one.node)) < far_share * one.bound) continue;
       point.at = {one.node, 0};
-      point.bound = aimed_share * one.bound;
+      point.bound = aimed_share() * one.bound;
       program.add_point(point, 0);
     }
     if (task_.least_radius > 0) program.add_least_radius(task_.least_radius);

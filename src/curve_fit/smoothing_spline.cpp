@@ -99,7 +99,8 @@ class SmoothingSpline {
   }
 
   void run_robustly(double noise) {
-    for (double smoothing = first_smoothing; smoothing > least_smoothing; smoothing *= robust_stride) {
+    double smoothing = first_smoothing;
+    while (smoothing > least_smoothing) {
       counts_.assign(points_.size(), 1);
       find_data();
       const std::vector<Vector3> before = places_;
@@ -118,6 +119,7 @@ class SmoothingSpline {
       const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
       std::nth_element(distances.begin(), middle, distances.end());
       if (std::sqrt(*middle) <= median_of_noise * noise) break;
+      smoothing *= robust_stride;
     }
     take();
   }

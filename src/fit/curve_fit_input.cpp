@@ -150,6 +150,7 @@ void CurveFitInput::make_frame() {
   centre_ = Vector3::Zero();
   centre_ = -frame_.to_local(Vector3::Zero()) / frame_.scale();
   std::vector<Vector3> local;
+  local.reserve(all.size());
   for (const Vector3& one : all) local.push_back(frame_.to_local(one));
   for (Index i = 0; i < curve_.node_count(); ++i) {
     if (constraints_.tangent_fixed(i)) local.push_back(local.front() + constraints_.tangent(i));
@@ -179,7 +180,6 @@ CurveFitTask CurveFitInput::task() const {
   if (task.noise == 0) task.noise = estimate_noise(curve_).deviation * scale;
   const auto& method = std::get<EquilibriumMethod>(options_.fair.method);
   task.tolerance = method.tolerance;
-  double length = 0;
   double edges = 0;
   for (const auto& chain : curve_.chains()) {
     auto& made = task.chains.emplace_back();
@@ -202,8 +202,6 @@ CurveFitTask CurveFitInput::task() const {
       }
     }
     edges += static_cast<double>(chain.nodes.size()) - (chain.closed ? 0 : 1);
-    for (std::size_t k = 0; k + 1 < made.nodes.size(); ++k)
-      length += (made.nodes[k + 1].place - made.nodes[k].place).norm();
   }
   if (!own_nodes_) {
     for (std::size_t j = 0; j < points_.positions.size(); ++j) {

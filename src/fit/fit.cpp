@@ -376,7 +376,13 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   options.validate();
   check_points(points);
   const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
-  if (options.tolerance()) return fit_curve(curve, constraints, points, options, context);
+  const bool has_free_end = std::any_of(curve.chains().begin(), curve.chains().end(), [&](const auto& chain) {
+    return !chain.closed && !chain.nodes.empty() && constraints.node_count() == curve.node_count() &&
+           (!constraints.position_fixed(chain.nodes.front()) || !constraints.position_fixed(chain.nodes.back()));
+  });
+  // Springs would draw them in.
+  if (has_free_end && !method) (void)check_constraints(curve, constraints);
+  if (options.tolerance() || (has_free_end && method)) return fit_curve(curve, constraints, points, options, context);
   FitResult balanced = fit_shape<FitCurve>(curve, constraints, points, options, context);
   const Outcome outcome = balanced.report.fair.outcome;
   const bool is_found = outcome == Outcome::converged || outcome == Outcome::cancelled;

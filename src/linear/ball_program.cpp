@@ -276,7 +276,8 @@ class InteriorPoint {
     for (int b = 0; b < 4; ++b) {
       const std::int32_t block = window[static_cast<std::size_t>(b)];
       if (block < 0) continue;
-      for (int k = 0; k < K; ++k) row[static_cast<std::size_t>((block - first) * K + k)] += entries[b * K + k];
+      for (int k = 0; k < K; ++k)
+        row[static_cast<std::size_t>(block - first) * K + static_cast<std::size_t>(k)] += entries[b * K + k];
     }
     triangle.add(static_cast<std::size_t>(first) * K, row, factor);
   }

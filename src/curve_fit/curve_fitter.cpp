@@ -27,7 +27,7 @@ constexpr double least_deviation = 0.5;
 constexpr double times_noise = 3;
 constexpr double least_spacing_in_tolerances = 0.05;
 constexpr int most_grids = 4;
-constexpr int most_steps_on_grid = 15;
+constexpr int most_steps_on_grid = 30;
 // Of the energy, in a step: what changes less is there.
 constexpr double settled_energy = 1e-4;
 // Of edges, in a step.
@@ -264,6 +264,7 @@ class CurveFitter {
           CurveProgram<K> looser = this->program();
           if (damping_ > 0) looser.add_damping(damping_);
           solution = looser.solve();
+          found = solution.found;
         }
         program.for_moves(solution, [&](std::uint32_t i, const Vector3& move) { moves[i] = move; });
         greatest = turn = 0;

@@ -26,7 +26,11 @@ namespace {
 // Of the edge before or after.
 constexpr double sparse_share = 0.05;
 // Of the tolerance, or of how far another curve is from the polyline of the points.
-constexpr double far_off_way = 1.05;
+constexpr double far_off_way = 1.5;
+// Of the tolerance, and how often it is tried.
+constexpr double cut_off_a_little = 1.2;
+constexpr double share_of_nearer = 0.997;
+constexpr int most_turns_nearer = 3;
 
 class CurveFit {
  public:
@@ -67,6 +71,19 @@ class CurveFit {
     CurveFigures figures = {};
   };
 
+  template <typename Put>
+  Attempt attempt(const CurveFitTask& task, Put put) {
+    found_ = vspring::fit_curve(task, [&](double share) { progress_.report("curve", (share + task.evenly) / 2); });
+    Attempt attempt{found_, put()};
+    std::vector<Vector3> positions = attempt.nodes.curve.positions();
+    draw_chords_in(positions, attempt.nodes);
+    attempt.nodes.curve.set_positions(std::move(positions));
+    attempt.figure = figure(distances(attempt.nodes.curve));
+    attempt.way_off = way_off(attempt.nodes.curve).greatest;
+    attempt.figures = measure_curve(attempt.nodes.curve, &attempt.nodes.constraints);
+    return attempt;
+  }
+
   /// Tells nodes of their places on the curve that was found, which goes by change of curvature in proportion to
   /// itself, and by that alike everywhere; the fairer one is taken. False where that was cancelled.
   template <typename Put>
@@ -77,18 +94,18 @@ class CurveFit {
     try {
       if (input_.options().outliers > 0) input_.leave_outliers_out();
       CurveFitTask task = input_.task();
-      for (const bool evenly : {false, true}) {
-        if (evenly && !input_.options().tolerance()) break;
-        task.evenly = evenly;
-        found_ = vspring::fit_curve(task, [&](double share) { progress_.report("curve", (share + evenly) / 2); });
-        Attempt attempt{found_, put()};
-        std::vector<Vector3> positions = attempt.nodes.curve.positions();
-        draw_chords_in(positions, attempt.nodes);
-        attempt.nodes.curve.set_positions(std::move(positions));
-        attempt.figure = figure(distances(attempt.nodes.curve));
-        attempt.way_off = way_off(attempt.nodes.curve).greatest;
-        attempt.figures = measure_curve(attempt.nodes.curve, &attempt.nodes.constraints);
-        if (!best || is_better(attempt, *best)) best = std::move(attempt);
+      const auto tolerance = input_.options().tolerance();
+      // Where chords cut off a little too much, the curve is held a little nearer.
+      for (int turn = 0; turn < most_turns_nearer; ++turn) {
+        for (const bool evenly : {false, true}) {
+          if (evenly && !tolerance) break;
+          task.evenly = evenly;
+          Attempt attempt = this->attempt(task, put);
+          if (!best || is_better(attempt, *best)) best = std::move(attempt);
+        }
+        if (!tolerance || best->figure <= *tolerance || best->figure > cut_off_a_little * *tolerance) break;
+        task.within *= share_of_nearer * *tolerance / best->figure;
+        task.rms *= share_of_nearer * *tolerance / best->figure;
       }
     } catch (const Cancelled&) {
     }
@@ -262,8 +279,8 @@ class CurveFit {
     const bool within = a.figure <= tolerance;
     const double most = far_off_way * std::max(tolerance, std::min(a.way_off, b.way_off));
     if ((a.way_off <= most) != (b.way_off <= most)) return a.way_off <= most;
-    if (within != (b.figure <= tolerance)) return within;
     if (a.found.converged != b.found.converged) return a.found.converged;
+    if (within != (b.figure <= tolerance)) return within;
     if (a.figures.inflections != b.figures.inflections) return a.figures.inflections < b.figures.inflections;
     if (a.figures.curvature_extrema != b.figures.curvature_extrema)
       return a.figures.curvature_extrema < b.figures.curvature_extrema;

@@ -31,7 +31,7 @@ struct BallProgram {
 
 struct BallSolution {
   std::vector<double> x;  ///< K for each block
-  bool found = false;     ///< all bounds are kept, and no x that keeps them is better by more than 1e-6
+  bool found = false;     ///< all bounds are kept, and no x that keeps them is better by more than 1e-5
   int steps = 0;
   /// For each row, the multiplier of its bound.
   std::vector<double> multipliers;

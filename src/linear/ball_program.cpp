@@ -16,7 +16,7 @@ namespace {
 constexpr int most_steps = 40;
 // Of the objective.
 constexpr double enough_gap = 1e-5;
-constexpr double next_to_nothing_left = 1e-9;
+constexpr double next_to_nothing_left = 1e-5;
 // Of the bounds.
 constexpr double enough_miss = 1e-6;
 // Of the gradient of the objective at the start.
@@ -75,7 +75,7 @@ class InteriorPoint {
         break;
       }
       // Multipliers that grow so far have no bounds to go to.
-      if (!(gap <= hopeless_gap * objective_)) break;
+      if (!(gap <= hopeless_gap * std::max(objective_, next_to_nothing_left * first_objective_))) break;
       factor();
       for (Bound& bound : bounds_) bound.target = bound.bend = 0;
       find_step();
@@ -177,6 +177,7 @@ class InteriorPoint {
       add_to(gradient_, row, row.weight * values_[r]);
       objective_ += row.weight * values_[r].squaredNorm();
     }
+    first_objective_ = std::max(first_objective_, objective_);
     for (const double one : gradient_) size_ = std::max(size_, std::abs(one));
     for (const Bound& bound : bounds_) add_to(gradient_, program_.rows[bound.row], bound.multiplier * slope(bound));
   }
@@ -187,11 +188,10 @@ class InteriorPoint {
     return sum;
   }
 
-  [[nodiscard]] bool is_done(double gap) {
+  [[nodiscard]] bool is_done(double gap) const {
     double left = 0;
     for (const double one : gradient_) left = std::max(left, std::abs(one));
     if (!(left <= enough_balance * size_)) return false;
-    first_objective_ = std::max(first_objective_, objective_);
     if (!(gap <= enough_gap * std::max(objective_, next_to_nothing_left * first_objective_))) return false;
     return std::all_of(bounds_.begin(), bounds_.end(), [&](const Bound& bound) {
       return excess(bound) <= enough_miss * program_.rows[bound.row].bound;

@@ -1,0 +1,59 @@
+#include "curve_fit/dense_curve.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace vspring::dense_curve_test {
+namespace {
+
+/// Uneven places on the unit circle, to that angle.
+DenseCurve on_circle(double angle) {
+  std::vector<DenseCurve::Node> nodes;
+  double at = 0;
+  for (int k = 0; at < angle; at += k % 2 == 0 ? 0.2 : 0.1, ++k)
+    nodes.emplace_back().place = {std::cos(at), std::sin(at), 0};
+  DenseCurve curve;
+  curve.add_chain(nodes, false);
+  return curve;
+}
+
+TEST(DenseCurve, IsACircleWhereItsNodesLieOnOne) {
+  const DenseCurve curve = on_circle(2);
+  for (std::uint32_t i = 0; i < curve.size(); ++i) {
+    if (!curve.is_edge(i)) continue;
+    EXPECT_NEAR(curve.bend(i, true).curvature.norm(), 1, 1e-12);
+    for (const double share : {0.25, 0.5, 0.75}) EXPECT_NEAR(curve.at({i, share}).norm(), 1, 1e-7);
+  }
+}
+
+TEST(DenseCurve, NearestIsTheFootOnTheCurveAndNotOnItsChord) {
+  const DenseCurve curve = on_circle(2);
+  const Vector3 point = 1.3 * Vector3(std::cos(0.85), std::sin(0.85), 0);
+  const CurvePlace place = curve.nearest(point, {0, 0}, 10);
+  EXPECT_NEAR((curve.at(place) - point).norm(), 0.3, 1e-6);
+}
+
+TEST(DenseCurve, CurvatureRowsAreItsDerivatives) {
+  DenseCurve curve = on_circle(1);
+  const auto row = curve.curvature_row(2, true);
+  ASSERT_EQ(row.count, 3);
+  const double step = 1e-6;
+  for (int n = 0; n < 3; ++n) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto node = row.nodes[static_cast<std::size_t>(n)];
+      const Vector3 place = curve.place(node);
+      Vector3 moved = place;
+      moved[axis] += step;
+      curve.set_place(node, moved);
+      const Vector3 slope = (curve.curvature_row(2, true).curvature - row.curvature) / step;
+      curve.set_place(node, place);
+      EXPECT_LT((slope - row.slopes[static_cast<std::size_t>(n)].col(axis)).norm(), 1e-3) << n << axis;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vspring::dense_curve_test

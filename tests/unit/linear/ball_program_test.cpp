@@ -1,0 +1,53 @@
+#include "linear/ball_program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+
+namespace vspring::ball_program_test {
+namespace {
+
+/// One block that is drawn to a place and may be at most so far from the origin.
+template <int K>
+BallProgram<K> drawn_to(const Eigen::Matrix<double, K, 1>& place, double bound) {
+  BallProgram<K> program;
+  program.blocks = 1;
+  program.windows.push_back({0, -1, -1, -1});
+  typename BallProgram<K>::Row pull;
+  pull.entries.template leftCols<K>().setIdentity();
+  typename BallProgram<K>::Row held = pull;
+  pull.offset = -place;
+  pull.weight = 1;
+  held.bound = bound;
+  program.rows = {pull, held};
+  return program;
+}
+
+TEST(BallProgram, EndsAtTheBoundInTheDirectionOfThePull) {
+  const BallSolution on_line = solve(drawn_to<1>(Eigen::Matrix<double, 1, 1>(3), 1));
+  EXPECT_TRUE(on_line.found);
+  EXPECT_NEAR(on_line.x[0], 1, 1e-4);
+  EXPECT_GT(on_line.multipliers[1], 0);
+  const BallSolution in_plane = solve(drawn_to<2>({3, 4}, 1));
+  EXPECT_TRUE(in_plane.found);
+  EXPECT_NEAR(in_plane.x[0], 0.6, 1e-4);
+  EXPECT_NEAR(in_plane.x[1], 0.8, 1e-4);
+}
+
+TEST(BallProgram, ABoundThatIsWideChangesNothing) {
+  const BallSolution free = solve(drawn_to<2>({3, 4}, 10));
+  EXPECT_TRUE(free.found);
+  EXPECT_NEAR(free.x[0], 3, 1e-3);
+  EXPECT_NEAR(free.x[1], 4, 1e-3);
+}
+
+TEST(BallProgram, SaysWhereBoundsLeaveNothing) {
+  BallProgram<1> program = drawn_to<1>(Eigen::Matrix<double, 1, 1>(3), 1);
+  auto other = program.rows[1];
+  other.offset[0] = -5;
+  program.rows.push_back(other);
+  EXPECT_FALSE(solve(program).found);
+}
+
+}  // namespace
+}  // namespace vspring::ball_program_test

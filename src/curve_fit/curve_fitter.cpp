@@ -19,7 +19,7 @@ namespace {
 constexpr double first_share = 0.95;
 // Of a tolerance, so that what is not linear in a step does not go beyond.
 constexpr double aimed_share_of_curve = 0.995;
-constexpr double aimed_share_of_chords = 0.9999;
+constexpr double aimed_share_of_chords = 0.995;
 constexpr int starts = 2;
 constexpr int robust_starts = 2;
 // Of the noise: what is nearer than that tells nothing.

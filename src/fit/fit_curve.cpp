@@ -26,7 +26,7 @@ namespace {
 // Of the edge before or after.
 constexpr double sparse_share = 0.05;
 // Of the tolerance, or of how far another curve is from the polyline of the points.
-constexpr double far_off_way = 1.5;
+constexpr double far_off_way = 2;
 // Of the tolerance, and how often it is tried.
 constexpr double cut_off_a_little = 1.2;
 constexpr double share_of_nearer = 0.997;
@@ -230,7 +230,7 @@ class CurveFit {
                         of_places.curvature_extrema <= of_positions.curvature_extrema &&
                         of_places.inflections <= of_positions.inflections;
     // Points may be near a curve that goes anywhere between them.
-    const bool stays = way_off(moved).greatest <= std::max(way_off_before, *tolerance);
+    const bool stays = way_off(moved).greatest <= far_off_way * std::max(way_off_before, *tolerance);
     if (stays && (before > *tolerance ? after < before : after <= *tolerance && fairer)) positions = std::move(places);
   }
 

@@ -15,12 +15,12 @@ namespace {
 
 constexpr int most_steps = 40;
 // Of the objective.
-constexpr double enough_gap = 1e-5;
+constexpr double enough_gap = 1e-6;
 constexpr double next_to_nothing_left = 1e-5;
 // Of the bounds.
 constexpr double enough_miss = 1e-6;
 // Of the gradient of the objective at the start.
-constexpr double enough_balance = 1e-4;
+constexpr double enough_balance = 1e-6;
 // Of half a bound.
 constexpr double first_slack = 0.1;
 constexpr double first_gap = 0.1;

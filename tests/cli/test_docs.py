@@ -3,6 +3,7 @@ import json
 import math
 import os
 import pathlib
+import random
 import re
 import shlex
 import shutil
@@ -20,6 +21,13 @@ LINKED = [*DOCUMENTS, *sorted((ROOT / "docs/notes").glob("*.md"))]
 PROGRAMS = ("vspring ", "build/release/vspring ")
 # In a block with commands, these make their files.
 HELPERS = ("echo ", "cat ")
+
+
+def walk():
+    """A walk in metres, with a stop and a sharp turn, of a log that is some metres off."""
+    noise = random.Random(1)
+    places = [(4 * k, 40 * math.sin(k / 12)) for k in range(60)] + [(236, 40 * math.sin(59 / 12))] * 20 + [(236 - 3 * k, 3 * k) for k in range(40)]
+    return "x,y\n" + "".join(f"{x + noise.gauss(0, 2):.2f},{y + noise.gauss(0, 2):.2f}\n" for x, y in places)
 
 
 def outline():
@@ -55,6 +63,7 @@ STAND_INS = {
     "mesh.obj": "cylinder-patch --radius 0.2236 --angle 150 --height 0.1 --columns 30 --rows 6",
     "aerofoil.dat": ROOT / "examples/naca-2412.dat",
     "outline.csv": outline,
+    "track.csv": walk,
     "track.gpx": lambda: gpx(track(60, 3)),
     "log.csv": lambda: "time,lat,lon\n" + "".join(f"{k},{a!r},{b!r}\n" for k, (a, b) in enumerate(track(60, 3))),
     "cloud.csv": lambda: "".join(sorted(f"{math.sin(7 * k):.3f},{k + 0.01 * math.cos(11 * k):.3f}\n" for k in (j / 40 for j in range(41)))),

@@ -195,7 +195,7 @@ MUTATIONS = {
         ("area-per-point", "a node's share of n-gons", "area += face.norm() / nodes;", "area += face.norm();"),
     ],
     "src/fairness/noise.cpp": [
-        ("noise-freedom", "noise: squares over degrees of freedom", "std::sqrt(squares / freedom), freedom, size * extent", "std::sqrt(squares), freedom, size * extent"),
+        ("noise-freedom", "noise: squares over degrees of freedom", "std::sqrt(squares / freedom), freedom, extent(1)", "std::sqrt(squares), freedom, extent(1)"),
         ("noise-expected", "noise: chi-square at a share", "1 - spread + quantile * std::sqrt(spread)", "1 - spread"),
         ("noise-quadratic", "noise over a quadratic", "matrix.row(k) << 1, u, v, u * u, u * v, v * v;", "matrix.row(k) << 1, u, v, u * u, 0, v * v;"),
         ("noise-slopes", "noise across the surface", "std::sqrt(squares / static_cast<double>(nodes.size()))", "1.0"),
@@ -300,7 +300,7 @@ MUTATIONS = {
         ("tour-move", "Or-opt: what is saved where a piece was", "here - distance(before, behind)", "here"),
         ("tour-move-turned", "Or-opt: which way a piece runs in its new place", "(side > 0) != (step > 0)", "(side > 0) == (step > 0)"),
     ],
-    "src/fit/fit_resampled.cpp": [
-        ("raised-points", "the dense curve is as far from its points as chords are from the table's", "point += over_chord(", "point -= over_chord("),
+    "src/linear/ball_program.cpp": [
+        ("ball-bound", "a bound is on the length of a value", "values_[bound.row].squaredNorm() - most * most", "values_[bound.row].squaredNorm() - most"),
     ],
 }

@@ -13,8 +13,10 @@ namespace {
 DenseCurve on_circle(double angle) {
   std::vector<DenseCurve::Node> nodes;
   double at = 0;
-  for (int k = 0; at < angle; at += k % 2 == 0 ? 0.2 : 0.1, ++k)
+  while (at < angle) {
     nodes.emplace_back().place = {std::cos(at), std::sin(at), 0};
+    at += nodes.size() % 2 == 1 ? 0.2 : 0.1;
+  }
   DenseCurve curve;
   curve.add_chain(nodes, false);
   return curve;

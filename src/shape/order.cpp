@@ -20,7 +20,7 @@ namespace vspring {
 namespace {
 
 /// Of each point, to where its place in the order may change.
-constexpr std::size_t most_neighbours = 8;
+constexpr std::size_t nearest_others = 8;
 
 /// Moved and scaled to a box of half-width 1, so that no square of a distance is beyond what numbers can hold; empty
 /// where all points are at one place, or so near to each other that this is beyond it too.
@@ -191,7 +191,7 @@ class Links {
 /// A short way through three places or more, no two of them equal.
 std::vector<Index> short_way(std::span<const Vector3> places, bool closed) {
   PointTree tree(places);
-  const std::size_t count = std::min(most_neighbours, places.size() - 1);
+  const std::size_t count = std::min(nearest_others, places.size() - 1);
   std::vector<Index> neighbours;
   neighbours.reserve(count * places.size());
   std::vector<PointTree::Near> near;

@@ -31,6 +31,7 @@ std::vector<Track> tracks() {
     return Vector3(x + draw.uniform(-0.5, 0.5), y + draw.uniform(-0.5, 0.5), 0);
   };
   std::vector<Vector3> wave;
+  wave.reserve(120);
   for (int k = 0; k < 120; ++k) wave.push_back(log(2 * k, 30 * std::sin(0.05 * k)));
   Track stop{"stop", wave};
   for (int n = 0; n < 30; ++n) stop.rows.insert(stop.rows.begin() + 60, log(120, 30 * std::sin(3.0)));
@@ -40,9 +41,11 @@ std::vector<Track> tracks() {
   for (const int k : {80, 40, 40})
     doubled.rows.insert(doubled.rows.begin() + k, doubled.rows[static_cast<std::size_t>(k)]);
   Track turn{"sharp turn", {}};
+  turn.rows.reserve(79);
   for (int k = 0; k < 40; ++k) turn.rows.push_back(log(5 * k, 0));
   for (int k = 1; k < 40; ++k) turn.rows.push_back(log(195 - 3.5 * k, 3.5 * k));
   Track back{"out and back", {}};
+  back.rows.reserve(119);
   for (int k = 0; k < 60; ++k) back.rows.push_back(log(5 * k, 20 * std::sin(0.05 * k)));
   for (int k = 58; k >= 0; --k) back.rows.push_back(log(5 * k, 20 * std::sin(0.05 * k)));
   return {stop, fold, doubled, turn, back};

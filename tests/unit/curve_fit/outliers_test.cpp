@@ -13,6 +13,7 @@ namespace {
 
 std::vector<Vector3> wave(int rows) {
   std::vector<Vector3> places;
+  places.reserve(static_cast<std::size_t>(rows));
   for (int k = 0; k < rows; ++k) places.emplace_back(k, 10 * std::sin(0.1 * k), 0);
   return places;
 }

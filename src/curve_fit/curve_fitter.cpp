@@ -18,8 +18,9 @@ namespace {
 // Of a tolerance, at the start, so that there is room to become fairer.
 constexpr double first_share = 0.95;
 // Of a tolerance, so that what is not linear in a step does not go beyond.
-constexpr double aimed_share_of_curve = 0.995;
-constexpr double aimed_share_of_chords = 0.995;
+constexpr double aimed_share = 0.995;
+// Of how far the curve may go, so that it does not go beyond between nodes.
+constexpr double aimed_share_of_way = 0.98;
 constexpr int starts = 2;
 constexpr int robust_starts = 2;
 // Of the noise: what is nearer than that tells nothing.
@@ -44,9 +45,8 @@ constexpr double least_damping = 1e-4;
 constexpr double shrinking = 0.9;
 constexpr double tie_break = 1e-6;
 constexpr double loosened = 1.02;
-// Of the energy at first.
-constexpr double toll_of_excess = 10;
-constexpr double least_excess = 1e-4;
+// Of what a step promises to take off.
+constexpr double least_gain = 0.1;
 // How far from the polyline places may be: of the root mean square, and of the furthest point at the start.
 constexpr double reach_of_rms = 4;
 constexpr double spare_of_reach = 1.5;
@@ -116,7 +116,7 @@ class CurveFitter {
   CurveFound run_on_nodes() {
     found_.curve = *task_.nodes;
     found_.points = task_.scattered;
-    for (CurvePoint& point : found_.points) point.bound = task_.within;
+    set_bounds();
     find_places(found_.curve, found_.points);
     most_work_ = static_cast<std::size_t>(task_.most_steps) * found_.curve.size();
     weights_ = weights_of_change(found_.curve, task_.evenly);
@@ -139,7 +139,14 @@ class CurveFitter {
     const StartScale scale{task_.noise, tolerance()};
     for (const auto& chain : task_.chains) add_start(chain.nodes, chain.closed, scale, found_.curve, found_.points);
     find_scattered();
-    for (CurvePoint& point : found_.points) point.bound = task_.within;
+    set_bounds();
+  }
+
+  void set_bounds() {
+    for (CurvePoint& point : found_.points) {
+      const auto number = static_cast<std::size_t>(point.number);
+      point.bound = task_.within - (point.number >= 0 && !task_.spare.empty() ? task_.spare[number] : 0);
+    }
   }
 
   void begin() {
@@ -216,8 +223,7 @@ class CurveFitter {
 
   void find_places_between() {
     between_.clear();
-    if (!task_.in_order) return;
-    between_ = polyline_bounds(found_.curve, found_.points, reach());
+    if (task_.in_order && task_.keeps_way) between_ = polyline_bounds(found_.curve, found_.points, reach());
   }
 
   /// How far from the polyline places may be: where only points pull, a sharp turn would go out to a wide loop.
@@ -235,8 +241,6 @@ class CurveFitter {
     find_places(found_.curve, found_.points);
     double energy = merit();
     double excess = this->excess();
-    // So that keeping all bounds is worth so many times the energy.
-    const double toll = toll_of_excess * energy / std::clamp(excess - 1, least_excess, 1.0);
     double last_step = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps_on_grid && work_ < most_work_; ++step) {
       end_if_cancelled();
@@ -294,10 +298,12 @@ class CurveFitter {
         find_places(found_.curve, found_.points);
         now = merit();
         const double beyond = std::max(1.0, this->excess());
-        better = now + toll * beyond < energy + toll * std::max(1.0, excess);
-        // Springs have no energy of their own; near their balance steps become smaller from one to the next.
-        if (springs_ && half == 0 && share == 1) better = better || greatest <= shrinking * last_step;
-        better = better && beyond <= std::max(1.0, excess);
+        // Bounds come first: a curve that is beyond them may well be fairer.
+        if (excess > 1)
+          better = beyond - 1 <= (1 - least_gain * share) * (excess - 1);
+        else
+          // Springs have no energy of their own; near their balance steps become smaller from one to the next.
+          better = beyond <= 1 && (now < energy || (springs_ && share == 1 && greatest <= shrinking * last_step));
         if (!better) continue;
         excess = beyond;
         break;
@@ -323,8 +329,6 @@ class CurveFitter {
     found_.converged = false;
   }
 
-  [[nodiscard]] double aimed_share() const { return task_.nodes ? aimed_share_of_chords : aimed_share_of_curve; }
-
   [[nodiscard]] CurveProgram<K> program() const {
     CurveProgram<K> program(found_.curve, plane_);
     if (springs_) {
@@ -335,15 +339,16 @@ class CurveFitter {
     }
     for (CurvePoint point : found_.points) {
       if (!(point.weight > 0) || is_at_held(point)) continue;
-      point.bound *= aimed_share();
+      point.bound *= aimed_share;
       program.add_point(point, data_weight_);
     }
     for (const PolylineBound& one : between_) {
+      const Vector3 place = found_.curve.at(one.at);
+      if (!(task_.within > 0) && one.distance(place) < far_share * one.bound) continue;
       CurvePoint point;
-      point.place = one.nearest(found_.curve.place(one.node));
-      if (!(task_.within > 0) && one.distance(found_.curve.place(one.node)) < far_share * one.bound) continue;
-      point.at = {one.node, 0};
-      point.bound = aimed_share() * one.bound;
+      point.place = one.nearest(place);
+      point.at = one.at;
+      point.bound = aimed_share_of_way * one.bound;
       program.add_point(point, 0);
     }
     if (task_.least_radius > 0) program.add_least_radius(task_.least_radius);
@@ -388,7 +393,7 @@ class CurveFitter {
       if (point.bound > 0) point.bound = std::max(point.bound, loosened * away);
     }
     for (PolylineBound& one : between_)
-      one.bound = std::max(one.bound, loosened * one.distance(found_.curve.place(one.node)));
+      one.bound = std::max(one.bound, loosened * one.distance(found_.curve.at(one.at)));
   }
 
   /// Nearest to a node that does not move: nothing can be done about it.
@@ -405,7 +410,7 @@ class CurveFitter {
         greatest = std::max(greatest, (found_.curve.at(point.at) - point.place).norm() / point.bound);
     }
     for (const PolylineBound& one : between_)
-      greatest = std::max(greatest, one.distance(found_.curve.place(one.node)) / one.bound);
+      greatest = std::max(greatest, one.distance(found_.curve.at(one.at)) / one.bound);
     return greatest;
   }
 
@@ -493,6 +498,7 @@ class CurveFitter {
     found_.rms = rms();
     for (const CurvePoint& point : found_.points)
       found_.greatest = std::max(found_.greatest, (found_.curve.at(point.at) - point.place).norm());
+    if (task_.in_order) between_ = polyline_bounds(found_.curve, found_.points, reach());
     found_.beyond = excess();
   }
 

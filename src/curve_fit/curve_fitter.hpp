@@ -21,9 +21,12 @@ struct CurveFitTask {
   /// In place of chains: nodes whose chords are the curve. The scattered points have places on them.
   const DenseCurve* nodes = nullptr;
   bool in_order = true;          ///< whether points come in the order of the chains
+  bool keeps_way = true;         ///< and whether the curve is held near the polyline through them
   std::optional<Vector3> plane;  ///< its normal, where all lies in one
   // One of these; the others are 0.
   double within = 0;
+  /// What of it is not for the curve, by the number of the point: so much chords go beyond. Empty: nothing.
+  std::vector<double> spare;
   double rms = 0;
   double smoothing = 0;
   /// The paper's k (Eq. 9), for so many edges of even lengths.
@@ -33,7 +36,7 @@ struct CurveFitTask {
   double noise = 0;         ///< of the points, across
   double least_radius = 0;  ///< 0: any
   double tolerance = 1e-5;  ///< how near to the fairest, a share of the size
-  int most_steps = 60;      ///< of all programs
+  int most_steps = 120;     ///< of all programs
 };
 
 struct CurveFound {

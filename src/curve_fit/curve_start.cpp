@@ -20,7 +20,10 @@ constexpr double reach_of_rows = 2;
 // them.
 constexpr double reach_of_folds = 5;
 constexpr std::size_t most_rows_of_fold = 4;
-constexpr double most_edges_of_fold = 5;
+constexpr double most_edges_of_fold = 10;
+// Of how far back: so far aside rows may be of the way that they are put on.
+constexpr double most_aside_of_fold = 0.3;
+constexpr std::size_t rows_beside_fold = 3;
 constexpr std::size_t rows_about = 8;
 constexpr int most_turns_of_folds = 10;
 // Nodes on a straight piece of the polyline within the tolerance, and on the arc of a turn.
@@ -131,21 +134,46 @@ class Way {
       const double back = (stops[end].place - stops[k].place).norm();
       const bool is_noise = back <= reach_of_folds * reach_;
       if (!is_noise && (end - k > most_rows_of_fold || back > most_edges_of_fold * median_edge(k))) continue;
-      bool fixed = false;
-      for (std::size_t j = k; j <= end; ++j) fixed = fixed || stops[j].fixed;
-      if (fixed) continue;
-      const Vector3 on = stops[end + 1].place - stops[k - 1].place;
-      const auto first = stops.begin() + static_cast<std::ptrdiff_t>(k);
-      const auto last = stops.begin() + static_cast<std::ptrdiff_t>(end) + 1;
-      if (is_noise) {
-        for (std::size_t j = k + 1; j <= end; ++j) join(stops[k], stops[j]);
-        stops.erase(first + 1, last);
-      } else {
-        std::stable_sort(first, last, [&](const Stop& a, const Stop& b) { return a.place.dot(on) < b.place.dot(on); });
-      }
-      found = true;
+      found = (is_noise ? join_all(k, end) : put_in_order(k, end, most_aside_of_fold * back)) || found;
     }
     return found;
+  }
+
+  bool join_all(std::size_t first, std::size_t last) {
+    for (std::size_t j = first; j <= last; ++j) {
+      if (stops[j].fixed) return false;
+    }
+    for (std::size_t j = first + 1; j <= last; ++j) join(stops[first], stops[j]);
+    const auto begin = stops.begin() + static_cast<std::ptrdiff_t>(first);
+    stops.erase(begin + 1, begin + static_cast<std::ptrdiff_t>(last - first) + 1);
+    return true;
+  }
+
+  /// Those of a fold, and what is out of order beside it. False where they lie aside of the way that they would be on.
+  bool put_in_order(std::size_t first, std::size_t last, double most_aside) {
+    const std::size_t begin = first - std::min(first, rows_beside_fold);
+    const std::size_t end = std::min(stops.size() - 1, last + rows_beside_fold);
+    const Vector3 on = stops[end].place - stops[begin].place;
+    std::vector<std::size_t> order(end - begin - 1);
+    std::iota(order.begin(), order.end(), begin + 1);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return stops[a].place.dot(on) < stops[b].place.dot(on); });
+    std::size_t left = begin + 1;
+    std::size_t right = end - 1;
+    while (left < end && order[left - begin - 1] == left) ++left;
+    while (right > left && order[right - begin - 1] == right) --right;
+    if (left >= right) return false;
+    const Vector3& from = stops[left - 1].place;
+    const Vector3& to = stops[right + 1].place;
+    for (std::size_t j = left; j <= right; ++j) {
+      const Vector3& place = stops[j].place;
+      const double away = (from + nearest_share(place, from, to) * (to - from) - place).norm();
+      if (stops[j].fixed || away > std::max(reach_of_folds * reach_, most_aside)) return false;
+    }
+    const std::vector<Stop> before(stops.begin() + static_cast<std::ptrdiff_t>(left),
+                                   stops.begin() + static_cast<std::ptrdiff_t>(right) + 1);
+    for (std::size_t j = left; j <= right; ++j) stops[j] = before[order[j - begin - 1] - left];
+    return true;
   }
 
   [[nodiscard]] double median_edge(std::size_t about) const {

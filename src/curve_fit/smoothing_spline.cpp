@@ -22,10 +22,16 @@ constexpr int halvings = 5;
 constexpr double least_bending = 1e-7;
 // Of the length at first.
 constexpr double longest = 1.25;
+// Of the points, and of the tolerance: some lie by what is held, and would have the whole curve follow the noise.
+constexpr double share_outside = 0.1;
+constexpr double most_outside = 2;
+// Of the root mean square.
+constexpr double reach_of_rms_at_first = 2.5;
 // To either side of a point's place.
 constexpr int edges_about = 1;
 constexpr double robust_stride = 0.1;
 constexpr int robust_turns = 6;
+constexpr int most_turns_drawing_in = 8;
 
 /// A sum of places with weights, and a vector.
 struct Affine {
@@ -153,6 +159,7 @@ class SmoothingSpline {
         places_ = found;
       }
     }
+    if (smoothing >= least_smoothing) draw_in(within, rms, smoothing);
     take();
   }
 
@@ -162,6 +169,26 @@ class SmoothingSpline {
       return;
     for (std::uint32_t i = 0; i < curve_.size(); ++i) {
       if (column_[i] >= 0) curve_.set_place(i, places_[static_cast<std::size_t>(column_[i])]);
+    }
+  }
+
+  /// Points that are further away count more until they are not.
+  void draw_in(double within, double rms, double smoothing) {
+    const double most = within > 0 ? within : reach_of_rms_at_first * rms;
+    for (int turn = 0; turn < most_turns_drawing_in; ++turn) {
+      bool outside = false;
+      for (std::size_t j = 0; j < points_.size(); ++j) {
+        const double beyond = std::sqrt(squared_distance(points_[j])) / most;
+        if (!(points_[j].weight > 0) || beyond <= 1) continue;
+        outside = true;
+        counts_[j] *= std::pow(1 + beyond, 2);
+      }
+      if (!outside) return;
+      find_data();
+      const std::vector<Vector3> before = places_;
+      if (solve(smoothing) && is_sane()) continue;
+      places_ = before;
+      return;
     }
   }
 
@@ -271,17 +298,22 @@ class SmoothingSpline {
 
   [[nodiscard]] bool is_near(double within, double rms) const {
     double squares = 0;
-    double greatest = 0;
+    double outside = 0;
     double weights = 0;
     for (const CurvePoint& point : points_) {
       if (!(point.weight > 0)) continue;
-      // Where the way comes back, the nearest place may be one of its other half.
-      const double square = within > 0 ? squared_residual(point) : squared_distance(point);
-      greatest = std::max(greatest, square);
+      const double square = this->square(point, within);
+      if (within > 0 && square > std::pow(most_outside * within, 2)) return false;
+      outside += square > within * within ? point.weight : 0;
       squares += point.weight * square;
       weights += point.weight;
     }
-    return within > 0 ? greatest <= within * within : squares <= weights * rms * rms;
+    return within > 0 ? outside <= share_outside * weights : squares <= weights * rms * rms;
+  }
+
+  /// Of its distance. Where the way comes back, the nearest place may be one of its other half.
+  [[nodiscard]] double square(const CurvePoint& point, double within) const {
+    return within > 0 ? squared_residual(point) : squared_distance(point);
   }
 
   [[nodiscard]] double squared_residual(const CurvePoint& point) const {

@@ -28,9 +28,10 @@ constexpr double sparse_share = 0.05;
 // Of the tolerance, or of how far another curve is from the polyline of the points.
 constexpr double far_off_way = 2;
 // Of the tolerance, and how often it is tried.
-constexpr double cut_off_a_little = 1.2;
+constexpr double most_cut_off = 1.2;
+constexpr double most_spared = 0.7;
 constexpr double share_of_nearer = 0.997;
-constexpr int most_turns_nearer = 3;
+constexpr int most_turns_nearer = 5;
 
 class CurveFit {
  public:
@@ -74,14 +75,7 @@ class CurveFit {
   template <typename Put>
   Attempt attempt(const CurveFitTask& task, Put put) {
     found_ = vspring::fit_curve(task, [&](double share) { progress_.report("curve", (share + task.evenly) / 2); });
-    Attempt attempt{found_, put()};
-    std::vector<Vector3> positions = attempt.nodes.curve.positions();
-    draw_chords_in(positions, attempt.nodes);
-    attempt.nodes.curve.set_positions(std::move(positions));
-    attempt.figure = figure(distances(attempt.nodes.curve));
-    attempt.way_off = way_off(attempt.nodes.curve).greatest;
-    attempt.figures = measure_curve(attempt.nodes.curve, &attempt.nodes.constraints);
-    return attempt;
+    return measured(put());
   }
 
   /// Tells nodes of their places on the curve that was found, which goes by change of curvature in proportion to
@@ -95,23 +89,25 @@ class CurveFit {
       if (input_.options().outliers > 0) input_.leave_outliers_out();
       CurveFitTask task = input_.task();
       const auto tolerance = input_.options().tolerance();
-      // Where chords cut off a little too much, the curve is held a little nearer.
+      // Where chords cut off too much, the curve is held nearer.
       for (int turn = 0; turn < most_turns_nearer; ++turn) {
+        std::optional<Attempt> now;
         for (const bool evenly : {false, true}) {
           if (evenly && !tolerance) break;
           task.evenly = evenly;
           Attempt attempt = this->attempt(task, put);
-          if (!best || is_better(attempt, *best)) best = std::move(attempt);
+          if (!now || is_better(attempt, *now)) now = std::move(attempt);
         }
-        if (!tolerance || best->figure <= *tolerance || best->figure > cut_off_a_little * *tolerance) break;
-        task.within *= share_of_nearer * *tolerance / best->figure;
-        task.rms *= share_of_nearer * *tolerance / best->figure;
+        const bool ends = !tolerance || now->figure <= *tolerance || !leave_room(*now, task);
+        if (!best || now->figure < best->figure) best = std::move(now);
+        if (ends) break;
       }
     } catch (const Cancelled&) {
     }
     if (!best) return false;
     found_ = std::move(best->found);
     nodes_ = std::move(best->nodes);
+    draw_chords_in();
     return true;
   }
 
@@ -178,22 +174,19 @@ class CurveFit {
   /// Nodes that are far apart cut off what the curve does between them: where that is more than the tolerance allows
   /// for, they go to where their chords are within it. Elsewhere too, if these are fairer then, as where a table is
   /// coarse.
-  void draw_chords_in(std::vector<Vector3>& positions, const Resampled& nodes) {
+  void draw_chords_in() {
     const auto tolerance = input_.options().tolerance();
-    if (!tolerance) return;
-    const PolygonCurve& shape = nodes.curve;
-    const Constraints& constraints = nodes.constraints;
-    PolygonCurve moved = shape;
-    const double before = figure(distances(moved));
-    if (before <= *tolerance && !(input_.options().within() && are_sparse(moved))) return;
+    if (!tolerance || context_.cancelled()) return;
+    const Attempt before = measured(nodes_);
+    if (before.figure <= *tolerance && !(input_.options().within() && are_sparse(nodes_.curve))) return;
     DenseCurve chords(true);
-    for (const auto& chain : shape.chains()) {
+    for (const auto& chain : nodes_.curve.chains()) {
       std::vector<DenseCurve::Node> along;
       for (const Index i : chain.nodes) {
         DenseCurve::Node& node = along.emplace_back();
-        node.place = input_.to_local(moved.position(i));
-        node.held = constraints.position_fixed(i);
-        if (constraints.tangent_fixed(i)) node.tangent = constraints.tangent(i);
+        node.place = input_.to_local(nodes_.curve.position(i));
+        node.held = nodes_.constraints.position_fixed(i);
+        if (nodes_.constraints.tangent_fixed(i)) node.tangent = nodes_.constraints.tangent(i);
         node.from = i;
       }
       chords.add_chain(along, chain.closed);
@@ -202,36 +195,26 @@ class CurveFit {
     task.nodes = &chords;
     task.evenly = found_.evenly;
     task.scattered = found_.points;
+    // Nodes that are the points keep the way between them.
+    task.keeps_way = !nodes_.from.empty();
     carry_places(found_.curve, chords, task.scattered);
-    std::vector<Vector3> places;
-    const auto draw = [&] {
-      const CurveFound drawn = vspring::fit_curve(task, [](double) {});
-      places = positions;
-      for (std::uint32_t i = 0; i < drawn.curve.size(); ++i) {
-        const auto& node = drawn.curve.node(i);
-        if (!node.held) places[static_cast<std::size_t>(node.from)] = input_.to_input(node.place);
-      }
-      PolygonCurve curve = shape;
-      curve.set_positions(places);
-      return figure(distances(curve));
-    };
-    // Nodes that are the points keep the way between them; others may, if that leaves them enough room.
-    task.in_order = task.in_order && !nodes.from.empty();
-    double after = draw();
-    if (task.in_order && after > *tolerance) {
-      task.in_order = false;
-      after = draw();
+    const CurveFound drawn = vspring::fit_curve(task, [](double) {});
+    Resampled moved = nodes_;
+    std::vector<Vector3> places = nodes_.curve.positions();
+    for (std::uint32_t i = 0; i < drawn.curve.size(); ++i) {
+      const auto& node = drawn.curve.node(i);
+      if (!node.held) places[static_cast<std::size_t>(node.from)] = input_.to_input(node.place);
     }
-    const CurveFigures of_positions = measure_curve(moved, &constraints);
-    const double way_off_before = way_off(moved).greatest;
-    moved.set_positions(places);
-    const CurveFigures of_places = measure_curve(moved, &constraints);
-    const bool fairer = of_places.curvature_variation < of_positions.curvature_variation &&
-                        of_places.curvature_extrema <= of_positions.curvature_extrema &&
-                        of_places.inflections <= of_positions.inflections;
+    moved.curve.set_positions(std::move(places));
+    const Attempt after = measured(moved);
+    const bool fairer = after.figures.curvature_variation < before.figures.curvature_variation &&
+                        after.figures.curvature_extrema <= before.figures.curvature_extrema &&
+                        after.figures.inflections <= before.figures.inflections;
     // Points may be near a curve that goes anywhere between them.
-    const bool stays = way_off(moved).greatest <= far_off_way * std::max(way_off_before, *tolerance);
-    if (stays && (before > *tolerance ? after < before : after <= *tolerance && fairer)) positions = std::move(places);
+    const bool stays = after.way_off <= far_off_way * std::max(before.way_off, *tolerance);
+    if (before.figure > *tolerance ? stays && after.figure < before.figure
+                                   : fairer && after.figure <= *tolerance && drawn.beyond <= 1)
+      nodes_ = std::move(moved);
   }
 
   /// positions: of `shape`, which has the file's nodes or new ones.
@@ -291,6 +274,31 @@ class CurveFit {
   [[nodiscard]] double figure(const std::vector<double>& distances) const {
     const Distance all = summary(distances, input_.kept()).all;
     return input_.options().within() ? all.greatest : all.rms;
+  }
+
+  /// False where chords cut off so much that there is no room.
+  bool leave_room(const Attempt& attempt, CurveFitTask& task) const {
+    const double tolerance = *input_.options().tolerance();
+    if (!input_.options().within()) {
+      task.rms *= share_of_nearer * tolerance / attempt.figure;
+      return attempt.figure <= most_cut_off * tolerance;
+    }
+    const std::vector<double> distances = this->distances(attempt.nodes.curve);
+    task.spare.resize(distances.size(), 0);
+    for (std::size_t j = 0; j < distances.size(); ++j) {
+      if (input_.kept()[j] == 0 || distances[j] <= tolerance) continue;
+      task.spare[j] += (distances[j] - share_of_nearer * tolerance) * input_.scale();
+      if (task.spare[j] > most_spared * task.within) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] Attempt measured(Resampled nodes) const {
+    Attempt attempt{found_, std::move(nodes)};
+    attempt.figure = figure(distances(attempt.nodes.curve));
+    attempt.way_off = way_off(attempt.nodes.curve).greatest;
+    attempt.figures = measure_curve(attempt.nodes.curve, &attempt.nodes.constraints);
+    return attempt;
   }
 
   /// Whether no edge is much shorter than those about it, and none shorter than the tolerance.

@@ -45,6 +45,8 @@ constexpr double least_damping = 1e-4;
 constexpr double shrinking = 0.9;
 constexpr double tie_break = 1e-6;
 constexpr double loosened = 1.02;
+// Of the energy, for what is two bounds away.
+constexpr double price_of_bounds = 1e3;
 // Of what a step promises to take off.
 constexpr double least_gain = 0.1;
 // How far from the polyline places may be: of the root mean square, and of the furthest point at the start.
@@ -253,22 +255,23 @@ class CurveFitter {
       bool found = false;
       std::vector<Vector3> moves(before.size(), Vector3::Zero());
       for (int trial = 0; trial < most_dampings; ++trial) {
-        CurveProgram<K> program = this->program();
+        CurveProgram<K> program = this->program(0);
         if (program.blocks() == 0) {
           found_.converged = true;
           return;
         }
-        if (damping_ > 0) program.add_damping(damping_);
         BallSolution solution = program.solve();
         found = solution.found;
         if (!found) {
-          loosen_bounds();
+          // What can't be kept, along with all else or at a price.
+          solution = this->program(price_of_bounds * energy).solve();
+          found = solution.found;
+          if (found)
+            loosen_bounds(solution);
+          else
+            loosen_bounds();
           places = found_.points;
           excess = this->excess();
-          CurveProgram<K> looser = this->program();
-          if (damping_ > 0) looser.add_damping(damping_);
-          solution = looser.solve();
-          found = solution.found;
         }
         program.for_moves(solution, [&](std::uint32_t i, const Vector3& move) { moves[i] = move; });
         greatest = turn = 0;
@@ -329,28 +332,34 @@ class CurveFitter {
     found_.converged = false;
   }
 
-  [[nodiscard]] CurveProgram<K> program() const {
+  /// price: of what is a whole bound beyond it, half of that; 0: nothing may be.
+  CurveProgram<K> program(double price) {
     CurveProgram<K> program(found_.curve, plane_);
+    bounded_.clear();
+    const auto add = [&](CurvePoint point, double& bound, double share, double data_weight) {
+      point.bound = share * bound;
+      if (bound > 0) point.price = price / bound;
+      const std::size_t row = program.add_point(point, data_weight);
+      if (bound > 0) bounded_.emplace_back(&bound, row);
+    };
     if (springs_) {
       program.add_springs(1);
     } else {
       program.add_variation(weights_);
       program.add_bending(tie_break);
     }
-    for (CurvePoint point : found_.points) {
-      if (!(point.weight > 0) || is_at_held(point)) continue;
-      point.bound *= aimed_share;
-      program.add_point(point, data_weight_);
+    for (CurvePoint& point : found_.points) {
+      if (point.weight > 0 && !is_at_held(point)) add(point, point.bound, aimed_share, data_weight_);
     }
-    for (const PolylineBound& one : between_) {
+    for (PolylineBound& one : between_) {
       const Vector3 place = found_.curve.at(one.at);
       if (!(task_.within > 0) && one.distance(place) < far_share * one.bound) continue;
       CurvePoint point;
       point.place = one.nearest(place);
       point.at = one.at;
-      point.bound = aimed_share_of_way * one.bound;
-      program.add_point(point, 0);
+      add(point, one.bound, aimed_share_of_way, 0);
     }
+    if (damping_ > 0) program.add_damping(damping_);
     if (task_.least_radius > 0) program.add_least_radius(task_.least_radius);
     return program;
   }
@@ -386,7 +395,12 @@ class CurveFitter {
     return sum;
   }
 
-  /// Those that can't be kept, to where they are.
+  /// Those that were paid for, to where the step goes.
+  void loosen_bounds(const BallSolution& solution) {
+    for (const auto& [bound, row] : bounded_) *bound = std::max(*bound, loosened * solution.distances[row]);
+  }
+
+  /// All to where they are.
   void loosen_bounds() {
     for (CurvePoint& point : found_.points) {
       const double away = (found_.curve.at(point.at) - point.place).norm();
@@ -509,6 +523,7 @@ class CurveFitter {
   CurveFound found_;
   std::vector<double> weights_;
   std::vector<PolylineBound> between_;
+  std::vector<std::pair<double*, std::size_t>> bounded_;  // bounds of the program, and their rows
   double data_weight_ = 0;
   double least_weight_ = 0;
   double damping_ = 0;

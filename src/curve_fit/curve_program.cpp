@@ -172,18 +172,20 @@ void CurveProgram<K>::add_least_radius(double radius) {
 }
 
 template <int K>
-void CurveProgram<K>::add_point(const CurvePoint& point, double data_weight) {
+std::size_t CurveProgram<K>::add_point(const CurvePoint& point, double data_weight) {
   const auto place = curve_.place_row(point.at);
   const Eigen::Matrix<double, K, 3> sideways = across(curve_.direction(point.at)).transpose();
   Row row;
   row.window = point.at.edge;
   row.weight = data_weight * point.weight;
   row.bound = point.bound;
+  row.price = point.price;
   row.offset = sideways * (curve_.at(point.at) - point.place);
   for (std::size_t k = 0; k < 4; ++k) {
     if (place.nodes[k] != DenseCurve::none) add_entry(row, place.nodes[k], place.weights[k] * sideways);
   }
   program_.rows.push_back(row);
+  return program_.rows.size() - 1;
 }
 
 template class CurveProgram<1>;

@@ -17,6 +17,7 @@ struct CurvePoint {
   CurvePlace at = {};  ///< the place that is nearest to it
   Index number = -1;   ///< of the points as they were given; −1: a place of the polyline through them
   double bound = 0;    ///< how far away it may be at most; 0: as far as it likes
+  double price = 0;    ///< of what it is beyond, as of rows of a program; 0: it may not be
 };
 
 /// What is least, besides what points add.
@@ -44,8 +45,8 @@ class CurveProgram {
   void add_springs(double weight) { add_bending(weight, true); }
   /// Against edges that turn: of the squared turn, along the length.
   void add_damping(double weight);
-  /// data_weight: times the point's own.
-  void add_point(const CurvePoint& point, double data_weight);
+  /// data_weight: times the point's own. The number of its row.
+  std::size_t add_point(const CurvePoint& point, double data_weight);
   /// The radius of curvature is at least that.
   void add_least_radius(double radius);
 

@@ -22,7 +22,7 @@ constexpr double reach_of_folds = 5;
 constexpr std::size_t most_rows_of_fold = 4;
 constexpr double most_edges_of_fold = 10;
 // Of how far back: so far aside rows may be of the way that they are put on.
-constexpr double most_aside_of_fold = 0.3;
+constexpr double most_aside_of_fold = 0.4;
 constexpr std::size_t rows_beside_fold = 3;
 constexpr std::size_t rows_about = 8;
 constexpr int most_turns_of_folds = 10;

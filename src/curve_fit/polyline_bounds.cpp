@@ -96,11 +96,14 @@ class PolylineBounds {
   /// make of it does not count.
   [[nodiscard]] double rise_over(const std::optional<Vector3>& a, const Vector3& b, const Vector3& c,
                                  const std::optional<Vector3>& d) const {
-    if (!a || !d) return 0;
     const Vector3 edge = c - b;
-    if (!((b - *a).cross(edge).dot(edge.cross(*d - c)) > 0)) return 0;
+    const Vector3 first = a ? (b - *a).cross(edge) : Vector3::Zero();
+    const Vector3 second = d ? edge.cross(*d - c) : Vector3::Zero();
+    if (a && d && !(first.dot(second) > 0)) return 0;
     const auto angle = [](const Vector3& x, const Vector3& y) { return std::atan2(x.cross(y).norm(), x.dot(y)); };
-    const double turn = std::min({greatest_turn_of_arc, angle(b - *a, edge), angle(edge, *d - c)});
+    double turn = a || d ? greatest_turn_of_arc : 0;
+    if (a) turn = std::min(turn, angle(b - *a, edge));
+    if (d) turn = std::min(turn, angle(edge, *d - c));
     return std::max(0.0, edge.norm() / 2 * std::tan(turn / 4) - reach_ / 2);
   }
 

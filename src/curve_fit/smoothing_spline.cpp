@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,6 +28,7 @@ constexpr double share_outside = 0.1;
 constexpr double most_outside = 2;
 // Of the root mean square.
 constexpr double reach_of_rms_at_first = 2.5;
+constexpr double more_turning = 0.5;
 // To either side of a point's place.
 constexpr int edges_about = 1;
 constexpr double robust_stride = 0.1;
@@ -172,9 +174,11 @@ class SmoothingSpline {
     }
   }
 
-  /// Points that are further away count more until they are not.
+  /// Points that are further away count more until they are not, or the curve turns more for it: a tip goes out then,
+  /// and no loop is made for rows that have no order.
   void draw_in(double within, double rms, double smoothing) {
     const double most = within > 0 ? within : reach_of_rms_at_first * rms;
+    const double most_turning = turning() + more_turning;
     for (int turn = 0; turn < most_turns_drawing_in; ++turn) {
       bool outside = false;
       for (std::size_t j = 0; j < points_.size(); ++j) {
@@ -186,10 +190,22 @@ class SmoothingSpline {
       if (!outside) return;
       find_data();
       const std::vector<Vector3> before = places_;
-      if (solve(smoothing) && is_sane()) continue;
+      if (solve(smoothing) && is_sane() && turning() <= most_turning) continue;
       places_ = before;
       return;
     }
+  }
+
+  /// Of all edges, in radians.
+  [[nodiscard]] double turning() const {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < curve_.size(); ++i) {
+      if (!curve_.is_edge(i) || curve_.before(i) == DenseCurve::none) continue;
+      const Vector3 first = found(i) - found(curve_.before(i));
+      const Vector3 second = found(curve_.next(i)) - found(i);
+      sum += std::atan2(first.cross(second).norm(), first.dot(second));
+    }
+    return sum;
   }
 
   void find_data() {

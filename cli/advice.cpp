@@ -27,6 +27,7 @@ constexpr Advice all_advice[] = {
     {"choose columns", "--columns"},
     {"the choice of columns", "--columns"},
     {"weld within less", "--weld"},
+    {"put the nodes in order", "--order"},
     {"leave the order along the curve", "--order"},
 };
 

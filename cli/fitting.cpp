@@ -82,6 +82,16 @@ void settle_options(FairingArguments& arguments, bool own_nodes_pull) {
   }
 }
 
+void settle_moving(PullArguments& arguments, const CurveFile& file) {
+  if (arguments.moving.empty()) return;
+  if (!asks_to_fit(arguments))
+    throw Error(ErrorCode::invalid_argument,
+                "--move: how near to the rows is the curve to stay? give --within, --rms or --smoothing-length");
+  arguments.moving_axes = choose_axes(file, arguments.moving);
+  // Of a plane nothing is left to keep then.
+  if (file.planar && arguments.moving_axes[0] && arguments.moving_axes[1]) arguments.moving_axes[2] = true;
+}
+
 void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise) {
   if (!(noise.deviation > 0))
     throw Error(ErrorCode::unusable_shape,
@@ -114,6 +124,7 @@ FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairin
   if (arguments.rms) options.criterion = RootMeanSquare{*arguments.rms};
   if (arguments.noise) options.criterion = Noise{*arguments.noise};
   options.outliers = arguments.outliers;
+  options.moving_axes = arguments.moving_axes;
   return options;
 }
 
@@ -138,6 +149,7 @@ Json FitAccount::figures() const {
             {"rms", optional(arguments_.rms)},
             {"noise", optional(arguments_.noise)},
             {"estimated_noise", arguments_.estimate ? Json(arguments_.estimate->deviation) : Json()},
+            {"moving", arguments_.moving.empty() ? Json() : Json(arguments_.moving)},
             {"weights", weights_ ? Json{{"least", weights_->first}, {"greatest", weights_->second}} : Json()},
             {"normals", normals_},
             {"count", report_.points},
@@ -177,6 +189,9 @@ std::string FitAccount::lines() const {
   if (arguments_.estimate)
     text += fmt::format("noise estimated  {:.4g} units ({:.2g} median edges) in each coordinate\n",
                         arguments_.estimate->deviation, arguments_.estimate->edges);
+  if (!arguments_.moving.empty())
+    text +=
+        fmt::format("moved            {} alone: distances are how far rows went\n", fmt::join(arguments_.moving, ", "));
   if (is_measured()) {
     line("rms distance     ", report_.before.all.rms, report_.after.all.rms);
     line("99 % within      ", report_.before.percentile99, report_.after.percentile99);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "fairing_arguments.hpp"
+#include "vspring/curve_file.hpp"
 #include "vspring/fit.hpp"
 #include "vspring/noise.hpp"
 
@@ -20,6 +22,8 @@ struct PullArguments {
   std::optional<double> rms;
   std::optional<double> noise;
   double outliers = 0;
+  std::vector<std::string> moving = {};                  ///< names of coordinates that move; empty: all
+  std::array<bool, 3> moving_axes = {true, true, true};  ///< that these are
   bool takes_noise = true;                               ///< whether the command has --noise
   std::string automatic = {};                            ///< the option whose value is "auto"; empty: none
   std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that it was set by
@@ -36,6 +40,10 @@ template <typename Shape>
 void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context& context) {
   if (!arguments.automatic.empty()) settle_by_noise(arguments, noise_of(shape, context));
 }
+
+/// Finds the coordinates that are to move in a file that was read. Throws Error(invalid_argument) where it has none of
+/// a name, or no points pull.
+void settle_moving(PullArguments& arguments, const CurveFile& file);
 
 /// Throws Error(invalid_argument) where more than one of the four is given, or --outliers without any.
 [[nodiscard]] bool asks_to_fit(const PullArguments& arguments);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <variant>
@@ -69,6 +70,11 @@ struct FitOptions {
   /// those far aside of the way, and those over 4.5 standard deviations from a curve that single points do not draw
   /// aside.
   double outliers = 0;
+  /// Curves whose own nodes are the points, by EquilibriumMethod: of x, y and z those that nodes move in. All nodes
+  /// keep the others to the bit. Distances are then those in the coordinates that move, between where a node was and
+  /// is: heights of a profile, vertically. Where the others tell no order along the curve, as where one is given in
+  /// space, it is drawn over the length of the way in the other two.
+  std::array<bool, 3> moving_axes = {true, true, true};
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
@@ -81,6 +87,8 @@ struct FitOptions {
   [[nodiscard]] std::optional<double> noise() const;
   /// Of within() and rms(), the one that is given.
   [[nodiscard]] std::optional<double> tolerance() const;
+  /// Whether all of moving_axes move.
+  [[nodiscard]] bool moves_freely() const { return moving_axes == std::array{true, true, true}; }
 };
 
 /// Distances of points from a shape: from its polygons or edges, see distance().

@@ -82,7 +82,8 @@ class CurveFitter {
       smooth_out_robustly(found_.curve, found_.points, task_.noise);
       find_places(found_.curve, found_.points);
     }
-    for (const CurvePoint& point : found_.points) distances.push_back((found_.curve.at(point.at) - point.place).norm());
+    for (const CurvePoint& point : found_.points)
+      distances.push_back(found_.curve.offset(point.at, point.place).norm());
     std::vector<double> sorted = distances;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
@@ -137,6 +138,7 @@ class CurveFitter {
 
   void begin_on_way() {
     const StartScale scale{task_.noise, tolerance()};
+    found_.curve = DenseCurve(false, task_.moving);
     for (const auto& chain : task_.chains) add_start(chain.nodes, chain.closed, scale, found_.curve, found_.points);
     find_scattered();
     for (CurvePoint& point : found_.points) point.bound = task_.within;
@@ -226,7 +228,7 @@ class CurveFitter {
     if (task_.rms > 0) return reach_of_rms * task_.rms;
     double reach = reach_of_rms * task_.noise;
     for (const CurvePoint& point : found_.points)
-      reach = std::max(reach, spare_of_reach * (found_.curve.at(point.at) - point.place).norm());
+      reach = std::max(reach, spare_of_reach * found_.curve.offset(point.at, point.place).norm());
     return reach;
   }
 
@@ -339,12 +341,8 @@ class CurveFitter {
       program.add_point(point, data_weight_);
     }
     for (const PolylineBound& one : between_) {
-      CurvePoint point;
-      point.place = one.nearest(found_.curve.place(one.node));
       if (!(task_.within > 0) && one.distance(found_.curve.place(one.node)) < far_share * one.bound) continue;
-      point.at = {one.node, 0};
-      point.bound = aimed_share() * one.bound;
-      program.add_point(point, 0);
+      program.add_bound(one.node, one.nearest(found_.curve.place(one.node)), aimed_share() * one.bound);
     }
     if (task_.least_radius > 0) program.add_least_radius(task_.least_radius);
     return program;
@@ -364,7 +362,7 @@ class CurveFitter {
     }
     if (data_weight_ > 0) {
       for (const CurvePoint& point : found_.points)
-        sum += data_weight_ * point.weight * (curve.at(point.at) - point.place).squaredNorm();
+        sum += data_weight_ * point.weight * curve.offset(point.at, point.place).squaredNorm();
     }
     return sum;
   }
@@ -384,7 +382,7 @@ class CurveFitter {
   /// Those that can't be kept, to where they are.
   void loosen_bounds() {
     for (CurvePoint& point : found_.points) {
-      const double away = (found_.curve.at(point.at) - point.place).norm();
+      const double away = found_.curve.offset(point.at, point.place).norm();
       if (point.bound > 0) point.bound = std::max(point.bound, loosened * away);
     }
     for (PolylineBound& one : between_)
@@ -402,7 +400,7 @@ class CurveFitter {
     double greatest = 0;
     for (const CurvePoint& point : found_.points) {
       if (point.bound > 0 && point.weight > 0 && !is_at_held(point))
-        greatest = std::max(greatest, (found_.curve.at(point.at) - point.place).norm() / point.bound);
+        greatest = std::max(greatest, found_.curve.offset(point.at, point.place).norm() / point.bound);
     }
     for (const PolylineBound& one : between_)
       greatest = std::max(greatest, one.distance(found_.curve.place(one.node)) / one.bound);
@@ -413,7 +411,7 @@ class CurveFitter {
     double squares = 0;
     double weights = 0;
     for (const CurvePoint& point : found_.points) {
-      squares += point.weight * (found_.curve.at(point.at) - point.place).squaredNorm();
+      squares += point.weight * found_.curve.offset(point.at, point.place).squaredNorm();
       weights += point.weight;
     }
     return weights > 0 ? std::sqrt(squares / weights) : 0;
@@ -492,7 +490,7 @@ class CurveFitter {
     found_.evenly = task_.evenly;
     found_.rms = rms();
     for (const CurvePoint& point : found_.points)
-      found_.greatest = std::max(found_.greatest, (found_.curve.at(point.at) - point.place).norm());
+      found_.greatest = std::max(found_.greatest, found_.curve.offset(point.at, point.place).norm());
     found_.beyond = excess();
   }
 

@@ -22,6 +22,8 @@ struct CurveFitTask {
   const DenseCurve* nodes = nullptr;
   bool in_order = true;          ///< whether points come in the order of the chains
   std::optional<Vector3> plane;  ///< its normal, where all lies in one
+  /// 1 for coordinates that move, 0 for others: one in a plane, or two in space.
+  Vector3 moving = Vector3::Ones();
   // One of these; the others are 0.
   double within = 0;
   double rms = 0;

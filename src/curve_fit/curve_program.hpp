@@ -27,7 +27,8 @@ enum class CurveEnergy {
   bending
 };
 
-/// One step of Gauss and Newton: how nodes go across a curve, one way in a plane (K = 1), two in space.
+/// One step of Gauss and Newton: how nodes go across a curve, one way in a plane (K = 1), two in space; or along as
+/// many coordinates as move.
 template <int K>
 class CurveProgram {
  public:
@@ -44,8 +45,10 @@ class CurveProgram {
   void add_springs(double weight) { add_bending(weight, true); }
   /// Against edges that turn: of the squared turn, along the length.
   void add_damping(double weight);
-  /// data_weight: times the point's own.
+  /// data_weight: times the point's own. The distance is across the curve, or in the coordinates that move.
   void add_point(const CurvePoint& point, double data_weight);
+  /// How far a node may be from a place, across the curve.
+  void add_bound(std::uint32_t node, const Vector3& place, double bound);
   /// The radius of curvature is at least that.
   void add_least_radius(double radius);
 
@@ -67,6 +70,9 @@ class CurveProgram {
   using Row = typename BallProgram<K>::Row;
   void number();
   [[nodiscard]] Basis across(const Vector3& direction) const;
+  [[nodiscard]] Basis axes() const;
+  [[nodiscard]] Basis ways_of(const Vector3& direction) const;
+  void add_row_of(const CurvePoint& point, double weight, const Basis& ways);
   void add_entry(Row& row, std::uint32_t node, const Eigen::Matrix<double, K, 3>& slope) const;
 
   const DenseCurve& curve_;

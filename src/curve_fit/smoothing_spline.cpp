@@ -115,7 +115,8 @@ class SmoothingSpline {
         (void)solve(smoothing);
       }
       std::vector<double> distances;
-      for (const CurvePoint& point : points_) distances.push_back(squared_distance(point));
+      for (const CurvePoint& point : points_)
+        distances.push_back(curve_.moves_freely() ? squared_distance(point) : squared_residual(point));
       const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
       std::nth_element(distances.begin(), middle, distances.end());
       if (std::sqrt(*middle) <= median_of_noise * noise) break;
@@ -255,6 +256,12 @@ class SmoothingSpline {
     }
     places_ = std::move(sum.right);
     sum.triangle.solve_upper(std::span(places_));
+    const Vector3& moving = curve_.moving();
+    for (std::uint32_t i = 0; i < curve_.size() && !curve_.moves_freely(); ++i) {
+      if (column_[i] < 0) continue;
+      Vector3& place = places_[static_cast<std::size_t>(column_[i])];
+      place = curve_.place(i) + moving.cwiseProduct(place - curve_.place(i));
+    }
     return std::all_of(places_.begin(), places_.end(), [](const Vector3& place) { return place.allFinite(); });
   }
 
@@ -276,7 +283,8 @@ class SmoothingSpline {
     for (const CurvePoint& point : points_) {
       if (!(point.weight > 0)) continue;
       // Where the way comes back, the nearest place may be one of its other half.
-      const double square = within > 0 ? squared_residual(point) : squared_distance(point);
+      const bool at_place = within > 0 || !curve_.moves_freely();
+      const double square = at_place ? squared_residual(point) : squared_distance(point);
       greatest = std::max(greatest, square);
       squares += point.weight * square;
       weights += point.weight;
@@ -291,7 +299,7 @@ class SmoothingSpline {
       const auto n = static_cast<std::size_t>(k);
       away += row.weights[n] * found(row.nodes[n]);
     }
-    return away.squaredNorm();
+    return curve_.moving().cwiseProduct(away).squaredNorm();
   }
 
   /// From the chords about its place.

@@ -110,13 +110,14 @@ struct CurvePicture {
 /// given, the extension's, and without one the source's own.
 ///
 /// In the source's own format everything but the coordinates of nodes that moved is written as it was read, byte for
-/// byte; new coordinates are the shortest decimals that read back the same, new degrees have up to 12 decimals. In
-/// another format: chains and positions, as degrees in GPX and CSV where the curve has a plane of these. A planar curve
-/// keeps two columns while it stays in its plane. CSV, XYZ and DAT have the nodes along the chains, and the first node
-/// of a closed chain once more at its end; so has GPX, with a segment for each chain. SVG is a picture: the curve with
-/// its nodes and its curvature comb (lines along the curvature vector of the circle through three successive nodes),
-/// before and after, and below it curvature against arc length, with a sign for planar curves. Space curves are drawn
-/// as seen along the normal of their best plane.
+/// byte, and in tables and tracks those of their coordinates that did not change; new coordinates are the shortest
+/// decimals that read back the same, new degrees have up to 12 decimals. In another format: chains and positions, as
+/// degrees in GPX and CSV where the curve has a plane of these. A planar curve keeps two columns while it stays in its
+/// plane. CSV, XYZ and DAT have the nodes along the chains, and the first node of a closed chain once more at its end;
+/// so has GPX, with a segment for each chain. SVG is a picture: the curve with its nodes and its curvature comb (lines
+/// along the curvature vector of the circle through three successive nodes), before and after, and below it curvature
+/// against arc length, with a sign for planar curves. Space curves are drawn as seen along the normal of their best
+/// plane.
 ///
 /// Returns what the source carried and the output does not, one line each; empty when nothing is lost, and for a
 /// picture. The file appears whole or not at all, see write_file().

@@ -351,6 +351,8 @@ FitResult fit_shape(const typename Subject::Shape& shape, const Constraints& con
 
 FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {
+  if (!options.moves_freely())
+    throw Error(ErrorCode::invalid_argument, "coordinates can be kept on curves only; let all of them move");
   const auto fit_held = [&](const Constraints& held) {
     if (!options.fair.fair_boundary) return fit_shape<FitSurface>(mesh, held, points, options, context);
     options.validate();

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -38,7 +39,8 @@ class BandTriangle {
     std::size_t rest = width_;
     for (std::size_t column = first; column < rows_.size() && rest > 0; ++column) {
       Row& above = rows_[column];
-      if (left[0] != 0) {
+      // What is left of a row dwindles along the band, until its square is no number any more.
+      if (left[0] * left[0] >= std::numeric_limits<double>::min()) {
         const double length = std::sqrt(above[0] * above[0] + left[0] * left[0]);
         const double cosine = above[0] / length;
         const double sine = left[0] / length;

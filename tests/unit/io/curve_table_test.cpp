@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "unit/io/curve_round_trip.hpp"
@@ -24,8 +25,37 @@ TEST_F(CurveTable, ReadsEveryDelimiter) {
     EXPECT_EQ(file.format, CurveFormat::csv);
     EXPECT_EQ(unmoved(text, "csv"), text);
     EXPECT_EQ(moved(text, "csv", {{0, {0.5, 7, -20}}}),
-              replaced(text, row("0.5", "1", "-2e1"), row("0.5", "7", "-20")));
+              replaced(text, row("0.5", "1", "-2e1"), row("0.5", "7", "-2e1")));
   }
+}
+
+TEST_F(CurveTable, AxesAreChosenByLettersAndByNamesOfColumns) {
+  using Axes = std::array<bool, 3>;
+  const CurveFile file =
+      read_curve_bytes("no,dist_m,Ele [m]\n1,0,5\n2,1,6\n", "a.csv", std::nullopt, {"dist_m", "ele"});
+  EXPECT_EQ(file.column_names, (std::vector<std::string>{"dist_m", "Ele [m]"}));
+  for (const char* name : {"y", "ele", "ELE", "Ele [m]"})
+    EXPECT_EQ(choose_axes(file, {name}), (Axes{false, true, false}));
+  EXPECT_EQ(choose_axes(file, {"dist_m", "y"}), (Axes{true, true, false}));
+  EXPECT_EQ(choose_axes(read("1 2 3\n4 5 6\n", "xyz"), {"yz"}), (Axes{false, true, true}));
+  // A column may be called by another letter than the one that it is read as.
+  const CurveFile side = read_curve_bytes("x,z\n1,0\n2,1\n", "a.csv", std::nullopt, {"x", "z"});
+  EXPECT_EQ(choose_axes(side, {"z"}), (Axes{false, true, false}));
+  const auto refusal = [](const CurveFile& of, const std::string& name) {
+    try {
+      (void)choose_axes(of, {name});
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(
+      refusal(file, "height").find("'height' is no coordinate of this curve; it has x or 'dist_m', y or 'Ele [m]'"),
+      std::string::npos);
+  EXPECT_NE(refusal(file, "z").find("'z' is no coordinate"), std::string::npos);
+  EXPECT_NE(refusal(file, "").find("'' is no coordinate"), std::string::npos);
+  const CurveFile track = read("lat,lon\n47,8\n47.1,8\n", "csv");
+  EXPECT_NE(refusal(track, "lat").find("move together"), std::string::npos);
 }
 
 TEST_F(CurveTable, FindsTheColumnsThatTheHeaderNames) {

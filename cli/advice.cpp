@@ -22,7 +22,6 @@ constexpr Advice all_advice[] = {
     {"only take its noise off", "--noise auto"},
     {"allow more iterations", "--max-iterations"},
     {"allow more time", "--time-limit"},
-    {"the root mean square of its points' distances", "--rms"},
     {"name the format", "--format"},
     {"choose columns", "--columns"},
     {"the choice of columns", "--columns"},

@@ -192,7 +192,7 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
   add_columns(command, "--columns", arguments->columns, columns_of_curves);
   add_constraint_options(command, *arguments, words);
   add_node_options(command, *arguments);
-  add_pull_options(command, arguments->pull, pull_of_own_nodes, false);
+  add_pull_options(command, arguments->pull, pull_of_own_nodes);
   add_names(command, "--move", arguments->pull.moving,
             "Only these coordinates move; rows keep the others to the last digit, and distances are those in the ones "
             "that move: letters, such as y or yz, or names of columns (default: all)")

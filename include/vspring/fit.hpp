@@ -51,6 +51,10 @@ struct RootMeanSquare {
 /// coordinate off, in the units of the input, more than 0. No equilibrium, but filters, each where it is expected to be
 /// nearest to the true shape; nodes go along the surface, too, to where these put them. Where normals are given, an
 /// equilibrium next to that. See estimate_noise() and docs/fit.md. Cost: linear. Memory: about 2,500 bytes a node.
+///
+/// Curves: that whose curvature changes least of those that are as far from the points, in the root mean square, as
+/// noise of this deviation leaves: where the expected distance from the truth is least, by Mallows' C_p with every
+/// parameter counted three times. It changes little with the deviation. Cost: that of RootMeanSquare.
 struct Noise {
   double deviation;
 };
@@ -109,6 +113,8 @@ struct FitReport {
   Index pulled_nodes = 0;
   Index most_points = 0;
   Index outliers = 0;  ///< points left out; `after` does not count them
+  /// With Noise on curves: the root mean square distance that it leaves, at which the curve is.
+  std::optional<double> noise_leaves = std::nullopt;
   /// The one given or, for a tolerance, found. Empty for the paper's k, and where plain fairing or what
   /// filters of noise give is within the tolerance.
   std::optional<double> smoothing_length = std::nullopt;

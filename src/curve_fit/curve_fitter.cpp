@@ -22,6 +22,7 @@ constexpr double aimed_share_of_curve = 0.995;
 constexpr double aimed_share_of_chords = 0.995;
 constexpr int starts = 2;
 constexpr int robust_starts = 2;
+constexpr int risk_starts = 4;
 // Of the noise: what is nearer than that tells nothing.
 constexpr double least_deviation = 0.5;
 constexpr double times_noise = 3;
@@ -92,6 +93,19 @@ class CurveFitter {
     for (std::size_t j = 0; j < distances.size(); ++j)
       result.emplace_back(found_.points[j].number, distances[j] / deviation);
     return result;
+  }
+
+  double rms_of_noise() {
+    begin_on_way();
+    double rms = 0;
+    for (int k = 0; k < risk_starts && !found_.points.empty(); ++k) {
+      rms = smooth_out_by_risk(found_.curve, found_.points, task_.noise, K);
+      find_places(found_.curve, found_.points);
+      DenseCurve now = with_new_nodes(found_.curve, least_spacing());
+      carry_places(found_.curve, now, found_.points);
+      found_.curve = std::move(now);
+    }
+    return rms;
   }
 
   CurveFound run() {
@@ -513,6 +527,11 @@ class CurveFitter {
 std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task) {
   const std::function<void(double)> none = [](double) {};
   return task.plane ? CurveFitter<1>(task, none).deviations() : CurveFitter<2>(task, none).deviations();
+}
+
+double rms_of_noise(const CurveFitTask& task) {
+  const std::function<void(double)> none = [](double) {};
+  return task.plane ? CurveFitter<1>(task, none).rms_of_noise() : CurveFitter<2>(task, none).rms_of_noise();
 }
 
 CurveFound fit_curve(const CurveFitTask& task, const std::function<void(double share)>& progress) {

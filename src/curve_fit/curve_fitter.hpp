@@ -55,6 +55,9 @@ struct CurveFound {
 /// the scattered ones, with their numbers; in standard deviations of what the nearer half of them is away.
 std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task);
 
+/// The root mean square distance of the points from a curve that noise of the task's standard deviation leaves.
+double rms_of_noise(const CurveFitTask& task);
+
 /// The fairest curve through a task's held nodes that its points allow: of least change of curvature within a tolerance
 /// or a root mean square, or where springs and points balance. Each step is a convex program about the curve as it is.
 CurveFound fit_curve(const CurveFitTask& task, const std::function<void(double share)>& progress);

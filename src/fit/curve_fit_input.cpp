@@ -231,7 +231,8 @@ CurveFitTask CurveFitInput::task() const {
   task.within = options_.within().value_or(0) * scale;
   task.rms = options_.rms().value_or(0) * scale;
   task.noise = task.within > 0 ? noise_of_bound * task.within : task.rms;
-  if (task.noise == 0) task.noise = estimate_noise(curve_).deviation * scale;
+  if (options_.noise()) task.noise = *options_.noise() * scale;
+  if (task.noise == 0) task.noise = estimate_noise(curve_, options_.moving_axes).deviation * scale;
   const auto& method = std::get<EquilibriumMethod>(options_.fair.method);
   task.tolerance = method.tolerance;
   double edges = 0;

@@ -478,6 +478,23 @@ class CurveFit {
   Resampled nodes_{.curve = {}, .constraints = Constraints(0), .from = {}};
 };
 
+/// With the root mean square that noise leaves in place of its deviation.
+FitOptions with_rms_of_noise(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+                             const FitOptions& options, Context& context) {
+  FitOptions found = options;
+  found.criterion = RootMeanSquare{*options.noise()};
+  CurveFitInput input(curve, constraints, points, options, context);
+  if (!input.pulls()) return found;
+  try {
+    const CancellationScope cancellation(context);
+    if (options.outliers > 0) input.leave_outliers_out();
+    const double rms = rms_of_noise(input.task()) / input.scale();
+    if (rms > 0) found.criterion = RootMeanSquare{rms};
+  } catch (const Cancelled&) {
+  }
+  return found;
+}
+
 /// As they came, where they are held.
 std::vector<Vector3> unchanged(const CurveFitInput& input) {
   std::vector<Vector3> positions = input.curve().positions();
@@ -495,6 +512,12 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
         fit_curve(profile.curve(), profile.constraints(),
                   {.positions = profile.curve().positions(), .weights = points.weights}, profile.options(), context);
     result.positions = profile.lifted(result.positions);
+    return result;
+  }
+  if (options.noise()) {
+    const FitOptions found = with_rms_of_noise(curve, constraints, points, options, context);
+    FitResult result = fit_curve(curve, constraints, points, found, context);
+    result.report.noise_leaves = found.rms();
     return result;
   }
   const Stopwatch stopwatch;
@@ -538,8 +561,14 @@ ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& c
     profile.lift(made);
     return made;
   }
-  const Stopwatch stopwatch;
   const ScatteredPoints points{.positions = curve.positions()};
+  if (options.noise()) {
+    const FitOptions found = with_rms_of_noise(curve, constraints, points, options, context);
+    ResampledFit made = fit_curve_resampled(curve, constraints, how, found, context);
+    made.fit.report.noise_leaves = found.rms();
+    return made;
+  }
+  const Stopwatch stopwatch;
   ResampledFit made{resample(curve, constraints, how), {}};
   CurveFit run(curve, constraints, points, options, context);
   if (run.input().pulls() && run.find([&] { return run.resampled(how); })) made.resampled = run.nodes();

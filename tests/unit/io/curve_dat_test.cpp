@@ -37,8 +37,8 @@ TEST_F(CurveDat, ReadsLednicerAsOneChainFromTheTrailingEdge) {
 
 TEST_F(CurveDat, MovesTheLeadingEdgeOfBothSides) {
   EXPECT_EQ(moved(lednicer, "dat", {{0, {-0.01, 0, 0}}, {4, {1, -0.002, 0}}}),
-            replaced(replaced(replaced(lednicer, " 0.0 0.0\r", " -0.01 0\r"), " 0 0.000\r", " -0.01 0\r"), "1.0 -0.001",
-                     "1 -0.002"));
+            replaced(replaced(replaced(lednicer, " 0.0 0.0\r", " -0.01 0.0\r"), " 0 0.000\r", " -0.01 0.000\r"),
+                     "1.0 -0.001", "1.0 -0.002"));
 }
 
 TEST_F(CurveDat, ReadsLednicerWithoutEmptyLinesAndWithTwoLeadingEdges) {

@@ -182,8 +182,9 @@ TEST_F(CurveTable, RefusesAChoiceThatIsNone) {
   for (const ColumnChoice& columns :
        {ColumnChoice{"1"}, {"1", "2", "3", "2"}, {"2", "2"}, {"a", "2"}, {"0", "1"}, {"", "1"}})
     EXPECT_NE(refusal("a.csv", text, columns, ErrorCode::invalid_argument), "");
-  EXPECT_EQ(refusal("a.dat", "0 1\n1 2\n", {"1", "2"}, ErrorCode::invalid_argument),
-            "a.dat: columns can be chosen in CSV and XYZ only; leave the choice of columns out, or name the format");
+  EXPECT_EQ(
+      refusal("a.dat", "0 1\n1 2\n", {"1", "2"}, ErrorCode::invalid_argument),
+      "a.dat: columns can be chosen in CSV, XYZ and GPX only; leave the choice of columns out, or name the format");
 }
 
 TEST_F(CurveTable, ReadsDecimalCommasAndWritesThem) {
@@ -278,7 +279,7 @@ TEST_F(CurveTable, ReadsXyzWithAnythingBehindTheCoordinates) {
   ASSERT_EQ(file.curve.chains().size(), 2U);
   EXPECT_EQ(file.curve.position(0), Vector3(1, 2, 3.5));
   EXPECT_EQ(moved(text, "xyz", {{0, {1, 2, 0.1}}, {3, {0, 0, 0}}}),
-            replaced(replaced(text, "1.0 2 3.50", "1 2 0.1"), "7 8 10", "0 0 0"));
+            replaced(replaced(text, "1.0 2 3.50", "1.0 2 0.1"), "7 8 10", "0 0 0"));
   const CurveFile flat = read("0 1 a\n2 3 b\n", "xyz");
   EXPECT_TRUE(flat.planar);
   EXPECT_EQ(flat.curve.position(1), Vector3(2, 3, 0));

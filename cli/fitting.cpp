@@ -56,8 +56,7 @@ FairingMethod method_of(const FairingArguments& arguments) {
 bool asks_to_fit(const PullArguments& arguments) {
   const int given = (arguments.weight ? 1 : 0) + (arguments.smoothing_length ? 1 : 0) + (arguments.within ? 1 : 0) +
                     (arguments.rms ? 1 : 0) + (arguments.noise ? 1 : 0);
-  const std::string all = arguments.takes_noise ? "--weight, --smoothing-length, --within, --rms and --noise"
-                                                : "--weight, --smoothing-length, --within and --rms";
+  const std::string all = "--weight, --smoothing-length, --within, --rms and --noise";
   if (given > 1) throw Error(ErrorCode::invalid_argument, "only one of " + all + " can be given");
   if (given == 0 && arguments.outliers > 0) throw Error(ErrorCode::invalid_argument, "--outliers needs one of " + all);
   return given == 1;
@@ -82,16 +81,28 @@ void settle_options(FairingArguments& arguments, bool own_nodes_pull) {
   }
 }
 
-void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise) {
+void settle_moving(PullArguments& arguments, const CurveFile& file) {
+  if (arguments.moving.empty()) return;
+  if (!asks_to_fit(arguments))
+    throw Error(
+        ErrorCode::invalid_argument,
+        "--move: how near to the rows is the curve to stay? give --within, --rms, --noise or --smoothing-length");
+  arguments.moving_axes = choose_axes(file, arguments.moving);
+  // Of a plane nothing is left to keep then.
+  if (file.planar && arguments.moving_axes[0] && arguments.moving_axes[1]) arguments.moving_axes[2] = true;
+}
+
+double within_of_noise(const NoiseEstimate& noise) { return (noise.directions == 2 ? 3.44 : 3) * noise.deviation; }
+
+void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise, bool is_curve) {
   if (!(noise.deviation > 0))
     throw Error(ErrorCode::unusable_shape,
                 arguments.automatic + " auto: this shape has no noise, or too few nodes to tell; give a number");
-  // What 3 of 1,000 distances are beyond, across in one direction and in two.
-  const double times_within = noise.directions == 2 ? 3.44 : 3;
   arguments.estimate = noise;
-  if (arguments.automatic == "--within") arguments.within = times_within * noise.deviation;
-  if (arguments.automatic == "--rms") arguments.rms = std::sqrt(noise.directions) * noise.deviation;
-  if (arguments.automatic == "--noise") arguments.noise = noise.deviation;
+  if (arguments.automatic == "--within") arguments.within = within_of_noise(noise);
+  const bool takes_it_off = arguments.automatic == "--noise" || (arguments.automatic == "--rms" && is_curve);
+  arguments.rms = arguments.automatic == "--rms" && !is_curve ? std::optional(noise.deviation) : std::nullopt;
+  if (takes_it_off) arguments.noise = noise.deviation;
 }
 
 void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, std::vector<Warning>& warnings) {
@@ -100,9 +111,10 @@ void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, s
   if (!is_larger) return;
   warnings.push_back(
       {WarningCode::noise_is_larger,
-       fmt::format("the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
-                   "{:.3g} in each coordinate; {} auto takes that off, --within auto allows for three times as much",
-                   noise.deviation, arguments.takes_noise ? "--noise" : "--rms")});
+       fmt::format(
+           "the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
+           "{:.3g} in each coordinate; --noise auto takes that off, --within auto allows for three times as much",
+           noise.deviation)});
 }
 
 FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing) {
@@ -114,6 +126,7 @@ FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairin
   if (arguments.rms) options.criterion = RootMeanSquare{*arguments.rms};
   if (arguments.noise) options.criterion = Noise{*arguments.noise};
   options.outliers = arguments.outliers;
+  options.moving_axes = arguments.moving_axes;
   return options;
 }
 
@@ -137,7 +150,9 @@ Json FitAccount::figures() const {
             {"within", optional(arguments_.within)},
             {"rms", optional(arguments_.rms)},
             {"noise", optional(arguments_.noise)},
+            {"noise_leaves", optional(report_.noise_leaves)},
             {"estimated_noise", arguments_.estimate ? Json(arguments_.estimate->deviation) : Json()},
+            {"moving", arguments_.moving.empty() ? Json() : Json(arguments_.moving)},
             {"weights", weights_ ? Json{{"least", weights_->first}, {"greatest", weights_->second}} : Json()},
             {"normals", normals_},
             {"count", report_.points},
@@ -177,6 +192,11 @@ std::string FitAccount::lines() const {
   if (arguments_.estimate)
     text += fmt::format("noise estimated  {:.4g} units ({:.2g} median edges) in each coordinate\n",
                         arguments_.estimate->deviation, arguments_.estimate->edges);
+  if (report_.noise_leaves)
+    text += fmt::format("noise leaves     {:.4g} units, root mean square across\n", *report_.noise_leaves);
+  if (!arguments_.moving.empty())
+    text +=
+        fmt::format("moved            {} alone: distances are how far rows went\n", fmt::join(arguments_.moving, ", "));
   if (is_measured()) {
     line("rms distance     ", report_.before.all.rms, report_.after.all.rms);
     line("99 % within      ", report_.before.percentile99, report_.after.percentile99);

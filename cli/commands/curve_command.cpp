@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -73,6 +74,7 @@ int run_curve(CurveArguments arguments) {
       arguments.order ? std::optional(order_nodes(file, arguments.closed)) : std::nullopt;
   const ClosedChains closed(file.curve, arguments.closed);
   const PolygonCurve before = file.curve;
+  settle_moving(arguments.pull, file);
   settle_by_noise(arguments.pull, before, fairing.context());
   Constraints constraints = make_constraints(arguments, before, {.groups = &file.groups});
   closed.hold(constraints);
@@ -101,7 +103,7 @@ int run_curve(CurveArguments arguments) {
        .picture = draw,
        .figures = std::move(figures),
        .lines = done.lines() + closed.note() + note_of_order(reordered, before) + note_of(file.plane),
-       .facts = {.resamples = resamples}});
+       .facts = {.resamples = resamples, .moves_freely = arguments.pull.moving_axes == std::array{true, true, true}}});
 }
 
 const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj}, {"csv", CurveFormat::csv},
@@ -190,7 +192,11 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
   add_columns(command, "--columns", arguments->columns, columns_of_curves);
   add_constraint_options(command, *arguments, words);
   add_node_options(command, *arguments);
-  add_pull_options(command, arguments->pull, pull_of_own_nodes, false);
+  add_pull_options(command, arguments->pull, pull_of_own_nodes);
+  add_names(command, "--move", arguments->pull.moving,
+            "Only these coordinates move; rows keep the others to the last digit, and distances are those in the ones "
+            "that move: letters, such as y or yz, or names of columns (default: all)")
+      ->group(pull_of_own_nodes);
   add_curve_method(command, *arguments, words);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, false);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <variant>
@@ -50,6 +51,10 @@ struct RootMeanSquare {
 /// coordinate off, in the units of the input, more than 0. No equilibrium, but filters, each where it is expected to be
 /// nearest to the true shape; nodes go along the surface, too, to where these put them. Where normals are given, an
 /// equilibrium next to that. See estimate_noise() and docs/fit.md. Cost: linear. Memory: about 2,500 bytes a node.
+///
+/// Curves: that whose curvature changes least of those that are as far from the points, in the root mean square, as
+/// noise of this deviation leaves: where the expected distance from the truth is least, by Mallows' C_p with every
+/// parameter counted three times. It changes little with the deviation. Cost: that of RootMeanSquare.
 struct Noise {
   double deviation;
 };
@@ -69,6 +74,11 @@ struct FitOptions {
   /// those far aside of the way, and those over 4.5 standard deviations from a curve that single points do not draw
   /// aside.
   double outliers = 0;
+  /// Curves whose own nodes are the points, by EquilibriumMethod: of x, y and z those that nodes move in. All nodes
+  /// keep the others to the bit. Distances are then those in the coordinates that move, between where a node was and
+  /// is: heights of a profile, vertically. Where the others tell no order along the curve, as where one is given in
+  /// space, it is drawn over the length of the way in the other two.
+  std::array<bool, 3> moving_axes = {true, true, true};
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
@@ -81,6 +91,8 @@ struct FitOptions {
   [[nodiscard]] std::optional<double> noise() const;
   /// Of within() and rms(), the one that is given.
   [[nodiscard]] std::optional<double> tolerance() const;
+  /// Whether all of moving_axes move.
+  [[nodiscard]] bool moves_freely() const { return moving_axes == std::array{true, true, true}; }
 };
 
 /// Distances of points from a shape: from its polygons or edges, see distance().
@@ -101,6 +113,8 @@ struct FitReport {
   Index pulled_nodes = 0;
   Index most_points = 0;
   Index outliers = 0;  ///< points left out; `after` does not count them
+  /// With Noise on curves: the root mean square distance that it leaves, at which the curve is.
+  std::optional<double> noise_leaves = std::nullopt;
   /// The one given or, for a tolerance, found. Empty for the paper's k, and where plain fairing or what
   /// filters of noise give is within the tolerance.
   std::optional<double> smoothing_length = std::nullopt;

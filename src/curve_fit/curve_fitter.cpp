@@ -23,6 +23,7 @@ constexpr double aimed_share = 0.995;
 constexpr double aimed_share_of_way = 0.98;
 constexpr int starts = 2;
 constexpr int robust_starts = 2;
+constexpr int risk_starts = 4;
 // Of the noise: what is nearer than that tells nothing.
 constexpr double least_deviation = 0.5;
 constexpr double times_noise = 3;
@@ -84,7 +85,8 @@ class CurveFitter {
       smooth_out_robustly(found_.curve, found_.points, task_.noise);
       find_places(found_.curve, found_.points);
     }
-    for (const CurvePoint& point : found_.points) distances.push_back((found_.curve.at(point.at) - point.place).norm());
+    for (const CurvePoint& point : found_.points)
+      distances.push_back(found_.curve.offset(point.at, point.place).norm());
     std::vector<double> sorted = distances;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
@@ -93,6 +95,19 @@ class CurveFitter {
     for (std::size_t j = 0; j < distances.size(); ++j)
       result.emplace_back(found_.points[j].number, distances[j] / deviation);
     return result;
+  }
+
+  double rms_of_noise() {
+    begin_on_way();
+    double rms = 0;
+    for (int k = 0; k < risk_starts && !found_.points.empty(); ++k) {
+      rms = smooth_out_by_risk(found_.curve, found_.points, task_.noise, K);
+      find_places(found_.curve, found_.points);
+      DenseCurve now = with_new_nodes(found_.curve, least_spacing());
+      carry_places(found_.curve, now, found_.points);
+      found_.curve = std::move(now);
+    }
+    return rms;
   }
 
   CurveFound run() {
@@ -139,6 +154,7 @@ class CurveFitter {
 
   void begin_on_way() {
     const StartScale scale{task_.noise, tolerance()};
+    found_.curve = DenseCurve(false, task_.moving);
     for (const auto& chain : task_.chains) add_start(chain.nodes, chain.closed, scale, found_.curve, found_.points);
     find_scattered();
     set_bounds();
@@ -234,7 +250,7 @@ class CurveFitter {
     if (task_.rms > 0) return reach_of_rms * task_.rms;
     double reach = reach_of_rms * task_.noise;
     for (const CurvePoint& point : found_.points)
-      reach = std::max(reach, spare_of_reach * (found_.curve.at(point.at) - point.place).norm());
+      reach = std::max(reach, spare_of_reach * found_.curve.offset(point.at, point.place).norm());
     return reach;
   }
 
@@ -336,11 +352,9 @@ class CurveFitter {
   CurveProgram<K> program(double price) {
     CurveProgram<K> program(found_.curve, plane_);
     bounded_.clear();
-    const auto add = [&](CurvePoint point, double& bound, double share, double data_weight) {
+    const auto set_bound = [&](CurvePoint& point, double bound, double share) {
       point.bound = share * bound;
       if (bound > 0) point.price = price / bound;
-      const std::size_t row = program.add_point(point, data_weight);
-      if (bound > 0) bounded_.emplace_back(&bound, row);
     };
     if (springs_) {
       program.add_springs(1);
@@ -349,7 +363,11 @@ class CurveFitter {
       program.add_bending(tie_break);
     }
     for (CurvePoint& point : found_.points) {
-      if (point.weight > 0 && !is_at_held(point)) add(point, point.bound, aimed_share, data_weight_);
+      if (!(point.weight > 0) || is_at_held(point)) continue;
+      CurvePoint aimed = point;
+      set_bound(aimed, point.bound, aimed_share);
+      const std::size_t row = program.add_point(aimed, data_weight_);
+      if (point.bound > 0) bounded_.emplace_back(&point.bound, row);
     }
     for (PolylineBound& one : between_) {
       const Vector3 place = found_.curve.at(one.at);
@@ -357,7 +375,8 @@ class CurveFitter {
       CurvePoint point;
       point.place = one.nearest(place);
       point.at = one.at;
-      add(point, one.bound, aimed_share_of_way, 0);
+      set_bound(point, one.bound, aimed_share_of_way);
+      bounded_.emplace_back(&one.bound, program.add_bound(point));
     }
     if (damping_ > 0) program.add_damping(damping_);
     if (task_.least_radius > 0) program.add_least_radius(task_.least_radius);
@@ -378,7 +397,7 @@ class CurveFitter {
     }
     if (data_weight_ > 0) {
       for (const CurvePoint& point : found_.points)
-        sum += data_weight_ * point.weight * (curve.at(point.at) - point.place).squaredNorm();
+        sum += data_weight_ * point.weight * curve.offset(point.at, point.place).squaredNorm();
     }
     return sum;
   }
@@ -403,7 +422,7 @@ class CurveFitter {
   /// All to where they are.
   void loosen_bounds() {
     for (CurvePoint& point : found_.points) {
-      const double away = (found_.curve.at(point.at) - point.place).norm();
+      const double away = found_.curve.offset(point.at, point.place).norm();
       if (point.bound > 0) point.bound = std::max(point.bound, loosened * away);
     }
     for (PolylineBound& one : between_)
@@ -421,7 +440,7 @@ class CurveFitter {
     double greatest = 0;
     for (const CurvePoint& point : found_.points) {
       if (point.bound > 0 && point.weight > 0 && !is_at_held(point))
-        greatest = std::max(greatest, (found_.curve.at(point.at) - point.place).norm() / point.bound);
+        greatest = std::max(greatest, found_.curve.offset(point.at, point.place).norm() / point.bound);
     }
     for (const PolylineBound& one : between_)
       greatest = std::max(greatest, one.distance(found_.curve.at(one.at)) / one.bound);
@@ -432,7 +451,7 @@ class CurveFitter {
     double squares = 0;
     double weights = 0;
     for (const CurvePoint& point : found_.points) {
-      squares += point.weight * (found_.curve.at(point.at) - point.place).squaredNorm();
+      squares += point.weight * found_.curve.offset(point.at, point.place).squaredNorm();
       weights += point.weight;
     }
     return weights > 0 ? std::sqrt(squares / weights) : 0;
@@ -511,7 +530,7 @@ class CurveFitter {
     found_.evenly = task_.evenly;
     found_.rms = rms();
     for (const CurvePoint& point : found_.points)
-      found_.greatest = std::max(found_.greatest, (found_.curve.at(point.at) - point.place).norm());
+      found_.greatest = std::max(found_.greatest, found_.curve.offset(point.at, point.place).norm());
     if (task_.in_order) between_ = polyline_bounds(found_.curve, found_.points, reach());
     found_.beyond = excess();
   }
@@ -536,6 +555,11 @@ class CurveFitter {
 std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task) {
   const std::function<void(double)> none = [](double) {};
   return task.plane ? CurveFitter<1>(task, none).deviations() : CurveFitter<2>(task, none).deviations();
+}
+
+double rms_of_noise(const CurveFitTask& task) {
+  const std::function<void(double)> none = [](double) {};
+  return task.plane ? CurveFitter<1>(task, none).rms_of_noise() : CurveFitter<2>(task, none).rms_of_noise();
 }
 
 CurveFound fit_curve(const CurveFitTask& task, const std::function<void(double share)>& progress) {

@@ -13,6 +13,8 @@ constexpr double nodes_of_spacing = 120;
 constexpr double steepest_spacing = 0.25;
 constexpr double power_of_spacing = 3;
 constexpr double least_share_of_mean_curvature = 0.5;
+// Of a direction, across the coordinates that move: where it is less, nodes would only go along the curve.
+constexpr double least_across = 0.03;
 
 }  // namespace
 
@@ -32,7 +34,7 @@ CurveProgram<K>::CurveProgram(const DenseCurve& curve, const Vector3& plane) : c
     } else if (curve.before(i) != DenseCurve::none) {
       window = {block_[curve.before(i)], block_[i], BallProgram<K>::none, BallProgram<K>::none};
     }
-    if (block_[i] >= 0) bases_[i] = across(curve.bend(i, curve.is_edge(i)).tangent);
+    if (block_[i] >= 0) bases_[i] = ways_of(curve.bend(i, curve.is_edge(i)).tangent);
   }
 }
 
@@ -67,6 +69,26 @@ typename CurveProgram<K>::Basis CurveProgram<K>::across(const Vector3& direction
     basis.col(1) = direction.cross(basis.col(0)).normalized();
   }
   return basis;
+}
+
+template <int K>
+typename CurveProgram<K>::Basis CurveProgram<K>::axes() const {
+  Basis basis = Basis::Zero();
+  int k = 0;
+  for (int axis = 0; axis < 3 && k < K; ++axis) {
+    if (curve_.moving()[axis] != 0) basis(axis, k++) = 1;
+  }
+  return basis;
+}
+
+/// Which ways a node may go: zero for those that would not take it anywhere.
+template <int K>
+typename CurveProgram<K>::Basis CurveProgram<K>::ways_of(const Vector3& direction) const {
+  if (curve_.moves_freely()) return across(direction);
+  Basis basis = axes();
+  if (curve_.station(direction).norm() >= least_across) return basis;
+  const Eigen::Matrix<double, K, 1> along = (basis.transpose() * direction).normalized();
+  return basis - basis * along * along.transpose();
 }
 
 template <int K>
@@ -173,11 +195,22 @@ void CurveProgram<K>::add_least_radius(double radius) {
 
 template <int K>
 std::size_t CurveProgram<K>::add_point(const CurvePoint& point, double data_weight) {
+  return add_row_of(point, data_weight * point.weight,
+                    curve_.moves_freely() ? across(curve_.direction(point.at)) : axes());
+}
+
+template <int K>
+std::size_t CurveProgram<K>::add_bound(const CurvePoint& point) {
+  return add_row_of(point, 0, across(curve_.direction(point.at)));
+}
+
+template <int K>
+std::size_t CurveProgram<K>::add_row_of(const CurvePoint& point, double weight, const Basis& ways) {
   const auto place = curve_.place_row(point.at);
-  const Eigen::Matrix<double, K, 3> sideways = across(curve_.direction(point.at)).transpose();
+  const Eigen::Matrix<double, K, 3> sideways = ways.transpose();
   Row row;
   row.window = point.at.edge;
-  row.weight = data_weight * point.weight;
+  row.weight = weight;
   row.bound = point.bound;
   row.price = point.price;
   row.offset = sideways * (curve_.at(point.at) - point.place);

@@ -28,7 +28,8 @@ enum class CurveEnergy {
   bending
 };
 
-/// One step of Gauss and Newton: how nodes go across a curve, one way in a plane (K = 1), two in space.
+/// One step of Gauss and Newton: how nodes go across a curve, one way in a plane (K = 1), two in space; or along as
+/// many coordinates as move.
 template <int K>
 class CurveProgram {
  public:
@@ -45,8 +46,11 @@ class CurveProgram {
   void add_springs(double weight) { add_bending(weight, true); }
   /// Against edges that turn: of the squared turn, along the length.
   void add_damping(double weight);
-  /// data_weight: times the point's own. The number of its row.
+  /// data_weight: times the point's own. The distance is across the curve, or in the coordinates that move. The number
+  /// of its row.
   std::size_t add_point(const CurvePoint& point, double data_weight);
+  /// How far a place may be from a point, across the curve. The number of its row.
+  std::size_t add_bound(const CurvePoint& point);
   /// The radius of curvature is at least that.
   void add_least_radius(double radius);
 
@@ -68,6 +72,9 @@ class CurveProgram {
   using Row = typename BallProgram<K>::Row;
   void number();
   [[nodiscard]] Basis across(const Vector3& direction) const;
+  [[nodiscard]] Basis axes() const;
+  [[nodiscard]] Basis ways_of(const Vector3& direction) const;
+  std::size_t add_row_of(const CurvePoint& point, double weight, const Basis& ways);
   void add_entry(Row& row, std::uint32_t node, const Eigen::Matrix<double, K, 3>& slope) const;
 
   const DenseCurve& curve_;

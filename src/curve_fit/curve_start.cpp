@@ -16,6 +16,8 @@ namespace {
 
 // Of the noise: rows that are nearer together tell nothing of the way.
 constexpr double reach_of_rows = 2;
+// Of that, across stations that stay.
+constexpr double reach_across = 3;
 // How far back rows may go and still be out of order, not on their way back: of that, or of rows and median edges about
 // them.
 constexpr double reach_of_folds = 5;
@@ -51,8 +53,11 @@ struct Stop {
 /// The places that the rows of a chain go along, in order.
 class Way {
  public:
-  Way(const std::vector<ChainNode>& chain, bool closed, double reach) : chain_(chain), closed_(closed), reach_(reach) {
+  /// along: for its station().
+  Way(const std::vector<ChainNode>& chain, bool closed, double reach, const DenseCurve& along)
+      : chain_(chain), closed_(closed), reach_(reach), along_(along) {
     joined_with_.resize(chain.size());
+    find_turns();
     for (std::size_t k = 0; k < chain.size(); ++k) add(k);
     join_seam();
     leave_out_next_to_fixed();
@@ -70,16 +75,60 @@ class Way {
   }
 
  private:
+  /// Rows where stations that stay go as far as they do before they come back: no other row could take their place.
+  void find_turns() {
+    turns_.assign(chain_.size(), 0);
+    if (along_.moves_freely() || chain_.empty()) return;
+    std::vector<double> edges;
+    Vector3 axis = Vector3::Zero();
+    for (std::size_t k = 1; k < chain_.size(); ++k) {
+      const Vector3 away = station(chain_[k].place - chain_.front().place);
+      if (away.norm() > axis.norm()) axis = away;
+      edges.push_back(station(chain_[k].place - chain_[k - 1].place).norm());
+    }
+    axis.normalize();
+    const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+    if (!edges.empty()) std::nth_element(edges.begin(), middle, edges.end());
+    const double least = std::max(reach_of_folds * reach_, edges.empty() ? 0 : most_edges_of_fold * *middle);
+    // How far it has come since the last turn, and back since then.
+    std::size_t lowest = 0;
+    std::size_t highest = 0;
+    int way = 0;
+    for (std::size_t k = 0; k < chain_.size() * (closed_ ? 2 : 1); ++k) {
+      const std::size_t row = k % chain_.size();
+      const auto at = [&](std::size_t other) { return axis.dot(chain_[other].place); };
+      if (at(row) > at(highest)) highest = row;
+      if (at(row) < at(lowest)) lowest = row;
+      if (way >= 0 && at(row) < at(highest) - least) {
+        if (way > 0 || closed_) turns_[highest] = 1;
+        way = -1;
+        lowest = row;
+      } else if (way <= 0 && at(row) > at(lowest) + least) {
+        if (way < 0 || closed_) turns_[lowest] = 1;
+        way = 1;
+        highest = row;
+      }
+    }
+  }
+
   void add(std::size_t k) {
     const ChainNode& node = chain_[k];
-    const bool fixed = node.held || node.corner || !node.tangent.isZero(0);
+    const bool fixed = node.held || node.corner || !node.tangent.isZero(0) || turns_[k] != 0;
     joined_with_[k] = k;
-    if (!fixed && !stops.empty() && !stops.back().fixed && (node.place - stops.back().place).norm() <= reach_) {
+    if (!fixed && !stops.empty() && !stops.back().fixed && are_one(node.place, stops.back().place)) {
       join(stops.back(), {node.place, 1, false, k});
       return;
     }
     stops.push_back({node.place, 1, fixed, k});
   }
+
+  /// Where stations stay, rows may be noise apart across them.
+  [[nodiscard]] bool are_one(const Vector3& a, const Vector3& b) const {
+    const double most = along_.moves_freely() ? reach_ : reach_across * reach_;
+    return station(b - a).norm() <= reach_ && (b - a).norm() <= most;
+  }
+
+  [[nodiscard]] Vector3 station(const Vector3& v) const { return along_.station(v); }
 
   void join(Stop& a, const Stop& b) {
     a.place = (a.rows * a.place + b.rows * b.place) / (a.rows + b.rows);
@@ -90,7 +139,7 @@ class Way {
   void join_seam() {
     while (closed_ && stops.size() > 3) {
       const Stop last = stops.back();
-      if (last.fixed || stops.front().fixed || (last.place - stops.front().place).norm() > reach_) return;
+      if (last.fixed || stops.front().fixed || !are_one(last.place, stops.front().place)) return;
       join(stops.front(), last);
       stops.pop_back();
     }
@@ -119,7 +168,7 @@ class Way {
   }
 
   [[nodiscard]] bool turns_back(std::size_t k) const {
-    return (stops[k].place - stops[k - 1].place).dot(stops[k + 1].place - stops[k].place) < 0;
+    return station(stops[k].place - stops[k - 1].place).dot(stops[k + 1].place - stops[k].place) < 0;
   }
 
   /// Where the way goes back and on again within a few rows, or within what is noise, its places there are put in the
@@ -131,7 +180,7 @@ class Way {
       std::size_t end = k + 1;
       while (end + 1 < stops.size() && end - k <= most_rows_of_fold && !turns_back(end)) ++end;
       if (end + 1 >= stops.size() || !turns_back(end)) continue;
-      const double back = (stops[end].place - stops[k].place).norm();
+      const double back = station(stops[end].place - stops[k].place).norm();
       const bool is_noise = back <= reach_of_folds * reach_;
       if (!is_noise && (end - k > most_rows_of_fold || back > most_edges_of_fold * median_edge(k))) continue;
       found = (is_noise ? join_all(k, end) : put_in_order(k, end, most_aside_of_fold * back)) || found;
@@ -153,7 +202,7 @@ class Way {
   bool put_in_order(std::size_t first, std::size_t last, double most_aside) {
     const std::size_t begin = first - std::min(first, rows_beside_fold);
     const std::size_t end = std::min(stops.size() - 1, last + rows_beside_fold);
-    const Vector3 on = stops[end].place - stops[begin].place;
+    const Vector3 on = station(stops[end].place - stops[begin].place);
     std::vector<std::size_t> order(end - begin - 1);
     std::iota(order.begin(), order.end(), begin + 1);
     std::stable_sort(order.begin(), order.end(),
@@ -167,7 +216,7 @@ class Way {
     const Vector3& to = stops[right + 1].place;
     for (std::size_t j = left; j <= right; ++j) {
       const Vector3& place = stops[j].place;
-      const double away = (from + nearest_share(place, from, to) * (to - from) - place).norm();
+      const double away = station(from + nearest_share(place, from, to) * (to - from) - place).norm();
       if (stops[j].fixed || away > std::max(reach_of_folds * reach_, most_aside)) return false;
     }
     const std::vector<Stop> before(stops.begin() + static_cast<std::ptrdiff_t>(left),
@@ -180,7 +229,7 @@ class Way {
     std::vector<double> edges;
     const std::size_t begin = about > rows_about ? about - rows_about : 0;
     for (std::size_t k = begin; k + 1 < std::min(stops.size(), about + rows_about); ++k)
-      edges.push_back((stops[k + 1].place - stops[k].place).norm());
+      edges.push_back(station(stops[k + 1].place - stops[k].place).norm());
     const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
     std::nth_element(edges.begin(), middle, edges.end());
     return *middle;
@@ -190,9 +239,9 @@ class Way {
   void leave_out_turns_at_ends() {
     const double most = reach_of_folds * reach_;
     const auto turns = [&](const Stop& end, const Stop& next, const Stop& beyond) {
-      const Vector3 step = next.place - end.place;
+      const Vector3 step = station(next.place - end.place);
       return !next.fixed && step.norm() <= most && step.dot(beyond.place - next.place) < 0 &&
-             (beyond.place - end.place).norm() < (beyond.place - next.place).norm();
+             station(beyond.place - end.place).norm() < station(beyond.place - next.place).norm();
     };
     while (!closed_ && stops.size() > 3 && turns(stops[0], stops[1], stops[2])) erase(1);
     while (!closed_ && stops.size() > 3) {
@@ -205,6 +254,8 @@ class Way {
   const std::vector<ChainNode>& chain_;
   bool closed_;
   double reach_;
+  const DenseCurve& along_;
+  std::vector<std::uint8_t> turns_;
   std::vector<std::size_t> joined_with_;  // of every row that begins a stop, or is in one
 };
 
@@ -310,7 +361,7 @@ std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::ve
 
 void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, DenseCurve& curve,
                std::vector<CurvePoint>& points) {
-  Way found(chain, closed, reach_of_rows * scale.noise);
+  Way found(chain, closed, reach_of_rows * scale.noise, curve);
   std::vector<Stop>& stops = found.stops;
   if (stops.size() < (closed ? 3U : 2U)) {
     // Nothing that could be bent.
@@ -415,7 +466,7 @@ void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScal
 }
 
 DenseCurve with_new_nodes(const DenseCurve& curve, double least) {
-  DenseCurve result;
+  DenseCurve result(false, curve.moving());
   for (const auto& chain : curve.chains()) {
     std::vector<std::uint32_t> way;
     way.reserve(chain.count + 1);
@@ -482,7 +533,7 @@ void find_places(const DenseCurve& curve, std::vector<CurvePoint>& points) {
   for (std::size_t j = 0; j < points.size(); ++j) {
     end_if_cancelled_at(j);
     CurvePoint& point = points[j];
-    const double away = (curve.at(point.at) - point.place).norm();
+    const double away = curve.offset(point.at, point.place).norm();
     point.at = curve.nearest(point.place, point.at, 2 * away + 2 * curve.edge_length(point.at.edge));
   }
 }

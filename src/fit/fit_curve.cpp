@@ -16,6 +16,7 @@
 #include "fit/curve_nodes.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/fit_warnings.hpp"
+#include "fit/profile.hpp"
 #include "vspring/error.hpp"
 #include "vspring/figures.hpp"
 
@@ -32,6 +33,10 @@ constexpr double most_cut_off = 1.2;
 constexpr double most_spared = 0.7;
 constexpr double share_of_nearer = 0.997;
 constexpr int most_turns_nearer = 5;
+// Of the length of the curve: rows that were left out lie no further from the one before.
+constexpr double reach_to_next_row = 0.25;
+// Of the size.
+constexpr double same_place = 1e-7;
 
 class CurveFit {
  public:
@@ -44,7 +49,7 @@ class CurveFit {
   /// The result of fair(), where that is within the tolerance: then nothing pulls.
   std::optional<FitResult> plain_fairing() {
     const FitOptions& options = input_.options();
-    if (!options.tolerance() || options.outliers > 0) return std::nullopt;
+    if (!options.tolerance() || options.outliers > 0 || !options.moves_freely()) return std::nullopt;
     FairResult plain;
     try {
       (void)check_constraints(input_.curve(), input_.constraints());
@@ -108,6 +113,7 @@ class CurveFit {
     found_ = std::move(best->found);
     nodes_ = std::move(best->nodes);
     draw_chords_in();
+    keep_what_is_fairer();
     return true;
   }
 
@@ -119,7 +125,8 @@ class CurveFit {
   /// The file's nodes on it.
   [[nodiscard]] Resampled own_nodes() const {
     Resampled own{input_.curve(), input_.constraints(), {}};
-    own.curve.set_positions(positions_on_curve());
+    const bool free = input_.moving() == Vector3::Ones();
+    own.curve.set_positions(free ? positions_on_curve() : positions_at_stations());
     return own;
   }
 
@@ -142,7 +149,41 @@ class CurveFit {
       if (constraints.position_fixed(node))
         positions[i] = constraints.position(node);
       else if (in_chain[i] != 0)
-        positions[i] = input_.to_input(places[i]);
+        positions[i] = input_.moved(node, places[i]);
+    }
+    return positions;
+  }
+
+  /// Where the curve has the file's values of the coordinates that do not move.
+  [[nodiscard]] std::vector<Vector3> positions_at_stations() const {
+    const PolygonCurve& curve = input_.curve();
+    const Constraints& constraints = input_.constraints();
+    std::vector<Vector3> positions = curve.positions();
+    std::vector<std::optional<CurvePlace>> places(positions.size());
+    for (const CurvePoint& point : found_.points) places[static_cast<std::size_t>(point.number)] = point.at;
+    for (std::size_t c = 0; c < curve.chains().size(); ++c) {
+      const auto& nodes = curve.chains()[c].nodes;
+      const DenseCurve::Chain& chain = found_.curve.chains()[c];
+      // Rows that pull at nothing are looked for about the one before, or about the first that does.
+      CurvePlace about{chain.begin, 0};
+      std::optional<Vector3> before;
+      for (const Index node : nodes) {
+        const auto i = static_cast<std::size_t>(node);
+        if (constraints.position_fixed(node)) {
+          before = positions[i] = constraints.position(node);
+          continue;
+        }
+        if (!found_.curve.is_edge(chain.begin)) continue;
+        if (!places[i])
+          places[i] = found_.curve.nearest(input_.to_local(input_.place(node)), about, way_between_rows(chain));
+        about = *places[i];
+        positions[i] = input_.moved(node, found_.curve.at(about));
+        // Rows at one station are one place, to the last digit.
+        const Vector3 apart = before ? Vector3(positions[i] - *before) : Vector3::Ones();
+        const bool same_station = found_.curve.station(apart).isZero(0);
+        if (same_station && apart.norm() * input_.scale() < same_place) positions[i] = *before;
+        before = positions[i];
+      }
     }
     return positions;
   }
@@ -176,10 +217,11 @@ class CurveFit {
   /// coarse.
   void draw_chords_in() {
     const auto tolerance = input_.options().tolerance();
-    if (!tolerance || context_.cancelled()) return;
+    // At a station of its own no node is cut off.
+    if (!tolerance || context_.cancelled() || (nodes_.from.empty() && input_.moving() != Vector3::Ones())) return;
     const Attempt before = measured(nodes_);
     if (before.figure <= *tolerance && !(input_.options().within() && are_sparse(nodes_.curve))) return;
-    DenseCurve chords(true);
+    DenseCurve chords(true, input_.moving());
     for (const auto& chain : nodes_.curve.chains()) {
       std::vector<DenseCurve::Node> along;
       for (const Index i : chain.nodes) {
@@ -213,8 +255,24 @@ class CurveFit {
     // Points may be near a curve that goes anywhere between them.
     const bool stays = after.way_off <= far_off_way * std::max(before.way_off, *tolerance);
     if (before.figure > *tolerance ? stays && after.figure < before.figure
-                                   : fairer && after.figure <= *tolerance && drawn.beyond <= 1)
+                                   : fairer && after.figure <= *tolerance && drawn.beyond <= 1.001)
       nodes_ = std::move(moved);
+  }
+
+  /// The rows themselves, which are within any tolerance, where the curve that was found is no fairer.
+  void keep_what_is_fairer() {
+    const Constraints& constraints = input_.constraints();
+    if (!input_.own_nodes() || !nodes_.from.empty() || !input_.options().tolerance()) return;
+    for (Index i = 0; i < input_.curve().node_count(); ++i) {
+      const bool free = !constraints.tangent_fixed(i) && !constraints.normal_fixed(i);
+      if (!free || input_.kept()[static_cast<std::size_t>(i)] != input_.counted()[static_cast<std::size_t>(i)]) return;
+      if (constraints.position_fixed(i) && constraints.position(i) != input_.curve().position(i)) return;
+    }
+    const CurveFigures rows = measure_curve(input_.curve(), &constraints);
+    const CurveFigures found = measure_curve(nodes_.curve, &constraints);
+    if (rows.curvature_variation < found.curvature_variation && rows.curvature_extrema <= found.curvature_extrema &&
+        rows.inflections <= found.inflections)
+      nodes_.curve = input_.curve();
   }
 
   /// positions: of `shape`, which has the file's nodes or new ones.
@@ -236,7 +294,7 @@ class CurveFit {
     PolygonCurve moved = shape;
     moved.set_positions(result.positions);
     const auto& kept = input_.kept();
-    result.distances = point_distances(input_.points().positions, moved, measuring_);
+    result.distances = distances(moved);
     report.before = summary(distances(input_.curve()), input_.counted());
     report.after = summary(result.distances, kept);
     report.shape = way_off(moved);
@@ -251,8 +309,35 @@ class CurveFit {
   }
 
  private:
+  /// Of the points: of nodes that keep coordinates, from where they were.
   [[nodiscard]] std::vector<double> distances(const PolygonCurve& from) const {
-    return point_distances(input_.points().positions, from, measuring_);
+    const std::vector<Vector3>& points = input_.points().positions;
+    if (!keep_stations(from)) return point_distances(points, from, measuring_);
+    std::vector<double> distances;
+    distances.reserve(points.size());
+    for (std::size_t j = 0; j < points.size(); ++j) distances.push_back((from.positions()[j] - points[j]).norm());
+    return distances;
+  }
+
+  /// Whether nodes are those of the input, and have moved only as they may.
+  [[nodiscard]] bool keep_stations(const PolygonCurve& moved) const {
+    const std::vector<Vector3>& points = input_.points().positions;
+    if (input_.moving() == Vector3::Ones() || moved.positions().size() != points.size()) return false;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const bool held = input_.constraints().position_fixed(static_cast<Index>(j));
+      for (int axis = 0; axis < 3 && !held; ++axis) {
+        if (input_.moving()[axis] == 0 && moved.positions()[j][axis] != points[j][axis]) return false;
+      }
+    }
+    return true;
+  }
+
+  /// How far along the curve a row that pulls at nothing may be from the one before.
+  [[nodiscard]] double way_between_rows(const DenseCurve::Chain& chain) const {
+    double length = 0;
+    for (std::uint32_t i = chain.begin; i < chain.begin + chain.count; ++i)
+      length += found_.curve.is_edge(i) ? found_.curve.edge_length(i) : 0;
+    return length * reach_to_next_row;
   }
 
   /// Near the polyline of the points and within the tolerance first, then with fewer inflections, fewer extremes of
@@ -418,6 +503,23 @@ class CurveFit {
   Resampled nodes_{.curve = {}, .constraints = Constraints(0), .from = {}};
 };
 
+/// With the root mean square that noise leaves in place of its deviation.
+FitOptions with_rms_of_noise(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+                             const FitOptions& options, Context& context) {
+  FitOptions found = options;
+  found.criterion = RootMeanSquare{*options.noise()};
+  CurveFitInput input(curve, constraints, points, options, context);
+  if (!input.pulls()) return found;
+  try {
+    const CancellationScope cancellation(context);
+    if (options.outliers > 0) input.leave_outliers_out();
+    const double rms = rms_of_noise(input.task()) / input.scale();
+    if (rms > 0) found.criterion = RootMeanSquare{rms};
+  } catch (const Cancelled&) {
+  }
+  return found;
+}
+
 /// As they came, where they are held.
 std::vector<Vector3> unchanged(const CurveFitInput& input) {
   std::vector<Vector3> positions = input.curve().positions();
@@ -429,6 +531,20 @@ std::vector<Vector3> unchanged(const CurveFitInput& input) {
 
 FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
                     const FitOptions& options, Context& context) {
+  if (Profile::is_needed(curve, constraints, options)) {
+    const Profile profile(curve, constraints, options);
+    FitResult result =
+        fit_curve(profile.curve(), profile.constraints(),
+                  {.positions = profile.curve().positions(), .weights = points.weights}, profile.options(), context);
+    result.positions = profile.lifted(result.positions);
+    return result;
+  }
+  if (options.noise()) {
+    const FitOptions found = with_rms_of_noise(curve, constraints, points, options, context);
+    FitResult result = fit_curve(curve, constraints, points, found, context);
+    result.report.noise_leaves = found.rms();
+    return result;
+  }
   const Stopwatch stopwatch;
   CurveFit run(curve, constraints, points, options, context);
   if (!run.input().pulls()) {
@@ -464,8 +580,20 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
 
 ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,
                                  const FitOptions& options, Context& context) {
-  const Stopwatch stopwatch;
+  if (Profile::is_needed(curve, constraints, options)) {
+    const Profile profile(curve, constraints, options);
+    ResampledFit made = fit_curve_resampled(profile.curve(), profile.constraints(), how, profile.options(), context);
+    profile.lift(made);
+    return made;
+  }
   const ScatteredPoints points{.positions = curve.positions()};
+  if (options.noise()) {
+    const FitOptions found = with_rms_of_noise(curve, constraints, points, options, context);
+    ResampledFit made = fit_curve_resampled(curve, constraints, how, found, context);
+    made.fit.report.noise_leaves = found.rms();
+    return made;
+  }
+  const Stopwatch stopwatch;
   ResampledFit made{resample(curve, constraints, how), {}};
   CurveFit run(curve, constraints, points, options, context);
   if (run.input().pulls() && run.find([&] { return run.resampled(how); })) made.resampled = run.nodes();

@@ -140,6 +140,9 @@ void FitOptions::validate() const {
   if (is_amount && fair.method_kind() != Method::equilibrium)
     refuse(fmt::format("points can be fitted to a tolerance by the method equilibrium only, not by {}",
                        name(fair.method_kind())));
+  if (moving_axes == std::array{false, false, false}) refuse("no coordinate moves: let one of x, y and z");
+  if (!moves_freely() && fair.method_kind() != Method::equilibrium)
+    refuse(fmt::format("coordinates can be kept by the method equilibrium only, not by {}", name(fair.method_kind())));
   if (is_amount && fair.strength < 1) refuse("points can be fitted to a tolerance at full strength only");
 }
 

@@ -152,7 +152,6 @@ class Words(Case):
             (("curve", arc, "--fix", "none"), ("fix the ends (--fix boundary)", "let only a region move (--region)")),
             (("curve", ring, "--closed"), ("by a rule (--constraints)", "let only a region move (--region)", "a tolerance to stay within (--within)")),
             (("curve", star, "--constraints", free), ("by a rule (--constraints) such as",)),
-            (("curve", arc, "--noise", "1"), ("the root mean square of its points' distances (--rms)",)),
         ):
             with self.subTest(arguments):
                 done = run(*arguments, "-o", self.folder / ("out" + pathlib.Path(arguments[1]).suffix))

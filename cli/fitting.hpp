@@ -20,6 +20,7 @@ struct PullArguments {
   std::optional<double> rms;
   std::optional<double> noise;
   double outliers = 0;
+  double least_radius = 0;                               ///< of curves
   bool takes_noise = true;                               ///< whether the command has --noise
   std::string automatic = {};                            ///< the option whose value is "auto"; empty: none
   std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that it was set by
@@ -37,7 +38,7 @@ void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context
   if (!arguments.automatic.empty()) settle_by_noise(arguments, noise_of(shape, context));
 }
 
-/// Throws Error(invalid_argument) where more than one of the four is given, or --outliers without any.
+/// Throws Error(invalid_argument) where more than one of the five is given, or --outliers or --min-radius without any.
 [[nodiscard]] bool asks_to_fit(const PullArguments& arguments);
 
 /// The method with its own options, what --paper stands for, and how nodes are distributed: those that are the points

@@ -191,6 +191,7 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
   add_constraint_options(command, *arguments, words);
   add_node_options(command, *arguments);
   add_pull_options(command, arguments->pull, pull_of_own_nodes, false);
+  add_curve_bounds(command, arguments->pull, pull_of_own_nodes);
   add_curve_method(command, *arguments, words);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, false);

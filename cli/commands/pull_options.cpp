@@ -67,4 +67,15 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
       ->group(heading);
 }
 
+void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::string& heading) {
+  command
+      .add_option(
+          "--min-radius", arguments.least_radius,
+          "Curves: nowhere bent by a smaller radius than this, as by what a vehicle or a tool can turn (units of "
+          "the input) (default: any)")
+      ->type_name("R")
+      ->check(positive_number())
+      ->group(heading);
+}
+
 }  // namespace vspring::cli

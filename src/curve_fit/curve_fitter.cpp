@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "base/cancellation.hpp"
 #include "base/threads.hpp"
@@ -44,6 +46,8 @@ constexpr double least_damping = 1e-4;
 constexpr double shrinking = 0.9;
 constexpr double tie_break = 1e-6;
 constexpr double loosened = 1.02;
+// Of the greatest curvature, where that is more than may be: what a step leaves of it, from one try to the next.
+constexpr double curvature_left[] = {0.5, 0.9, 0.98, 1};
 // Of the energy at first.
 constexpr double toll_of_excess = 10;
 constexpr double least_excess = 1e-4;
@@ -236,7 +240,9 @@ class CurveFitter {
     double energy = merit();
     double excess = this->excess();
     // So that keeping all bounds is worth so many times the energy.
-    const double toll = toll_of_excess * energy / std::clamp(excess - 1, least_excess, 1.0);
+    double bent = greatest_bend();
+    const double toll = toll_of_excess * energy / std::clamp(std::max(excess, bent) - 1, least_excess, 1.0);
+    const double* left = std::begin(curvature_left);
     double last_step = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps_on_grid && work_ < most_work_; ++step) {
       end_if_cancelled();
@@ -249,24 +255,27 @@ class CurveFitter {
       bool found = false;
       std::vector<Vector3> moves(before.size(), Vector3::Zero());
       for (int trial = 0; trial < most_dampings; ++trial) {
-        CurveProgram<K> program = this->program();
-        if (program.blocks() == 0) {
+        std::optional<CurveProgram<K>> program;
+        BallSolution solution;
+        const auto solve = [&](double share) {
+          program.emplace(this->program(share));
+          if (damping_ > 0) program->add_damping(damping_);
+          solution = program->solve();
+          found = solution.found;
+        };
+        // What was too much for one step is so for the next.
+        for (solve(*left); !found && task_.least_radius > 0 && left + 1 != std::end(curvature_left);) solve(*++left);
+        if (program->blocks() == 0) {
           found_.converged = true;
           return;
         }
-        if (damping_ > 0) program.add_damping(damping_);
-        BallSolution solution = program.solve();
-        found = solution.found;
         if (!found) {
           loosen_bounds();
           places = found_.points;
           excess = this->excess();
-          CurveProgram<K> looser = this->program();
-          if (damping_ > 0) looser.add_damping(damping_);
-          solution = looser.solve();
-          found = solution.found;
+          solve(1);
         }
-        program.for_moves(solution, [&](std::uint32_t i, const Vector3& move) { moves[i] = move; });
+        program->for_moves(solution, [&](std::uint32_t i, const Vector3& move) { moves[i] = move; });
         greatest = turn = 0;
         double squares = 0;
         for (std::uint32_t i = 0; i < before.size(); ++i) {
@@ -294,29 +303,32 @@ class CurveFitter {
         find_places(found_.curve, found_.points);
         now = merit();
         const double beyond = std::max(1.0, this->excess());
-        better = now + toll * beyond < energy + toll * std::max(1.0, excess);
+        const double bend = std::max(1.0, greatest_bend());
+        better = now + toll * (beyond + bend) < energy + toll * (std::max(1.0, excess) + std::max(1.0, bent));
         // Springs have no energy of their own; near their balance steps become smaller from one to the next.
         if (springs_ && half == 0 && share == 1) better = better || greatest <= shrinking * last_step;
-        better = better && beyond <= std::max(1.0, excess);
+        better = better && beyond <= std::max(1.0, excess) && bend <= std::max(1.0, bent);
         if (!better) continue;
         excess = beyond;
+        bent = bend;
         break;
       }
       if (!better) {
         found_.curve = before;
         found_.points = places;
-        found_.converged = found;
+        found_.converged = found && bent <= 1;
         return;
       }
       last_step = greatest * share;
       found_.error = last_step;
       const bool still = last_step < task_.tolerance;
-      const bool settled = !springs_ && share == 1 && energy - now <= settled_energy * energy && excess <= 1;
+      const bool settled =
+          !springs_ && share == 1 && energy - now <= settled_energy * energy && excess <= 1 && bent <= 1;
       energy = now;
       damping_ = damping_ > least_damping * energy ? damping_ * less_damping : 0;
       if (turn > greatest_turn_of_settled) continue;
       if (still || settled) {
-        found_.converged = true;
+        found_.converged = bent <= 1;
         return;
       }
     }
@@ -325,7 +337,8 @@ class CurveFitter {
 
   [[nodiscard]] double aimed_share() const { return task_.nodes ? aimed_share_of_chords : aimed_share_of_curve; }
 
-  [[nodiscard]] CurveProgram<K> program() const {
+  /// left: of what nodes are bent by more than they may be, so much may stay.
+  [[nodiscard]] CurveProgram<K> program(double left) const {
     CurveProgram<K> program(found_.curve, plane_);
     if (springs_) {
       program.add_springs(1);
@@ -346,7 +359,8 @@ class CurveFitter {
       point.bound = aimed_share() * one.bound;
       program.add_point(point, 0);
     }
-    if (task_.least_radius > 0) program.add_least_radius(task_.least_radius);
+    if (task_.least_radius > 0)
+      program.add_greatest_curvature(std::max(aimed_share(), left * greatest_bend()) / task_.least_radius);
     return program;
   }
 
@@ -406,6 +420,14 @@ class CurveFitter {
     }
     for (const PolylineBound& one : between_)
       greatest = std::max(greatest, one.distance(found_.curve.place(one.node)) / one.bound);
+    return greatest;
+  }
+
+  /// The greatest share of what is allowed that curvature has; 0 where all is.
+  [[nodiscard]] double greatest_bend() const {
+    double greatest = 0;
+    for (std::uint32_t i = 0; i < found_.curve.size() && task_.least_radius > 0; ++i)
+      greatest = std::max(greatest, task_.least_radius * found_.curve.greatest_curvature(i));
     return greatest;
   }
 

@@ -157,17 +157,21 @@ void CurveProgram<K>::add_damping(double weight) {
 }
 
 template <int K>
-void CurveProgram<K>::add_least_radius(double radius) {
+void CurveProgram<K>::add_greatest_curvature(double most) {
   for (std::uint32_t i = 0; i < curve_.size(); ++i) {
-    const auto bent = curve_.curvature_row(i, curve_.is_edge(i));
-    if (bent.count == 0) continue;
-    const Eigen::Matrix<double, K, 3> sideways = across(curve_.bend(i, curve_.is_edge(i)).tangent).transpose();
-    Row row;
-    row.window = i;
-    row.bound = 1 / radius;
-    row.offset = sideways * bent.curvature;
-    for (int k = 0; k < bent.count; ++k) add_entry(row, bent.nodes[k], sideways * bent.slopes[k]);
-    program_.rows.push_back(row);
+    const bool is_smooth = curve_.is_smooth(i);
+    for (const bool after : {false, true}) {
+      if (is_smooth && !after) continue;
+      const auto bent = curve_.curvature_row(i, after);
+      if (bent.count == 0) continue;
+      const Eigen::Matrix<double, K, 3> sideways = across(curve_.bend(i, after).tangent).transpose();
+      Row row;
+      row.window = after ? i : curve_.before(i);
+      row.bound = most;
+      row.offset = sideways * bent.curvature;
+      for (int k = 0; k < bent.count; ++k) add_entry(row, bent.nodes[k], sideways * bent.slopes[k]);
+      program_.rows.push_back(row);
+    }
   }
 }
 
@@ -201,7 +205,7 @@ std::vector<double> weights_of_change(const DenseCurve& curve, bool evenly) {
     for (std::uint32_t i = chain.begin; i < end; ++i) {
       const std::uint32_t before = curve.before(i);
       double& bent = curvature[i - chain.begin];
-      for (const bool after : {false, true}) bent = std::max(bent, curve.curvature_row(i, after).curvature.norm());
+      bent = curve.greatest_curvature(i);
       turned += bent * (edge(i) + (before == DenseCurve::none ? 0 : edge(before))) / 2;
       length += edge(i);
     }

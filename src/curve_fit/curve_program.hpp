@@ -46,8 +46,8 @@ class CurveProgram {
   void add_damping(double weight);
   /// data_weight: times the point's own.
   void add_point(const CurvePoint& point, double data_weight);
-  /// The radius of curvature is at least that.
-  void add_least_radius(double radius);
+  /// Nodes are bent by no more than that.
+  void add_greatest_curvature(double most);
 
   [[nodiscard]] BallSolution solve() const { return vspring::solve(program_); }
   /// Calls with every node that moves and how it would go.

@@ -74,6 +74,9 @@ class DenseCurve {
   };
   [[nodiscard]] CurvatureRow curvature_row(std::uint32_t node, bool after) const;
 
+  /// The greatest curvature beside a node; 0 where it has none.
+  [[nodiscard]] double greatest_curvature(std::uint32_t node) const;
+
   [[nodiscard]] Vector3 at(const CurvePlace& at) const;
   [[nodiscard]] Vector3 direction(const CurvePlace& at) const;
 

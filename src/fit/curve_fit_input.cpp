@@ -178,6 +178,7 @@ CurveFitTask CurveFitInput::task() const {
   task.rms = options_.rms().value_or(0) * scale;
   task.noise = task.within > 0 ? noise_of_bound * task.within : task.rms;
   if (task.noise == 0) task.noise = estimate_noise(curve_).deviation * scale;
+  task.least_radius = options_.least_radius * scale;
   const auto& method = std::get<EquilibriumMethod>(options_.fair.method);
   task.tolerance = method.tolerance;
   double edges = 0;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -31,6 +32,8 @@ constexpr double far_off_way = 2;
 constexpr double cut_off_a_little = 1.2;
 constexpr double share_of_nearer = 0.997;
 constexpr int most_turns_nearer = 3;
+// Of the least radius: what chords of an arc show of it.
+constexpr double share_of_radius = 0.99;
 
 class CurveFit {
  public:
@@ -55,7 +58,8 @@ class CurveFit {
     if (plain.report.outcome != Outcome::converged) return std::nullopt;
     PolygonCurve moved = input_.curve();
     moved.set_positions(plain.positions);
-    if (figure(distances(moved)) > *options.tolerance()) return std::nullopt;
+    if (figure(distances(moved)) > *options.tolerance() || radius_kept(sharpest(moved, input_.constraints())) < 1)
+      return std::nullopt;
     FitResult result = this->result(std::move(plain.positions), input_.curve(), input_.constraints());
     result.report.fair = std::move(plain.report);
     result.report.pulling_points = result.report.pulled_nodes = result.report.most_points = 0;
@@ -68,6 +72,7 @@ class CurveFit {
     Resampled nodes;  ///< with the file's own chains, or new ones
     double figure = 0;
     double way_off = 0;  ///< from the polyline of the points
+    double radius_kept = 1;
     CurveFigures figures = {};
   };
 
@@ -80,6 +85,7 @@ class CurveFit {
     attempt.nodes.curve.set_positions(std::move(positions));
     attempt.figure = figure(distances(attempt.nodes.curve));
     attempt.way_off = way_off(attempt.nodes.curve).greatest;
+    attempt.radius_kept = radius_kept(sharpest(attempt.nodes.curve, attempt.nodes.constraints));
     attempt.figures = measure_curve(attempt.nodes.curve, &attempt.nodes.constraints);
     return attempt;
   }
@@ -95,7 +101,8 @@ class CurveFit {
       if (input_.options().outliers > 0) input_.leave_outliers_out();
       CurveFitTask task = input_.task();
       const auto tolerance = input_.options().tolerance();
-      // Where chords cut off a little too much, the curve is held a little nearer.
+      // Where chords cut off a little too much, the curve is held a little nearer; where it is bent a little too much
+      // between its own nodes, to a larger radius.
       for (int turn = 0; turn < most_turns_nearer; ++turn) {
         for (const bool evenly : {false, true}) {
           if (evenly && !tolerance) break;
@@ -103,9 +110,15 @@ class CurveFit {
           Attempt attempt = this->attempt(task, put);
           if (!best || is_better(attempt, *best)) best = std::move(attempt);
         }
-        if (!tolerance || best->figure <= *tolerance || best->figure > cut_off_a_little * *tolerance) break;
-        task.within *= share_of_nearer * *tolerance / best->figure;
-        task.rms *= share_of_nearer * *tolerance / best->figure;
+        const double beyond = tolerance ? best->figure / *tolerance : 0;
+        const bool cuts_off = beyond > 1 && beyond <= cut_off_a_little;
+        const bool is_sharp = best->radius_kept < 1 && best->radius_kept * cut_off_a_little >= 1;
+        if (!cuts_off && !is_sharp) break;
+        if (cuts_off) {
+          task.within *= share_of_nearer / beyond;
+          task.rms *= share_of_nearer / beyond;
+        }
+        if (is_sharp) task.least_radius /= share_of_nearer * best->radius_kept;
       }
     } catch (const Cancelled&) {
     }
@@ -186,18 +199,7 @@ class CurveFit {
     PolygonCurve moved = shape;
     const double before = figure(distances(moved));
     if (before <= *tolerance && !(input_.options().within() && are_sparse(moved))) return;
-    DenseCurve chords(true);
-    for (const auto& chain : shape.chains()) {
-      std::vector<DenseCurve::Node> along;
-      for (const Index i : chain.nodes) {
-        DenseCurve::Node& node = along.emplace_back();
-        node.place = input_.to_local(moved.position(i));
-        node.held = constraints.position_fixed(i);
-        if (constraints.tangent_fixed(i)) node.tangent = constraints.tangent(i);
-        node.from = i;
-      }
-      chords.add_chain(along, chain.closed);
-    }
+    const DenseCurve chords = this->chords(moved, constraints);
     CurveFitTask task = input_.task();
     task.nodes = &chords;
     task.evenly = found_.evenly;
@@ -224,13 +226,15 @@ class CurveFit {
     }
     const CurveFigures of_positions = measure_curve(moved, &constraints);
     const double way_off_before = way_off(moved).greatest;
+    const double radius_before = radius_kept(sharpest(moved, constraints));
     moved.set_positions(places);
     const CurveFigures of_places = measure_curve(moved, &constraints);
     const bool fairer = of_places.curvature_variation < of_positions.curvature_variation &&
                         of_places.curvature_extrema <= of_positions.curvature_extrema &&
                         of_places.inflections <= of_positions.inflections;
     // Points may be near a curve that goes anywhere between them.
-    const bool stays = way_off(moved).greatest <= far_off_way * std::max(way_off_before, *tolerance);
+    const bool stays = way_off(moved).greatest <= far_off_way * std::max(way_off_before, *tolerance) &&
+                       radius_kept(sharpest(moved, constraints)) >= radius_before;
     if (stays && (before > *tolerance ? after < before : after <= *tolerance && fairer)) positions = std::move(places);
   }
 
@@ -263,7 +267,7 @@ class CurveFit {
     report.pulling_points = input_.pulling_points();
     report.pulled_nodes = input_.pulled_nodes();
     report.most_points = input_.most_points();
-    conclude(result);
+    conclude(result, sharpest(moved, constraints));
     return result;
   }
 
@@ -281,10 +285,51 @@ class CurveFit {
     if ((a.way_off <= most) != (b.way_off <= most)) return a.way_off <= most;
     if (a.found.converged != b.found.converged) return a.found.converged;
     if (within != (b.figure <= tolerance)) return within;
+    if (a.radius_kept != b.radius_kept) return a.radius_kept > b.radius_kept;
     if (a.figures.inflections != b.figures.inflections) return a.figures.inflections < b.figures.inflections;
     if (a.figures.curvature_extrema != b.figures.curvature_extrema)
       return a.figures.curvature_extrema < b.figures.curvature_extrema;
     return a.figures.curvature_variation < b.figures.curvature_variation;
+  }
+
+  /// The edges of a shape, with what is held at its nodes.
+  [[nodiscard]] DenseCurve chords(const PolygonCurve& shape, const Constraints& constraints) const {
+    DenseCurve chords(true);
+    for (const auto& chain : shape.chains()) {
+      std::vector<DenseCurve::Node> along;
+      along.reserve(chain.nodes.size());
+      for (const Index i : chain.nodes) {
+        DenseCurve::Node& node = along.emplace_back();
+        node.place = input_.to_local(shape.position(i));
+        node.held = constraints.position_fixed(i);
+        if (constraints.tangent_fixed(i)) node.tangent = constraints.tangent(i);
+        node.from = i;
+      }
+      chords.add_chain(along, chain.closed);
+    }
+    return chords;
+  }
+
+  struct Sharpest {
+    Index node = -1;  ///< none where nothing is bent
+    double radius = std::numeric_limits<double>::infinity();
+  };
+
+  /// Where a shape is bent most.
+  [[nodiscard]] Sharpest sharpest(const PolygonCurve& shape, const Constraints& constraints) const {
+    Sharpest most;
+    const DenseCurve chords = this->chords(shape, constraints);
+    for (std::uint32_t i = 0; i < chords.size(); ++i) {
+      const double radius = 1 / (chords.greatest_curvature(i) * input_.scale());
+      if (radius < most.radius) most = {chords.node(i).from, radius};
+    }
+    return most;
+  }
+
+  /// The share of the least radius that is there, 1 where all is.
+  [[nodiscard]] double radius_kept(const Sharpest& most) const {
+    const double least = share_of_radius * input_.options().least_radius;
+    return most.radius < least ? most.radius / least : 1;
   }
 
   /// What is to be within the tolerance.
@@ -364,9 +409,13 @@ class CurveFit {
     return {std::move(places), std::move(chains)};
   }
 
-  void conclude(FitResult& result) const {
+  void conclude(FitResult& result, const Sharpest& most_bent) const {
     FitReport& report = result.report;
     FairReport& fair = report.fair;
+    if (input_.options().least_radius > 0 && most_bent.node >= 0) {
+      report.least_radius = most_bent.radius;
+      report.sharpest_node = most_bent.node;
+    }
     if (context_.cancelled()) {
       fair.outcome = Outcome::cancelled;
       return;
@@ -381,6 +430,16 @@ class CurveFit {
                            .seconds = 0});
     const auto& options = input_.options();
     const auto tolerance = options.tolerance();
+    const bool is_sharp = radius_kept(most_bent) < 1;
+    if (is_sharp) {
+      fair.outcome = Outcome::stalled;
+      fair.warnings.push_back(
+          {WarningCode::radius_not_kept,
+           fmt::format(
+               "no shape was found that is nowhere bent by a radius of less than {:g}: this one is by {:.4g} at "
+               "node {}; draw it less closely there, hold less, or allow a smaller radius",
+               options.least_radius, most_bent.radius, most_bent.node)});
+    }
     if (!tolerance) {
       report.smoothing_length = found_.smoothing / input_.scale();
       warn_if_left_behind(report, input_.points().positions);
@@ -396,7 +455,7 @@ class CurveFit {
                                fmt::format("no shape within {:g} was found: this is the nearest; points lie at what is "
                                            "held, or edges are too long",
                                            *tolerance)});
-    } else if (!found_.converged) {
+    } else if (!found_.converged && !is_sharp) {
       fair.warnings.push_back(
           {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest"});
     }

@@ -136,6 +136,12 @@ void FitOptions::validate() const {
   check_length("rms", rms());
   check_length("noise", noise());
   if (!(outliers >= 0 && outliers < 1)) refuse(fmt::format("outliers must be from 0 to less than 1, not {}", outliers));
+  if (!(least_radius >= 0 && std::isfinite(least_radius)))
+    refuse(fmt::format("least radius must be 0 or more, not {}", least_radius));
+  if (least_radius > 0 && fair.method_kind() != Method::equilibrium)
+    refuse(
+        fmt::format("a least radius can be kept by the method equilibrium only, not by {}", name(fair.method_kind())));
+  if (least_radius > 0 && fair.strength < 1) refuse("a least radius can be kept at full strength only");
   const bool is_amount = tolerance() || noise();
   if (is_amount && fair.method_kind() != Method::equilibrium)
     refuse(fmt::format("points can be fitted to a tolerance by the method equilibrium only, not by {}",

@@ -117,6 +117,7 @@ FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairin
   if (arguments.noise) options.criterion = Noise{*arguments.noise};
   options.outliers = arguments.outliers;
   options.least_radius = arguments.least_radius;
+  options.sharp = arguments.sharp;
   return options;
 }
 

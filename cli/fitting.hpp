@@ -20,7 +20,8 @@ struct PullArguments {
   std::optional<double> rms;
   std::optional<double> noise;
   double outliers = 0;
-  double least_radius = 0;                               ///< of curves
+  double least_radius = 0;                               ///< of curves, as the next one
+  double sharp = 0;                                      ///< what turns by more stays sharp; 0: nothing
   bool takes_noise = true;                               ///< whether the command has --noise
   std::string automatic = {};                            ///< the option whose value is "auto"; empty: none
   std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that it was set by

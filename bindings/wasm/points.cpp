@@ -37,6 +37,7 @@ FitOptions options_of(const val& settings) {
   take("within", [](double value) { return Within{value}; });
   take("rms", [](double value) { return RootMeanSquare{value}; });
   options.outliers = number("outliers").value_or(0);
+  options.sharp = number("sharp").value_or(0);
   options.least_radius = number("leastRadius").value_or(0);
   if (const val keep = settings["keep"]; keep.isTrue()) options.fair.distribution = Distribution::keep;
   return options;

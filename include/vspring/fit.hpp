@@ -74,6 +74,10 @@ struct FitOptions {
   /// warning names the node that is bent most, and the outcome is not `converged`. With Weight and SmoothingLength the
   /// curve then has nodes of its own, too. EquilibriumMethod only.
   double least_radius = 0;
+  /// Curves: places where the way of the curve's nodes turns by more than this within some eight tolerances, degrees,
+  /// less than 180, are corners: direction and curvature may jump there, and each side is fair by itself. They move
+  /// with their points. 0: only those of FairOptions::corners are. EquilibriumMethod only.
+  double sharp = 0;
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;

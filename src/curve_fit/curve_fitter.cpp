@@ -30,8 +30,13 @@ constexpr double times_noise = 3;
 constexpr double least_spacing_in_tolerances = 0.05;
 constexpr int most_grids = 4;
 constexpr int most_steps_on_grid = 30;
+// While corners move.
+constexpr int most_steps_of_corners = 8;
+constexpr int grids_of_corners = 3;
 // Of the energy, in a step: what changes less is there.
 constexpr double settled_energy = 1e-4;
+// Of the energy at first.
+constexpr double next_to_no_energy = 1e-6;
 // Of edges, in a step.
 constexpr double greatest_turn_of_step = 0.5;
 constexpr double greatest_turn_of_settled = 0.2;
@@ -100,6 +105,7 @@ class CurveFitter {
   CurveFound run() {
     if (task_.nodes) return run_on_nodes();
     begin();
+    if (has_corners()) place_corners();
     for (int grid = 0; grid < most_grids; ++grid) {
       most_work_ = std::max(most_work_, static_cast<std::size_t>(task_.most_steps) * found_.curve.size() / (grid + 1));
       weights_ = weights_of_change(found_.curve, task_.evenly);
@@ -119,6 +125,7 @@ class CurveFitter {
   /// On nodes that are given, whose chords are the curve.
   CurveFound run_on_nodes() {
     found_.curve = *task_.nodes;
+    hold_corners();
     found_.points = task_.scattered;
     for (CurvePoint& point : found_.points) point.bound = task_.within;
     find_places(found_.curve, found_.points);
@@ -140,7 +147,7 @@ class CurveFitter {
   [[nodiscard]] double least_spacing() const { return least_spacing_in_tolerances * tolerance(); }
 
   void begin_on_way() {
-    const StartScale scale{task_.noise, tolerance()};
+    const StartScale scale{task_.noise, tolerance(), task_.sharp};
     for (const auto& chain : task_.chains) add_start(chain.nodes, chain.closed, scale, found_.curve, found_.points);
     find_scattered();
     for (CurvePoint& point : found_.points) point.bound = task_.within;
@@ -152,9 +159,7 @@ class CurveFitter {
     for (int k = 0; k < starts; ++k) {
       smooth_out_at_first();
       find_places(found_.curve, found_.points);
-      DenseCurve now = with_new_nodes(found_.curve, least_spacing());
-      carry_places(found_.curve, now, found_.points);
-      found_.curve = std::move(now);
+      take_new_nodes(with_new_nodes(found_.curve, least_spacing()));
     }
     smooth_out_at_first();
     find_places(found_.curve, found_.points);
@@ -235,7 +240,7 @@ class CurveFitter {
   }
 
   /// Steps to the fairest curve for the weight of points as it is.
-  void go() {
+  void go(int most_steps = most_steps_on_grid) {
     find_places(found_.curve, found_.points);
     double energy = merit();
     double excess = this->excess();
@@ -243,8 +248,10 @@ class CurveFitter {
     double bent = greatest_bend();
     const double toll = toll_of_excess * energy / std::clamp(std::max(excess, bent) - 1, least_excess, 1.0);
     const double* left = std::begin(curvature_left);
+    const int sides = has_corners() ? 2 : 1;
+    int sides_done = 0;
     double last_step = std::numeric_limits<double>::infinity();
-    for (int step = 0; step < most_steps_on_grid && work_ < most_work_; ++step) {
+    for (int step = 0; step < most_steps && work_ < most_work_; ++step) {
       end_if_cancelled();
       ++found_.steps;
       work_ += found_.curve.size();
@@ -317,29 +324,71 @@ class CurveFitter {
         found_.curve = before;
         found_.points = places;
         found_.converged = found && bent <= 1;
+        ahead_ = !ahead_;
+        if (++sides_done < sides) continue;
         return;
       }
       last_step = greatest * share;
       found_.error = last_step;
       const bool still = last_step < task_.tolerance;
-      const bool settled =
-          !springs_ && share == 1 && energy - now <= settled_energy * energy && excess <= 1 && bent <= 1;
+      const bool settled = !springs_ &&
+                           ((share == 1 && energy - now <= settled_energy * energy) || now <= nothing_left_) &&
+                           excess <= 1 && bent <= 1;
       energy = now;
       damping_ = damping_ > least_damping * energy ? damping_ * less_damping : 0;
-      if (turn > greatest_turn_of_settled) continue;
-      if (still || settled) {
-        found_.converged = bent <= 1;
-        return;
+      ahead_ = !ahead_;
+      if (turn > greatest_turn_of_settled || !(still || settled)) {
+        sides_done = 0;
+        continue;
       }
+      found_.converged = bent <= 1;
+      if (++sides_done == sides) return;
     }
     found_.converged = false;
+  }
+
+  /// Nodes do not go along the curve, so that corners can't go far on one grid. Afterwards they stay where they are.
+  void place_corners() {
+    has_sides_ = task_.within > 0;
+    if (has_sides_) data_weight_ = weight_of_sides();
+    for (int grid = 0; grid < grids_of_corners; ++grid) {
+      most_work_ = std::max(most_work_, static_cast<std::size_t>(task_.most_steps) * found_.curve.size());
+      weights_ = weights_of_change(found_.curve, task_.evenly);
+      find_places_between();
+      if (has_sides_ && grid == 0) nothing_left_ = next_to_no_energy * merit();
+      if (task_.rms > 0)
+        go_to_rms();
+      else
+        go(most_steps_of_corners);
+      take_new_nodes(with_new_nodes(found_.curve, least_spacing()));
+    }
+    hold_corners();
+  }
+
+  void hold_corners() {
+    for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
+      if (found_.curve.node(i).corner) found_.curve.hold(i);
+    }
+  }
+
+  void take_new_nodes(DenseCurve now) {
+    carry_places(found_.curve, now, found_.points);
+    found_.curve = std::move(now);
+  }
+
+  /// That move, across the edge after and that before in turns.
+  [[nodiscard]] bool has_corners() const {
+    for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
+      if (found_.curve.node(i).corner && !found_.curve.node(i).held) return true;
+    }
+    return false;
   }
 
   [[nodiscard]] double aimed_share() const { return task_.nodes ? aimed_share_of_chords : aimed_share_of_curve; }
 
   /// left: of what nodes are bent by more than they may be, so much may stay.
   [[nodiscard]] CurveProgram<K> program(double left) const {
-    CurveProgram<K> program(found_.curve, plane_);
+    CurveProgram<K> program(found_.curve, plane_, ahead_);
     if (springs_) {
       program.add_springs(1);
     } else {
@@ -380,6 +429,7 @@ class CurveFitter {
       for (const CurvePoint& point : found_.points)
         sum += data_weight_ * point.weight * (curve.at(point.at) - point.place).squaredNorm();
     }
+    if (has_sides_) sum += tie_break * bending();
     return sum;
   }
 
@@ -441,22 +491,36 @@ class CurveFitter {
     return weights > 0 ? std::sqrt(squares / weights) : 0;
   }
 
+  [[nodiscard]] double weight() const {
+    double weights = 0;
+    for (const CurvePoint& point : found_.points) weights += point.weight;
+    return weights;
+  }
+
+  /// What holds a wave of the whole length half.
+  [[nodiscard]] double weight_of_wave() const {
+    const double length = this->length();
+    return std::pow(2 * std::numbers::pi / length, 6) * length / weight();
+  }
+
+  /// Next to nothing beside least bending, as that is beside least change of curvature: so that sides which are
+  /// straight go through the middle of their points.
+  [[nodiscard]] double weight_of_sides() const {
+    const double length = this->length();
+    return next_to_no_weight * tie_break * std::pow(2 * std::numbers::pi / length, 4) * length / weight();
+  }
+
   /// The least weight of points with which they are near enough. From the fairest curve that has none of them much
   /// further away: with small weights alone a curve may go anywhere.
   void go_to_rms() {
     if (data_weight_ == 0) {
       for (CurvePoint& point : found_.points) point.bound = bound_of_rms * task_.rms;
       go();
-      double weights = 0;
-      for (CurvePoint& point : found_.points) {
-        point.bound = 0;
-        weights += point.weight;
-      }
+      for (CurvePoint& point : found_.points) point.bound = 0;
       if (rms() <= task_.rms) return;
-      // As much as the energy is, or what holds a wave of the whole length half.
-      const double length = this->length();
-      const double of_wave = std::pow(2 * std::numbers::pi / length, 6) * length / weights;
-      data_weight_ = std::max(merit() / (weights * std::pow(task_.rms, 2)), of_wave);
+      // As much as the energy is.
+      const double of_wave = weight_of_wave();
+      data_weight_ = std::max(merit() / (weight() * std::pow(task_.rms, 2)), of_wave);
       least_weight_ = next_to_no_weight * of_wave;
     }
     double near = 0;
@@ -505,8 +569,7 @@ class CurveFitter {
   bool refine() {
     DenseCurve now = with_new_nodes(found_.curve, least_spacing());
     if (now.size() <= found_.curve.size() + found_.curve.size() / 20) return false;
-    carry_places(found_.curve, now, found_.points);
-    found_.curve = std::move(now);
+    take_new_nodes(std::move(now));
     return true;
   }
 
@@ -528,7 +591,10 @@ class CurveFitter {
   double data_weight_ = 0;
   double least_weight_ = 0;
   double damping_ = 0;
-  std::size_t work_ = 0;  ///< nodes, each for every step
+  bool has_sides_ = false;   ///< between corners, within a tolerance
+  double nothing_left_ = 0;  ///< energy of sides that are as good as straight
+  bool ahead_ = true;        ///< corners go across the edges after them
+  std::size_t work_ = 0;     ///< nodes, each for every step
   std::size_t most_work_ = 0;
 };
 

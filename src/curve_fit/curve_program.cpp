@@ -17,7 +17,8 @@ constexpr double least_share_of_mean_curvature = 0.5;
 }  // namespace
 
 template <int K>
-CurveProgram<K>::CurveProgram(const DenseCurve& curve, const Vector3& plane) : curve_(curve), plane_(plane) {
+CurveProgram<K>::CurveProgram(const DenseCurve& curve, const Vector3& plane, bool ahead)
+    : curve_(curve), plane_(plane) {
   number();
   bases_.resize(curve.size());
   program_.windows.resize(curve.size());
@@ -32,7 +33,8 @@ CurveProgram<K>::CurveProgram(const DenseCurve& curve, const Vector3& plane) : c
     } else if (curve.before(i) != DenseCurve::none) {
       window = {block_[curve.before(i)], block_[i], BallProgram<K>::none, BallProgram<K>::none};
     }
-    if (block_[i] >= 0) bases_[i] = across(curve.bend(i, curve.is_edge(i)).tangent);
+    const bool after = curve.node(i).corner ? ahead : curve.is_edge(i);
+    if (block_[i] >= 0) bases_[i] = across(curve.bend(i, after).tangent);
   }
 }
 
@@ -178,12 +180,21 @@ void CurveProgram<K>::add_greatest_curvature(double most) {
 template <int K>
 void CurveProgram<K>::add_point(const CurvePoint& point, double data_weight) {
   const auto place = curve_.place_row(point.at);
-  const Eigen::Matrix<double, K, 3> sideways = across(curve_.direction(point.at)).transpose();
+  const Vector3 offset = curve_.at(point.at) - point.place;
+  Vector3 along = curve_.direction(point.at);
+  // What is nearest to a corner may lie ahead of it as well.
+  const bool at_corner = (point.at.share == 0 && curve_.node(point.at.edge).corner) ||
+                         (point.at.share == 1 && curve_.node(curve_.next(point.at.edge)).corner);
+  if (at_corner && !offset.isZero(0)) {
+    const Vector3 aside = offset.cross(along).cross(offset);
+    along = K == 1 ? plane_.cross(offset) : aside.isZero(0) ? offset.unitOrthogonal() : aside;
+  }
+  const Eigen::Matrix<double, K, 3> sideways = across(along).transpose();
   Row row;
   row.window = point.at.edge;
   row.weight = data_weight * point.weight;
   row.bound = point.bound;
-  row.offset = sideways * (curve_.at(point.at) - point.place);
+  row.offset = sideways * offset;
   for (std::size_t k = 0; k < 4; ++k) {
     if (place.nodes[k] != DenseCurve::none) add_entry(row, place.nodes[k], place.weights[k] * sideways);
   }

@@ -33,8 +33,8 @@ class CurveProgram {
  public:
   using Basis = Eigen::Matrix<double, 3, K>;
 
-  /// plane: its normal, for K = 1.
-  CurveProgram(const DenseCurve& curve, const Vector3& plane);
+  /// plane: its normal, for K = 1. ahead: corners go across the edge after them, or else across that before.
+  CurveProgram(const DenseCurve& curve, const Vector3& plane, bool ahead = true);
 
   /// weights: for every edge, by which the squared change of curvature along it counts.
   void add_variation(std::span<const double> weights);

@@ -46,6 +46,8 @@ class DenseCurve {
   [[nodiscard]] const Node& node(std::uint32_t i) const { return nodes_[i]; }
   [[nodiscard]] const Vector3& place(std::uint32_t i) const { return nodes_[i].place; }
   void set_place(std::uint32_t i, const Vector3& place) { nodes_[i].place = place; }
+  /// Where it is.
+  void hold(std::uint32_t i) { nodes_[i].held = true; }
   void set_spacing(std::uint32_t i, double spacing) { nodes_[i].spacing = spacing; }
   void set_tangent(std::uint32_t i, const Vector3& tangent) { nodes_[i].tangent = tangent; }
   /// Neighbours along the chain; none at its ends. An edge has the number of the node that it begins at.

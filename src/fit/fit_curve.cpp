@@ -17,6 +17,7 @@
 #include "fit/curve_nodes.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/fit_warnings.hpp"
+#include "shape/corners.hpp"
 #include "vspring/error.hpp"
 #include "vspring/figures.hpp"
 
@@ -46,7 +47,9 @@ class CurveFit {
   /// The result of fair(), where that is within the tolerance: then nothing pulls.
   std::optional<FitResult> plain_fairing() {
     const FitOptions& options = input_.options();
-    if (!options.tolerance() || options.outliers > 0) return std::nullopt;
+    // What keeps corners holds them where their points are.
+    if (!options.tolerance() || options.outliers > 0 || options.sharp > 0 || !options.fair.corners.empty())
+      return std::nullopt;
     FairResult plain;
     try {
       (void)check_constraints(input_.curve(), input_.constraints());
@@ -56,11 +59,11 @@ class CurveFit {
       return std::nullopt;
     }
     if (plain.report.outcome != Outcome::converged) return std::nullopt;
+    const Resampled own{input_.curve(), input_.constraints(), {}};
     PolygonCurve moved = input_.curve();
     moved.set_positions(plain.positions);
-    if (figure(distances(moved)) > *options.tolerance() || radius_kept(sharpest(moved, input_.constraints())) < 1)
-      return std::nullopt;
-    FitResult result = this->result(std::move(plain.positions), input_.curve(), input_.constraints());
+    if (figure(distances(moved)) > *options.tolerance() || radius_kept(sharpest(moved, own)) < 1) return std::nullopt;
+    FitResult result = this->result(std::move(plain.positions), own);
     result.report.fair = std::move(plain.report);
     result.report.pulling_points = result.report.pulled_nodes = result.report.most_points = 0;
     return result;
@@ -85,8 +88,9 @@ class CurveFit {
     attempt.nodes.curve.set_positions(std::move(positions));
     attempt.figure = figure(distances(attempt.nodes.curve));
     attempt.way_off = way_off(attempt.nodes.curve).greatest;
-    attempt.radius_kept = radius_kept(sharpest(attempt.nodes.curve, attempt.nodes.constraints));
-    attempt.figures = measure_curve(attempt.nodes.curve, &attempt.nodes.constraints);
+    const PolygonCurve& shape = attempt.nodes.curve;
+    attempt.radius_kept = radius_kept(sharpest(shape, attempt.nodes));
+    attempt.figures = measure_curve(cut_at_corners(shape, corners(attempt.nodes)), &attempt.nodes.constraints);
     return attempt;
   }
 
@@ -178,8 +182,13 @@ class CurveFit {
       if (constraints.tangent_fixed(from)) held.fix_tangent(node, constraints.tangent(from));
       if (constraints.normal_fixed(from)) held.fix_normal(node, constraints.normal(from));
     }
-    for (const Index node : sharp_nodes(on, how, 1 / input_.scale())) held.fix_position(node, dense.position(node));
-    Resampled made = resample(dense, held, how);
+    for (const Index node : tight_bends(on, how, 1 / input_.scale())) held.fix_position(node, dense.position(node));
+    Resampling between = how;
+    between.corners.clear();
+    for (std::uint32_t i = 0; i < on.size(); ++i) {
+      if (on.node(i).corner) between.corners.push_back(static_cast<Index>(i));
+    }
+    Resampled made = resample(dense, held, between);
     for (std::size_t k = 0; k < made.from.size(); ++k) {
       Index& from = made.from[k];
       if (from >= 0) from = on.node(static_cast<std::uint32_t>(from)).from;
@@ -199,7 +208,7 @@ class CurveFit {
     PolygonCurve moved = shape;
     const double before = figure(distances(moved));
     if (before <= *tolerance && !(input_.options().within() && are_sparse(moved))) return;
-    const DenseCurve chords = this->chords(moved, constraints);
+    const DenseCurve chords = this->chords(moved, nodes);
     CurveFitTask task = input_.task();
     task.nodes = &chords;
     task.evenly = found_.evenly;
@@ -224,22 +233,25 @@ class CurveFit {
       task.in_order = false;
       after = draw();
     }
-    const CurveFigures of_positions = measure_curve(moved, &constraints);
+    const std::vector<std::uint8_t> corners = this->corners(nodes);
+    const CurveFigures of_positions = measure_curve(cut_at_corners(moved, corners), &constraints);
     const double way_off_before = way_off(moved).greatest;
-    const double radius_before = radius_kept(sharpest(moved, constraints));
+    const double radius_before = radius_kept(sharpest(moved, nodes));
     moved.set_positions(places);
-    const CurveFigures of_places = measure_curve(moved, &constraints);
+    const CurveFigures of_places = measure_curve(cut_at_corners(moved, corners), &constraints);
     const bool fairer = of_places.curvature_variation < of_positions.curvature_variation &&
                         of_places.curvature_extrema <= of_positions.curvature_extrema &&
                         of_places.inflections <= of_positions.inflections;
     // Points may be near a curve that goes anywhere between them.
     const bool stays = way_off(moved).greatest <= far_off_way * std::max(way_off_before, *tolerance) &&
-                       radius_kept(sharpest(moved, constraints)) >= radius_before;
+                       radius_kept(sharpest(moved, nodes)) >= radius_before;
     if (stays && (before > *tolerance ? after < before : after <= *tolerance && fairer)) positions = std::move(places);
   }
 
-  /// positions: of `shape`, which has the file's nodes or new ones.
-  FitResult result(std::vector<Vector3> positions, const PolygonCurve& shape, const Constraints& constraints) {
+  /// positions: of the file's nodes or of new ones.
+  FitResult result(std::vector<Vector3> positions, const Resampled& nodes) {
+    const PolygonCurve& shape = nodes.curve;
+    const Constraints& constraints = nodes.constraints;
     FitResult result;
     FitReport& report = result.report;
     FairReport& fair = report.fair;
@@ -267,7 +279,9 @@ class CurveFit {
     report.pulling_points = input_.pulling_points();
     report.pulled_nodes = input_.pulled_nodes();
     report.most_points = input_.most_points();
-    conclude(result, sharpest(moved, constraints));
+    const std::vector<std::uint8_t> corners = this->corners(nodes);
+    fair.corners = static_cast<Index>(std::count(corners.begin(), corners.end(), 1));
+    conclude(result, sharpest(moved, nodes));
     return result;
   }
 
@@ -293,8 +307,10 @@ class CurveFit {
   }
 
   /// The edges of a shape, with what is held at its nodes.
-  [[nodiscard]] DenseCurve chords(const PolygonCurve& shape, const Constraints& constraints) const {
+  [[nodiscard]] DenseCurve chords(const PolygonCurve& shape, const Resampled& nodes) const {
     DenseCurve chords(true);
+    const Constraints& constraints = nodes.constraints;
+    const std::vector<std::uint8_t> corners = this->corners(nodes);
     for (const auto& chain : shape.chains()) {
       std::vector<DenseCurve::Node> along;
       along.reserve(chain.nodes.size());
@@ -303,11 +319,27 @@ class CurveFit {
         node.place = input_.to_local(shape.position(i));
         node.held = constraints.position_fixed(i);
         if (constraints.tangent_fixed(i)) node.tangent = constraints.tangent(i);
+        node.corner = corners[static_cast<std::size_t>(i)] != 0;
         node.from = i;
       }
       chords.add_chain(along, chain.closed);
     }
     return chords;
+  }
+
+  /// 1 for those of these nodes that are corners of the curve that was found.
+  [[nodiscard]] std::vector<std::uint8_t> corners(const Resampled& nodes) const {
+    std::vector<std::uint8_t> of_file(static_cast<std::size_t>(input_.curve().node_count()), 0);
+    for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
+      const auto& node = found_.curve.node(i);
+      if (node.corner && node.from >= 0) of_file[static_cast<std::size_t>(node.from)] = 1;
+    }
+    if (nodes.from.empty()) return of_file;
+    std::vector<std::uint8_t> corners(nodes.from.size(), 0);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      if (nodes.from[k] >= 0) corners[k] = of_file[static_cast<std::size_t>(nodes.from[k])];
+    }
+    return corners;
   }
 
   struct Sharpest {
@@ -316,9 +348,9 @@ class CurveFit {
   };
 
   /// Where a shape is bent most.
-  [[nodiscard]] Sharpest sharpest(const PolygonCurve& shape, const Constraints& constraints) const {
+  [[nodiscard]] Sharpest sharpest(const PolygonCurve& shape, const Resampled& nodes) const {
     Sharpest most;
-    const DenseCurve chords = this->chords(shape, constraints);
+    const DenseCurve chords = this->chords(shape, nodes);
     for (std::uint32_t i = 0; i < chords.size(); ++i) {
       const double radius = 1 / (chords.greatest_curvature(i) * input_.scale());
       if (radius < most.radius) most = {chords.node(i).from, radius};
@@ -484,7 +516,7 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
   CurveFit run(curve, constraints, points, options, context);
   if (!run.input().pulls()) {
     FairResult plain = fair(curve, constraints, options.fair, context);
-    FitResult result = run.result(std::move(plain.positions), curve, constraints);
+    FitResult result = run.result(std::move(plain.positions), {curve, constraints, {}});
     result.report.fair = std::move(plain.report);
     return result;
   }
@@ -499,7 +531,7 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
   } else {
     positions = unchanged(run.input());
   }
-  FitResult result = run.result(std::move(positions), curve, constraints);
+  FitResult result = run.result(std::move(positions), {curve, constraints, {}});
   FairReport& fair = result.report.fair;
   double squares = 0;
   for (std::size_t i = 0; i < result.positions.size(); ++i) {
@@ -520,7 +552,7 @@ ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& c
   ResampledFit made{resample(curve, constraints, how), {}};
   CurveFit run(curve, constraints, points, options, context);
   if (run.input().pulls() && run.find([&] { return run.resampled(how); })) made.resampled = run.nodes();
-  made.fit = run.result(made.resampled.curve.positions(), made.resampled.curve, made.resampled.constraints);
+  made.fit = run.result(made.resampled.curve.positions(), made.resampled);
   FairReport& fair = made.fit.report.fair;
   const Distance moves = distance(made.fit.positions, curve);
   fair.greatest_move = moves.greatest;

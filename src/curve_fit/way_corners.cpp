@@ -57,15 +57,16 @@ class CornerSearch {
       for (const Corner& corner : found) {
         const Corner now = look_at(corner.place);
         if (is_corner_[corner.place] != 0 || now.gain < 0) continue;
-        is_corner_[best_about(now)] = 1;
+        is_corner_[corner.place] = 1;
         is_new = true;
       }
     }
-    std::vector<std::size_t> corners;
-    for (std::size_t k = 0; k < way_.size(); ++k) {
-      if (is_corner_[k] != 0) corners.push_back(k);
+    // Each where it leaves least, between the others.
+    for (const std::size_t k : places()) {
+      is_corner_[k] = 0;
+      is_corner_[best_about(look_at(k))] = 1;
     }
-    return corners;
+    return places();
   }
 
  private:
@@ -75,6 +76,14 @@ class CornerSearch {
     double turn = 0;
     double left = 0;  ///< what it leaves itself, on average
   };
+
+  [[nodiscard]] std::vector<std::size_t> places() const {
+    std::vector<std::size_t> corners;
+    for (std::size_t k = 0; k < way_.size(); ++k) {
+      if (is_corner_[k] != 0) corners.push_back(k);
+    }
+    return corners;
+  }
 
   /// Where a corner leaves least, from place to place.
   [[nodiscard]] std::size_t best_about(Corner corner) const {

@@ -199,6 +199,7 @@ TEST(FitCorners, OfAPolygonLeaveNothingToMove) {
 
 TEST(FitCorners, AreKeptByResamplingWithADirectionOnEitherSide) {
   std::vector<Vector3> rows;
+  rows.reserve(31);
   for (int k = 0; k <= 20; ++k) rows.push_back(10 * heading(std::numbers::pi * (1 - k / 20.0)));
   for (int k = 1; k <= 10; ++k) rows.emplace_back(10 + k, 0, 0);
   const Resampled made = resample(PolygonCurve(rows), held_ends(rows), {.nodes = 101, .corners = {20}});

@@ -59,6 +59,8 @@ bool asks_to_fit(const PullArguments& arguments) {
   const std::string all = "--weight, --smoothing-length, --within, --rms and --noise";
   if (given > 1) throw Error(ErrorCode::invalid_argument, "only one of " + all + " can be given");
   if (given == 0 && arguments.outliers > 0) throw Error(ErrorCode::invalid_argument, "--outliers needs one of " + all);
+  if (given == 0 && arguments.least_radius > 0)
+    throw Error(ErrorCode::invalid_argument, "--min-radius needs one of " + all + ": what the curve is drawn to");
   return given == 1;
 }
 
@@ -127,6 +129,8 @@ FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairin
   if (arguments.noise) options.criterion = Noise{*arguments.noise};
   options.outliers = arguments.outliers;
   options.moving_axes = arguments.moving_axes;
+  options.least_radius = arguments.least_radius;
+  options.sharp = arguments.sharp;
   return options;
 }
 
@@ -153,6 +157,9 @@ Json FitAccount::figures() const {
             {"noise_leaves", optional(report_.noise_leaves)},
             {"estimated_noise", arguments_.estimate ? Json(arguments_.estimate->deviation) : Json()},
             {"moving", arguments_.moving.empty() ? Json() : Json(arguments_.moving)},
+            {"min_radius", arguments_.least_radius > 0 ? Json(arguments_.least_radius) : Json()},
+            {"least_radius",
+             report_.least_radius ? Json{{"radius", *report_.least_radius}, {"node", report_.sharpest_node}} : Json()},
             {"weights", weights_ ? Json{{"least", weights_->first}, {"greatest", weights_->second}} : Json()},
             {"normals", normals_},
             {"count", report_.points},
@@ -209,6 +216,8 @@ std::string FitAccount::lines() const {
     text += fmt::format("further away     {} ({:.3g} %) than {:.4g} units\n", report_.outside_points,
                         100 * outside_share(), arguments_.within ? *arguments_.within : *arguments_.rms);
   if (report_.smoothing_length) text += fmt::format("smoothing length {:.4g} units\n", *report_.smoothing_length);
+  if (report_.least_radius)
+    text += fmt::format("least radius     {:.4g} units, at node {}\n", *report_.least_radius, report_.sharpest_node);
   if (report_.outliers > 0) text += fmt::format("outliers         {} left out after\n", report_.outliers);
   return text;
 }

@@ -25,6 +25,8 @@ struct PullArguments {
   double outliers = 0;
   std::vector<std::string> moving = {};                  ///< names of coordinates that move; empty: all
   std::array<bool, 3> moving_axes = {true, true, true};  ///< that these are
+  double least_radius = 0;                               ///< of curves, as the next one
+  double sharp = 0;                                      ///< what turns by more stays sharp; 0: nothing
   std::string automatic = {};                            ///< the option whose value is "auto"; empty: none
   std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that it was set by
 };
@@ -55,7 +57,7 @@ void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context
 /// a name, or no points pull.
 void settle_moving(PullArguments& arguments, const CurveFile& file);
 
-/// Throws Error(invalid_argument) where more than one of the four is given, or --outliers without any.
+/// Throws Error(invalid_argument) where more than one of the five is given, or --outliers or --min-radius without any.
 [[nodiscard]] bool asks_to_fit(const PullArguments& arguments);
 
 /// The method with its own options, what --paper stands for, and how nodes are distributed: those that are the points

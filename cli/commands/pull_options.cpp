@@ -66,4 +66,23 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
       ->group(heading);
 }
 
+void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::string& heading) {
+  command
+      .add_option(
+          "--sharp", arguments.sharp,
+          "Curves: where they turn by more than this, at a node or, drawn to points, within some eight tolerances, "
+          "corners stay, and each side is fair by itself (degrees, less than 180) (default: none stay)")
+      ->type_name("ANGLE")
+      ->check(angle_of_corners())
+      ->group(fairing_group);
+  command
+      .add_option(
+          "--min-radius", arguments.least_radius,
+          "Curves: nowhere bent by a smaller radius than this, as by what a vehicle or a tool can turn (units of "
+          "the input) (default: any)")
+      ->type_name("R")
+      ->check(positive_number())
+      ->group(heading);
+}
+
 }  // namespace vspring::cli

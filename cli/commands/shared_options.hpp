@@ -43,6 +43,8 @@ void add_run_options(CLI::App& command, FairingArguments& arguments);
 
 /// How points pull. heading: of the options in the help text.
 void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading);
+/// What a curve that is drawn to points keeps besides.
+void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::string& heading);
 /// --picture and --picture-size, and with `surfaces` --picture-style and --view.
 void add_picture_options(CLI::App& command, PictureArguments& arguments, bool surfaces);
 

@@ -89,6 +89,10 @@ struct FairOptions {
   bool as_found = false;
   /// result = input + strength × (fair − input) for moving nodes; 0 to 1.
   double strength = 1;
+  /// Curves: nodes inside of chains at which direction and curvature may jump, as find_corners() finds them. They keep
+  /// their places, and each side is faired by itself. Those with a tangent or normal given have one direction all the
+  /// same. In fits they move with their points, by EquilibriumMethod only.
+  std::vector<Index> corners = {};
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
@@ -170,6 +174,8 @@ struct FairReport {
   Index fixed_positions = 0;
   Index fixed_normals = 0;
   Index fixed_tangents = 0;
+  /// Curves: nodes at which direction and curvature may jump.
+  Index corners = 0;
   /// How far moving nodes are from the input: largest, and root mean square; in units of the input.
   double greatest_move = 0;
   double rms_move = 0;

@@ -79,6 +79,15 @@ struct FitOptions {
   /// is: heights of a profile, vertically. Where the others tell no order along the curve, as where one is given in
   /// space, it is drawn over the length of the way in the other two.
   std::array<bool, 3> moving_axes = {true, true, true};
+  /// Curves: no node has a smaller radius of curvature, of the circle through it and its neighbours, to 1 %; in units
+  /// of the input, 0 for any. Where that cannot be kept, as points ask for less or ends and directions that are held, a
+  /// warning names the node that is bent most, and the outcome is not `converged`. With Weight and SmoothingLength the
+  /// curve then has nodes of its own, too. EquilibriumMethod only.
+  double least_radius = 0;
+  /// Curves: places where the way of the curve's nodes turns by more than this within some eight tolerances, degrees,
+  /// less than 180, are corners: direction and curvature may jump there, and each side is fair by itself. They move
+  /// with their points. 0: only those of FairOptions::corners are. EquilibriumMethod only.
+  double sharp = 0;
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
@@ -121,6 +130,10 @@ struct FitReport {
   /// With Within: the points at that distance, to 1 %, in order. They keep the shape from becoming fairer.
   std::vector<Index> active_points;
   Index outside_points = 0;  ///< with Within or RootMeanSquare: those further away than that, of the points that count
+  /// With FitOptions::least_radius: the least one of the new curve, and the node that has it. Empty where nothing is
+  /// bent.
+  std::optional<double> least_radius = std::nullopt;
+  Index sharpest_node = -1;
   /// Both without a count where the fit was cancelled and had too many points to measure them then.
   PointDistances before;
   PointDistances after;
@@ -199,7 +212,8 @@ struct ResampledFit {
 /// there are too few for that, outcome and a warning say so. Distances are those from the chords. How far nodes moved
 /// is reported as their distance from the curve that was given.
 ///
-/// With Weight, and by other methods, the curve is resampled first, and the new nodes are fitted themselves.
+/// With Weight, unless a least radius is to be kept, and by other methods, the curve is resampled first, and the new
+/// nodes are fitted themselves.
 ///
 /// Throws as resample() and fit() do. Cost: that of fit().
 [[nodiscard]] ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints,

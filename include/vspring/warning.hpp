@@ -18,6 +18,7 @@ enum class WarningCode : std::uint8_t {
   steps_grew,          ///< the paper's iteration did not come to rest
   level_cut_short,     ///< a coarser level of a V-cycle ended at its limit of iterations
   outside_tolerance,   ///< no shape within the tolerance was found: this one is the nearest
+  radius_not_kept,     ///< the shape is bent more somewhere than by the least radius
   maybe_not_fairest,   ///< the shape is within the tolerance, but may not be the fairest
   noise_is_larger,     ///< the nodes' noise seems to be larger than the tolerance allows for
   far_from_nodes,      ///< taking noise off moved nodes further than noise explains

@@ -30,6 +30,8 @@ const char* name(WarningCode code) noexcept {
       return "level-cut-short";
     case WarningCode::outside_tolerance:
       return "outside-tolerance";
+    case WarningCode::radius_not_kept:
+      return "radius-not-kept";
     case WarningCode::maybe_not_fairest:
       return "maybe-not-fairest";
     case WarningCode::noise_is_larger:

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "base/cancellation.hpp"
 #include "base/threads.hpp"
@@ -30,8 +32,13 @@ constexpr double times_noise = 3;
 constexpr double least_spacing_in_tolerances = 0.05;
 constexpr int most_grids = 4;
 constexpr int most_steps_on_grid = 30;
+// While corners move.
+constexpr int most_steps_of_corners = 8;
+constexpr int grids_of_corners = 3;
 // Of the energy, in a step: what changes less is there.
 constexpr double settled_energy = 1e-4;
+// Of the energy at first.
+constexpr double next_to_no_energy = 1e-6;
 // Of edges, in a step.
 constexpr double greatest_turn_of_step = 0.5;
 constexpr double greatest_turn_of_settled = 0.2;
@@ -50,6 +57,8 @@ constexpr double loosened = 1.02;
 constexpr double price_of_bounds = 1e3;
 // Of what a step promises to take off.
 constexpr double least_gain = 0.1;
+// Of the greatest curvature, where that is more than may be: what a step leaves of it, from one try to the next.
+constexpr double curvature_left[] = {0.5, 0.9, 0.98, 1};
 // How far from the polyline places may be: of the root mean square, and of the furthest point at the start.
 constexpr double reach_of_rms = 4;
 constexpr double spare_of_reach = 1.5;
@@ -113,6 +122,7 @@ class CurveFitter {
   CurveFound run() {
     if (task_.nodes) return run_on_nodes();
     begin();
+    if (has_corners()) place_corners();
     for (int grid = 0; grid < most_grids; ++grid) {
       most_work_ = std::max(most_work_, static_cast<std::size_t>(task_.most_steps) * found_.curve.size() / (grid + 1));
       weights_ = weights_of_change(found_.curve, task_.evenly);
@@ -132,6 +142,7 @@ class CurveFitter {
   /// On nodes that are given, whose chords are the curve.
   CurveFound run_on_nodes() {
     found_.curve = *task_.nodes;
+    hold_corners();
     found_.points = task_.scattered;
     set_bounds();
     find_places(found_.curve, found_.points);
@@ -153,7 +164,7 @@ class CurveFitter {
   [[nodiscard]] double least_spacing() const { return least_spacing_in_tolerances * tolerance(); }
 
   void begin_on_way() {
-    const StartScale scale{task_.noise, tolerance()};
+    const StartScale scale{task_.noise, tolerance(), task_.sharp};
     found_.curve = DenseCurve(false, task_.moving);
     for (const auto& chain : task_.chains) add_start(chain.nodes, chain.closed, scale, found_.curve, found_.points);
     find_scattered();
@@ -173,9 +184,7 @@ class CurveFitter {
     for (int k = 0; k < starts; ++k) {
       smooth_out_at_first();
       find_places(found_.curve, found_.points);
-      DenseCurve now = with_new_nodes(found_.curve, least_spacing());
-      carry_places(found_.curve, now, found_.points);
-      found_.curve = std::move(now);
+      take_new_nodes(with_new_nodes(found_.curve, least_spacing()));
     }
     smooth_out_at_first();
     find_places(found_.curve, found_.points);
@@ -255,12 +264,16 @@ class CurveFitter {
   }
 
   /// Steps to the fairest curve for the weight of points as it is.
-  void go() {
+  void go(int most_steps = most_steps_on_grid) {
     find_places(found_.curve, found_.points);
     double energy = merit();
     double excess = this->excess();
+    double bent = greatest_bend();
+    const double* left = std::begin(curvature_left);
+    const int sides = has_corners() ? 2 : 1;
+    int sides_done = 0;
     double last_step = std::numeric_limits<double>::infinity();
-    for (int step = 0; step < most_steps_on_grid && work_ < most_work_; ++step) {
+    for (int step = 0; step < most_steps && work_ < most_work_; ++step) {
       end_if_cancelled();
       ++found_.steps;
       work_ += found_.curve.size();
@@ -271,17 +284,23 @@ class CurveFitter {
       bool found = false;
       std::vector<Vector3> moves(before.size(), Vector3::Zero());
       for (int trial = 0; trial < most_dampings; ++trial) {
-        CurveProgram<K> program = this->program(0);
-        if (program.blocks() == 0) {
+        std::optional<CurveProgram<K>> program;
+        BallSolution solution;
+        const auto solve = [&](double share, double price) {
+          program.emplace(this->program(share, price));
+          solution = program->solve();
+          found = solution.found;
+        };
+        // What was too much for one step is so for the next.
+        for (solve(*left, 0); !found && task_.least_radius > 0 && left + 1 != std::end(curvature_left);)
+          solve(*++left, 0);
+        if (program->blocks() == 0) {
           found_.converged = true;
           return;
         }
-        BallSolution solution = program.solve();
-        found = solution.found;
         if (!found) {
           // What can't be kept, along with all else or at a price.
-          solution = this->program(price_of_bounds * energy).solve();
-          found = solution.found;
+          solve(1, price_of_bounds * energy);
           if (found)
             loosen_bounds(solution);
           else
@@ -289,7 +308,7 @@ class CurveFitter {
           places = found_.points;
           excess = this->excess();
         }
-        program.for_moves(solution, [&](std::uint32_t i, const Vector3& move) { moves[i] = move; });
+        program->for_moves(solution, [&](std::uint32_t i, const Vector3& move) { moves[i] = move; });
         greatest = turn = 0;
         double squares = 0;
         for (std::uint32_t i = 0; i < before.size(); ++i) {
@@ -317,40 +336,88 @@ class CurveFitter {
         find_places(found_.curve, found_.points);
         now = merit();
         const double beyond = std::max(1.0, this->excess());
+        const double bend = std::max(1.0, greatest_bend());
         // Bounds come first: a curve that is beyond them may well be fairer.
         if (excess > 1)
           better = beyond - 1 <= (1 - least_gain * share) * (excess - 1);
         else
           // Springs have no energy of their own; near their balance steps become smaller from one to the next.
-          better = beyond <= 1 && (now < energy || (springs_ && share == 1 && greatest <= shrinking * last_step));
+          better = beyond <= 1 &&
+                   (now < energy || bend < bent || (springs_ && share == 1 && greatest <= shrinking * last_step));
+        better = better && bend <= std::max(1.0, bent);
         if (!better) continue;
         excess = beyond;
+        bent = bend;
         break;
       }
       if (!better) {
         found_.curve = before;
         found_.points = places;
-        found_.converged = found;
+        found_.converged = found && bent <= 1;
+        ahead_ = !ahead_;
+        if (++sides_done < sides) continue;
         return;
       }
       last_step = greatest * share;
       found_.error = last_step;
       const bool still = last_step < task_.tolerance;
-      const bool settled = !springs_ && share == 1 && energy - now <= settled_energy * energy && excess <= 1;
+      const bool settled = !springs_ &&
+                           ((share == 1 && energy - now <= settled_energy * energy) || now <= nothing_left_) &&
+                           excess <= 1 && bent <= 1;
       energy = now;
       damping_ = damping_ > least_damping * energy ? damping_ * less_damping : 0;
-      if (turn > greatest_turn_of_settled) continue;
-      if (still || settled) {
-        found_.converged = true;
-        return;
+      ahead_ = !ahead_;
+      if (turn > greatest_turn_of_settled || !(still || settled)) {
+        sides_done = 0;
+        continue;
       }
+      found_.converged = bent <= 1;
+      if (++sides_done == sides) return;
     }
     found_.converged = false;
   }
 
-  /// price: of what is a whole bound beyond it, half of that; 0: nothing may be.
-  CurveProgram<K> program(double price) {
-    CurveProgram<K> program(found_.curve, plane_);
+  /// Nodes do not go along the curve, so that corners can't go far on one grid. Afterwards they stay where they are.
+  void place_corners() {
+    has_sides_ = task_.within > 0;
+    if (has_sides_) data_weight_ = weight_of_sides();
+    for (int grid = 0; grid < grids_of_corners; ++grid) {
+      most_work_ = std::max(most_work_, static_cast<std::size_t>(task_.most_steps) * found_.curve.size());
+      weights_ = weights_of_change(found_.curve, task_.evenly);
+      find_places_between();
+      if (has_sides_ && grid == 0) nothing_left_ = next_to_no_energy * merit();
+      if (task_.rms > 0)
+        go_to_rms();
+      else
+        go(most_steps_of_corners);
+      take_new_nodes(with_new_nodes(found_.curve, least_spacing()));
+    }
+    hold_corners();
+  }
+
+  void hold_corners() {
+    for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
+      if (found_.curve.node(i).corner) found_.curve.hold(i);
+    }
+  }
+
+  void take_new_nodes(DenseCurve now) {
+    carry_places(found_.curve, now, found_.points);
+    found_.curve = std::move(now);
+  }
+
+  /// That move, across the edge after and that before in turns.
+  [[nodiscard]] bool has_corners() const {
+    for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
+      if (found_.curve.node(i).corner && !found_.curve.node(i).held) return true;
+    }
+    return false;
+  }
+
+  /// left: of what nodes are bent by more than they may be, so much may stay. price: of what is a whole bound beyond
+  /// it, half of that; 0: nothing may be.
+  CurveProgram<K> program(double left, double price) {
+    CurveProgram<K> program(found_.curve, plane_, ahead_);
     bounded_.clear();
     const auto set_bound = [&](CurvePoint& point, double bound, double share) {
       point.bound = share * bound;
@@ -379,7 +446,8 @@ class CurveFitter {
       bounded_.emplace_back(&one.bound, program.add_bound(point));
     }
     if (damping_ > 0) program.add_damping(damping_);
-    if (task_.least_radius > 0) program.add_least_radius(task_.least_radius);
+    if (task_.least_radius > 0)
+      program.add_greatest_curvature(std::max(aimed_share, left * greatest_bend()) / task_.least_radius);
     return program;
   }
 
@@ -399,6 +467,7 @@ class CurveFitter {
       for (const CurvePoint& point : found_.points)
         sum += data_weight_ * point.weight * curve.offset(point.at, point.place).squaredNorm();
     }
+    if (has_sides_) sum += tie_break * bending();
     return sum;
   }
 
@@ -447,6 +516,14 @@ class CurveFitter {
     return greatest;
   }
 
+  /// The greatest share of what is allowed that curvature has; 0 where all is.
+  [[nodiscard]] double greatest_bend() const {
+    double greatest = 0;
+    for (std::uint32_t i = 0; i < found_.curve.size() && task_.least_radius > 0; ++i)
+      greatest = std::max(greatest, task_.least_radius * found_.curve.greatest_curvature(i));
+    return greatest;
+  }
+
   [[nodiscard]] double rms() const {
     double squares = 0;
     double weights = 0;
@@ -457,22 +534,36 @@ class CurveFitter {
     return weights > 0 ? std::sqrt(squares / weights) : 0;
   }
 
+  [[nodiscard]] double weight() const {
+    double weights = 0;
+    for (const CurvePoint& point : found_.points) weights += point.weight;
+    return weights;
+  }
+
+  /// What holds a wave of the whole length half.
+  [[nodiscard]] double weight_of_wave() const {
+    const double length = this->length();
+    return std::pow(2 * std::numbers::pi / length, 6) * length / weight();
+  }
+
+  /// Next to nothing beside least bending, as that is beside least change of curvature: so that sides which are
+  /// straight go through the middle of their points.
+  [[nodiscard]] double weight_of_sides() const {
+    const double length = this->length();
+    return next_to_no_weight * tie_break * std::pow(2 * std::numbers::pi / length, 4) * length / weight();
+  }
+
   /// The least weight of points with which they are near enough. From the fairest curve that has none of them much
   /// further away: with small weights alone a curve may go anywhere.
   void go_to_rms() {
     if (data_weight_ == 0) {
       for (CurvePoint& point : found_.points) point.bound = bound_of_rms * task_.rms;
       go();
-      double weights = 0;
-      for (CurvePoint& point : found_.points) {
-        point.bound = 0;
-        weights += point.weight;
-      }
+      for (CurvePoint& point : found_.points) point.bound = 0;
       if (rms() <= task_.rms) return;
-      // As much as the energy is, or what holds a wave of the whole length half.
-      const double length = this->length();
-      const double of_wave = std::pow(2 * std::numbers::pi / length, 6) * length / weights;
-      data_weight_ = std::max(merit() / (weights * std::pow(task_.rms, 2)), of_wave);
+      // As much as the energy is.
+      const double of_wave = weight_of_wave();
+      data_weight_ = std::max(merit() / (weight() * std::pow(task_.rms, 2)), of_wave);
       least_weight_ = next_to_no_weight * of_wave;
     }
     double near = 0;
@@ -521,8 +612,7 @@ class CurveFitter {
   bool refine() {
     DenseCurve now = with_new_nodes(found_.curve, least_spacing());
     if (now.size() <= found_.curve.size() + found_.curve.size() / 20) return false;
-    carry_places(found_.curve, now, found_.points);
-    found_.curve = std::move(now);
+    take_new_nodes(std::move(now));
     return true;
   }
 
@@ -546,7 +636,10 @@ class CurveFitter {
   double data_weight_ = 0;
   double least_weight_ = 0;
   double damping_ = 0;
-  std::size_t work_ = 0;  ///< nodes, each for every step
+  bool has_sides_ = false;   ///< between corners, within a tolerance
+  double nothing_left_ = 0;  ///< energy of sides that are as good as straight
+  bool ahead_ = true;        ///< corners go across the edges after them
+  std::size_t work_ = 0;     ///< nodes, each for every step
   std::size_t most_work_ = 0;
 };
 

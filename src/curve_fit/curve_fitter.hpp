@@ -37,6 +37,7 @@ struct CurveFitTask {
   bool evenly = false;      ///< change of curvature counts alike everywhere, not less where it is large
   double noise = 0;         ///< of the points, across
   double least_radius = 0;  ///< 0: any
+  double sharp = 0;  ///< where the way of the points turns by more than this are corners, in radians; 0: none are
   double tolerance = 1e-5;  ///< how near to the fairest, a share of the size
   int most_steps = 120;     ///< of all programs
 };

@@ -35,8 +35,8 @@ class CurveProgram {
  public:
   using Basis = Eigen::Matrix<double, 3, K>;
 
-  /// plane: its normal, for K = 1.
-  CurveProgram(const DenseCurve& curve, const Vector3& plane);
+  /// plane: its normal, for K = 1. ahead: corners go across the edge after them, or else across that before.
+  CurveProgram(const DenseCurve& curve, const Vector3& plane, bool ahead = true);
 
   /// weights: for every edge, by which the squared change of curvature along it counts.
   void add_variation(std::span<const double> weights);
@@ -51,8 +51,8 @@ class CurveProgram {
   std::size_t add_point(const CurvePoint& point, double data_weight);
   /// How far a place may be from a point, across the curve. The number of its row.
   std::size_t add_bound(const CurvePoint& point);
-  /// The radius of curvature is at least that.
-  void add_least_radius(double radius);
+  /// Nodes are bent by no more than that.
+  void add_greatest_curvature(double most);
 
   [[nodiscard]] BallSolution solve() const { return vspring::solve(program_); }
   /// Calls with every node that moves and how it would go.
@@ -74,6 +74,7 @@ class CurveProgram {
   [[nodiscard]] Basis across(const Vector3& direction) const;
   [[nodiscard]] Basis axes() const;
   [[nodiscard]] Basis ways_of(const Vector3& direction) const;
+  [[nodiscard]] Vector3 along(const CurvePoint& point) const;
   std::size_t add_row_of(const CurvePoint& point, double weight, const Basis& ways);
   void add_entry(Row& row, std::uint32_t node, const Eigen::Matrix<double, K, 3>& slope) const;
 

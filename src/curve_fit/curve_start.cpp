@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/cancellation.hpp"
+#include "curve_fit/way_corners.hpp"
 #include "shape/segment.hpp"
 
 namespace vspring {
@@ -32,6 +33,7 @@ constexpr int most_turns_of_folds = 10;
 constexpr double edges_of_piece = 12;
 // Of mean edges of the rows: nodes need not be denser, but at corners.
 constexpr double least_share_of_rows = 0.5;
+constexpr double least_share_of_tolerance = 0.5;
 constexpr double steepest = 0.25;
 constexpr double edges_between_held = 8;
 // Of the length.
@@ -48,18 +50,20 @@ struct Stop {
   double rows = 0;
   bool fixed = false;
   std::size_t node = 0;  ///< of the chain: the first of its rows
+  bool corner = false;   ///< that was found
 };
 
 /// The places that the rows of a chain go along, in order.
 class Way {
  public:
   /// along: for its station().
-  Way(const std::vector<ChainNode>& chain, bool closed, double reach, const DenseCurve& along)
-      : chain_(chain), closed_(closed), reach_(reach), along_(along) {
+  Way(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, const DenseCurve& along)
+      : chain_(chain), closed_(closed), reach_(reach_of_rows * scale.noise), along_(along) {
     joined_with_.resize(chain.size());
     find_turns();
     for (std::size_t k = 0; k < chain.size(); ++k) add(k);
     join_seam();
+    if (scale.sharp > 0) find_corners(scale);
     leave_out_next_to_fixed();
     for (int turn = 0; turn < most_turns_of_folds && undo_folds(); ++turn) {
     }
@@ -72,6 +76,13 @@ class Way {
   [[nodiscard]] std::size_t first_row(std::size_t row) const {
     while (joined_with_[row] != row) row = joined_with_[row];
     return row;
+  }
+
+  /// Of those that a stop begins with, one after the other.
+  [[nodiscard]] std::size_t middle_row(const Stop& stop) const {
+    std::size_t end = stop.node + 1;
+    while (end < chain_.size() && first_row(end) == stop.node) ++end;
+    return stop.node + (end - stop.node) / 2;
   }
 
  private:
@@ -142,6 +153,17 @@ class Way {
       if (last.fixed || stops.front().fixed || !are_one(last.place, stops.front().place)) return;
       join(stops.front(), last);
       stops.pop_back();
+    }
+  }
+
+  void find_corners(const StartScale& scale) {
+    std::vector<Vector3> places;
+    places.reserve(stops.size());
+    for (const Stop& stop : stops) places.push_back(stop.place);
+    for (const std::size_t k : corners_of_way(places, closed_, scale.sharp, scale.tolerance)) {
+      // A given tangent says how the curve goes there.
+      if (!chain_[stops[k].node].tangent.isZero(0)) continue;
+      stops[k].fixed = stops[k].corner = true;
     }
   }
 
@@ -291,8 +313,9 @@ double turn_between(const Vector3& a, const Vector3& b) {
 }
 
 /// How far apart nodes should be at each vertex of a way. It ends with its first vertex again where closed.
-std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::vector<std::uint8_t>& fixed, bool closed,
-                                  double tolerance) {
+/// sharp: where it need not turn within the tolerance.
+std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::vector<std::uint8_t>& fixed,
+                                  const std::vector<std::uint8_t>& sharp, bool closed, double tolerance) {
   const std::size_t count = way.size();
   std::vector<std::uint8_t> kept(count, 0);
   for (std::size_t k = 0; k < count; ++k) kept[k] = fixed[k];
@@ -303,6 +326,9 @@ std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::ve
   if (half + 1 < count) keep_vertices(way, half, count - 1, tolerance, kept);
   std::vector<double> length(count, 0);
   for (std::size_t k = 1; k < count; ++k) length[k] = length[k - 1] + (way[k] - way[k - 1]).norm();
+  // Corners move by up to the tolerance, and edges beside them should not turn round then.
+  const bool has_corners = std::find(sharp.begin(), sharp.end(), 1) != sharp.end();
+  const double least = has_corners ? least_share_of_tolerance * tolerance : 0;
   std::vector<double> spacing(count, length.back());
   std::vector<std::size_t> vertices;
   for (std::size_t k = 0; k < count; ++k) {
@@ -315,7 +341,7 @@ std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::ve
   for (std::size_t k = 0; k < count; ++k) {
     const double rows = (length[std::min(k + 1, count - 1)] - length[k > 0 ? k - 1 : 0]) /
                         static_cast<double>(std::min(k + 1, count - 1) - (k > 0 ? k - 1 : 0));
-    spacing[k] = std::max(spacing[k], least_share_of_rows * rows);
+    spacing[k] = std::max(spacing[k], std::max(least_share_of_rows * rows, least));
   }
   // A corner is what turns by more than the vertices beside it: there the curve turns within the tolerance.
   std::vector<Vector3> turns(vertices.size(), Vector3::Zero());
@@ -332,7 +358,7 @@ std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::ve
       if (turns[w].dot(turns[v]) > 0) beside = std::max(beside, angles[w]);
     }
     const double excess = angles[v] - beside;
-    if (!(excess > greatest_turn_of_edge)) continue;
+    if (!(excess > greatest_turn_of_edge) || sharp[vertices[v]] != 0) continue;
     const double half_turn = std::min(excess / 2, greatest_half_turn);
     const double radius = tolerance / (1 / std::cos(half_turn) - 1);
     const std::size_t k = vertices[v];
@@ -361,7 +387,7 @@ std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::ve
 
 void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, DenseCurve& curve,
                std::vector<CurvePoint>& points) {
-  Way found(chain, closed, reach_of_rows * scale.noise, curve);
+  Way found(chain, closed, scale, curve);
   std::vector<Stop>& stops = found.stops;
   if (stops.size() < (closed ? 3U : 2U)) {
     // Nothing that could be bent.
@@ -384,12 +410,14 @@ void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScal
   }
   std::vector<Vector3> way;
   std::vector<std::uint8_t> fixed;
+  std::vector<std::uint8_t> sharp;
   for (const Stop& stop : stops) {
     way.push_back(stop.place);
     fixed.push_back(stop.fixed ? 1 : 0);
+    sharp.push_back(stop.corner || (stop.fixed && chain[stop.node].corner) ? 1 : 0);
   }
   if (!closed && !fixed.empty()) fixed.front() = fixed.back() = 1;
-  const std::vector<double> spacing = spacing_along(way, fixed, closed, scale.tolerance);
+  const std::vector<double> spacing = spacing_along(way, fixed, sharp, closed, scale.tolerance);
   const std::uint32_t begin = curve.size();
   std::vector<Node> nodes;
   // The node of the curve at each stop, and where the stop lies along the way.
@@ -406,10 +434,10 @@ void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScal
   const auto add_stop = [&](std::size_t k) {
     Node& node = add(way[k], length[k], spacing[k]);
     if (!stops[k].fixed) return;
-    const ChainNode& from = chain[stops[k].node];
+    const ChainNode& from = chain[stops[k].corner ? found.middle_row(stops[k]) : stops[k].node];
     node.tangent = from.tangent;
     node.held = from.held;
-    node.corner = from.corner;
+    node.corner = sharp[k] != 0;
     node.from = from.from;
     node.dense = false;
   };

@@ -26,11 +26,12 @@ struct ChainNode {
 struct StartScale {
   double noise = 0;      ///< of points, across
   double tolerance = 0;  ///< how far a curve may go from the polyline of the points
+  double sharp = 0;      ///< places where the way turns by more than this are corners, in radians; 0: none are
 };
 
 /// A first curve through a chain: equal rows and those closer together than twice the noise are one; a few rows back
 /// and forth are brought into order; nodes come as dense as the bends of that ask for. points: those of the chain's own
-/// nodes, at their places, are added.
+/// nodes, at their places, are added. Of the rows at a corner that is found the middle one is its node.
 void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, DenseCurve& curve,
                std::vector<CurvePoint>& points);
 

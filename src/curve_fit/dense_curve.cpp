@@ -89,6 +89,10 @@ DenseCurve::CurvatureRow DenseCurve::curvature_row(std::uint32_t node, bool afte
   return row;
 }
 
+double DenseCurve::greatest_curvature(std::uint32_t node) const {
+  return std::max(curvature_row(node, false).curvature.norm(), curvature_row(node, true).curvature.norm());
+}
+
 DenseCurve::Bend DenseCurve::bend(std::uint32_t node, bool after) const {
   const Vector3& here = place(node);
   if (is_smooth(node)) {

@@ -60,6 +60,8 @@ class DenseCurve {
   [[nodiscard]] Vector3 station(const Vector3& v) const {
     return moves_freely() ? v : Vector3((Vector3::Ones() - moving_).cwiseProduct(v));
   }
+  /// Where it is.
+  void hold(std::uint32_t i) { nodes_[i].held = true; }
   void set_spacing(std::uint32_t i, double spacing) { nodes_[i].spacing = spacing; }
   void set_tangent(std::uint32_t i, const Vector3& tangent) { nodes_[i].tangent = tangent; }
   /// Neighbours along the chain; none at its ends. An edge has the number of the node that it begins at.
@@ -87,6 +89,9 @@ class DenseCurve {
     std::array<Eigen::Matrix3d, 3> slopes{};
   };
   [[nodiscard]] CurvatureRow curvature_row(std::uint32_t node, bool after) const;
+
+  /// The greatest curvature beside a node; 0 where it has none.
+  [[nodiscard]] double greatest_curvature(std::uint32_t node) const;
 
   [[nodiscard]] Vector3 at(const CurvePlace& at) const;
   /// How far a place is from a point, in the coordinates that move.

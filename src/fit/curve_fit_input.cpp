@@ -7,10 +7,12 @@
 #include <cmath>
 #include <string>
 
+#include "base/degrees.hpp"
 #include "base/threads.hpp"
 #include "constraints/holding.hpp"
 #include "curve_fit/outliers.hpp"
 #include "points/nearest_nodes.hpp"
+#include "shape/corners.hpp"
 #include "shape/planarity.hpp"
 #include "vspring/error.hpp"
 #include "vspring/noise.hpp"
@@ -233,6 +235,9 @@ CurveFitTask CurveFitInput::task() const {
   task.noise = task.within > 0 ? noise_of_bound * task.within : task.rms;
   if (options_.noise()) task.noise = *options_.noise() * scale;
   if (task.noise == 0) task.noise = estimate_noise(curve_, options_.moving_axes).deviation * scale;
+  task.least_radius = options_.least_radius * scale;
+  task.sharp = options_.sharp / degrees_per_radian;
+  const std::vector<std::uint8_t> is_corner = marked_corners(options_.fair.corners, curve_.node_count());
   const auto& method = std::get<EquilibriumMethod>(options_.fair.method);
   task.tolerance = method.tolerance;
   double edges = 0;
@@ -247,6 +252,7 @@ CurveFitTask CurveFitInput::task() const {
       one.place = frame_.to_local(place(node));
       one.held = held;
       one.from = node;
+      one.corner = is_corner[i] != 0;
       if (constraints_.tangent_fixed(node)) one.tangent = constraints_.tangent(node);
       if (constraints_.normal_fixed(node) && plane_ && one.tangent.isZero(0)) one.tangent = tangent_across(chain, node);
       if (own_nodes_ && weight(i) > 0 && kept_[i] != 0) {

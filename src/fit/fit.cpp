@@ -380,8 +380,9 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   });
   // Springs would draw them in.
   if (has_free_end && !method) (void)check_constraints(curve, constraints);
-  if (options.tolerance() || options.noise() || !options.moves_freely() || (has_free_end && method))
-    return fit_curve(curve, constraints, points, options, context);
+  const bool has_nodes_of_its_own = options.tolerance() || options.noise() || !options.moves_freely() ||
+                                    options.least_radius > 0 || options.sharp > 0 || !options.fair.corners.empty();
+  if (has_nodes_of_its_own || (has_free_end && method)) return fit_curve(curve, constraints, points, options, context);
   FitResult balanced = fit_shape<FitCurve>(curve, constraints, points, options, context);
   const Outcome outcome = balanced.report.fair.outcome;
   const bool is_found = outcome == Outcome::converged || outcome == Outcome::cancelled;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -17,6 +18,7 @@
 #include "fit/fit_points.hpp"
 #include "fit/fit_warnings.hpp"
 #include "fit/profile.hpp"
+#include "shape/corners.hpp"
 #include "vspring/error.hpp"
 #include "vspring/figures.hpp"
 
@@ -31,12 +33,16 @@ constexpr double far_off_way = 2;
 // Of the tolerance, and how often it is tried.
 constexpr double most_cut_off = 1.2;
 constexpr double most_spared = 0.7;
+// Of how far places may be from the polyline.
+constexpr double next_to_nothing_beyond = 1.001;
 constexpr double share_of_nearer = 0.997;
 constexpr int most_turns_nearer = 5;
 // Of the length of the curve: rows that were left out lie no further from the one before.
 constexpr double reach_to_next_row = 0.25;
 // Of the size.
 constexpr double same_place = 1e-7;
+// Of the least radius: what chords of an arc show of it.
+constexpr double share_of_radius = 0.99;
 
 class CurveFit {
  public:
@@ -49,7 +55,9 @@ class CurveFit {
   /// The result of fair(), where that is within the tolerance: then nothing pulls.
   std::optional<FitResult> plain_fairing() {
     const FitOptions& options = input_.options();
-    if (!options.tolerance() || options.outliers > 0 || !options.moves_freely()) return std::nullopt;
+    // What keeps corners holds them where their points are.
+    const bool has_corners = options.sharp > 0 || !options.fair.corners.empty();
+    if (!options.tolerance() || options.outliers > 0 || !options.moves_freely() || has_corners) return std::nullopt;
     FairResult plain;
     try {
       (void)check_constraints(input_.curve(), input_.constraints());
@@ -59,10 +67,11 @@ class CurveFit {
       return std::nullopt;
     }
     if (plain.report.outcome != Outcome::converged) return std::nullopt;
+    const Resampled own{input_.curve(), input_.constraints(), {}};
     PolygonCurve moved = input_.curve();
     moved.set_positions(plain.positions);
-    if (figure(distances(moved)) > *options.tolerance()) return std::nullopt;
-    FitResult result = this->result(std::move(plain.positions), input_.curve(), input_.constraints());
+    if (figure(distances(moved)) > *options.tolerance() || radius_kept(sharpest(moved, own)) < 1) return std::nullopt;
+    FitResult result = this->result(std::move(plain.positions), own);
     result.report.fair = std::move(plain.report);
     result.report.pulling_points = result.report.pulled_nodes = result.report.most_points = 0;
     return result;
@@ -74,6 +83,7 @@ class CurveFit {
     Resampled nodes;  ///< with the file's own chains, or new ones
     double figure = 0;
     double way_off = 0;  ///< from the polyline of the points
+    double radius_kept = 1;
     CurveFigures figures = {};
   };
 
@@ -94,7 +104,8 @@ class CurveFit {
       if (input_.options().outliers > 0) input_.leave_outliers_out();
       CurveFitTask task = input_.task();
       const auto tolerance = input_.options().tolerance();
-      // Where chords cut off too much, the curve is held nearer.
+      // Where chords cut off too much, the curve is held nearer; where it is bent too much between its own nodes, to a
+      // larger radius.
       for (int turn = 0; turn < most_turns_nearer; ++turn) {
         std::optional<Attempt> now;
         for (const bool evenly : {false, true}) {
@@ -103,8 +114,8 @@ class CurveFit {
           Attempt attempt = this->attempt(task, put);
           if (!now || is_better(attempt, *now)) now = std::move(attempt);
         }
-        const bool ends = !tolerance || now->figure <= *tolerance || !leave_room(*now, task);
-        if (!best || now->figure < best->figure) best = std::move(now);
+        const bool ends = !leave_room(*now, task);
+        if (!best || is_nearer(*now, *best)) best = std::move(now);
         if (ends) break;
       }
     } catch (const Cancelled&) {
@@ -202,8 +213,13 @@ class CurveFit {
       if (constraints.tangent_fixed(from)) held.fix_tangent(node, constraints.tangent(from));
       if (constraints.normal_fixed(from)) held.fix_normal(node, constraints.normal(from));
     }
-    for (const Index node : sharp_nodes(on, how, 1 / input_.scale())) held.fix_position(node, dense.position(node));
-    Resampled made = resample(dense, held, how);
+    for (const Index node : tight_bends(on, how, 1 / input_.scale())) held.fix_position(node, dense.position(node));
+    Resampling between = how;
+    between.corners.clear();
+    for (std::uint32_t i = 0; i < on.size(); ++i) {
+      if (on.node(i).corner) between.corners.push_back(static_cast<Index>(i));
+    }
+    Resampled made = resample(dense, held, between);
     for (std::size_t k = 0; k < made.from.size(); ++k) {
       Index& from = made.from[k];
       if (from >= 0) from = on.node(static_cast<std::uint32_t>(from)).from;
@@ -221,18 +237,7 @@ class CurveFit {
     if (!tolerance || context_.cancelled() || (nodes_.from.empty() && input_.moving() != Vector3::Ones())) return;
     const Attempt before = measured(nodes_);
     if (before.figure <= *tolerance && !(input_.options().within() && are_sparse(nodes_.curve))) return;
-    DenseCurve chords(true, input_.moving());
-    for (const auto& chain : nodes_.curve.chains()) {
-      std::vector<DenseCurve::Node> along;
-      for (const Index i : chain.nodes) {
-        DenseCurve::Node& node = along.emplace_back();
-        node.place = input_.to_local(nodes_.curve.position(i));
-        node.held = nodes_.constraints.position_fixed(i);
-        if (nodes_.constraints.tangent_fixed(i)) node.tangent = nodes_.constraints.tangent(i);
-        node.from = i;
-      }
-      chords.add_chain(along, chain.closed);
-    }
+    const DenseCurve chords = this->chords(nodes_.curve, nodes_);
     CurveFitTask task = input_.task();
     task.nodes = &chords;
     task.evenly = found_.evenly;
@@ -253,9 +258,11 @@ class CurveFit {
                         after.figures.curvature_extrema <= before.figures.curvature_extrema &&
                         after.figures.inflections <= before.figures.inflections;
     // Points may be near a curve that goes anywhere between them.
-    const bool stays = after.way_off <= far_off_way * std::max(before.way_off, *tolerance);
-    if (before.figure > *tolerance ? stays && after.figure < before.figure
-                                   : fairer && after.figure <= *tolerance && drawn.beyond <= 1.001)
+    const bool stays =
+        after.way_off <= far_off_way * std::max(before.way_off, *tolerance) && after.radius_kept >= before.radius_kept;
+    if (before.figure > *tolerance
+            ? stays && after.figure < before.figure
+            : fairer && after.figure <= *tolerance && stays && drawn.beyond <= next_to_nothing_beyond)
       nodes_ = std::move(moved);
   }
 
@@ -268,15 +275,18 @@ class CurveFit {
       if (!free || input_.kept()[static_cast<std::size_t>(i)] != input_.counted()[static_cast<std::size_t>(i)]) return;
       if (constraints.position_fixed(i) && constraints.position(i) != input_.curve().position(i)) return;
     }
-    const CurveFigures rows = measure_curve(input_.curve(), &constraints);
-    const CurveFigures found = measure_curve(nodes_.curve, &constraints);
-    if (rows.curvature_variation < found.curvature_variation && rows.curvature_extrema <= found.curvature_extrema &&
-        rows.inflections <= found.inflections)
+    const Attempt as_they_came = measured({input_.curve(), constraints, {}});
+    const CurveFigures rows = as_they_came.figures;
+    const CurveFigures found = measured(nodes_).figures;
+    if (as_they_came.radius_kept == 1 && rows.curvature_variation < found.curvature_variation &&
+        rows.curvature_extrema <= found.curvature_extrema && rows.inflections <= found.inflections)
       nodes_.curve = input_.curve();
   }
 
-  /// positions: of `shape`, which has the file's nodes or new ones.
-  FitResult result(std::vector<Vector3> positions, const PolygonCurve& shape, const Constraints& constraints) {
+  /// positions: of the file's nodes or of new ones.
+  FitResult result(std::vector<Vector3> positions, const Resampled& nodes) {
+    const PolygonCurve& shape = nodes.curve;
+    const Constraints& constraints = nodes.constraints;
     FitResult result;
     FitReport& report = result.report;
     FairReport& fair = report.fair;
@@ -304,7 +314,9 @@ class CurveFit {
     report.pulling_points = input_.pulling_points();
     report.pulled_nodes = input_.pulled_nodes();
     report.most_points = input_.most_points();
-    conclude(result);
+    const std::vector<std::uint8_t> corners = this->corners(nodes);
+    fair.corners = static_cast<Index>(std::count(corners.begin(), corners.end(), 1));
+    conclude(result, sharpest(moved, nodes));
     return result;
   }
 
@@ -349,10 +361,69 @@ class CurveFit {
     if ((a.way_off <= most) != (b.way_off <= most)) return a.way_off <= most;
     if (a.found.converged != b.found.converged) return a.found.converged;
     if (within != (b.figure <= tolerance)) return within;
+    if (a.radius_kept != b.radius_kept) return a.radius_kept > b.radius_kept;
     if (a.figures.inflections != b.figures.inflections) return a.figures.inflections < b.figures.inflections;
     if (a.figures.curvature_extrema != b.figures.curvature_extrema)
       return a.figures.curvature_extrema < b.figures.curvature_extrema;
     return a.figures.curvature_variation < b.figures.curvature_variation;
+  }
+
+  /// The edges of a shape, with what is held at its nodes.
+  [[nodiscard]] DenseCurve chords(const PolygonCurve& shape, const Resampled& nodes) const {
+    DenseCurve chords(true, input_.moving());
+    const Constraints& constraints = nodes.constraints;
+    const std::vector<std::uint8_t> corners = this->corners(nodes);
+    for (const auto& chain : shape.chains()) {
+      std::vector<DenseCurve::Node> along;
+      along.reserve(chain.nodes.size());
+      for (const Index i : chain.nodes) {
+        DenseCurve::Node& node = along.emplace_back();
+        node.place = input_.to_local(shape.position(i));
+        node.held = constraints.position_fixed(i);
+        if (constraints.tangent_fixed(i)) node.tangent = constraints.tangent(i);
+        node.corner = corners[static_cast<std::size_t>(i)] != 0;
+        node.from = i;
+      }
+      chords.add_chain(along, chain.closed);
+    }
+    return chords;
+  }
+
+  /// 1 for those of these nodes that are corners of the curve that was found.
+  [[nodiscard]] std::vector<std::uint8_t> corners(const Resampled& nodes) const {
+    std::vector<std::uint8_t> of_file(static_cast<std::size_t>(input_.curve().node_count()), 0);
+    for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
+      const auto& node = found_.curve.node(i);
+      if (node.corner && node.from >= 0) of_file[static_cast<std::size_t>(node.from)] = 1;
+    }
+    if (nodes.from.empty()) return of_file;
+    std::vector<std::uint8_t> corners(nodes.from.size(), 0);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      if (nodes.from[k] >= 0) corners[k] = of_file[static_cast<std::size_t>(nodes.from[k])];
+    }
+    return corners;
+  }
+
+  struct Sharpest {
+    Index node = -1;  ///< none where nothing is bent
+    double radius = std::numeric_limits<double>::infinity();
+  };
+
+  /// Where a shape is bent most.
+  [[nodiscard]] Sharpest sharpest(const PolygonCurve& shape, const Resampled& nodes) const {
+    Sharpest most;
+    const DenseCurve chords = this->chords(shape, nodes);
+    for (std::uint32_t i = 0; i < chords.size(); ++i) {
+      const double radius = 1 / (chords.greatest_curvature(i) * input_.scale());
+      if (radius < most.radius) most = {chords.node(i).from, radius};
+    }
+    return most;
+  }
+
+  /// The share of the least radius that is there, 1 where all is.
+  [[nodiscard]] double radius_kept(const Sharpest& most) const {
+    const double least = share_of_radius * input_.options().least_radius;
+    return most.radius < least ? most.radius / least : 1;
   }
 
   /// What is to be within the tolerance.
@@ -361,18 +432,26 @@ class CurveFit {
     return input_.options().within() ? all.greatest : all.rms;
   }
 
-  /// False where chords cut off so much that there is no room.
+  /// Of attempts for one tolerance after the other.
+  [[nodiscard]] bool is_nearer(const Attempt& a, const Attempt& b) const {
+    return a.figure < b.figure || (a.figure == b.figure && a.radius_kept > b.radius_kept);
+  }
+
+  /// For what is beyond, in another attempt. False where nothing is, or so much that there is no room.
   bool leave_room(const Attempt& attempt, CurveFitTask& task) const {
-    const double tolerance = *input_.options().tolerance();
+    const bool is_sharp = attempt.radius_kept < 1 && attempt.radius_kept * most_cut_off >= 1;
+    if (is_sharp) task.least_radius /= share_of_nearer * attempt.radius_kept;
+    const auto tolerance = input_.options().tolerance();
+    if (!tolerance || attempt.figure <= *tolerance) return is_sharp;
     if (!input_.options().within()) {
-      task.rms *= share_of_nearer * tolerance / attempt.figure;
-      return attempt.figure <= most_cut_off * tolerance;
+      task.rms *= share_of_nearer * *tolerance / attempt.figure;
+      return attempt.figure <= most_cut_off * *tolerance;
     }
     const std::vector<double> distances = this->distances(attempt.nodes.curve);
     task.spare.resize(distances.size(), 0);
     for (std::size_t j = 0; j < distances.size(); ++j) {
-      if (input_.kept()[j] == 0 || distances[j] <= tolerance) continue;
-      task.spare[j] += (distances[j] - share_of_nearer * tolerance) * input_.scale();
+      if (input_.kept()[j] == 0 || distances[j] <= *tolerance) continue;
+      task.spare[j] += (distances[j] - share_of_nearer * *tolerance) * input_.scale();
       if (task.spare[j] > most_spared * task.within) return false;
     }
     return true;
@@ -382,7 +461,9 @@ class CurveFit {
     Attempt attempt{found_, std::move(nodes)};
     attempt.figure = figure(distances(attempt.nodes.curve));
     attempt.way_off = way_off(attempt.nodes.curve).greatest;
-    attempt.figures = measure_curve(attempt.nodes.curve, &attempt.nodes.constraints);
+    const PolygonCurve& shape = attempt.nodes.curve;
+    attempt.radius_kept = radius_kept(sharpest(shape, attempt.nodes));
+    attempt.figures = measure_curve(cut_at_corners(shape, corners(attempt.nodes)), &attempt.nodes.constraints);
     return attempt;
   }
 
@@ -457,9 +538,13 @@ class CurveFit {
     return {std::move(places), std::move(chains)};
   }
 
-  void conclude(FitResult& result) const {
+  void conclude(FitResult& result, const Sharpest& most_bent) const {
     FitReport& report = result.report;
     FairReport& fair = report.fair;
+    if (input_.options().least_radius > 0 && most_bent.node >= 0) {
+      report.least_radius = most_bent.radius;
+      report.sharpest_node = most_bent.node;
+    }
     if (context_.cancelled()) {
       fair.outcome = Outcome::cancelled;
       return;
@@ -474,6 +559,16 @@ class CurveFit {
                            .seconds = 0});
     const auto& options = input_.options();
     const auto tolerance = options.tolerance();
+    const bool is_sharp = radius_kept(most_bent) < 1;
+    if (is_sharp) {
+      fair.outcome = Outcome::stalled;
+      fair.warnings.push_back(
+          {WarningCode::radius_not_kept,
+           fmt::format(
+               "no shape was found that is nowhere bent by a radius of less than {:g}: this one is by {:.4g} at "
+               "node {}; draw it less closely there, hold less, or allow a smaller radius",
+               options.least_radius, most_bent.radius, most_bent.node)});
+    }
     if (!tolerance) {
       report.smoothing_length = found_.smoothing / input_.scale();
       warn_if_left_behind(report, input_.points().positions);
@@ -489,7 +584,7 @@ class CurveFit {
                                fmt::format("no shape within {:g} was found: this is the nearest; points lie at what is "
                                            "held, or edges are too long",
                                            *tolerance)});
-    } else if (!found_.converged) {
+    } else if (!found_.converged && !is_sharp) {
       fair.warnings.push_back(
           {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest"});
     }
@@ -549,7 +644,7 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
   CurveFit run(curve, constraints, points, options, context);
   if (!run.input().pulls()) {
     FairResult plain = fair(curve, constraints, options.fair, context);
-    FitResult result = run.result(std::move(plain.positions), curve, constraints);
+    FitResult result = run.result(std::move(plain.positions), {curve, constraints, {}});
     result.report.fair = std::move(plain.report);
     return result;
   }
@@ -564,7 +659,7 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
   } else {
     positions = unchanged(run.input());
   }
-  FitResult result = run.result(std::move(positions), curve, constraints);
+  FitResult result = run.result(std::move(positions), {curve, constraints, {}});
   FairReport& fair = result.report.fair;
   double squares = 0;
   for (std::size_t i = 0; i < result.positions.size(); ++i) {
@@ -597,7 +692,7 @@ ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& c
   ResampledFit made{resample(curve, constraints, how), {}};
   CurveFit run(curve, constraints, points, options, context);
   if (run.input().pulls() && run.find([&] { return run.resampled(how); })) made.resampled = run.nodes();
-  made.fit = run.result(made.resampled.curve.positions(), made.resampled.curve, made.resampled.constraints);
+  made.fit = run.result(made.resampled.curve.positions(), made.resampled);
   FairReport& fair = made.fit.report.fair;
   const Distance moves = distance(made.fit.positions, curve);
   fair.greatest_move = moves.greatest;

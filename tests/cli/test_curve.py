@@ -288,6 +288,27 @@ class Curve(Case):
                 self.curve(csv(helix), "--fix-normals", "boundary", *options)
                 self.assertEqual(len(read(self.folder / "out.csv")), 61)
 
+    def test_corners_stay_sharp(self):
+        noise = random.Random(3)
+        sides = [(k, 0) for k in range(40)] + [(40, k) for k in range(30)] + [(40 - k, 30) for k in range(40)] + [(0, 30 - k) for k in range(30)]
+        rows = csv([(x + noise.uniform(-0.4, 0.4), y + noise.uniform(-0.4, 0.4)) for x, y in sides])
+        report = ("--report", self.folder / "r.json")
+        for options in (("--within", "1"), ("--within", "1", "--spacing", "2")):
+            done = self.curve(rows, "--closed", "--sharp", "40", *options, *report)
+            self.assertIn("corners          4 kept sharp\n", done.stdout.decode())
+            self.assertEqual(self.read_json("r.json")["corners"], 4)
+            self.assertGreater(self.read_json("r.json")["fairness"]["after"]["greatest_turn"], 80)
+        self.assertNotIn("corners", self.curve(rows, "--closed", "--within", "1", *report).stdout.decode())
+        self.assertEqual(self.read_json("r.json")["corners"], 0)
+        # Without points nodes at corners keep their places, new ones lie between them.
+        road = csv([(k, 0.1 * noise.uniform(-1, 1) * (0 < k < 40)) for k in range(41)] + [(40, k) for k in range(1, 31)])
+        for options in ((), ("--resample", "36")):
+            done = self.curve(road, "--sharp", "60", *options, *report)
+            self.assertEqual(self.read_json("r.json")["corners"], 1)
+            points = read(self.folder / "out.csv")
+            self.assertIn((40, 0), points)
+            self.assertLess(max(min(abs(y), abs(x - 40)) for x, y in points), 1e-3)
+
     def test_picture(self):
         self.curve(csv(arc(30, noise=0.05)), "--picture", self.folder / "a.svg")
         self.assertTrue((self.folder / "a.svg").read_text().startswith("<"))

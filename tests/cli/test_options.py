@@ -70,6 +70,8 @@ class Idle(Case):
             ("--normal-plane principal", curve, "curve helix.xyz", "space"),
             ("--resample-by cosine", curve, curve + " --spacing 0.2", "--resample and --spacing"),
             ("--closed", fit, "fit ring.csv --points points.xyz --weight 0.1 --constraints held.json", "curves"),
+            ("--sharp 30", fit, "fit ring.csv --points points.xyz --weight 0.1 --constraints held.json", "curves"),
+            ("--min-radius 2", fit, "fit ring.csv --points points.xyz --weight 0.1 --constraints held.json", "curves"),
             ("--closed", "measure grid.obj", "measure ring.csv", "curves"),
             ("--ignore-point-normals", fit, "fit grid.obj --points facing.xyz --weight 0.1", "no normals"),
             ("--ignore-point-normals", "fit arc.csv --points facing.xyz --weight 0.1", None, "surfaces"),
@@ -193,7 +195,7 @@ class Numbers(Case):
         for command, option, range_ in (
             (fair, "--tolerance", positive), (fair, "--step-tolerance", positive), (fit, "--tolerance", positive),
             (fit, "--step-tolerance", positive), (fair, "--smoothing-length", positive), (curve, "--spacing", positive),
-            (fair, "--within", positive), (fair, "--rms", positive), (fair, "--noise", positive), (fair, "--weight", from_0),
+            (curve, "--min-radius", positive), (curve, "--sharp", "a number of more than 0 and less than 180"), (fair, "--within", positive), (fair, "--rms", positive), (fair, "--noise", positive), (fair, "--weight", from_0),
             (fair, "--strength", "a number from 0 to 1 "), (fair, "--outliers", "a number from 0 to 0.999999"),
             (fair, "--levels", whole.format(1, 64)), (fair, "--pre-smoothing", whole.format(0, 2147483647)),
             (fair, "--max-iterations", whole.format(0, 2147483647)), (fit, "--max-iterations", whole.format(0, 2147483647)),

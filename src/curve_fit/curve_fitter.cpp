@@ -249,6 +249,7 @@ class CurveFitter {
   }
 
   void find_places_between() {
+    gives_way_ = false;
     between_.clear();
     if (task_.in_order && task_.keeps_way) between_ = polyline_bounds(found_.curve, found_.points, reach());
   }
@@ -339,7 +340,7 @@ class CurveFitter {
         const double bend = std::max(1.0, greatest_bend());
         // Bounds come first: a curve that is beyond them may well be fairer.
         if (excess > 1)
-          better = beyond - 1 <= (1 - least_gain * share) * (excess - 1);
+          better = beyond - 1 <= (1 - least_gain * share) * (excess - 1) || (beyond <= excess && now < energy);
         else
           // Springs have no energy of their own; near their balance steps become smaller from one to the next.
           better = beyond <= 1 &&
@@ -357,6 +358,11 @@ class CurveFitter {
         ahead_ = !ahead_;
         if (++sides_done < sides) continue;
         return;
+      }
+      if (!gives_way_) {
+        // Other pieces of the polyline may be nearer now.
+        find_places_between();
+        excess = std::max(1.0, this->excess());
       }
       last_step = greatest * share;
       found_.error = last_step;
@@ -485,11 +491,13 @@ class CurveFitter {
 
   /// Those that were paid for, to where the step goes.
   void loosen_bounds(const BallSolution& solution) {
+    gives_way_ = true;
     for (const auto& [bound, row] : bounded_) *bound = std::max(*bound, loosened * solution.distances[row]);
   }
 
   /// All to where they are.
   void loosen_bounds() {
+    gives_way_ = true;
     for (CurvePoint& point : found_.points) {
       const double away = found_.curve.offset(point.at, point.place).norm();
       if (point.bound > 0) point.bound = std::max(point.bound, loosened * away);
@@ -633,6 +641,7 @@ class CurveFitter {
   std::vector<double> weights_;
   std::vector<PolylineBound> between_;
   std::vector<std::pair<double*, std::size_t>> bounded_;  // bounds of the program, and their rows
+  bool gives_way_ = false;                                ///< whether a bound does
   double data_weight_ = 0;
   double least_weight_ = 0;
   double damping_ = 0;

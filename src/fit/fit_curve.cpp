@@ -37,6 +37,7 @@ constexpr double most_spared = 0.7;
 constexpr double next_to_nothing_beyond = 1.001;
 constexpr double share_of_nearer = 0.997;
 constexpr int most_turns_nearer = 5;
+constexpr int most_turns_of_chords = 4;
 // Of the length of the curve: rows that were left out lie no further from the one before.
 constexpr double reach_to_next_row = 0.25;
 // Of the size.
@@ -123,7 +124,8 @@ class CurveFit {
     if (!best) return false;
     found_ = std::move(best->found);
     nodes_ = std::move(best->nodes);
-    draw_chords_in();
+    for (int turn = 0; turn < most_turns_of_chords && draw_chords_in(); ++turn) {
+    }
     keep_what_is_fairer();
     return true;
   }
@@ -229,14 +231,14 @@ class CurveFit {
   }
 
   /// Nodes that are far apart cut off what the curve does between them: where that is more than the tolerance allows
-  /// for, they go to where their chords are within it. Elsewhere too, if these are fairer then, as where a table is
-  /// coarse.
-  void draw_chords_in() {
+  /// for, they go to where their chords are within it. False where they do not. Elsewhere too, if these are fairer
+  /// then, as where a table is coarse.
+  bool draw_chords_in() {
     const auto tolerance = input_.options().tolerance();
     // At a station of its own no node is cut off.
-    if (!tolerance || context_.cancelled() || (nodes_.from.empty() && input_.moving() != Vector3::Ones())) return;
+    if (!tolerance || context_.cancelled() || (nodes_.from.empty() && input_.moving() != Vector3::Ones())) return false;
     const Attempt before = measured(nodes_);
-    if (before.figure <= *tolerance && !(input_.options().within() && are_sparse(nodes_.curve))) return;
+    if (before.figure <= *tolerance && !(input_.options().within() && are_sparse(nodes_.curve))) return false;
     const DenseCurve chords = this->chords(nodes_.curve, nodes_);
     CurveFitTask task = input_.task();
     task.nodes = &chords;
@@ -260,10 +262,12 @@ class CurveFit {
     // Points may be near a curve that goes anywhere between them.
     const bool stays =
         after.way_off <= far_off_way * std::max(before.way_off, *tolerance) && after.radius_kept >= before.radius_kept;
-    if (before.figure > *tolerance
-            ? stays && after.figure < before.figure
-            : fairer && after.figure <= *tolerance && stays && drawn.beyond <= next_to_nothing_beyond)
-      nodes_ = std::move(moved);
+    const bool better = before.figure > *tolerance
+                            ? after.figure < before.figure
+                            : fairer && after.figure <= *tolerance && drawn.beyond <= next_to_nothing_beyond;
+    if (!better || !stays) return false;
+    nodes_ = std::move(moved);
+    return true;
   }
 
   /// The rows themselves, which are within any tolerance, where the curve that was found is no fairer.

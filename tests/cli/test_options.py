@@ -118,7 +118,7 @@ DEFAULTS = {
     "--picture-size": "1600", "--picture-style": "shaded,zebra", "--view": "1,-2,1.5,0,0,1",
     **dict.fromkeys(("--region", "--weld", "--levels", "--max-iterations", "--threads", "--time-limit", "--format", "--columns",
                      "--point-columns", "--closed", "--order", "--resample", "--spacing", "--curve", "--paper", "--quiet", "--fair-boundary",
-                     "--ignore-point-normals")),
+                     "--ignore-point-normals", "--min-radius", "--sharp", "--move")),
 }
 # Where it is another one: a word of the command line, and what is its default then.
 OTHER_DISTRIBUTIONS = {"curve": "even", "--method": "even", "--within": "keep", "--weight": "keep"}

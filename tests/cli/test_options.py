@@ -143,11 +143,12 @@ class Defaults(Case):
     def test_to_say_a_default_changes_nothing(self):
         crumpled = "".join(f"{x},{0.01 * (7 * k * k % 11)}\n" for k, x in enumerate(range(30)))
         for name, text in {"grid.obj": grid(8), "tube.obj": support.tube(8, 12, 6), "arc.csv": ARC, "helix.xyz": HELIX, "crumpled.csv": crumpled,
-                           "above.xyz": "0.3 0.4 0.3\n0.5 0.5 0.2\n"}.items():
+                           "above.xyz": "0.3 0.4 0.3\n0.5 0.5 0.2\n",
+                           "beside.xyz": "0.3 0.4 0\n0.5 0.5 0\n"}.items():
             self.write(name, text)
         for line in ("fair grid.obj", "fair tube.obj", "fair grid.obj --method multigrid", "fair grid.obj --within 0.02", "fair grid.obj --weight 9",
                      "curve arc.csv", "curve helix.xyz", "curve crumpled.csv", "curve arc.csv --method multigrid", "curve arc.csv --within 0.01",
-                     "curve arc.csv --resample 30", "fit grid.obj --points above.xyz --weight 0.1", "fit arc.csv --points above.xyz --weight 0.1 --curve"):
+                     "curve arc.csv --resample 30", "fit grid.obj --points above.xyz --weight 0.1", "fit arc.csv --points beside.xyz --weight 0.1 --curve"):
             words = line.split()
             plain = self.outcome_of(line)
             for option in self.options_of(words[0]):

@@ -213,7 +213,7 @@ std::size_t CurveProgram<K>::add_bound(const CurvePoint& point) {
 template <int K>
 Vector3 CurveProgram<K>::along(const CurvePoint& point) const {
   const Vector3 offset = curve_.at(point.at) - point.place;
-  const Vector3 direction = curve_.direction(point.at);
+  Vector3 direction = curve_.direction(point.at);
   const bool at_corner = (point.at.share == 0 && curve_.node(point.at.edge).corner) ||
                          (point.at.share == 1 && curve_.node(curve_.next(point.at.edge)).corner);
   if (!at_corner || offset.isZero(0)) return direction;

@@ -89,7 +89,7 @@ class Way {
   /// Rows where stations that stay go as far as they do before they come back: no other row could take their place.
   void find_turns() {
     turns_.assign(chain_.size(), 0);
-    if (along_.moves_freely() || chain_.empty()) return;
+    if (along_.moves_freely() || chain_.size() < 2) return;
     std::vector<double> edges;
     Vector3 axis = Vector3::Zero();
     for (std::size_t k = 1; k < chain_.size(); ++k) {
@@ -99,8 +99,8 @@ class Way {
     }
     axis.normalize();
     const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
-    if (!edges.empty()) std::nth_element(edges.begin(), middle, edges.end());
-    const double least = std::max(reach_of_folds * reach_, edges.empty() ? 0 : most_edges_of_fold * *middle);
+    std::nth_element(edges.begin(), middle, edges.end());
+    const double least = std::max(reach_of_folds * reach_, most_edges_of_fold * *middle);
     // How far it has come since the last turn, and back since then.
     std::size_t lowest = 0;
     std::size_t highest = 0;
@@ -571,9 +571,10 @@ void carry_places(const DenseCurve& before, const DenseCurve& curve, std::vector
   const auto lengths_of = [](const DenseCurve& of) {
     std::vector<std::vector<double>> sums;
     for (const auto& chain : of.chains()) {
-      std::vector<double>& sum = sums.emplace_back(chain.count + 1, 0);
+      std::vector<double> sum(chain.count + 1, 0);
       for (std::uint32_t k = 0; k < chain.count; ++k)
         sum[k + 1] = sum[k] + (of.is_edge(chain.begin + k) ? of.edge_length(chain.begin + k) : 0);
+      sums.push_back(std::move(sum));
     }
     return sums;
   };

@@ -121,7 +121,7 @@ DEFAULTS = {
                      "--ignore-point-normals", "--min-radius", "--sharp", "--move")),
 }
 # Where it is another one: a word of the command line, and what is its default then.
-OTHER_DISTRIBUTIONS = {"curve": "even", "--method": "even", "--within": "keep", "--weight": "keep"}
+OTHER_DISTRIBUTIONS = {"--within": "keep", "--weight": "keep", "curve": "even", "--method": "even"}
 
 
 class Defaults(Case):

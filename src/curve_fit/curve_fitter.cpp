@@ -265,6 +265,7 @@ class CurveFitter {
     gives_way_ = false;
     between_.clear();
     if (task_.in_order && task_.keeps_way) between_ = polyline_bounds(found_.curve, found_.points, reach());
+    for (PolylineBound& one : between_) one.bound *= task_.way_share;
   }
 
   /// How far from the polyline places may be: where only points pull, a sharp turn would go out to a wide loop.

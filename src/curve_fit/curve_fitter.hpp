@@ -43,6 +43,7 @@ struct CurveFitTask {
   double within = 0;
   /// What of it is not for the curve, by the number of the point: so much chords go beyond. Empty: nothing.
   std::vector<double> spare;
+  double way_share = 1;  ///< of how far the curve may go from the polyline: the rest is for its chords
   double rms = 0;
   double smoothing = 0;
   /// The paper's k (Eq. 9), for so many edges of even lengths.

@@ -19,13 +19,15 @@ constexpr std::size_t most_rows_at_a_place = 64;
 constexpr double greatest_turn_of_arc = 2;
 // Of an edge between whose ends the curve may be further out; 8°.
 constexpr double most_cosine_of_turn = 0.99;
+constexpr int parts_of_turning = 2;
 
 class PolylineBounds {
  public:
-  PolylineBounds(const DenseCurve& curve, double reach)
+  PolylineBounds(const DenseCurve& curve, double reach, int parts)
       : curve_(curve),
         reach_(reach),
-        nearest_(2 * std::size_t{curve.size()}),
+        parts_(parts),
+        nearest_(static_cast<std::size_t>(parts) * curve.size()),
         least_(nearest_.size(), std::numeric_limits<double>::infinity()),
         in_gap_(curve.size(), 0) {}
 
@@ -62,8 +64,9 @@ class PolylineBounds {
       const std::size_t end = chain.closed ? k + 1 + rows_around : std::min(count - 1, k + 1 + rows_around);
       for_nodes(begin, end, [&](std::uint32_t i) {
         if (in_gap_[i] == 0) return;
-        look_at({i, 0}, 2 * std::size_t{i}, gap);
-        if (turns(i)) look_at({i, 0.5}, 2 * std::size_t{i} + 1, gap);
+        const int parts = parts_ > parts_of_turning || turns(i) ? parts_ : 1;
+        for (int part = 0; part < parts; ++part)
+          look_at({i, static_cast<double>(part) / parts_}, static_cast<std::size_t>(parts_) * i + part, gap);
       });
     }
   }
@@ -100,10 +103,11 @@ class PolylineBounds {
     const Vector3 first = a ? (b - *a).cross(edge) : Vector3::Zero();
     const Vector3 second = d ? edge.cross(*d - c) : Vector3::Zero();
     if (a && d && !(first.dot(second) > 0)) return 0;
-    // From the edge to the circle through its ends and the point before or after.
+    // From the edge to the circle through its ends and the point before or after; a short edge beside may tell of no
+    // more than half a turn.
     const auto angle = [&](const Vector3& beside) {
       const double turn = std::atan2(beside.cross(edge).norm(), beside.dot(edge));
-      return turn * edge.norm() / (edge.norm() + beside.norm());
+      return turn * std::min(0.5, edge.norm() / (edge.norm() + beside.norm()));
     };
     double turn = a || d ? greatest_turn_of_arc / 2 : 0;
     if (a) turn = std::min(turn, angle(b - *a));
@@ -113,6 +117,7 @@ class PolylineBounds {
 
   const DenseCurve& curve_;
   double reach_;
+  int parts_;  ///< of an edge
   std::vector<PolylineBound> nearest_;
   std::vector<double> least_;
   std::vector<std::uint8_t> in_gap_;
@@ -120,8 +125,9 @@ class PolylineBounds {
 
 }  // namespace
 
-std::vector<PolylineBound> polyline_bounds(const DenseCurve& curve, std::span<const CurvePoint> points, double reach) {
-  PolylineBounds bounds(curve, reach);
+std::vector<PolylineBound> polyline_bounds(const DenseCurve& curve, std::span<const CurvePoint> points, double reach,
+                                           int parts) {
+  PolylineBounds bounds(curve, reach, std::max(parts, parts_of_turning));
   std::size_t first = 0;
   for (const auto& chain : curve.chains()) {
     std::size_t end = first;

@@ -22,9 +22,11 @@ struct PolylineBound {
   [[nodiscard]] double distance(const Vector3& place) const { return (place - nearest(place)).norm(); }
 };
 
-/// For nodes, and the middles of edges that turn much, where points are more than half of `reach` apart: they may be
-/// that far from the polyline of the points, and by as much more as an arc rises over an edge that turns the same way
-/// at both ends. points: with their places, those of each chain in its order. Cost: linear.
-std::vector<PolylineBound> polyline_bounds(const DenseCurve& curve, std::span<const CurvePoint> points, double reach);
+/// For nodes, and the middles of edges that turn much, or so many equal parts of all edges, where points are more than
+/// half of `reach` apart: they may be that far from the polyline of the points, and by as much more as an arc rises
+/// over an edge that turns the same way at both ends. points: with their places, those of each chain in its order.
+/// Cost: linear.
+std::vector<PolylineBound> polyline_bounds(const DenseCurve& curve, std::span<const CurvePoint> points, double reach,
+                                           int parts = 0);
 
 }  // namespace vspring

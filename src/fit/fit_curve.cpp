@@ -13,6 +13,7 @@
 #include "base/cancellation.hpp"
 #include "base/progress.hpp"
 #include "base/stopwatch.hpp"
+#include "curve_fit/polyline_bounds.hpp"
 #include "fit/curve_fit_input.hpp"
 #include "fit/curve_nodes.hpp"
 #include "fit/fit_points.hpp"
@@ -37,6 +38,10 @@ constexpr double share_of_nearer = 0.997;
 constexpr int most_turns_nearer = 5;
 constexpr int most_turns_of_chords = 4;
 constexpr int most_turns_of_pulling = 8;
+// Of the tolerance, on long edges.
+constexpr double places_apart = 0.5;
+constexpr int parts_of_edge = 8;
+constexpr double most_places_on_edge = 32;
 // Of how far places may be from the polyline.
 constexpr double next_to_nothing_beyond = 1.001;
 // Of the length of the curve: rows that were left out lie no further from the one before.
@@ -81,9 +86,10 @@ class CurveFit {
 
   /// The nodes that are wanted on a curve.
   struct Measured {
-    Resampled nodes;  ///< with the file's own chains, or new ones
-    double figure = 0;
-    double way_off = 0;  ///< from the polyline of the points
+    Resampled nodes;        ///< with the file's own chains, or new ones
+    double figure = 0;      ///< what is to be within the tolerance
+    double way_off = 0;     ///< from the polyline of the points
+    double way_beyond = 0;  ///< the greatest share that a node is away from it of what that may be; 0: all is within
     double radius_kept = 1;
     CurveFigures figures = {};
   };
@@ -517,6 +523,8 @@ class CurveFit {
       task.rms *= share_of_nearer * *tolerance / attempt.figure;
       return attempt.figure <= most_cut_off * *tolerance;
     }
+    if (attempt.way_beyond > most_cut_off) return false;
+    if (attempt.way_beyond > 1) task.way_share *= share_of_nearer / attempt.way_beyond;
     const std::vector<double> distances = movable_distances(attempt.nodes);
     task.spare.resize(distances.size(), 0);
     for (std::size_t j = 0; j < distances.size(); ++j) {
@@ -532,6 +540,10 @@ class CurveFit {
     const PolygonCurve& shape = found.nodes.curve;
     found.figure = figure(movable_distances(found.nodes));
     found.way_off = way_off(shape).greatest;
+    if (const auto within = input_.options().within(); within && found.way_off > *within) {
+      found.way_beyond = way_beyond(found.nodes);
+      found.figure = std::max(found.figure, found.way_beyond * *within);
+    }
     found.radius_kept = radius_kept(sharpest(shape, found.nodes));
     found.figures = measure_curve(cut_at_corners(shape, corners(found.nodes)), &found.nodes.constraints);
     return found;
@@ -553,15 +565,13 @@ class CurveFit {
     return true;
   }
 
-  /// How far the curve's nodes and the middles of its edges are from the polyline of the points, which are its own
-  /// nodes; without a count where they are not.
+  /// How far places of the curve are from the polyline of the points, which are its own nodes; without a count where
+  /// they are not.
   [[nodiscard]] Distance way_off(const PolygonCurve& moved) const {
     if (!input_.own_nodes()) return {};
-    std::vector<PolygonCurve::Chain> chains = input_.curve().chains();
-    for (auto& chain : chains) {
-      std::erase_if(chain.nodes, [&](Index i) { return input_.kept()[static_cast<std::size_t>(i)] == 0; });
-      if (chain.nodes.size() < 2) return {};
-    }
+    const auto within = input_.options().within();
+    const std::optional<PolygonCurve> way = this->way();
+    if (!way) return {};
     std::vector<Vector3> places;
     for (const auto& chain : moved.chains()) {
       const std::size_t count = chain.nodes.size();
@@ -569,10 +579,48 @@ class CurveFit {
         const Vector3& here = moved.position(chain.nodes[k]);
         const Vector3& next = moved.position(chain.nodes[(k + 1) % count]);
         places.push_back(here);
-        if (k + 1 < count || chain.closed) places.emplace_back(here + (next - here) / 2);
+        if (k + 1 == count && !chain.closed) continue;
+        const double apart = within ? (next - here).norm() / (places_apart * *within) : 0;
+        const int parts = static_cast<int>(std::clamp(apart, 2.0, most_places_on_edge));
+        for (int part = 1; part < parts; ++part) places.emplace_back(here + (next - here) * part / parts);
       }
     }
-    return distance(places, PolygonCurve(input_.curve().positions(), std::move(chains)), measuring_);
+    return distance(places, *way, measuring_);
+  }
+
+  /// The polyline of the points, less what was left out.
+  [[nodiscard]] std::optional<PolygonCurve> way() const {
+    std::vector<PolygonCurve::Chain> chains = input_.curve().chains();
+    for (auto& chain : chains) {
+      std::erase_if(chain.nodes, [&](Index i) { return input_.kept()[static_cast<std::size_t>(i)] == 0; });
+      if (chain.nodes.size() < 2) return std::nullopt;
+    }
+    return PolygonCurve(input_.curve().positions(), std::move(chains));
+  }
+
+  /// Of places that are further from the polyline than the tolerance, the greatest share of what they may be.
+  [[nodiscard]] double way_beyond(const Resampled& nodes) const {
+    const DenseCurve chords = this->chords(nodes.curve, nodes);
+    std::vector<CurvePoint> points = found_.points;
+    carry_places(found_.curve, chords, points);
+    std::vector<Vector3> places;
+    std::vector<double> beyond;
+    for (const PolylineBound& one :
+         polyline_bounds(chords, points, *input_.options().within() * input_.scale(), parts_of_edge)) {
+      const double share = one.distance(chords.at(one.at)) / one.bound;
+      if (!(share > 1)) continue;
+      places.push_back(input_.to_input(chords.at(one.at)));
+      beyond.push_back(share);
+    }
+    // Another piece of the way may be nearer.
+    const std::optional<PolygonCurve> way = this->way();
+    if (!way || places.empty()) return 0;
+    const std::vector<double> distances = point_distances(places, *way, measuring_);
+    double greatest = 0;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      if (distances[k] > *input_.options().within()) greatest = std::max(greatest, beyond[k]);
+    }
+    return greatest;
   }
 
   /// The greatest way of a node along the curve.

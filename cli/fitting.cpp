@@ -46,9 +46,17 @@ FairingMethod method_of(const FairingArguments& arguments) {
   }
   EquilibriumMethod method = {
       .tolerance = arguments.tolerance, .max_iterations = arguments.max_iterations, .fallbacks = std::nullopt};
-  // Whoever names it wants no other shape.
-  if (!arguments.method) method.fallbacks = Fallbacks{.step_tolerance = step_tolerance};
+  // The paper's equations are for comparison.
+  if (!arguments.paper) method.fallbacks = Fallbacks{.step_tolerance = step_tolerance};
   return method;
+}
+
+/// Where nodes go along the shape unless the command says otherwise.
+Distribution default_distribution(const FairingArguments& arguments, bool is_curve, bool own_nodes_pull) {
+  if (arguments.paper) return Distribution::even;
+  if (own_nodes_pull) return Distribution::keep;
+  const bool papers_own = arguments.method.value_or(Method::equilibrium) != Method::equilibrium;
+  return is_curve || papers_own ? Distribution::even : Distribution::smooth;
 }
 
 }  // namespace
@@ -63,23 +71,21 @@ bool asks_to_fit(const PullArguments& arguments) {
   return given == 1;
 }
 
-void settle_options(FairingArguments& arguments, bool own_nodes_pull) {
+void settle_options(FairingArguments& arguments, bool is_curve, bool own_nodes_pull) {
   FairOptions& options = arguments.options;
   options.method = method_of(arguments);
   if (arguments.fair_boundary)
     options.fair_boundary =
         EquilibriumMethod{.tolerance = arguments.tolerance, .max_iterations = arguments.max_iterations};
-  options.as_found = arguments.paper || arguments.method || arguments.distribution;
-  options.distribution = arguments.distribution;
-  if (arguments.paper) {
-    options.pseudo_normals = PseudoNormals::average;
-    options.springs = Springs::edge;
-    options.forces = Forces::printed;
-    options.curve = CurveRules::paper();
-    if (!options.distribution) options.distribution = Distribution::even;
-  } else if (!options.distribution && own_nodes_pull) {
-    options.distribution = Distribution::keep;
-  }
+  const Distribution usual = default_distribution(arguments, is_curve, own_nodes_pull);
+  const bool is_other = arguments.distribution.value_or(usual) != usual;
+  options.as_found = arguments.paper || is_other || options.method_kind() != Method::equilibrium;
+  if (is_other || arguments.paper || own_nodes_pull) options.distribution = arguments.distribution.value_or(usual);
+  if (!arguments.paper) return;
+  options.pseudo_normals = PseudoNormals::average;
+  options.springs = Springs::edge;
+  options.forces = Forces::printed;
+  options.curve = CurveRules::paper();
 }
 
 void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise) {

@@ -41,8 +41,9 @@ void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context
 [[nodiscard]] bool asks_to_fit(const PullArguments& arguments);
 
 /// The method with its own options, what --paper stands for, and how nodes are distributed: those that are the points
-/// stay about where they are, unless the command says otherwise. What it asks for by name is written as found.
-void settle_options(FairingArguments& arguments, bool own_nodes_pull);
+/// stay about where they are, unless the command says otherwise. What it asks for besides the defaults is written as
+/// found.
+void settle_options(FairingArguments& arguments, bool is_curve, bool own_nodes_pull);
 
 [[nodiscard]] FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing);
 

@@ -63,7 +63,7 @@ std::string note_of_order(std::optional<Index> reordered, const PolygonCurve& cu
 }
 
 int run_curve(CurveArguments arguments) {
-  settle_options(arguments, asks_to_fit(arguments.pull));
+  settle_options(arguments, true, asks_to_fit(arguments.pull));
   check_outputs(arguments);
   refuse_views(arguments, true);
   Fairing fairing(arguments);

@@ -42,7 +42,7 @@ std::string note_of_lost_features(const FairArguments& arguments, const PolygonM
 }
 
 int run_fair(FairArguments arguments) {
-  settle_options(arguments, asks_to_fit(arguments.pull));
+  settle_options(arguments, false, asks_to_fit(arguments.pull));
   check_outputs(arguments);
   refuse_views(arguments, false);
   Fairing fairing(arguments);

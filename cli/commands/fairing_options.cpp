@@ -119,7 +119,9 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments, const 
       ->group(fairing_group);
   command
       .add_option("--max-iterations", arguments.max_iterations,
-                  "Stop after this many iterations (default: on each level 200 for equilibrium, 10000 for the others)")
+                  "Stop after this many iterations, on each level (default: none for equilibrium, which ends by "
+                  "itself; 10000 for the "
+                  "others)")
       ->type_name("N")
       ->check(whole_number(0))
       ->group(fairing_group);

@@ -149,12 +149,13 @@ int run_fit(FitArguments arguments) {
   const double weight = arguments.pull.weight.value_or(0);
   if (!arguments.step_tolerance && weight > 0)
     arguments.step_tolerance = std::min(SweepMethod().step_tolerance, weight / 10);
-  settle_options(arguments, false);
   check_outputs(arguments, {{"--points", arguments.points}});
   check_options(arguments);
   Fairing fairing(arguments);
+  auto shape = read_shape(arguments.input, arguments.format, arguments.curve, arguments.columns);
+  settle_options(arguments, std::holds_alternative<CurveFile>(shape), false);
   return std::visit([&](auto&& file) { return fit_file(arguments, std::forward<decltype(file)>(file), fairing); },
-                    read_shape(arguments.input, arguments.format, arguments.curve, arguments.columns));
+                    std::move(shape));
 }
 
 void add_fit_options(CLI::App& command, FitArguments& arguments) {

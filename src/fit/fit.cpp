@@ -275,8 +275,11 @@ class Fitting {
     sweep(std::move(points), method, progress);
     report.work += work;
     report.most_work = limit;
+    const bool is_still = report.outcome == Outcome::converged;
+    // Sweeps that are still tell nothing of how far they have to go.
+    if (is_still) report.outcome = Outcome::stalled;
     if (report.outcome == Outcome::iteration_limit) report.outcome = Outcome::work_limit;
-    if (!nearest || report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
+    if (!nearest || is_still || report.outcome == Outcome::cancelled) return;
     // Nodes that stay about where they are do not crumple the shape.
     nearest->report.fair.warnings.push_back(
         {WarningCode::no_equilibrium,

@@ -351,9 +351,12 @@ void SurfaceFairing::try_sweeps(const Constraints& constraints, double step_tole
   if (better) nearest.positions = net.positions;
   if (report.outcome == Outcome::worse_than_input) {
     if (!better) return;
-    // In place of what was said of that.
     report.outcome = Outcome::stalled;
-    report.warnings.back() = {
+    // In place of what was said of that.
+    const auto said = std::find_if(report.warnings.begin(), report.warnings.end(), [](const Warning& warning) {
+      return warning.code == WarningCode::worse_than_input;
+    });
+    *said = {
         WarningCode::no_equilibrium,
         fmt::format(
             "no equilibrium was found that is no worse than the input: this is the plain iteration's shape, which is "

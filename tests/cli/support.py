@@ -115,6 +115,20 @@ def sphere(cells, radius=2.0, noise=0.0):
     return "".join(f"v {x!r} {y!r} {z!r}\n" for _, (x, y, z) in nodes.values()) + "".join(f"f {a} {b} {c}\n" for a, b, c in faces)
 
 
+def tube(rings, sides, length):
+    """A tube of radius 1 along z, of quads, with a rough wall, as OBJ: too long for mean curvature that changes evenly."""
+    lines = []
+    for ring in range(rings + 1):
+        for k in range(sides):
+            angle = 2 * math.pi * k / sides
+            radius = 1 + (0.02 * math.sin(7 * ring + 3 * k) if 0 < ring < rings else 0)
+            lines.append(f"v {radius * math.cos(angle)!r} {radius * math.sin(angle)!r} {length * ring / rings!r}")
+    at = lambda ring, k: 1 + ring * sides + k % sides
+    for ring in range(rings):
+        lines += [f"f {at(ring, k)} {at(ring, k + 1)} {at(ring + 1, k + 1)} {at(ring + 1, k)}" for k in range(sides)]
+    return "\n".join(lines) + "\n"
+
+
 def vertex_lines(text):
     return [line for line in text.splitlines() if line.startswith("v ")]
 

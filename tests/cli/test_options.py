@@ -108,6 +108,57 @@ class Idle(Case):
                          [("--fix", "--fair-boundary takes its place")])
 
 
+# What the default of an option is in its own words; None where no word stands for it: it depends on the file, or is off.
+DEFAULTS = {
+    "--fix": "boundary", "--fix-normals": "none", "--method": "equilibrium", "--tolerance": "1e-5", "--step-tolerance": "0.001",
+    "--pre-smoothing": "5", "--springs": "sphere", "--fair-by": "curvature", "--pseudo-normals": "link", "--normal-plane": "full",
+    "--distribution": "smooth", "--strength": "1", "--outliers": "0", "--resample-by": "length", "--color": "auto",
+    "--picture-size": "1600", "--picture-style": "shaded,zebra", "--view": "1,-2,1.5,0,0,1",
+    **dict.fromkeys(("--region", "--weld", "--levels", "--max-iterations", "--threads", "--time-limit", "--format", "--columns",
+                     "--point-columns", "--closed", "--order", "--resample", "--spacing", "--curve", "--paper", "--quiet", "--fair-boundary",
+                     "--ignore-point-normals")),
+}
+# Where it is another one: a word of the command line, and what is its default then.
+OTHER_DISTRIBUTIONS = {"curve": "even", "--method": "even", "--within": "keep", "--weight": "keep"}
+
+
+class Defaults(Case):
+    """Whoever says a default gets what comes without."""
+
+    def options_of(self, command):
+        """Those whose help tells a default."""
+        entries = re.split(r"\n  (?=-)", run(command, "--help").stdout.decode())
+        return [re.search(r"--[\w-]+", entry)[0] for entry in entries if "(default: " in entry]
+
+    def outcome_of(self, line, *words):
+        given = [str(self.folder / word) if re.search(r"\w\.[a-z]{3}$", word) else word for word in line.split()]
+        out = self.folder / ("out" + pathlib.Path(given[1]).suffix)
+        done = run(*given, *words, "--quiet", "-o", out, "--report", self.folder / "report.json")
+        self.assertIn(done.returncode, (0, 3), (line, words, done.stderr.decode()))
+        report = self.read_json("report.json")
+        return done.returncode, report["outcome"], report["iterations"], out.read_bytes()
+
+    def test_to_say_a_default_changes_nothing(self):
+        crumpled = "".join(f"{x},{0.01 * (7 * k * k % 11)}\n" for k, x in enumerate(range(30)))
+        for name, text in {"grid.obj": grid(8), "tube.obj": support.tube(8, 12, 6), "arc.csv": ARC, "helix.xyz": HELIX, "crumpled.csv": crumpled,
+                           "above.xyz": "0.3 0.4 0.3\n0.5 0.5 0.2\n"}.items():
+            self.write(name, text)
+        for line in ("fair grid.obj", "fair tube.obj", "fair grid.obj --method multigrid", "fair grid.obj --within 0.02", "fair grid.obj --weight 9",
+                     "curve arc.csv", "curve helix.xyz", "curve crumpled.csv", "curve arc.csv --method multigrid", "curve arc.csv --within 0.01",
+                     "curve arc.csv --resample 30", "fit grid.obj --points above.xyz --weight 0.1", "fit arc.csv --points above.xyz --weight 0.1 --curve"):
+            words = line.split()
+            plain = self.outcome_of(line)
+            for option in self.options_of(words[0]):
+                said = DEFAULTS[option]
+                if option == "--distribution":
+                    said = next((other for word, other in OTHER_DISTRIBUTIONS.items() if word in words and words[0] != "fit"), said)
+                    said = "even" if words[1].endswith(".csv") and said == "smooth" else said
+                if said is None or option in words or option == "--outliers" and not {"--within", "--weight"} & set(words):
+                    continue
+                with self.subTest(f"{line} {option} {said}"):
+                    self.assertEqual(self.outcome_of(line, option, said), plain)
+
+
 class Outcomes(Case):
     def test_each_level_tells_its_own(self):
         path = self.write("in.obj", grid(20))

@@ -1,0 +1,62 @@
+// Where no shape is found whose curvature changes evenly: one of least bending is, or one that is bent less than it
+// came.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "support/surfaces.hpp"
+#include "vspring/vspring.hpp"
+
+namespace vspring::fair_less_bending_test {
+namespace {
+
+using namespace support;
+using generate::Faces;
+
+double bending(const PolygonMesh& mesh, const std::vector<Vector3>& positions) {
+  return measure_surface(with_positions(mesh, positions)).bending_energy;
+}
+
+bool has(const FairReport& report, WarningCode code) {
+  for (const Warning& warning : report.warnings) {
+    if (warning.code == code) return true;
+  }
+  return false;
+}
+
+TEST(FairLessBending, ATubeWithoutAnEquilibriumBecomesOneOfLeastBending) {
+  for (const Faces faces : {Faces::triangles, Faces::quads}) {
+    const PolygonMesh tube =
+        generate::add_noise(generate::tube({.columns = 12, .rows = 16, .faces = faces}, 1, 6), 0.05, 3);
+    const FairResult result = fair(tube, held_boundary(tube));
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_EQ(result.report.fair_by, FairBy::bending);
+    EXPECT_TRUE(has(result.report, WarningCode::other_fairness));
+    EXPECT_FALSE(has(result.report, WarningCode::no_equilibrium));
+    EXPECT_LT(bending(tube, result.positions), 0.8 * bending(tube, tube.positions()));
+    // Whoever wants nothing else gets what there is.
+    FairOptions alone;
+    alone.method = EquilibriumMethod{.fallbacks = std::nullopt};
+    EXPECT_NE(fair(tube, held_boundary(tube), alone).report.outcome, Outcome::converged);
+  }
+}
+
+TEST(FairLessBending, WhateverComesOutIsBentLessThanItCame) {
+  for (const Faces faces : every_kind) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      // Long cells with noise of half their width; normals of such a rim ask for a crumpled surface.
+      const PolygonMesh tube =
+          generate::add_noise(generate::tube({.columns = 8, .rows = 16, .faces = faces}, 1, 1.5), 0.05, seed, true);
+      const FairResult result = fair(tube, clamped_boundary(tube));
+      EXPECT_LT(bending(tube, result.positions), bending(tube, tube.positions()));
+      EXPECT_NE(result.report.outcome, Outcome::worse_than_input);
+      EXPECT_EQ(result.report.outcome == Outcome::converged, !has(result.report, WarningCode::no_equilibrium));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace vspring::fair_less_bending_test

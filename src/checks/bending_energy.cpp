@@ -145,6 +145,18 @@ Eigen::SparseMatrix<double> BendingEnergy::second_derivative(const std::vector<V
   return result;
 }
 
+double BendingEnergy::weight(const std::vector<Vector3>& positions, std::size_t i) const {
+  double squares = 0;
+  double spokes = 0;
+  for (const Link link : net_->rings.links(i)) {
+    if (!link.spoke()) continue;
+    squares += (positions[link.node()] - positions[i]).squaredNorm();
+    spokes += 1;
+  }
+  const double mean = spokes > 0 ? squares / spokes : 0;
+  return 16 * surrounding(*net_, positions, i).share / std::max(mean * mean, net_->tiny * net_->tiny);
+}
+
 double BendingEnergy::around(const std::vector<Vector3>& positions, std::size_t i) const {
   const auto plane = plane_at(positions, i);
   return plane ? bending_over(*plane, *net_, positions, i, share_of_what_is_left) : 0;

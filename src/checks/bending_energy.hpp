@@ -60,6 +60,10 @@ class BendingEnergy {
   /// linear.
   [[nodiscard]] Eigen::SparseMatrix<double> second_derivative(const std::vector<Vector3>& positions) const;
 
+  /// What a node's displacement by springs times bending_factor() is to be multiplied by to be about half of how the
+  /// energy grows: 16 M/ρ⁴, M its share of the faces and ρ² its mean squared edge.
+  [[nodiscard]] double weight(const std::vector<Vector3>& positions, std::size_t i) const;
+
  private:
   /// None where it bends nothing.
   [[nodiscard]] std::optional<HeightPlane> plane_at(const std::vector<Vector3>& positions, std::size_t i) const;

@@ -13,6 +13,8 @@
 #include "checks/result_check.hpp"
 #include "equilibrium/edge_turns.hpp"
 #include "linear/cholesky_solver.hpp"
+#include "spring/bending_factor.hpp"
+#include "spring/point_force.hpp"
 #include "spring/spacing.hpp"
 
 namespace vspring {
@@ -41,6 +43,7 @@ constexpr double near_enough_to_best = 0.2;
 constexpr std::size_t steps_of_rate = 5;
 constexpr double least_rate = 0.5;
 constexpr double most_rate = 0.95;
+constexpr int steps_per_tie = 5;
 
 class BendingDescent {
  public:
@@ -89,6 +92,7 @@ class BendingDescent {
         return;
       }
       end_if_cancelled();
+      if (task.renew_ties && result.iterations % steps_per_tie == 0) (void)task.renew_ties(0);
       if (!find_way(damping, result)) {
         result.outcome = Outcome::stalled;
         return;
@@ -101,7 +105,7 @@ class BendingDescent {
         const double rate =
             is_known ? std::pow(size / sizes.front(), 1 / static_cast<double>(steps_of_rate)) : most_rate;
         result.expected_error = size / (1 - std::clamp(rate, least_rate, most_rate));
-        if (result.expected_error < task.tolerance) {
+        if (result.expected_error < task.tolerance && !(task.renew_ties && task.renew_ties(0))) {
           ++result.iterations;
           result.outcome = sound_ == best_ ? Outcome::converged : Outcome::stalled;
           return;
@@ -129,6 +133,12 @@ class BendingDescent {
     along_.swap(along_before_);
     slopes_ = bending_.slopes(net_.positions, team_);
     Eigen::SparseMatrix<double> matrix = bending_.second_derivative(net_.positions);
+    look_at_points();
+    for (std::size_t i = 0; i < pulls_.size(); ++i) {
+      slopes_[i] -= pulls_[i].force;
+      const auto at = static_cast<Eigen::Index>(i);
+      matrix.coeffRef(at, at) += pulls_[i].stiffness;
+    }
     const double least = least_on_diagonal * matrix.diagonal().maxCoeff();
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
       double& diagonal = matrix.coeffRef(i, i);
@@ -142,6 +152,32 @@ class BendingDescent {
     across_.resize(net_.moving);
     for (std::size_t i = 0; i < net_.moving; ++i) across_[i] = along_[i] * net_.normals[i];
     return std::isfinite(length_of(across_));
+  }
+
+  /// What points ask of each node along its normal from where it is now, in the units of the energy.
+  void look_at_points() {
+    energy_ = bending_.of(best_, team_);
+    if (net_.points.empty()) return;
+    const double kappa = bending_factor(net_);
+    pulls_.resize(net_.moving);
+    from_ = best_;
+    for (std::size_t i = 0; i < net_.moving; ++i) {
+      const Vector3& normal = net_.normals[i];
+      const PointForce points =
+          point_force(net_, i, mean_edge(net_, i), [&](const Vector3& d) { return Vector3(d.dot(normal) * normal); });
+      const double scale = 2 / kappa * bending_.weight(best_, i);
+      pulls_[i] = {scale * points.displacement.dot(normal), scale * points.stiffness};
+    }
+  }
+
+  /// Of the shape of the net.
+  double energy_now() {
+    double energy = bending_.of(net_.positions, team_);
+    for (std::size_t i = 0; i < pulls_.size(); ++i) {
+      const double way = (net_.positions[i] - from_[i]).dot(net_.normals[i]);
+      energy += way * (pulls_[i].stiffness * way / 2 - pulls_[i].force);
+    }
+    return energy;
   }
 
   /// Across the surface: conjugate to the step before (Polak and Ribière), as far as the energy falls most.
@@ -196,7 +232,7 @@ class BendingDescent {
   /// at first, that is the best so far that is no worse than the start.
   bool take(const std::vector<Vector3>& step, double share, double most) {
     for (std::size_t i = 0; i < net_.moving; ++i) net_.positions[i] = best_[i] + share * step[i];
-    looked_at_ = bending_.of(net_.positions, team_);
+    looked_at_ = energy_now();
     if (!(looked_at_ <= most)) {
       net_.positions = best_;
       return false;
@@ -222,6 +258,13 @@ class BendingDescent {
   double energy_ = 0;            ///< of the best shape
   double looked_at_ = 0;         ///< of the last one
   std::size_t most_turned_ = 0;  ///< edges
+  /// By points.
+  struct Pull {
+    double force;
+    double stiffness;
+  };
+  std::vector<Pull> pulls_;
+  std::vector<Vector3> from_;  ///< where nodes were pulled so
   std::vector<double> slopes_;
   std::vector<double> slopes_before_;
   std::vector<double> along_;  ///< the normals

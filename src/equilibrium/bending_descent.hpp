@@ -6,11 +6,13 @@
 
 namespace vspring {
 
-/// Takes a surface with sphere springs towards least bending: by implicit steps along the flow of its springs, each
-/// taken only where the bending energy falls and no further edges turn by more than 90°; longer after one that was
-/// taken, shorter after one that was not. So it leads from any shape to one that is bent less, whether there is an
-/// equilibrium or not. Ends where a full step is shorter than the task's tolerance, or none is taken any more. Nodes
-/// spread along the surface on the way. Cost of a step: that of an iteration with a form built anew.
+/// Takes a surface to where it is bent least, from any shape, whether its springs have an equilibrium or not: by steps
+/// across it that are taken only where the BendingEnergy falls, with what points pull by, if there are any: as much as
+/// against springs that do not see the mesh. The form of quadratics says where to (Gauss and Newton), conjugate to the
+/// step before, and a line search how far. Begins without the noise in the spacing, where that is bent less. Leaves the
+/// last shape of which no more edges turn by over 90° than of the first. converged: no node is expected to go further
+/// than the task's tolerance. net: with all rings, as for sphere springs. Cost of a step: that of a sparse factor, and
+/// about six iterations of the equilibrium solver.
 EquilibriumResult descend_bending(Net& net, const Model& model, const EquilibriumTask& task, ThreadTeam& team,
                                   Context& context);
 

@@ -39,7 +39,7 @@ TEST(FairLessBending, ATubeWithoutAnEquilibriumBecomesOneOfLeastBending) {
     EXPECT_LT(bending(tube, result.positions), 0.8 * bending(tube, tube.positions()));
     // Whoever wants nothing else gets what there is.
     FairOptions alone;
-    alone.method = EquilibriumMethod{.fallbacks = std::nullopt};
+    alone.method = EquilibriumMethod{.fallbacks = false};
     EXPECT_NE(fair(tube, held_boundary(tube), alone).report.outcome, Outcome::converged);
   }
 }

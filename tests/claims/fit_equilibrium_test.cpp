@@ -350,7 +350,7 @@ TEST(FitEquilibrium, WhereThereIsNoneForACurveItIsDrawnWithNodesOfItsOwn) {
   EXPECT_LT(after.vspring_energy, 0.2 * before.vspring_energy);
   // Who names the method and no fallbacks gets what it found.
   FitOptions alone{.criterion = Weight{1}};
-  alone.fair.method = EquilibriumMethod{.fallbacks = std::nullopt};
+  alone.fair.method = EquilibriumMethod{.fallbacks = false};
   EXPECT_NE(crumpled.fit(alone).report.fair.outcome, Outcome::converged);
 }
 

@@ -31,8 +31,8 @@ bool hold_the_same(const Constraints& a, const Constraints& b) {
   return true;
 }
 
-// On the shape itself, from one that is bent less than the start: fewer are no use, more lead nowhere.
-constexpr int iterations_from_near = 200;
+// On the shape itself: what leads somewhere takes up to some 90 steps that bend it less, and springs fewer from there.
+constexpr int iterations_from_near = 100;
 
 // On each level, while somebody drags: what leads nowhere is for later.
 constexpr int iterations_in_a_hurry = 40;
@@ -101,7 +101,8 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
   }
   if (went_on && outcome == Outcome::cancelled)
     hierarchy_->go_back();
-  else if (went_on || (outcome == Outcome::converged && result.report.method == Method::equilibrium))
+  else if (went_on || (outcome == Outcome::converged && result.report.method == Method::equilibrium &&
+                       result.report.fair_by == options_.fair_by))
     last_ = constraints;
   result.report.seconds = stopwatch.seconds();
   return result;
@@ -187,9 +188,15 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const Eq
   if (go_on()) {
     take_sphere_springs(constraints, options);
     Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
+    // As much again.
+    call.report.most_work += call.report.work;
     Attempt bent_less = bend_less(relaxation, constraints, call);
-    if (is_by_spheres && is_by_curvature && bent_less.outcome != Outcome::cancelled)
-      attempts.push_back(go_on_by_curvature(relaxation, constraints, call));
+    const bool was_cancelled = bent_less.outcome == Outcome::cancelled;
+    if (is_by_spheres && !was_cancelled) attempts.push_back(go_on_by_springs(relaxation, constraints, call));
+    if (go_on() && !was_cancelled && !bent_less.stands()) {
+      hierarchy_->start_from_membrane(relaxation.last());
+      attempts.push_back(bend_less(relaxation, constraints, call));
+    }
     if (go_on()) attempts.push_back(std::move(bent_less));
   }
   Net& net = hierarchy_->finest();
@@ -206,6 +213,8 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
   result.springs = net.spheres.on() ? Springs::sphere : Springs::edge;
   result.fair_by = net.spheres.differences.empty() ? FairBy::curvature : FairBy::bending;
   result.outcome = call.report.outcome;
+  // A limit that nobody gave.
+  if (result.outcome == Outcome::iteration_limit && !call.method.max_iterations) result.outcome = Outcome::work_limit;
   result.expected_error = call.report.expected_error.value_or(1);
   result.places.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
   const bool was_cancelled = result.outcome == Outcome::cancelled;
@@ -260,9 +269,9 @@ Attempt SurfaceFairing::bend_less(Relaxation& relaxation, const Constraints& con
   return attempt(constraints, call);
 }
 
-Attempt SurfaceFairing::go_on_by_curvature(Relaxation& relaxation, const Constraints& constraints,
-                                           const EquilibriumCall& call) {
-  hierarchy_->finest().spheres.differences.clear();
+Attempt SurfaceFairing::go_on_by_springs(Relaxation& relaxation, const Constraints& constraints,
+                                         const EquilibriumCall& call) {
+  if (call.options.fair_by == FairBy::curvature) hierarchy_->finest().spheres.differences.clear();
   relaxation.set_strategy("from less bending");
   relaxation.relax(relaxation.last(), iterations_from_near);
   return attempt(constraints, call);

@@ -54,10 +54,10 @@ class SurfaceFairing {
   void run_to_equilibrium(const Constraints& constraints, const EquilibriumCall& call);
   /// With sphere springs, where they are wanted and suit, else with edge springs.
   Attempt go_from_coarse_levels(Springs springs, const Constraints& constraints, const EquilibriumCall& call);
-  /// From the start, by steps that bend it less.
+  /// From the shape of hierarchy_, by steps that bend it less.
   Attempt bend_less(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
   /// From there to an equilibrium.
-  Attempt go_on_by_curvature(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
+  Attempt go_on_by_springs(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
   /// The shape that was reached, looked at.
   Attempt attempt(const Constraints& constraints, const EquilibriumCall& call);
   void make_levels(Net net, const Constraints& constraints, const FairOptions& options);

@@ -119,7 +119,7 @@ DEFAULTS = {
                      "--ignore-point-normals")),
 }
 # Where it is another one: a word of the command line, and what is its default then.
-OTHER_DISTRIBUTIONS = {"curve": "even", "--method": "even", "--within": "keep", "--weight": "keep"}
+OTHER_DISTRIBUTIONS = {"--within": "keep", "--weight": "keep", "curve": "even", "--method": "even"}
 
 
 class Defaults(Case):
@@ -145,7 +145,7 @@ class Defaults(Case):
             self.write(name, text)
         for line in ("fair grid.obj", "fair tube.obj", "fair grid.obj --method multigrid", "fair grid.obj --within 0.02", "fair grid.obj --weight 9",
                      "curve arc.csv", "curve helix.xyz", "curve crumpled.csv", "curve arc.csv --method multigrid", "curve arc.csv --within 0.01",
-                     "curve arc.csv --resample 30", "fit grid.obj --points above.xyz --weight 0.1", "fit arc.csv --points above.xyz --weight 0.1 --curve"):
+                     "curve arc.csv --resample 30", "fit grid.obj --points above.xyz --weight 0.1", "fit arc.csv --points arc.csv --weight 0.1 --curve"):
             words = line.split()
             plain = self.outcome_of(line)
             for option in self.options_of(words[0]):

@@ -62,6 +62,11 @@ class BendingDescent {
     } catch (const Cancelled&) {
       result.outcome = Outcome::cancelled;
     }
+    // Where folds were fewer at first at the cost of bending, and the way ended too soon.
+    if (net_.points.empty() && !input_.empty() && bending_.of(sound_, team_) > energy_of_input_) {
+      sound_ = input_;
+      if (result.outcome == Outcome::converged) result.outcome = Outcome::stalled;
+    }
     net_.positions = sound_;
     return result;
   }
@@ -70,7 +75,8 @@ class BendingDescent {
   /// Without its noise, where that leaves fewer folds, or as many and less bending.
   void start() {
     best_ = net_.positions;
-    energy_ = bending_.of(best_, team_);
+    energy_of_input_ = energy_ = bending_.of(best_, team_);
+    input_ = best_;
     most_turned_ = turned_edges(net_, team_);
     net_.positions = rest_positions(net_, team_);
     const double energy = bending_.of(net_.positions, team_);
@@ -254,7 +260,9 @@ class BendingDescent {
   BendingEnergy bending_;
   CholeskySolver solver_;
   std::vector<Vector3> best_;
-  std::vector<Vector3> sound_;   ///< the best where no more edges turn than at first
+  std::vector<Vector3> sound_;  ///< the best where no more edges turn than at first
+  std::vector<Vector3> input_;
+  double energy_of_input_ = 0;
   double energy_ = 0;            ///< of the best shape
   double looked_at_ = 0;         ///< of the last one
   std::size_t most_turned_ = 0;  ///< edges

@@ -16,6 +16,7 @@
 #include "solve/papers_method.hpp"
 #include "solve/part_of_mesh.hpp"
 #include "solve/sphere_suited.hpp"
+#include "spring/spacing.hpp"
 
 namespace vspring {
 
@@ -190,20 +191,27 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const Eq
     Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
     // As much again.
     call.report.most_work += call.report.work;
+    if (is_by_spheres) attempts.push_back(go_from_smooth_input(relaxation, constraints, call));
+    if (!go_on()) return take_best(attempts, constraints, call);
     Attempt bent_less = bend_less(relaxation, constraints, call);
     const bool was_cancelled = bent_less.outcome == Outcome::cancelled;
-    if (is_by_spheres && !was_cancelled) attempts.push_back(go_on_by_springs(relaxation, constraints, call));
+    if (go_on() && is_by_spheres && !was_cancelled)
+      attempts.push_back(go_on_by_springs("from less bending", relaxation, constraints, call));
     if (go_on() && !was_cancelled && !bent_less.stands()) {
       hierarchy_->start_from_membrane(relaxation.last());
       attempts.push_back(bend_less(relaxation, constraints, call));
     }
     if (go_on()) attempts.push_back(std::move(bent_less));
   }
+  take_best(attempts, constraints, call);
+}
+
+void SurfaceFairing::take_best(const std::vector<Attempt>& attempts, const Constraints& constraints,
+                               const EquilibriumCall& call) {
   Net& net = hierarchy_->finest();
-  std::vector<Vector3> places = start_places(net, whole_->positions(), constraints);
-  std::swap(net.positions, places);
+  net.positions = start_places(net, whole_->positions(), constraints);
   const bool start_is_sound = check_->fault_of_places(net).empty();
-  if (const Attempt* const best = pick(attempts, start_is_sound, options, call.report))
+  if (const Attempt* const best = pick(attempts, start_is_sound, call.options, call.report))
     std::copy(best->places.begin(), best->places.end(), net.positions.begin());
 }
 
@@ -269,10 +277,22 @@ Attempt SurfaceFairing::bend_less(Relaxation& relaxation, const Constraints& con
   return attempt(constraints, call);
 }
 
-Attempt SurfaceFairing::go_on_by_springs(Relaxation& relaxation, const Constraints& constraints,
+Attempt SurfaceFairing::go_from_smooth_input(Relaxation& relaxation, const Constraints& constraints,
+                                             const EquilibriumCall& call) {
+  Net& net = hierarchy_->finest();
+  const std::vector<Vector3> start = net.positions;
+  const std::vector<Vector3> smooth = rest_positions(net, team_);
+  std::copy_n(smooth.begin(), net.moving, net.positions.begin());
+  if (call.options.fair_by == FairBy::bending) use_least_bending(net);
+  Attempt result = go_on_by_springs("from the input without its noise", relaxation, constraints, call);
+  net.positions = start;
+  return result;
+}
+
+Attempt SurfaceFairing::go_on_by_springs(const char* strategy, Relaxation& relaxation, const Constraints& constraints,
                                          const EquilibriumCall& call) {
   if (call.options.fair_by == FairBy::curvature) hierarchy_->finest().spheres.differences.clear();
-  relaxation.set_strategy("from less bending");
+  relaxation.set_strategy(strategy);
   relaxation.relax(relaxation.last(), iterations_from_near);
   return attempt(constraints, call);
 }

@@ -56,8 +56,13 @@ class SurfaceFairing {
   Attempt go_from_coarse_levels(Springs springs, const Constraints& constraints, const EquilibriumCall& call);
   /// From the shape of hierarchy_, by steps that bend it less.
   Attempt bend_less(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
-  /// From there to an equilibrium.
-  Attempt go_on_by_springs(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
+  /// From there to an equilibrium of sphere springs.
+  Attempt go_on_by_springs(const char* strategy, Relaxation& relaxation, const Constraints& constraints,
+                           const EquilibriumCall& call);
+  /// The same from the start without its noise, which stays in hierarchy_.
+  Attempt go_from_smooth_input(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
+  /// Makes that of the attempts the shape which is the result, or the start.
+  void take_best(const std::vector<Attempt>& attempts, const Constraints& constraints, const EquilibriumCall& call);
   /// The shape that was reached, looked at.
   Attempt attempt(const Constraints& constraints, const EquilibriumCall& call);
   void make_levels(Net net, const Constraints& constraints, const FairOptions& options);

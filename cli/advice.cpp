@@ -22,11 +22,11 @@ constexpr Advice all_advice[] = {
     {"only take its noise off", "--noise auto"},
     {"allow more iterations", "--max-iterations"},
     {"allow more time", "--time-limit"},
-    {"the root mean square of its points' distances", "--rms"},
     {"name the format", "--format"},
     {"choose columns", "--columns"},
     {"the choice of columns", "--columns"},
     {"weld within less", "--weld"},
+    {"put the nodes in order", "--order"},
     {"leave the order along the curve", "--order"},
 };
 

@@ -26,7 +26,7 @@ bool is_read_as_curve(const std::string& path, const std::optional<AnyFormat>& f
 
 /// format: where it is known.
 bool may_have_columns(std::optional<CurveFormat> format) {
-  return !format || *format == CurveFormat::csv || *format == CurveFormat::xyz;
+  return !format || *format == CurveFormat::csv || *format == CurveFormat::xyz || *format == CurveFormat::gpx;
 }
 
 }  // namespace

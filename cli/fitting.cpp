@@ -62,10 +62,11 @@ Distribution default_distribution(const FairingArguments& arguments, bool is_cur
 bool asks_to_fit(const PullArguments& arguments) {
   const int given = (arguments.weight ? 1 : 0) + (arguments.smoothing_length ? 1 : 0) + (arguments.within ? 1 : 0) +
                     (arguments.rms ? 1 : 0) + (arguments.noise ? 1 : 0);
-  const std::string all = arguments.takes_noise ? "--weight, --smoothing-length, --within, --rms and --noise"
-                                                : "--weight, --smoothing-length, --within and --rms";
+  const std::string all = "--weight, --smoothing-length, --within, --rms and --noise";
   if (given > 1) throw Error(ErrorCode::invalid_argument, "only one of " + all + " can be given");
   if (given == 0 && arguments.outliers > 0) throw Error(ErrorCode::invalid_argument, "--outliers needs one of " + all);
+  if (given == 0 && arguments.least_radius > 0)
+    throw Error(ErrorCode::invalid_argument, "--min-radius needs one of " + all + ": what the curve is drawn to");
   return given == 1;
 }
 
@@ -86,16 +87,28 @@ void settle_options(FairingArguments& arguments, bool is_curve, bool own_nodes_p
   options.curve = CurveRules::paper();
 }
 
-void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise) {
+void settle_moving(PullArguments& arguments, const CurveFile& file) {
+  if (arguments.moving.empty()) return;
+  if (!asks_to_fit(arguments))
+    throw Error(
+        ErrorCode::invalid_argument,
+        "--move: how near to the rows is the curve to stay? give --within, --rms, --noise or --smoothing-length");
+  arguments.moving_axes = choose_axes(file, arguments.moving);
+  // Of a plane nothing is left to keep then.
+  if (file.planar && arguments.moving_axes[0] && arguments.moving_axes[1]) arguments.moving_axes[2] = true;
+}
+
+double within_of_noise(const NoiseEstimate& noise) { return (noise.directions == 2 ? 3.44 : 3) * noise.deviation; }
+
+void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise, bool is_curve) {
   if (!(noise.deviation > 0))
     throw Error(ErrorCode::unusable_shape,
                 arguments.automatic + " auto: this shape has no noise, or too few nodes to tell; give a number");
-  // What 3 of 1,000 distances are beyond, across in one direction and in two.
-  const double times_within = noise.directions == 2 ? 3.44 : 3;
   arguments.estimate = noise;
-  if (arguments.automatic == "--within") arguments.within = times_within * noise.deviation;
-  if (arguments.automatic == "--rms") arguments.rms = std::sqrt(noise.directions) * noise.deviation;
-  if (arguments.automatic == "--noise") arguments.noise = noise.deviation;
+  if (arguments.automatic == "--within") arguments.within = within_of_noise(noise);
+  const bool takes_it_off = arguments.automatic == "--noise" || (arguments.automatic == "--rms" && is_curve);
+  arguments.rms = arguments.automatic == "--rms" && !is_curve ? std::optional(noise.deviation) : std::nullopt;
+  if (takes_it_off) arguments.noise = noise.deviation;
 }
 
 void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, std::vector<Warning>& warnings) {
@@ -104,9 +117,10 @@ void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, s
   if (!is_larger) return;
   warnings.push_back(
       {WarningCode::noise_is_larger,
-       fmt::format("the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
-                   "{:.3g} in each coordinate; {} auto takes that off, --within auto allows for three times as much",
-                   noise.deviation, arguments.takes_noise ? "--noise" : "--rms")});
+       fmt::format(
+           "the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
+           "{:.3g} in each coordinate; --noise auto takes that off, --within auto allows for three times as much",
+           noise.deviation)});
 }
 
 FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing) {
@@ -118,6 +132,9 @@ FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairin
   if (arguments.rms) options.criterion = RootMeanSquare{*arguments.rms};
   if (arguments.noise) options.criterion = Noise{*arguments.noise};
   options.outliers = arguments.outliers;
+  options.moving_axes = arguments.moving_axes;
+  options.least_radius = arguments.least_radius;
+  options.sharp = arguments.sharp;
   return options;
 }
 
@@ -141,7 +158,12 @@ Json FitAccount::figures() const {
             {"within", optional(arguments_.within)},
             {"rms", optional(arguments_.rms)},
             {"noise", optional(arguments_.noise)},
+            {"noise_leaves", optional(report_.noise_leaves)},
             {"estimated_noise", arguments_.estimate ? Json(arguments_.estimate->deviation) : Json()},
+            {"moving", arguments_.moving.empty() ? Json() : Json(arguments_.moving)},
+            {"min_radius", arguments_.least_radius > 0 ? Json(arguments_.least_radius) : Json()},
+            {"least_radius",
+             report_.least_radius ? Json{{"radius", *report_.least_radius}, {"node", report_.sharpest_node}} : Json()},
             {"weights", weights_ ? Json{{"least", weights_->first}, {"greatest", weights_->second}} : Json()},
             {"normals", normals_},
             {"count", report_.points},
@@ -181,6 +203,11 @@ std::string FitAccount::lines() const {
   if (arguments_.estimate)
     text += fmt::format("noise estimated  {:.4g} units ({:.2g} median edges) in each coordinate\n",
                         arguments_.estimate->deviation, arguments_.estimate->edges);
+  if (report_.noise_leaves)
+    text += fmt::format("noise leaves     {:.4g} units, root mean square across\n", *report_.noise_leaves);
+  if (!arguments_.moving.empty())
+    text +=
+        fmt::format("moved            {} alone: distances are how far rows went\n", fmt::join(arguments_.moving, ", "));
   if (is_measured()) {
     line("rms distance     ", report_.before.all.rms, report_.after.all.rms);
     line("99 % within      ", report_.before.percentile99, report_.after.percentile99);
@@ -193,6 +220,8 @@ std::string FitAccount::lines() const {
     text += fmt::format("further away     {} ({:.3g} %) than {:.4g} units\n", report_.outside_points,
                         100 * outside_share(), arguments_.within ? *arguments_.within : *arguments_.rms);
   if (report_.smoothing_length) text += fmt::format("smoothing length {:.4g} units\n", *report_.smoothing_length);
+  if (report_.least_radius)
+    text += fmt::format("least radius     {:.4g} units, at node {}\n", *report_.least_radius, report_.sharpest_node);
   if (report_.outliers > 0) text += fmt::format("outliers         {} left out after\n", report_.outliers);
   return text;
 }

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "fairing_arguments.hpp"
+#include "vspring/curve_file.hpp"
 #include "vspring/fit.hpp"
 #include "vspring/noise.hpp"
 
@@ -20,24 +23,41 @@ struct PullArguments {
   std::optional<double> rms;
   std::optional<double> noise;
   double outliers = 0;
-  bool takes_noise = true;                               ///< whether the command has --noise
+  std::vector<std::string> moving = {};                  ///< names of coordinates that move; empty: all
+  std::array<bool, 3> moving_axes = {true, true, true};  ///< that these are
+  double least_radius = 0;                               ///< of curves, as the next one
+  double sharp = 0;                                      ///< what turns by more stays sharp; 0: nothing
   std::string automatic = {};                            ///< the option whose value is "auto"; empty: none
   std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that it was set by
 };
 
-/// Gives the option that is "auto" its value, by the noise of the nodes as they came: --within three times its standard
-/// deviation, --rms and --noise once. Throws Error(unusable_shape) where that cannot be told.
-void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise);
+/// What 3 of 1,000 distances are beyond, across in one direction and in two.
+[[nodiscard]] double within_of_noise(const NoiseEstimate& noise);
 
-inline NoiseEstimate noise_of(const PolygonMesh& mesh, const Context& context) { return estimate_noise(mesh, context); }
-inline NoiseEstimate noise_of(const PolygonCurve& curve, const Context& /*context*/) { return estimate_noise(curve); }
+/// Gives the option that is "auto" its value, by the noise of the nodes as they came: --within three times its standard
+/// deviation, --rms and --noise once. Of a curve --rms auto is --noise auto: a root mean square that is a little too
+/// small for the noise has it followed. Throws Error(unusable_shape) where that cannot be told.
+void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise, bool is_curve);
+
+/// In the coordinates that move.
+inline NoiseEstimate noise_of(const PolygonMesh& mesh, const PullArguments& /*pull*/, const Context& context) {
+  return estimate_noise(mesh, context);
+}
+inline NoiseEstimate noise_of(const PolygonCurve& curve, const PullArguments& pull, const Context& /*context*/) {
+  return estimate_noise(curve, pull.moving_axes);
+}
 
 template <typename Shape>
 void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context& context) {
-  if (!arguments.automatic.empty()) settle_by_noise(arguments, noise_of(shape, context));
+  if (!arguments.automatic.empty())
+    settle_by_noise(arguments, noise_of(shape, arguments, context), std::is_same_v<Shape, PolygonCurve>);
 }
 
-/// Throws Error(invalid_argument) where more than one of the four is given, or --outliers without any.
+/// Finds the coordinates that are to move in a file that was read. Throws Error(invalid_argument) where it has none of
+/// a name, or no points pull.
+void settle_moving(PullArguments& arguments, const CurveFile& file);
+
+/// Throws Error(invalid_argument) where more than one of the five is given, or --outliers or --min-radius without any.
 [[nodiscard]] bool asks_to_fit(const PullArguments& arguments);
 
 /// The method with its own options, what --paper stands for, and how nodes are distributed: those that are the points
@@ -86,7 +106,7 @@ template <typename Shape>
 FairedOrFitted account_for(FitResult fitted, const Shape& shape, const FairingArguments& arguments,
                            const PullArguments& pull, const Context& context) {
   if (fitted.report.fair.outcome != Outcome::converged && fitted.report.fair.outcome != Outcome::cancelled)
-    warn_of_noise(pull, noise_of(shape, context), fitted.report.fair.warnings);
+    warn_of_noise(pull, noise_of(shape, pull, context), fitted.report.fair.warnings);
   FitAccount account(fitted.report, pull, arguments.input, {});
   return {{std::move(fitted.positions), std::move(fitted.report.fair)}, std::move(account)};
 }

@@ -31,7 +31,11 @@ constexpr IdleRule idle_rules[] = {
     {"--fair-boundary", [](const RunFacts& run) { return !run.boundary_moves; },
      "there is no boundary, or rules or a region hold all of it"},
     {"--closed", [](const RunFacts& run) { return !run.is_curve; }, "it is for curves"},
+    {"--sharp", [](const RunFacts& run) { return !run.is_curve; }, "it is for curves"},
+    {"--min-radius", [](const RunFacts& run) { return !run.is_curve; }, "it is for curves"},
     {"--resample-by", [](const RunFacts& run) { return !run.resamples; }, "it is for --resample and --spacing"},
+    {"--move", [](const RunFacts& run) { return run.moves_freely; }, "these are all coordinates that there are"},
+    {"--distribution", [](const RunFacts& run) { return !run.moves_freely; }, "--move says where nodes are"},
     {"--ignore-point-normals", [](const RunFacts& run) { return run.is_curve; }, "it is for surfaces"},
     {"--ignore-point-normals", [](const RunFacts& run) { return !run.points_face; }, "the points have no normals"},
     // Boundaries that are faired first, and not fitted, go to their equilibrium by every method.

@@ -19,6 +19,7 @@ struct RunFacts {
   bool moves_near_boundary = false;     ///< some node there, or beside it
   bool is_planar = false;               ///< a curve with all that holds it
   bool resamples = false;               ///< --resample or --spacing
+  bool moves_freely = true;             ///< no coordinate is kept
   bool own_nodes_pull = false;          ///< --within and the like, where there is no --points
   bool points_face = false;             ///< points have normals
   bool equilibrium_tried = false;       ///< by the method that was asked for

@@ -39,9 +39,12 @@ std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape, const 
   const bool fits = held && held->node_count() == shape.shape().node_count();
   std::vector<Figure> figures = figures_of(shape, fits ? &*held : nullptr, shown, context);
   // Noise is nobody's measure of fairness, so it is none of those figures.
-  const NoiseEstimate noise = noise_of(shape.shape(), context);
-  figures.push_back({"noise", "noise", "units", "as estimated, standard deviation in each coordinate; see --noise auto",
-                     noise.deviation, false});
+  const NoiseEstimate noise = noise_of(shape.shape(), {}, context);
+  figures.push_back({"noise", "noise", "units",
+                     "as estimated, standard deviation in each coordinate: what --noise auto takes", noise.deviation,
+                     false});
+  figures.push_back({"within_auto", "within auto", "units", "what --within auto takes for that noise",
+                     within_of_noise(noise), false});
   figures.push_back({"noise_in_edges", "noise in edges", "", "the same in median edges", noise.edges, false});
   return figures;
 }

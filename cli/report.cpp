@@ -94,6 +94,7 @@ nlohmann::ordered_json to_json(const FairReport& report) {
   json["fixed_positions"] = report.fixed_positions;
   json["fixed_normals"] = report.fixed_normals;
   json["fixed_tangents"] = report.fixed_tangents;
+  if (report.faces == 0) json["corners"] = report.corners;
   json["greatest_move"] = report.greatest_move;
   json["rms_move"] = report.rms_move;
   json["seconds"] = report.seconds;
@@ -144,6 +145,7 @@ std::string summary(const FairReport& report, const std::optional<BeforeAndAfter
       fmt::format("{} of {} nodes moved, by up to {:.4g} ({:.2g} % of the size), root mean square {:.4g} ({:.2g} %)\n",
                   report.moving_nodes, report.nodes, report.greatest_move, report.greatest_move * share,
                   report.rms_move, report.rms_move * share);
+  if (report.corners > 0) text += fmt::format("corners          {} kept sharp\n", report.corners);
   if (!fairness) return text;
   const auto& [before, after] = *fairness;
   text += fmt::format("V-Spring energy  {:.4g} → {:.4g}\n", before.vspring_energy, after.vspring_energy);

@@ -67,7 +67,7 @@ void solve(FuzzedDataProvider& data, const Shape& shape) {
   if (pull == 1) how.criterion = Within{0.1};
   if (pull == 2) how.criterion = RootMeanSquare{0.05};
   if (pull == 3) how.criterion = SmoothingLength{0.5};
-  if (pull == 4 && std::is_same_v<Shape, PolygonMesh>) how.criterion = Noise{0.05};
+  if (pull == 4) how.criterion = Noise{0.05};
   attempt([&] {
     const FitResult result = fit(shape, held, points, how, context);
     if (options.strength == 1) check(shape, held, result.report.fair, tolerance, result.positions);

@@ -304,6 +304,9 @@ MUTATIONS = {
         ("tour-move", "Or-opt: what is saved where a piece was", "here - distance(before, behind)", "here"),
         ("tour-move-turned", "Or-opt: which way a piece runs in its new place", "(side > 0) != (step > 0)", "(side > 0) == (step > 0)"),
     ],
+    "src/curve_fit/dense_curve.cpp": [
+        ("station-of-place", "where coordinates stay, they say where a place is", "v - (1 - share_of_moving) * moving_.cwiseProduct(v)", "v"),
+    ],
     "src/linear/ball_program.cpp": [
         ("ball-bound", "a bound is on the length of a value", "values_[bound.row].squaredNorm() - most * most", "values_[bound.row].squaredNorm() - most"),
     ],

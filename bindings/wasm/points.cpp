@@ -37,6 +37,8 @@ FitOptions options_of(const val& settings) {
   take("within", [](double value) { return Within{value}; });
   take("rms", [](double value) { return RootMeanSquare{value}; });
   options.outliers = number("outliers").value_or(0);
+  options.sharp = number("sharp").value_or(0);
+  options.least_radius = number("leastRadius").value_or(0);
   if (const val keep = settings["keep"]; keep.isTrue()) options.fair.distribution = Distribution::keep;
   return options;
 }
@@ -48,6 +50,8 @@ val to_val(const FitResult& result) {
   figures.set("pullingPoints", report.pulling_points);
   figures.set("outliers", report.outliers);
   figures.set("smoothingLength", report.smoothing_length ? val(*report.smoothing_length) : val::null());
+  figures.set("leastRadius", report.least_radius ? val(*report.least_radius) : val::null());
+  figures.set("sharpestNode", report.sharpest_node);
   figures.set("greatest", report.after.all.greatest);
   figures.set("rms", report.after.all.rms);
   val all = to_val(report.fair);

@@ -28,8 +28,8 @@ class Points {
   ScatteredPoints points_;
 };
 
-/// Of an object with some of `smoothingLength`, `within`, `rms`, `weight` and `outliers`, as FitOptions has them, and
-/// `keep`, whether nodes keep their distribution.
+/// Of an object with some of `smoothingLength`, `within`, `rms`, `weight`, `outliers`, `sharp` and `leastRadius`, as
+/// FitOptions has them, and `keep`, whether nodes keep their distribution.
 FitOptions options_of(const val& settings);
 
 /// The report of fairing with `fit`, figures of the points, and `distances` where these were measured.

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -45,6 +47,12 @@ FairedOrFitted resample_and_fair(const CurveArguments& arguments, CurveFile& fil
     fitted = std::move(made.fit);
     return std::move(made.resampled);
   }();
+  FairOptions options = arguments.options;
+  options.corners.clear();
+  for (std::size_t k = 0; k < resampled.from.size(); ++k) {
+    if (std::ranges::find(arguments.options.corners, resampled.from[k]) != arguments.options.corners.end())
+      options.corners.push_back(static_cast<Index>(k));
+  }
   file.curve = std::move(resampled.curve);
   constraints = std::move(resampled.constraints);
   // What the file carried belongs to nodes that are no longer there.
@@ -52,7 +60,7 @@ FairedOrFitted resample_and_fair(const CurveArguments& arguments, CurveFile& fil
   file.groups.clear();
   file.row_order.clear();
   if (fitted) return account_for(std::move(*fitted), file.curve, arguments, arguments.pull, context);
-  return {fair(file.curve, constraints, arguments.options, context), std::nullopt};
+  return {fair(file.curve, constraints, options, context), std::nullopt};
 }
 
 /// reordered: how many nodes were put elsewhere, where an order was asked for.
@@ -73,11 +81,15 @@ int run_curve(CurveArguments arguments) {
       arguments.order ? std::optional(order_nodes(file, arguments.closed)) : std::nullopt;
   const ClosedChains closed(file.curve, arguments.closed);
   const PolygonCurve before = file.curve;
+  settle_moving(arguments.pull, file);
   settle_by_noise(arguments.pull, before, fairing.context());
   Constraints constraints = make_constraints(arguments, before, {.groups = &file.groups});
   closed.hold(constraints);
   fairing.input_is_read();
 
+  // Noise has no say in where corners are; points are looked at by what draws a curve to them.
+  if (arguments.pull.sharp > 0 && !asks_to_fit(arguments.pull))
+    arguments.options.corners = arguments.resampling.corners = find_corners(before, arguments.pull.sharp);
   const bool resamples = arguments.resampling.nodes || arguments.resampling.spacing;
   FairedOrFitted done = resamples ? resample_and_fair(arguments, file, constraints, fairing.context())
                                   : fair_or_fit(before, constraints, {}, arguments, arguments.pull, fairing.context());
@@ -101,7 +113,7 @@ int run_curve(CurveArguments arguments) {
        .picture = draw,
        .figures = std::move(figures),
        .lines = done.lines() + closed.note() + note_of_order(reordered, before) + note_of(file.plane),
-       .facts = {.resamples = resamples}});
+       .facts = {.resamples = resamples, .moves_freely = arguments.pull.moving_axes == std::array{true, true, true}}});
 }
 
 const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj}, {"csv", CurveFormat::csv},
@@ -190,7 +202,12 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
   add_columns(command, "--columns", arguments->columns, columns_of_curves);
   add_constraint_options(command, *arguments, words);
   add_node_options(command, *arguments);
-  add_pull_options(command, arguments->pull, pull_of_own_nodes, false);
+  add_pull_options(command, arguments->pull, pull_of_own_nodes);
+  add_curve_bounds(command, arguments->pull, pull_of_own_nodes);
+  add_names(command, "--move", arguments->pull.moving,
+            "Only these coordinates move; rows keep the others to the last digit, and distances are those in the ones "
+            "that move: letters, such as y or yz, or names of columns (default: all)")
+      ->group(pull_of_own_nodes);
   add_curve_method(command, *arguments, words);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, false);

@@ -141,7 +141,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
                 "they bound; in place of --fix boundary (default: off)")
       ->group(holding_group);
   add_weld_option(command, *arguments);
-  add_pull_options(command, arguments->pull, pull_of_own_nodes, true);
+  add_pull_options(command, arguments->pull, pull_of_own_nodes);
   add_surface_method(command, *arguments, words);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, true);

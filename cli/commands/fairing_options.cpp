@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cctype>
 #include <map>
 #include <sstream>
@@ -56,20 +57,26 @@ void add_constraint_options(CLI::App& command, FairingArguments& arguments, cons
 
 void add_columns(CLI::App& command, const std::string& flag, std::vector<std::string>& columns,
                  const std::string& whose) {
-  command
+  add_names(command, flag, columns, whose)->type_name("X,Y[,Z]")->check([](const std::string& given) {
+    const auto count = std::count(given.begin(), given.end(), ',') + 1;
+    if (count == 2 || count == 3) return std::string();
+    return fmt::format("two or three columns are needed, such as 2,3 or X,Y, not \"{}\"", given);
+  });
+}
+
+CLI::Option* add_names(CLI::App& command, const std::string& flag, std::vector<std::string>& names,
+                       const std::string& text) {
+  return command
       .add_option_function<std::string>(
           flag,
-          [&columns, flag](const std::string& given) {
+          [&names](const std::string& given) {
             std::istringstream rest(given);
-            columns.clear();
-            for (std::string column; std::getline(rest, column, ',');) columns.push_back(CLI::detail::trim(column));
-            if (given.ends_with(',')) columns.emplace_back();
-            if (columns.size() != 2 && columns.size() != 3)
-              throw CLI::ValidationError(
-                  flag, fmt::format("two or three columns are needed, such as 2,3 or X,Y, not \"{}\"", given));
+            names.clear();
+            for (std::string name; std::getline(rest, name, ',');) names.push_back(CLI::detail::trim(name));
+            if (given.empty() || given.ends_with(',')) names.emplace_back();
           },
-          whose)
-      ->type_name("X,Y[,Z]");
+          text)
+      ->type_name("COLUMNS");
 }
 
 void add_weld_option(CLI::App& command, FairingArguments& arguments) {

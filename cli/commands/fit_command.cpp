@@ -169,7 +169,8 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
   command.add_flag("--ignore-point-normals", arguments.ignore_normals,
                    "Points pull whichever way they face (default: those that have normals only at nodes of a surface "
                    "that faces the same way)");
-  add_pull_options(command, arguments.pull, "How points pull: one of", true);
+  add_pull_options(command, arguments.pull, "How points pull: one of");
+  add_curve_bounds(command, arguments.pull, "How points pull: one of");
   add_choice(
       command, "--method", arguments.method, methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "

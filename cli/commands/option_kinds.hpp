@@ -51,6 +51,16 @@ inline CLI::Validator non_negative_number() {
           "NONNEGATIVE"};
 }
 
+/// Degrees, between 0 and 180.
+inline CLI::Validator angle_of_corners() {
+  return {[](const std::string& given) -> std::string {
+            double number = 0;
+            if (CLI::detail::lexical_cast(given, number) && number > 0 && number < 180) return {};
+            return "a number of more than 0 and less than 180 is needed, not " + given;
+          },
+          "0 to 180"};
+}
+
 inline CLI::Validator number_between(double least, double most) {
   return {[least, most](const std::string& given) -> std::string {
             double number = 0;

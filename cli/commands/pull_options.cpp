@@ -31,7 +31,7 @@ CLI::Option* add_amount(CLI::App& command, const std::string& name, std::optiona
 
 }  // namespace
 
-void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading, bool for_surfaces) {
+void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading) {
   command
       .add_option("--weight", arguments.weight,
                   "The paper's k: how much a point counts against the springs of its node; 0.01 takes away waves of "
@@ -53,17 +53,35 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
   add_amount(command, "--rms", arguments.rms, arguments,
              "The fairest shape from which points are this far away, root mean square (units of the input)")
       ->group(heading);
-  arguments.takes_noise = for_surfaces;
-  // Of curves it is not listed, and says what does that for them.
   add_amount(command, "--noise", arguments.noise, arguments,
-             "Surfaces whose own nodes are the points: take noise of this standard deviation off, smooth where nothing "
-             "else is there, and keep what more than noise says (in each coordinate, units of the input)")
-      ->group(for_surfaces ? heading : std::string());
+             "Take noise of this standard deviation off: surfaces whose own nodes are the points keep what more than "
+             "noise says, curves are the fairest that are as far from the points as that leaves (in each coordinate, "
+             "units of the input)")
+      ->group(heading);
   command
       .add_option("--outliers", arguments.outliers,
                   "Leave this share of the points out, those furthest away: 0 to less than 1 (default: 0)")
       ->type_name("P")
       ->check(number_between(0, 0.999999))
+      ->group(heading);
+}
+
+void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::string& heading) {
+  command
+      .add_option(
+          "--sharp", arguments.sharp,
+          "Curves: where they turn by more than this, at a node or, drawn to points, within some eight tolerances, "
+          "corners stay, and each side is fair by itself (degrees, less than 180) (default: none stay)")
+      ->type_name("ANGLE")
+      ->check(angle_of_corners())
+      ->group(fairing_group);
+  command
+      .add_option(
+          "--min-radius", arguments.least_radius,
+          "Curves: nowhere bent by a smaller radius than this, as by what a vehicle or a tool can turn (units of "
+          "the input) (default: any)")
+      ->type_name("R")
+      ->check(positive_number())
       ->group(heading);
 }
 

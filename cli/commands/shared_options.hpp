@@ -9,7 +9,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace vspring::cli {
 
@@ -35,10 +36,15 @@ void add_shaping_options(CLI::App& command, FairingArguments& arguments, const F
 /// An option for the columns of tables. whose: of which files, and else.
 void add_columns(CLI::App& command, const std::string& flag, std::vector<std::string>& columns,
                  const std::string& whose);
+/// An option for names between commas, at least one.
+CLI::Option* add_names(CLI::App& command, const std::string& flag, std::vector<std::string>& names,
+                       const std::string& text);
 void add_run_options(CLI::App& command, FairingArguments& arguments);
 
-/// How points pull. heading: of the options in the help text. for_surfaces: also what curves cannot have.
-void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading, bool for_surfaces);
+/// How points pull. heading: of the options in the help text.
+void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading);
+/// What a curve that is drawn to points keeps besides.
+void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::string& heading);
 /// --picture and --picture-size, and with `surfaces` --picture-style and --view.
 void add_picture_options(CLI::App& command, PictureArguments& arguments, bool surfaces);
 
@@ -46,7 +52,7 @@ inline const std::string columns_of_curves =
     "CSV and XYZ: the columns of x, y and, in space, z, by number from 1 or, in CSV, by the names in the header "
     "(default: those that the header names x, y, z, with units or without, or lat and lon; else two or three of "
     "numbers). Named lat or latitude and lon, lng, long or longitude, they are degrees, and "
-    "all lengths metres, as of .gpx";
+    "all lengths metres, as of .gpx, of which lon,lat,ele has the elevations for z";
 inline const std::string pull_of_own_nodes = "How the nodes of the input pull as points: none or one of";
 inline const std::string holding_group = "What holds the shape";
 inline const std::string fairing_group = "How it is faired";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -32,6 +33,9 @@ struct CurveFile {
   std::optional<LocalPlane> plane = std::nullopt;
   /// Nodes of each named group (OBJ `g` and `o`: all nodes of the lines that follow), ascending.
   std::map<std::string, std::vector<Index>> groups;
+  /// What the header of a table calls the columns of x, y and z; GPX with elevations: "lon", "lat" and "ele". Else
+  /// empty.
+  std::vector<std::string> column_names = {};
   /// The name that the file gives the curve (first line of DAT); empty if none.
   std::string name;
   CurveFormat format = CurveFormat::obj;
@@ -56,8 +60,8 @@ struct CurveFile {
 /// header, separated by white space. DAT: aerofoils as Selig (name, then x y around from the trailing edge) or Lednicer
 /// (name, numbers of points of upper and lower side, each from the leading edge on) arranged them. Lednicer's become
 /// one chain from the trailing edge over the upper side and back; the leading edge is one node where both sides give
-/// it. GPX: each segment of a track (trkseg) and each route (rte) is a chain of its points; elevations are kept and
-/// are no coordinate. All else in the file is kept for writing.
+/// it. GPX: each segment of a track (trkseg) and each route (rte) is a chain of its points; elevations are kept, and
+/// are z only where lon, lat and ele are chosen. All else in the file is kept for writing.
 ///
 /// Degrees: GPX, and CSV of columns named lat or latitude and lon, lng, long or longitude that are chosen, or found
 /// where none are named x and y, are taken to metres in a plane, x east and y north; a third column that is chosen
@@ -66,8 +70,8 @@ struct CurveFile {
 /// A chain whose last node repeats the position of the first stays open; only the same number (OBJ) closes it.
 ///
 /// Throws Error(unusable_file), naming path and line, for anything that cannot be read whole and for a file without a
-/// curve; Error(invalid_argument) where `columns` is given and is no choice of columns, or the file is neither CSV nor
-/// XYZ. Cost: linear; the bytes of the file stay in memory.
+/// curve; Error(invalid_argument) where `columns` is given and is no choice of columns, or the file is neither CSV, XYZ
+/// nor GPX. Cost: linear; the bytes of the file stay in memory.
 [[nodiscard]] CurveFile read_curve(const std::string& path, std::optional<CurveFormat> format = std::nullopt,
                                    const ColumnChoice& columns = {},
                                    const std::optional<LocalPlane>& plane = std::nullopt);
@@ -78,6 +82,11 @@ struct CurveFile {
                                          std::optional<CurveFormat> format = std::nullopt,
                                          const ColumnChoice& columns = {},
                                          const std::optional<LocalPlane>& plane = std::nullopt);
+
+/// Which of x, y and z are named, for FitOptions::moving_axes. names: of columns as the file has them, with units or
+/// without and in any case, or letters, such as "yz". Throws Error(invalid_argument) for a name that is neither, and
+/// for one of longitude and latitude without the other: a place in metres has both in either of its coordinates.
+[[nodiscard]] std::array<bool, 3> choose_axes(const CurveFile& file, const std::vector<std::string>& names);
 
 /// Puts the nodes of every chain in order along the curve, see order_along_curve(). The curve gets other chains, nodes
 /// keep their numbers; the rows of the file come out in that order, with all that is in them. closed: every chain joins
@@ -101,13 +110,14 @@ struct CurvePicture {
 /// given, the extension's, and without one the source's own.
 ///
 /// In the source's own format everything but the coordinates of nodes that moved is written as it was read, byte for
-/// byte; new coordinates are the shortest decimals that read back the same, new degrees have up to 12 decimals. In
-/// another format: chains and positions, as degrees in GPX and CSV where the curve has a plane of these. A planar curve
-/// keeps two columns while it stays in its plane. CSV, XYZ and DAT have the nodes along the chains, and the first node
-/// of a closed chain once more at its end; so has GPX, with a segment for each chain. SVG is a picture: the curve with
-/// its nodes and its curvature comb (lines along the curvature vector of the circle through three successive nodes),
-/// before and after, and below it curvature against arc length, with a sign for planar curves. Space curves are drawn
-/// as seen along the normal of their best plane.
+/// byte, and in tables and tracks those of their coordinates that did not change; new coordinates are the shortest
+/// decimals that read back the same, new degrees have up to 12 decimals. In another format: chains and positions, as
+/// degrees in GPX and CSV where the curve has a plane of these. A planar curve keeps two columns while it stays in its
+/// plane. CSV, XYZ and DAT have the nodes along the chains, and the first node of a closed chain once more at its end;
+/// so has GPX, with a segment for each chain. SVG is a picture: the curve with its nodes and its curvature comb (lines
+/// along the curvature vector of the circle through three successive nodes), before and after, and below it curvature
+/// against arc length, with a sign for planar curves. Space curves are drawn as seen along the normal of their best
+/// plane.
 ///
 /// Returns what the source carried and the output does not, one line each; empty when nothing is lost, and for a
 /// picture. The file appears whole or not at all, see write_file().

@@ -22,12 +22,12 @@ struct EquilibriumMethod {
   /// Stop when no node is expected to be further from its final place than this share of the diagonal of the box around
   /// the moving nodes and their rim. More than 0.
   double tolerance = 1e-5;
-  /// Stop after so many iterations, on each level; nothing else is then tried. Empty:
+  /// Stop after so many iterations, on each level; no other springs, distributions or ways are then tried. Empty:
   /// 200 iterations on each level (30 on the finest with sphere springs that are not near by then), no more work than
   /// FairReport::most_work, and where that leads nowhere the other ways of docs/solver.md.
   std::optional<int> max_iterations = std::nullopt;
-  /// Whether another shape may stand for an equilibrium that is not found, with a warning: on surfaces one of edge
-  /// springs, or one of least bending; in fits what FitOptions::fair says.
+  /// Whether another shape may stand for an equilibrium that is not found, with a warning: on surfaces that of another
+  /// distribution, where none is given, or one of least bending; in fits what FitOptions::fair says.
   bool fallbacks = true;
 };
 
@@ -72,7 +72,8 @@ struct FairOptions {
   Forces forces = Forces::steady;
   /// Curves: tangents, weights and the plane of the force.
   CurveRules curve = {};
-  /// Empty: smooth for surfaces; even for curves, and where multigrid or sweep is asked for.
+  /// Empty: smooth for surfaces, and even where that finds no equilibrium; even for curves, and where multigrid or
+  /// sweep is asked for.
   std::optional<Distribution> distribution = std::nullopt;
   /// Surfaces: boundary nodes whose position is free are faired first, as closed curves between the held ones (§4.5),
   /// and stay there while the surface follows: always to their equilibrium, by these options; in fits by `method`, as
@@ -83,6 +84,10 @@ struct FairOptions {
   bool as_found = false;
   /// result = input + strength × (fair − input) for moving nodes; 0 to 1.
   double strength = 1;
+  /// Curves: nodes inside of chains at which direction and curvature may jump, as find_corners() finds them. They keep
+  /// their places, and each side is faired by itself. Those with a tangent or normal given have one direction all the
+  /// same. In fits they move with their points, by EquilibriumMethod only.
+  std::vector<Index> corners = {};
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
@@ -128,9 +133,9 @@ struct LevelReport {
   Index moving_nodes = 0;
   int iterations = 0;
   Outcome outcome = Outcome::converged;  ///< of the level's own test; `cancelled` where it was not reached
-  /// What it was part of: "in place", "coarse to fine", "less bending", "from less bending", "spacing of the input",
-  /// "windings of the input", "from the input without its noise", "from the input", "from the input, with its spacing",
-  /// "from the last shape" or "V-cycle" (docs/solver.md).
+  /// What it was part of: "in place", "coarse to fine", "flow", "spacing of the input", "windings of the input", "from
+  /// the input without its noise", "from the input", "from the input, with its spacing", "less bending", "from less
+  /// bending", "from the last shape" or "V-cycle" (docs/solver.md).
   const char* strategy = "";
   double seconds = 0;
 };
@@ -164,6 +169,8 @@ struct FairReport {
   Index fixed_positions = 0;
   Index fixed_normals = 0;
   Index fixed_tangents = 0;
+  /// Curves: nodes at which direction and curvature may jump.
+  Index corners = 0;
   /// How far moving nodes are from the input: largest, and root mean square; in units of the input.
   double greatest_move = 0;
   double rms_move = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <variant>
@@ -50,6 +51,10 @@ struct RootMeanSquare {
 /// coordinate off, in the units of the input, more than 0. No equilibrium, but filters, each where it is expected to be
 /// nearest to the true shape; nodes go along the surface, too, to where these put them. Where normals are given, an
 /// equilibrium next to that. See estimate_noise() and docs/fit.md. Cost: linear. Memory: about 2,500 bytes a node.
+///
+/// Curves: that whose curvature changes least of those that are as far from the points, in the root mean square, as
+/// noise of this deviation leaves: where the expected distance from the truth is least, by Mallows' C_p with every
+/// parameter counted three times. It changes little with the deviation. Cost: that of RootMeanSquare.
 struct Noise {
   double deviation;
 };
@@ -69,6 +74,20 @@ struct FitOptions {
   /// those far aside of the way, and those over 4.5 standard deviations from a curve that single points do not draw
   /// aside.
   double outliers = 0;
+  /// Curves whose own nodes are the points, by EquilibriumMethod: of x, y and z those that nodes move in. All nodes
+  /// keep the others to the bit. Distances are then those in the coordinates that move, between where a node was and
+  /// is: heights of a profile, vertically. Where the others tell no order along the curve, as where one is given in
+  /// space, it is drawn over the length of the way in the other two.
+  std::array<bool, 3> moving_axes = {true, true, true};
+  /// Curves: no node has a smaller radius of curvature, of the circle through it and its neighbours, to 1 %; in units
+  /// of the input, 0 for any. Where that cannot be kept, as points ask for less or ends and directions that are held, a
+  /// warning names the node that is bent most, and the outcome is not `converged`. With Weight and SmoothingLength the
+  /// curve then has nodes of its own, too. EquilibriumMethod only.
+  double least_radius = 0;
+  /// Curves: places where the way of the curve's nodes turns by more than this within some eight tolerances, degrees,
+  /// less than 180, are corners: direction and curvature may jump there, and each side is fair by itself. They move
+  /// with their points. 0: only those of FairOptions::corners are. EquilibriumMethod only.
+  double sharp = 0;
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
@@ -81,6 +100,8 @@ struct FitOptions {
   [[nodiscard]] std::optional<double> noise() const;
   /// Of within() and rms(), the one that is given.
   [[nodiscard]] std::optional<double> tolerance() const;
+  /// Whether all of moving_axes move.
+  [[nodiscard]] bool moves_freely() const { return moving_axes == std::array{true, true, true}; }
 };
 
 /// Distances of points from a shape: from its polygons or edges, see distance().
@@ -101,12 +122,18 @@ struct FitReport {
   Index pulled_nodes = 0;
   Index most_points = 0;
   Index outliers = 0;  ///< points left out; `after` does not count them
+  /// With Noise on curves: the root mean square distance that it leaves, at which the curve is.
+  std::optional<double> noise_leaves = std::nullopt;
   /// The one given or, for a tolerance, found. Empty for the paper's k, and where plain fairing or what
   /// filters of noise give is within the tolerance.
   std::optional<double> smoothing_length = std::nullopt;
   /// With Within: the points at that distance, to 1 %, in order. They keep the shape from becoming fairer.
   std::vector<Index> active_points;
   Index outside_points = 0;  ///< with Within or RootMeanSquare: those further away than that, of the points that count
+  /// With FitOptions::least_radius: the least one of the new curve, and the node that has it. Empty where nothing is
+  /// bent.
+  std::optional<double> least_radius = std::nullopt;
+  Index sharpest_node = -1;
   /// Both without a count where the fit was cancelled and had too many points to measure them then.
   PointDistances before;
   PointDistances after;
@@ -185,7 +212,8 @@ struct ResampledFit {
 /// there are too few for that, outcome and a warning say so. Distances are those from the chords. How far nodes moved
 /// is reported as their distance from the curve that was given.
 ///
-/// With Weight, and by other methods, the curve is resampled first, and the new nodes are fitted themselves.
+/// With Weight, unless a least radius is to be kept, and by other methods, the curve is resampled first, and the new
+/// nodes are fitted themselves.
 ///
 /// Throws as resample() and fit() do. Cost: that of fit().
 [[nodiscard]] ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints,

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "vspring/context.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
@@ -25,5 +27,9 @@ struct NoiseEstimate {
 /// The same of a curve, across it, from seven nodes in a row, or as many more as it takes for them to be four times as
 /// long as they are wide.
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonCurve& curve);
+
+/// The same in the coordinates that move, of x, y and z, over the length of the way in the others: of heights,
+/// vertically. See FitOptions::moving_axes.
+[[nodiscard]] NoiseEstimate estimate_noise(const PolygonCurve& curve, const std::array<bool, 3>& moving_axes);
 
 }  // namespace vspring

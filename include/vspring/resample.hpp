@@ -22,6 +22,8 @@ struct Resampling {
   /// Mean distance between neighbours, in units of the curve, as nearly as the lengths of pieces allow.
   std::optional<double> spacing = std::nullopt;
   ResamplingBy by = ResamplingBy::length;
+  /// Nodes that are kept, and at which the curve's direction jumps.
+  std::vector<Index> corners = {};
 };
 
 struct Resampled {
@@ -31,13 +33,13 @@ struct Resampled {
 };
 
 /// Puts new nodes along a curve. Kept are ends, nodes where chains meet, and nodes with a constraint, at the position
-/// that the constraint gives; a closed chain without any keeps its first node. The pieces between them get new nodes,
-/// on the cubics through the old nodes with the tangents of estimate_tangents(). Nodes come in the order of the chains;
-/// nodes of no chain are left out.
+/// that the constraint gives, and corners; a closed chain without any keeps its first node. The pieces between them get
+/// new nodes, on the cubics through the old nodes with the tangents of estimate_tangents(). Nodes come in the order of
+/// the chains; nodes of no chain are left out.
 ///
 /// Throws Error(invalid_argument) unless exactly one of nodes and spacing is given and is greater than 0, for more than
-/// 100 million nodes, and for fewer nodes than the pieces need; Error(unusable_shape) for a chain with a coordinate
-/// that is not finite. Cost: linear in the nodes before and after.
+/// 100 million nodes, for fewer nodes than the pieces need, and for a corner that is no node; Error(unusable_shape) for
+/// a chain with a coordinate that is not finite. Cost: linear in the nodes before and after.
 [[nodiscard]] Resampled resample(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how);
 
 }  // namespace vspring

@@ -4,6 +4,7 @@
 #include "vspring/column_choice.hpp"
 #include "vspring/constraints.hpp"
 #include "vspring/context.hpp"
+#include "vspring/corners.hpp"
 #include "vspring/curvature.hpp"
 #include "vspring/curve_file.hpp"
 #include "vspring/distance.hpp"

@@ -12,11 +12,13 @@ enum class WarningCode : std::uint8_t {
   family_of_shapes,    ///< what holds the shape leaves more than one sphere, plane or circle
   other_springs,       ///< edge springs took the place of sphere springs
   other_fairness,      ///< no shape was found that is fair as asked for: by curvature, this is of least bending
+  other_distribution,  ///< nodes went to the mean of their neighbours
   no_equilibrium,      ///< none was found; the text says what the shape is
   worse_than_input,    ///< what was found is; the text says how, and what is returned
   steps_grew,          ///< the paper's iteration did not come to rest
   level_cut_short,     ///< a coarser level of a V-cycle ended at its limit of iterations
   outside_tolerance,   ///< no shape within the tolerance was found: this one is the nearest
+  radius_not_kept,     ///< the shape is bent more somewhere than by the least radius
   maybe_not_fairest,   ///< the shape is within the tolerance, but may not be the fairest
   noise_is_larger,     ///< the nodes' noise seems to be larger than the tolerance allows for
   far_from_nodes,      ///< taking noise off moved nodes further than noise explains

@@ -18,6 +18,8 @@ const char* name(WarningCode code) noexcept {
       return "other-springs";
     case WarningCode::other_fairness:
       return "other-fairness";
+    case WarningCode::other_distribution:
+      return "other-distribution";
     case WarningCode::no_equilibrium:
       return "no-equilibrium";
     case WarningCode::worse_than_input:
@@ -28,6 +30,8 @@ const char* name(WarningCode code) noexcept {
       return "level-cut-short";
     case WarningCode::outside_tolerance:
       return "outside-tolerance";
+    case WarningCode::radius_not_kept:
+      return "radius-not-kept";
     case WarningCode::maybe_not_fairest:
       return "maybe-not-fairest";
     case WarningCode::noise_is_larger:

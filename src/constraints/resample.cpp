@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "shape/corners.hpp"
 #include "shape/cubic.hpp"
 #include "vspring/error.hpp"
 
@@ -33,8 +34,11 @@ struct Piece {
 
 class Resampler {
  public:
-  Resampler(const PolygonCurve& curve, const Constraints& constraints, ResamplingBy by)
-      : curve_(curve), constraints_(constraints), by_(by) {
+  Resampler(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how)
+      : curve_(curve),
+        constraints_(constraints),
+        by_(how.by),
+        is_corner_(marked_corners(how.corners, curve.node_count())) {
     for (const auto& chain : curve.chains()) {
       for (const Index node : chain.nodes) {
         if (!place(node).allFinite())
@@ -118,7 +122,7 @@ class Resampler {
         const auto n = static_cast<std::size_t>(node);
         const bool said =
             constraints_.position_fixed(node) || constraints_.normal_fixed(node) || constraints_.tangent_fixed(node);
-        if (met[n] != 0 || said) kept_[n] = 1;
+        if (met[n] != 0 || said || is_corner_[n] != 0) kept_[n] = 1;
         met[n] = 1;
       }
     }
@@ -127,28 +131,43 @@ class Resampler {
   void cut(const PolygonCurve::Chain& chain) {
     const std::size_t before = pieces_.size();
     const auto is_kept = [&](Index node) { return kept_[static_cast<std::size_t>(node)] != 0; };
+    const auto is_corner = [&](Index node) { return is_corner_[static_cast<std::size_t>(node)] != 0; };
     if (chain.nodes.size() > 1) {
-      // A closed chain is gone around from a kept node on.
+      // A closed chain is gone around from a corner or another kept node on.
       std::vector<Index> nodes = chain.nodes;
+      bool closed = chain.closed;
       if (chain.closed) {
-        const auto first = std::find_if(nodes.begin(), nodes.end(), is_kept);
+        auto first = std::find_if(nodes.begin(), nodes.end(), is_corner);
+        closed = first == nodes.end();
+        if (closed) first = std::find_if(nodes.begin(), nodes.end(), is_kept);
         if (first != nodes.end()) std::rotate(nodes.begin(), first, nodes.end());
         nodes.push_back(nodes.front());
       }
-      const std::vector<Vector3> tangents = tangents_along(nodes, chain.closed);
-      Piece piece;
+      std::vector<Index> side;
       for (std::size_t k = 0; k < nodes.size(); ++k) {
-        piece.nodes.push_back(nodes[k]);
-        piece.tangents.push_back(tangents[k]);
-        if (piece.nodes.size() < 2 || !is_kept(nodes[k])) continue;
-        finish(piece);
-        piece = {.nodes = {nodes[k]}, .tangents = {tangents[k]}};
+        side.push_back(nodes[k]);
+        if (side.size() < 2 || (k + 1 < nodes.size() && !is_corner(nodes[k]))) continue;
+        cut_side(side, closed);
+        side = {nodes[k]};
       }
-      if (piece.nodes.size() > 1) finish(std::move(piece));
       const std::size_t pieces = pieces_.size() - before;
       if (chain.closed && pieces < 3) pieces_[before].least_edges = static_cast<Index>(4 - pieces);
     }
     pieces_of_.push_back(pieces_.size() - before);
+  }
+
+  /// From one corner or end to the next, or a closed chain with its first node again.
+  void cut_side(const std::vector<Index>& nodes, bool closed) {
+    const std::vector<Vector3> tangents = tangents_along(nodes, closed);
+    Piece piece;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      piece.nodes.push_back(nodes[k]);
+      piece.tangents.push_back(tangents[k]);
+      if (piece.nodes.size() < 2 || kept_[static_cast<std::size_t>(nodes[k])] == 0) continue;
+      finish(piece);
+      piece = {.nodes = {nodes[k]}, .tangents = {tangents[k]}};
+    }
+    if (piece.nodes.size() > 1) finish(std::move(piece));
   }
 
   /// Given ones, and else those of the chain on its own: where chains meet, each has another. The first node of a
@@ -356,6 +375,7 @@ class Resampler {
   const PolygonCurve& curve_;
   const Constraints& constraints_;
   ResamplingBy by_;
+  std::vector<std::uint8_t> is_corner_;
   std::vector<std::uint8_t> kept_;
   std::vector<Piece> pieces_;
   std::vector<std::size_t> pieces_of_;  // of each chain
@@ -379,7 +399,7 @@ void check_resampling(const PolygonCurve& curve, const Constraints& constraints,
 
 Resampled resample(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how) {
   check_resampling(curve, constraints, how);
-  Resampler resampler(curve, constraints, how.by);
+  Resampler resampler(curve, constraints, how);
   resampler.share_out(how);
   return resampler.build();
 }

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "base/cancellation.hpp"
 #include "base/threads.hpp"
@@ -18,18 +20,25 @@ namespace {
 // Of a tolerance, at the start, so that there is room to become fairer.
 constexpr double first_share = 0.95;
 // Of a tolerance, so that what is not linear in a step does not go beyond.
-constexpr double aimed_share_of_curve = 0.995;
-constexpr double aimed_share_of_chords = 0.995;
+constexpr double aimed_share = 0.995;
+// Of how far the curve may go, so that it does not go beyond between nodes.
+constexpr double aimed_share_of_way = 0.98;
 constexpr int starts = 2;
 constexpr int robust_starts = 2;
+constexpr int risk_starts = 4;
 // Of the noise: what is nearer than that tells nothing.
 constexpr double least_deviation = 0.5;
 constexpr double times_noise = 3;
 constexpr double least_spacing_in_tolerances = 0.05;
 constexpr int most_grids = 4;
 constexpr int most_steps_on_grid = 30;
+// While corners move.
+constexpr int most_steps_of_corners = 8;
+constexpr int grids_of_corners = 3;
 // Of the energy, in a step: what changes less is there.
 constexpr double settled_energy = 1e-4;
+// Of the energy at first.
+constexpr double next_to_no_energy = 1e-6;
 // Of edges, in a step.
 constexpr double greatest_turn_of_step = 0.5;
 constexpr double greatest_turn_of_settled = 0.2;
@@ -44,9 +53,12 @@ constexpr double least_damping = 1e-4;
 constexpr double shrinking = 0.9;
 constexpr double tie_break = 1e-6;
 constexpr double loosened = 1.02;
-// Of the energy at first.
-constexpr double toll_of_excess = 10;
-constexpr double least_excess = 1e-4;
+// Of the energy, for what is two bounds away.
+constexpr double price_of_bounds = 1e3;
+// Of what a step promises to take off.
+constexpr double least_gain = 0.1;
+// Of the greatest curvature, where that is more than may be: what a step leaves of it, from one try to the next.
+constexpr double curvature_left[] = {0.5, 0.9, 0.98, 1};
 // How far from the polyline places may be: of the root mean square, and of the furthest point at the start.
 constexpr double reach_of_rms = 4;
 constexpr double spare_of_reach = 1.5;
@@ -82,7 +94,8 @@ class CurveFitter {
       smooth_out_robustly(found_.curve, found_.points, task_.noise);
       find_places(found_.curve, found_.points);
     }
-    for (const CurvePoint& point : found_.points) distances.push_back((found_.curve.at(point.at) - point.place).norm());
+    for (const CurvePoint& point : found_.points)
+      distances.push_back(found_.curve.offset(point.at, point.place).norm());
     std::vector<double> sorted = distances;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
@@ -93,9 +106,23 @@ class CurveFitter {
     return result;
   }
 
+  double rms_of_noise() {
+    begin_on_way();
+    double rms = 0;
+    for (int k = 0; k < risk_starts && !found_.points.empty(); ++k) {
+      rms = smooth_out_by_risk(found_.curve, found_.points, task_.noise, K);
+      find_places(found_.curve, found_.points);
+      DenseCurve now = with_new_nodes(found_.curve, least_spacing());
+      carry_places(found_.curve, now, found_.points);
+      found_.curve = std::move(now);
+    }
+    return rms;
+  }
+
   CurveFound run() {
     if (task_.nodes) return run_on_nodes();
     begin();
+    if (has_corners()) place_corners();
     for (int grid = 0; grid < most_grids; ++grid) {
       most_work_ = std::max(most_work_, static_cast<std::size_t>(task_.most_steps) * found_.curve.size() / (grid + 1));
       weights_ = weights_of_change(found_.curve, task_.evenly);
@@ -115,8 +142,9 @@ class CurveFitter {
   /// On nodes that are given, whose chords are the curve.
   CurveFound run_on_nodes() {
     found_.curve = *task_.nodes;
+    hold_corners();
     found_.points = task_.scattered;
-    for (CurvePoint& point : found_.points) point.bound = task_.within;
+    set_bounds();
     find_places(found_.curve, found_.points);
     most_work_ = static_cast<std::size_t>(task_.most_steps) * found_.curve.size();
     weights_ = weights_of_change(found_.curve, task_.evenly);
@@ -136,10 +164,18 @@ class CurveFitter {
   [[nodiscard]] double least_spacing() const { return least_spacing_in_tolerances * tolerance(); }
 
   void begin_on_way() {
-    const StartScale scale{task_.noise, tolerance()};
+    const StartScale scale{task_.noise, tolerance(), task_.sharp};
+    found_.curve = DenseCurve(false, task_.moving);
     for (const auto& chain : task_.chains) add_start(chain.nodes, chain.closed, scale, found_.curve, found_.points);
     find_scattered();
-    for (CurvePoint& point : found_.points) point.bound = task_.within;
+    set_bounds();
+  }
+
+  void set_bounds() {
+    for (CurvePoint& point : found_.points) {
+      const auto number = static_cast<std::size_t>(point.number);
+      point.bound = task_.within - (point.number >= 0 && !task_.spare.empty() ? task_.spare[number] : 0);
+    }
   }
 
   void begin() {
@@ -148,9 +184,7 @@ class CurveFitter {
     for (int k = 0; k < starts; ++k) {
       smooth_out_at_first();
       find_places(found_.curve, found_.points);
-      DenseCurve now = with_new_nodes(found_.curve, least_spacing());
-      carry_places(found_.curve, now, found_.points);
-      found_.curve = std::move(now);
+      take_new_nodes(with_new_nodes(found_.curve, least_spacing()));
     }
     smooth_out_at_first();
     find_places(found_.curve, found_.points);
@@ -215,9 +249,9 @@ class CurveFitter {
   }
 
   void find_places_between() {
+    gives_way_ = false;
     between_.clear();
-    if (!task_.in_order) return;
-    between_ = polyline_bounds(found_.curve, found_.points, reach());
+    if (task_.in_order && task_.keeps_way) between_ = polyline_bounds(found_.curve, found_.points, reach());
   }
 
   /// How far from the polyline places may be: where only points pull, a sharp turn would go out to a wide loop.
@@ -226,19 +260,21 @@ class CurveFitter {
     if (task_.rms > 0) return reach_of_rms * task_.rms;
     double reach = reach_of_rms * task_.noise;
     for (const CurvePoint& point : found_.points)
-      reach = std::max(reach, spare_of_reach * (found_.curve.at(point.at) - point.place).norm());
+      reach = std::max(reach, spare_of_reach * found_.curve.offset(point.at, point.place).norm());
     return reach;
   }
 
   /// Steps to the fairest curve for the weight of points as it is.
-  void go() {
+  void go(int most_steps = most_steps_on_grid) {
     find_places(found_.curve, found_.points);
     double energy = merit();
     double excess = this->excess();
-    // So that keeping all bounds is worth so many times the energy.
-    const double toll = toll_of_excess * energy / std::clamp(excess - 1, least_excess, 1.0);
+    double bent = greatest_bend();
+    const double* left = std::begin(curvature_left);
+    const int sides = has_corners() ? 2 : 1;
+    int sides_done = 0;
     double last_step = std::numeric_limits<double>::infinity();
-    for (int step = 0; step < most_steps_on_grid && work_ < most_work_; ++step) {
+    for (int step = 0; step < most_steps && work_ < most_work_; ++step) {
       end_if_cancelled();
       ++found_.steps;
       work_ += found_.curve.size();
@@ -249,24 +285,31 @@ class CurveFitter {
       bool found = false;
       std::vector<Vector3> moves(before.size(), Vector3::Zero());
       for (int trial = 0; trial < most_dampings; ++trial) {
-        CurveProgram<K> program = this->program();
-        if (program.blocks() == 0) {
+        std::optional<CurveProgram<K>> program;
+        BallSolution solution;
+        const auto solve = [&](double share, double price) {
+          program.emplace(this->program(share, price));
+          solution = program->solve();
+          found = solution.found;
+        };
+        // What was too much for one step is so for the next.
+        for (solve(*left, 0); !found && task_.least_radius > 0 && left + 1 != std::end(curvature_left);)
+          solve(*++left, 0);
+        if (program->blocks() == 0) {
           found_.converged = true;
           return;
         }
-        if (damping_ > 0) program.add_damping(damping_);
-        BallSolution solution = program.solve();
-        found = solution.found;
         if (!found) {
-          loosen_bounds();
+          // What can't be kept, along with all else or at a price.
+          solve(1, price_of_bounds * energy);
+          if (found)
+            loosen_bounds(solution);
+          else
+            loosen_bounds();
           places = found_.points;
           excess = this->excess();
-          CurveProgram<K> looser = this->program();
-          if (damping_ > 0) looser.add_damping(damping_);
-          solution = looser.solve();
-          found = solution.found;
         }
-        program.for_moves(solution, [&](std::uint32_t i, const Vector3& move) { moves[i] = move; });
+        program->for_moves(solution, [&](std::uint32_t i, const Vector3& move) { moves[i] = move; });
         greatest = turn = 0;
         double squares = 0;
         for (std::uint32_t i = 0; i < before.size(); ++i) {
@@ -294,59 +337,123 @@ class CurveFitter {
         find_places(found_.curve, found_.points);
         now = merit();
         const double beyond = std::max(1.0, this->excess());
-        better = now + toll * beyond < energy + toll * std::max(1.0, excess);
-        // Springs have no energy of their own; near their balance steps become smaller from one to the next.
-        if (springs_ && half == 0 && share == 1) better = better || greatest <= shrinking * last_step;
-        better = better && beyond <= std::max(1.0, excess);
+        const double bend = std::max(1.0, greatest_bend());
+        // Bounds come first: a curve that is beyond them may well be fairer.
+        if (excess > 1)
+          better = beyond - 1 <= (1 - least_gain * share) * (excess - 1) || (beyond <= excess && now < energy);
+        else
+          // Springs have no energy of their own; near their balance steps become smaller from one to the next.
+          better = beyond <= 1 &&
+                   (now < energy || bend < bent || (springs_ && share == 1 && greatest <= shrinking * last_step));
+        better = better && bend <= std::max(1.0, bent);
         if (!better) continue;
         excess = beyond;
+        bent = bend;
         break;
       }
       if (!better) {
         found_.curve = before;
         found_.points = places;
-        found_.converged = found;
+        found_.converged = found && bent <= 1;
+        ahead_ = !ahead_;
+        if (++sides_done < sides) continue;
         return;
+      }
+      if (!gives_way_) {
+        // Other pieces of the polyline may be nearer now.
+        find_places_between();
+        excess = std::max(1.0, this->excess());
       }
       last_step = greatest * share;
       found_.error = last_step;
       const bool still = last_step < task_.tolerance;
-      const bool settled = !springs_ && share == 1 && energy - now <= settled_energy * energy && excess <= 1;
+      const bool settled = !springs_ &&
+                           ((share == 1 && energy - now <= settled_energy * energy) || now <= nothing_left_) &&
+                           excess <= 1 && bent <= 1;
       energy = now;
       damping_ = damping_ > least_damping * energy ? damping_ * less_damping : 0;
-      if (turn > greatest_turn_of_settled) continue;
-      if (still || settled) {
-        found_.converged = true;
-        return;
+      ahead_ = !ahead_;
+      if (turn > greatest_turn_of_settled || !(still || settled)) {
+        sides_done = 0;
+        continue;
       }
+      found_.converged = bent <= 1;
+      if (++sides_done == sides) return;
     }
     found_.converged = false;
   }
 
-  [[nodiscard]] double aimed_share() const { return task_.nodes ? aimed_share_of_chords : aimed_share_of_curve; }
+  /// Nodes do not go along the curve, so that corners can't go far on one grid. Afterwards they stay where they are.
+  void place_corners() {
+    has_sides_ = task_.within > 0;
+    if (has_sides_) data_weight_ = weight_of_sides();
+    for (int grid = 0; grid < grids_of_corners; ++grid) {
+      most_work_ = std::max(most_work_, static_cast<std::size_t>(task_.most_steps) * found_.curve.size());
+      weights_ = weights_of_change(found_.curve, task_.evenly);
+      find_places_between();
+      if (has_sides_ && grid == 0) nothing_left_ = next_to_no_energy * merit();
+      if (task_.rms > 0)
+        go_to_rms();
+      else
+        go(most_steps_of_corners);
+      take_new_nodes(with_new_nodes(found_.curve, least_spacing()));
+    }
+    hold_corners();
+  }
 
-  [[nodiscard]] CurveProgram<K> program() const {
-    CurveProgram<K> program(found_.curve, plane_);
+  void hold_corners() {
+    for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
+      if (found_.curve.node(i).corner) found_.curve.hold(i);
+    }
+  }
+
+  void take_new_nodes(DenseCurve now) {
+    carry_places(found_.curve, now, found_.points);
+    found_.curve = std::move(now);
+  }
+
+  /// That move, across the edge after and that before in turns.
+  [[nodiscard]] bool has_corners() const {
+    for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
+      if (found_.curve.node(i).corner && !found_.curve.node(i).held) return true;
+    }
+    return false;
+  }
+
+  /// left: of what nodes are bent by more than they may be, so much may stay. price: of what is a whole bound beyond
+  /// it, half of that; 0: nothing may be.
+  CurveProgram<K> program(double left, double price) {
+    CurveProgram<K> program(found_.curve, plane_, ahead_);
+    bounded_.clear();
+    const auto set_bound = [&](CurvePoint& point, double bound, double share) {
+      point.bound = share * bound;
+      if (bound > 0) point.price = price / bound;
+    };
     if (springs_) {
       program.add_springs(1);
     } else {
       program.add_variation(weights_);
       program.add_bending(tie_break);
     }
-    for (CurvePoint point : found_.points) {
+    for (CurvePoint& point : found_.points) {
       if (!(point.weight > 0) || is_at_held(point)) continue;
-      point.bound *= aimed_share();
-      program.add_point(point, data_weight_);
+      CurvePoint aimed = point;
+      set_bound(aimed, point.bound, aimed_share);
+      const std::size_t row = program.add_point(aimed, data_weight_);
+      if (point.bound > 0) bounded_.emplace_back(&point.bound, row);
     }
-    for (const PolylineBound& one : between_) {
+    for (PolylineBound& one : between_) {
+      const Vector3 place = found_.curve.at(one.at);
+      if (!(task_.within > 0) && one.distance(place) < far_share * one.bound) continue;
       CurvePoint point;
-      point.place = one.nearest(found_.curve.place(one.node));
-      if (!(task_.within > 0) && one.distance(found_.curve.place(one.node)) < far_share * one.bound) continue;
-      point.at = {one.node, 0};
-      point.bound = aimed_share() * one.bound;
-      program.add_point(point, 0);
+      point.place = one.nearest(place);
+      point.at = one.at;
+      set_bound(point, one.bound, aimed_share_of_way);
+      bounded_.emplace_back(&one.bound, program.add_bound(point));
     }
-    if (task_.least_radius > 0) program.add_least_radius(task_.least_radius);
+    if (damping_ > 0) program.add_damping(damping_);
+    if (task_.least_radius > 0)
+      program.add_greatest_curvature(std::max(aimed_share, left * greatest_bend()) / task_.least_radius);
     return program;
   }
 
@@ -364,8 +471,9 @@ class CurveFitter {
     }
     if (data_weight_ > 0) {
       for (const CurvePoint& point : found_.points)
-        sum += data_weight_ * point.weight * (curve.at(point.at) - point.place).squaredNorm();
+        sum += data_weight_ * point.weight * curve.offset(point.at, point.place).squaredNorm();
     }
+    if (has_sides_) sum += tie_break * bending();
     return sum;
   }
 
@@ -381,14 +489,21 @@ class CurveFitter {
     return sum;
   }
 
-  /// Those that can't be kept, to where they are.
+  /// Those that were paid for, to where the step goes.
+  void loosen_bounds(const BallSolution& solution) {
+    gives_way_ = true;
+    for (const auto& [bound, row] : bounded_) *bound = std::max(*bound, loosened * solution.distances[row]);
+  }
+
+  /// All to where they are.
   void loosen_bounds() {
+    gives_way_ = true;
     for (CurvePoint& point : found_.points) {
-      const double away = (found_.curve.at(point.at) - point.place).norm();
+      const double away = found_.curve.offset(point.at, point.place).norm();
       if (point.bound > 0) point.bound = std::max(point.bound, loosened * away);
     }
     for (PolylineBound& one : between_)
-      one.bound = std::max(one.bound, loosened * one.distance(found_.curve.place(one.node)));
+      one.bound = std::max(one.bound, loosened * one.distance(found_.curve.at(one.at)));
   }
 
   /// Nearest to a node that does not move: nothing can be done about it.
@@ -402,10 +517,18 @@ class CurveFitter {
     double greatest = 0;
     for (const CurvePoint& point : found_.points) {
       if (point.bound > 0 && point.weight > 0 && !is_at_held(point))
-        greatest = std::max(greatest, (found_.curve.at(point.at) - point.place).norm() / point.bound);
+        greatest = std::max(greatest, found_.curve.offset(point.at, point.place).norm() / point.bound);
     }
     for (const PolylineBound& one : between_)
-      greatest = std::max(greatest, one.distance(found_.curve.place(one.node)) / one.bound);
+      greatest = std::max(greatest, one.distance(found_.curve.at(one.at)) / one.bound);
+    return greatest;
+  }
+
+  /// The greatest share of what is allowed that curvature has; 0 where all is.
+  [[nodiscard]] double greatest_bend() const {
+    double greatest = 0;
+    for (std::uint32_t i = 0; i < found_.curve.size() && task_.least_radius > 0; ++i)
+      greatest = std::max(greatest, task_.least_radius * found_.curve.greatest_curvature(i));
     return greatest;
   }
 
@@ -413,10 +536,29 @@ class CurveFitter {
     double squares = 0;
     double weights = 0;
     for (const CurvePoint& point : found_.points) {
-      squares += point.weight * (found_.curve.at(point.at) - point.place).squaredNorm();
+      squares += point.weight * found_.curve.offset(point.at, point.place).squaredNorm();
       weights += point.weight;
     }
     return weights > 0 ? std::sqrt(squares / weights) : 0;
+  }
+
+  [[nodiscard]] double weight() const {
+    double weights = 0;
+    for (const CurvePoint& point : found_.points) weights += point.weight;
+    return weights;
+  }
+
+  /// What holds a wave of the whole length half.
+  [[nodiscard]] double weight_of_wave() const {
+    const double length = this->length();
+    return std::pow(2 * std::numbers::pi / length, 6) * length / weight();
+  }
+
+  /// Next to nothing beside least bending, as that is beside least change of curvature: so that sides which are
+  /// straight go through the middle of their points.
+  [[nodiscard]] double weight_of_sides() const {
+    const double length = this->length();
+    return next_to_no_weight * tie_break * std::pow(2 * std::numbers::pi / length, 4) * length / weight();
   }
 
   /// The least weight of points with which they are near enough. From the fairest curve that has none of them much
@@ -425,16 +567,11 @@ class CurveFitter {
     if (data_weight_ == 0) {
       for (CurvePoint& point : found_.points) point.bound = bound_of_rms * task_.rms;
       go();
-      double weights = 0;
-      for (CurvePoint& point : found_.points) {
-        point.bound = 0;
-        weights += point.weight;
-      }
+      for (CurvePoint& point : found_.points) point.bound = 0;
       if (rms() <= task_.rms) return;
-      // As much as the energy is, or what holds a wave of the whole length half.
-      const double length = this->length();
-      const double of_wave = std::pow(2 * std::numbers::pi / length, 6) * length / weights;
-      data_weight_ = std::max(merit() / (weights * std::pow(task_.rms, 2)), of_wave);
+      // As much as the energy is.
+      const double of_wave = weight_of_wave();
+      data_weight_ = std::max(merit() / (weight() * std::pow(task_.rms, 2)), of_wave);
       least_weight_ = next_to_no_weight * of_wave;
     }
     double near = 0;
@@ -483,8 +620,7 @@ class CurveFitter {
   bool refine() {
     DenseCurve now = with_new_nodes(found_.curve, least_spacing());
     if (now.size() <= found_.curve.size() + found_.curve.size() / 20) return false;
-    carry_places(found_.curve, now, found_.points);
-    found_.curve = std::move(now);
+    take_new_nodes(std::move(now));
     return true;
   }
 
@@ -492,7 +628,8 @@ class CurveFitter {
     found_.evenly = task_.evenly;
     found_.rms = rms();
     for (const CurvePoint& point : found_.points)
-      found_.greatest = std::max(found_.greatest, (found_.curve.at(point.at) - point.place).norm());
+      found_.greatest = std::max(found_.greatest, found_.curve.offset(point.at, point.place).norm());
+    if (task_.in_order) between_ = polyline_bounds(found_.curve, found_.points, reach());
     found_.beyond = excess();
   }
 
@@ -503,10 +640,15 @@ class CurveFitter {
   CurveFound found_;
   std::vector<double> weights_;
   std::vector<PolylineBound> between_;
+  std::vector<std::pair<double*, std::size_t>> bounded_;  // bounds of the program, and their rows
+  bool gives_way_ = false;                                ///< whether a bound does
   double data_weight_ = 0;
   double least_weight_ = 0;
   double damping_ = 0;
-  std::size_t work_ = 0;  ///< nodes, each for every step
+  bool has_sides_ = false;   ///< between corners, within a tolerance
+  double nothing_left_ = 0;  ///< energy of sides that are as good as straight
+  bool ahead_ = true;        ///< corners go across the edges after them
+  std::size_t work_ = 0;     ///< nodes, each for every step
   std::size_t most_work_ = 0;
 };
 
@@ -515,6 +657,11 @@ class CurveFitter {
 std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task) {
   const std::function<void(double)> none = [](double) {};
   return task.plane ? CurveFitter<1>(task, none).deviations() : CurveFitter<2>(task, none).deviations();
+}
+
+double rms_of_noise(const CurveFitTask& task) {
+  const std::function<void(double)> none = [](double) {};
+  return task.plane ? CurveFitter<1>(task, none).rms_of_noise() : CurveFitter<2>(task, none).rms_of_noise();
 }
 
 CurveFound fit_curve(const CurveFitTask& task, const std::function<void(double share)>& progress) {

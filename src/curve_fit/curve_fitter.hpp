@@ -21,9 +21,14 @@ struct CurveFitTask {
   /// In place of chains: nodes whose chords are the curve. The scattered points have places on them.
   const DenseCurve* nodes = nullptr;
   bool in_order = true;          ///< whether points come in the order of the chains
+  bool keeps_way = true;         ///< and whether the curve is held near the polyline through them
   std::optional<Vector3> plane;  ///< its normal, where all lies in one
+  /// 1 for coordinates that move, 0 for others: one in a plane, or two in space.
+  Vector3 moving = Vector3::Ones();
   // One of these; the others are 0.
   double within = 0;
+  /// What of it is not for the curve, by the number of the point: so much chords go beyond. Empty: nothing.
+  std::vector<double> spare;
   double rms = 0;
   double smoothing = 0;
   /// The paper's k (Eq. 9), for so many edges of even lengths.
@@ -32,8 +37,9 @@ struct CurveFitTask {
   bool evenly = false;      ///< change of curvature counts alike everywhere, not less where it is large
   double noise = 0;         ///< of the points, across
   double least_radius = 0;  ///< 0: any
+  double sharp = 0;  ///< where the way of the points turns by more than this are corners, in radians; 0: none are
   double tolerance = 1e-5;  ///< how near to the fairest, a share of the size
-  int most_steps = 60;      ///< of all programs
+  int most_steps = 120;     ///< of all programs
 };
 
 struct CurveFound {
@@ -52,6 +58,9 @@ struct CurveFound {
 /// How far the points of a task are from a robust curve through them, by the order of the task's own nodes and then of
 /// the scattered ones, with their numbers; in standard deviations of what the nearer half of them is away.
 std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task);
+
+/// The root mean square distance of the points from a curve that noise of the task's standard deviation leaves.
+double rms_of_noise(const CurveFitTask& task);
 
 /// The fairest curve through a task's held nodes that its points allow: of least change of curvature within a tolerance
 /// or a root mean square, or where springs and points balance. Each step is a convex program about the curve as it is.

@@ -13,11 +13,14 @@ constexpr double nodes_of_spacing = 120;
 constexpr double steepest_spacing = 0.25;
 constexpr double power_of_spacing = 3;
 constexpr double least_share_of_mean_curvature = 0.5;
+// Of a direction, across the coordinates that move: where it is less, nodes would only go along the curve.
+constexpr double least_across = 0.03;
 
 }  // namespace
 
 template <int K>
-CurveProgram<K>::CurveProgram(const DenseCurve& curve, const Vector3& plane) : curve_(curve), plane_(plane) {
+CurveProgram<K>::CurveProgram(const DenseCurve& curve, const Vector3& plane, bool ahead)
+    : curve_(curve), plane_(plane) {
   number();
   bases_.resize(curve.size());
   program_.windows.resize(curve.size());
@@ -32,7 +35,8 @@ CurveProgram<K>::CurveProgram(const DenseCurve& curve, const Vector3& plane) : c
     } else if (curve.before(i) != DenseCurve::none) {
       window = {block_[curve.before(i)], block_[i], BallProgram<K>::none, BallProgram<K>::none};
     }
-    if (block_[i] >= 0) bases_[i] = across(curve.bend(i, curve.is_edge(i)).tangent);
+    const bool after = curve.node(i).corner ? ahead : curve.is_edge(i);
+    if (block_[i] >= 0) bases_[i] = ways_of(curve.bend(i, after).tangent);
   }
 }
 
@@ -67,6 +71,26 @@ typename CurveProgram<K>::Basis CurveProgram<K>::across(const Vector3& direction
     basis.col(1) = direction.cross(basis.col(0)).normalized();
   }
   return basis;
+}
+
+template <int K>
+typename CurveProgram<K>::Basis CurveProgram<K>::axes() const {
+  Basis basis = Basis::Zero();
+  int k = 0;
+  for (int axis = 0; axis < 3 && k < K; ++axis) {
+    if (curve_.moving()[axis] != 0) basis(axis, k++) = 1;
+  }
+  return basis;
+}
+
+/// Which ways a node may go: zero for those that would not take it anywhere.
+template <int K>
+typename CurveProgram<K>::Basis CurveProgram<K>::ways_of(const Vector3& direction) const {
+  if (curve_.moves_freely()) return across(direction);
+  Basis basis = axes();
+  if (curve_.station(direction).norm() >= least_across) return basis;
+  const Eigen::Matrix<double, K, 1> along = (basis.transpose() * direction).normalized();
+  return basis - basis * along * along.transpose();
 }
 
 template <int K>
@@ -157,33 +181,62 @@ void CurveProgram<K>::add_damping(double weight) {
 }
 
 template <int K>
-void CurveProgram<K>::add_least_radius(double radius) {
+void CurveProgram<K>::add_greatest_curvature(double most) {
   for (std::uint32_t i = 0; i < curve_.size(); ++i) {
-    const auto bent = curve_.curvature_row(i, curve_.is_edge(i));
-    if (bent.count == 0) continue;
-    const Eigen::Matrix<double, K, 3> sideways = across(curve_.bend(i, curve_.is_edge(i)).tangent).transpose();
-    Row row;
-    row.window = i;
-    row.bound = 1 / radius;
-    row.offset = sideways * bent.curvature;
-    for (int k = 0; k < bent.count; ++k) add_entry(row, bent.nodes[k], sideways * bent.slopes[k]);
-    program_.rows.push_back(row);
+    const bool is_smooth = curve_.is_smooth(i);
+    for (const bool after : {false, true}) {
+      if (is_smooth && !after) continue;
+      const auto bent = curve_.curvature_row(i, after);
+      if (bent.count == 0) continue;
+      const Eigen::Matrix<double, K, 3> sideways = across(curve_.bend(i, after).tangent).transpose();
+      Row row;
+      row.window = after ? i : curve_.before(i);
+      row.bound = most;
+      row.offset = sideways * bent.curvature;
+      for (int k = 0; k < bent.count; ++k) add_entry(row, bent.nodes[k], sideways * bent.slopes[k]);
+      program_.rows.push_back(row);
+    }
   }
 }
 
 template <int K>
-void CurveProgram<K>::add_point(const CurvePoint& point, double data_weight) {
+std::size_t CurveProgram<K>::add_point(const CurvePoint& point, double data_weight) {
+  return add_row_of(point, data_weight * point.weight, curve_.moves_freely() ? across(along(point)) : axes());
+}
+
+template <int K>
+std::size_t CurveProgram<K>::add_bound(const CurvePoint& point) {
+  return add_row_of(point, 0, across(along(point)));
+}
+
+/// The direction of the curve. What is nearest to a corner may lie ahead of it as well.
+template <int K>
+Vector3 CurveProgram<K>::along(const CurvePoint& point) const {
+  const Vector3 offset = curve_.at(point.at) - point.place;
+  Vector3 direction = curve_.direction(point.at);
+  const bool at_corner = (point.at.share == 0 && curve_.node(point.at.edge).corner) ||
+                         (point.at.share == 1 && curve_.node(curve_.next(point.at.edge)).corner);
+  if (!at_corner || offset.isZero(0)) return direction;
+  const Vector3 aside = offset.cross(direction).cross(offset);
+  return K == 1 ? plane_.cross(offset) : aside.isZero(0) ? offset.unitOrthogonal() : aside;
+}
+
+template <int K>
+std::size_t CurveProgram<K>::add_row_of(const CurvePoint& point, double weight, const Basis& ways) {
   const auto place = curve_.place_row(point.at);
-  const Eigen::Matrix<double, K, 3> sideways = across(curve_.direction(point.at)).transpose();
+  const Vector3 offset = curve_.at(point.at) - point.place;
+  const Eigen::Matrix<double, K, 3> sideways = ways.transpose();
   Row row;
   row.window = point.at.edge;
-  row.weight = data_weight * point.weight;
+  row.weight = weight;
   row.bound = point.bound;
-  row.offset = sideways * (curve_.at(point.at) - point.place);
+  row.price = point.price;
+  row.offset = sideways * offset;
   for (std::size_t k = 0; k < 4; ++k) {
     if (place.nodes[k] != DenseCurve::none) add_entry(row, place.nodes[k], place.weights[k] * sideways);
   }
   program_.rows.push_back(row);
+  return program_.rows.size() - 1;
 }
 
 template class CurveProgram<1>;
@@ -201,7 +254,7 @@ std::vector<double> weights_of_change(const DenseCurve& curve, bool evenly) {
     for (std::uint32_t i = chain.begin; i < end; ++i) {
       const std::uint32_t before = curve.before(i);
       double& bent = curvature[i - chain.begin];
-      for (const bool after : {false, true}) bent = std::max(bent, curve.curvature_row(i, after).curvature.norm());
+      bent = curve.greatest_curvature(i);
       turned += bent * (edge(i) + (before == DenseCurve::none ? 0 : edge(before))) / 2;
       length += edge(i);
     }

@@ -17,6 +17,7 @@ struct CurvePoint {
   CurvePlace at = {};  ///< the place that is nearest to it
   Index number = -1;   ///< of the points as they were given; −1: a place of the polyline through them
   double bound = 0;    ///< how far away it may be at most; 0: as far as it likes
+  double price = 0;    ///< of what it is beyond, as of rows of a program; 0: it may not be
 };
 
 /// What is least, besides what points add.
@@ -27,14 +28,15 @@ enum class CurveEnergy {
   bending
 };
 
-/// One step of Gauss and Newton: how nodes go across a curve, one way in a plane (K = 1), two in space.
+/// One step of Gauss and Newton: how nodes go across a curve, one way in a plane (K = 1), two in space; or along as
+/// many coordinates as move.
 template <int K>
 class CurveProgram {
  public:
   using Basis = Eigen::Matrix<double, 3, K>;
 
-  /// plane: its normal, for K = 1.
-  CurveProgram(const DenseCurve& curve, const Vector3& plane);
+  /// plane: its normal, for K = 1. ahead: corners go across the edge after them, or else across that before.
+  CurveProgram(const DenseCurve& curve, const Vector3& plane, bool ahead = true);
 
   /// weights: for every edge, by which the squared change of curvature along it counts.
   void add_variation(std::span<const double> weights);
@@ -44,10 +46,13 @@ class CurveProgram {
   void add_springs(double weight) { add_bending(weight, true); }
   /// Against edges that turn: of the squared turn, along the length.
   void add_damping(double weight);
-  /// data_weight: times the point's own.
-  void add_point(const CurvePoint& point, double data_weight);
-  /// The radius of curvature is at least that.
-  void add_least_radius(double radius);
+  /// data_weight: times the point's own. The distance is across the curve, or in the coordinates that move. The number
+  /// of its row.
+  std::size_t add_point(const CurvePoint& point, double data_weight);
+  /// How far a place may be from a point, across the curve. The number of its row.
+  std::size_t add_bound(const CurvePoint& point);
+  /// Nodes are bent by no more than that.
+  void add_greatest_curvature(double most);
 
   [[nodiscard]] BallSolution solve() const { return vspring::solve(program_); }
   /// Calls with every node that moves and how it would go.
@@ -67,6 +72,10 @@ class CurveProgram {
   using Row = typename BallProgram<K>::Row;
   void number();
   [[nodiscard]] Basis across(const Vector3& direction) const;
+  [[nodiscard]] Basis axes() const;
+  [[nodiscard]] Basis ways_of(const Vector3& direction) const;
+  [[nodiscard]] Vector3 along(const CurvePoint& point) const;
+  std::size_t add_row_of(const CurvePoint& point, double weight, const Basis& ways);
   void add_entry(Row& row, std::uint32_t node, const Eigen::Matrix<double, K, 3>& slope) const;
 
   const DenseCurve& curve_;

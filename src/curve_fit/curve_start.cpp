@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/cancellation.hpp"
+#include "curve_fit/way_corners.hpp"
 #include "shape/segment.hpp"
 
 namespace vspring {
@@ -16,17 +17,23 @@ namespace {
 
 // Of the noise: rows that are nearer together tell nothing of the way.
 constexpr double reach_of_rows = 2;
+// Of that, across stations that stay.
+constexpr double reach_across = 3;
 // How far back rows may go and still be out of order, not on their way back: of that, or of rows and median edges about
 // them.
 constexpr double reach_of_folds = 5;
 constexpr std::size_t most_rows_of_fold = 4;
-constexpr double most_edges_of_fold = 5;
+constexpr double most_edges_of_fold = 10;
+// Of how far back: so far aside rows may be of the way that they are put on.
+constexpr double most_aside_of_fold = 0.4;
+constexpr std::size_t rows_beside_fold = 3;
 constexpr std::size_t rows_about = 8;
 constexpr int most_turns_of_folds = 10;
 // Nodes on a straight piece of the polyline within the tolerance, and on the arc of a turn.
 constexpr double edges_of_piece = 12;
 // Of mean edges of the rows: nodes need not be denser, but at corners.
 constexpr double least_share_of_rows = 0.5;
+constexpr double least_share_of_tolerance = 0.5;
 constexpr double steepest = 0.25;
 constexpr double edges_between_held = 8;
 // Of the length.
@@ -43,15 +50,20 @@ struct Stop {
   double rows = 0;
   bool fixed = false;
   std::size_t node = 0;  ///< of the chain: the first of its rows
+  bool corner = false;   ///< that was found
 };
 
 /// The places that the rows of a chain go along, in order.
 class Way {
  public:
-  Way(const std::vector<ChainNode>& chain, bool closed, double reach) : chain_(chain), closed_(closed), reach_(reach) {
+  /// along: for its station().
+  Way(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, const DenseCurve& along)
+      : chain_(chain), closed_(closed), reach_(reach_of_rows * scale.noise), along_(along) {
     joined_with_.resize(chain.size());
+    find_turns();
     for (std::size_t k = 0; k < chain.size(); ++k) add(k);
     join_seam();
+    if (scale.sharp > 0) find_corners(scale);
     leave_out_next_to_fixed();
     for (int turn = 0; turn < most_turns_of_folds && undo_folds(); ++turn) {
     }
@@ -66,17 +78,68 @@ class Way {
     return row;
   }
 
+  /// Of those that a stop begins with, one after the other.
+  [[nodiscard]] std::size_t middle_row(const Stop& stop) const {
+    std::size_t end = stop.node + 1;
+    while (end < chain_.size() && first_row(end) == stop.node) ++end;
+    return stop.node + (end - stop.node) / 2;
+  }
+
  private:
+  /// Rows where stations that stay go as far as they do before they come back: no other row could take their place.
+  void find_turns() {
+    turns_.assign(chain_.size(), 0);
+    if (along_.moves_freely() || chain_.size() < 2) return;
+    std::vector<double> edges;
+    Vector3 axis = Vector3::Zero();
+    for (std::size_t k = 1; k < chain_.size(); ++k) {
+      const Vector3 away = station(chain_[k].place - chain_.front().place);
+      if (away.norm() > axis.norm()) axis = away;
+      edges.push_back(station(chain_[k].place - chain_[k - 1].place).norm());
+    }
+    axis.normalize();
+    const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+    std::nth_element(edges.begin(), middle, edges.end());
+    const double least = std::max(reach_of_folds * reach_, most_edges_of_fold * *middle);
+    // How far it has come since the last turn, and back since then.
+    std::size_t lowest = 0;
+    std::size_t highest = 0;
+    int way = 0;
+    for (std::size_t k = 0; k < chain_.size() * (closed_ ? 2 : 1); ++k) {
+      const std::size_t row = k % chain_.size();
+      const auto at = [&](std::size_t other) { return axis.dot(chain_[other].place); };
+      if (at(row) > at(highest)) highest = row;
+      if (at(row) < at(lowest)) lowest = row;
+      if (way >= 0 && at(row) < at(highest) - least) {
+        if (way > 0 || closed_) turns_[highest] = 1;
+        way = -1;
+        lowest = row;
+      } else if (way <= 0 && at(row) > at(lowest) + least) {
+        if (way < 0 || closed_) turns_[lowest] = 1;
+        way = 1;
+        highest = row;
+      }
+    }
+  }
+
   void add(std::size_t k) {
     const ChainNode& node = chain_[k];
-    const bool fixed = node.held || node.corner || !node.tangent.isZero(0);
+    const bool fixed = node.held || node.corner || !node.tangent.isZero(0) || turns_[k] != 0;
     joined_with_[k] = k;
-    if (!fixed && !stops.empty() && !stops.back().fixed && (node.place - stops.back().place).norm() <= reach_) {
+    if (!fixed && !stops.empty() && !stops.back().fixed && are_one(node.place, stops.back().place)) {
       join(stops.back(), {node.place, 1, false, k});
       return;
     }
     stops.push_back({node.place, 1, fixed, k});
   }
+
+  /// Where stations stay, rows may be noise apart across them.
+  [[nodiscard]] bool are_one(const Vector3& a, const Vector3& b) const {
+    const double most = along_.moves_freely() ? reach_ : reach_across * reach_;
+    return station(b - a).norm() <= reach_ && (b - a).norm() <= most;
+  }
+
+  [[nodiscard]] Vector3 station(const Vector3& v) const { return along_.station(v); }
 
   void join(Stop& a, const Stop& b) {
     a.place = (a.rows * a.place + b.rows * b.place) / (a.rows + b.rows);
@@ -87,9 +150,20 @@ class Way {
   void join_seam() {
     while (closed_ && stops.size() > 3) {
       const Stop last = stops.back();
-      if (last.fixed || stops.front().fixed || (last.place - stops.front().place).norm() > reach_) return;
+      if (last.fixed || stops.front().fixed || !are_one(last.place, stops.front().place)) return;
       join(stops.front(), last);
       stops.pop_back();
+    }
+  }
+
+  void find_corners(const StartScale& scale) {
+    std::vector<Vector3> places;
+    places.reserve(stops.size());
+    for (const Stop& stop : stops) places.push_back(stop.place);
+    for (const std::size_t k : corners_of_way(places, closed_, scale.sharp, scale.tolerance)) {
+      // A given tangent says how the curve goes there.
+      if (!chain_[stops[k].node].tangent.isZero(0)) continue;
+      stops[k].fixed = stops[k].corner = true;
     }
   }
 
@@ -116,7 +190,7 @@ class Way {
   }
 
   [[nodiscard]] bool turns_back(std::size_t k) const {
-    return (stops[k].place - stops[k - 1].place).dot(stops[k + 1].place - stops[k].place) < 0;
+    return station(stops[k].place - stops[k - 1].place).dot(stops[k + 1].place - stops[k].place) < 0;
   }
 
   /// Where the way goes back and on again within a few rows, or within what is noise, its places there are put in the
@@ -128,31 +202,56 @@ class Way {
       std::size_t end = k + 1;
       while (end + 1 < stops.size() && end - k <= most_rows_of_fold && !turns_back(end)) ++end;
       if (end + 1 >= stops.size() || !turns_back(end)) continue;
-      const double back = (stops[end].place - stops[k].place).norm();
+      const double back = station(stops[end].place - stops[k].place).norm();
       const bool is_noise = back <= reach_of_folds * reach_;
       if (!is_noise && (end - k > most_rows_of_fold || back > most_edges_of_fold * median_edge(k))) continue;
-      bool fixed = false;
-      for (std::size_t j = k; j <= end; ++j) fixed = fixed || stops[j].fixed;
-      if (fixed) continue;
-      const Vector3 on = stops[end + 1].place - stops[k - 1].place;
-      const auto first = stops.begin() + static_cast<std::ptrdiff_t>(k);
-      const auto last = stops.begin() + static_cast<std::ptrdiff_t>(end) + 1;
-      if (is_noise) {
-        for (std::size_t j = k + 1; j <= end; ++j) join(stops[k], stops[j]);
-        stops.erase(first + 1, last);
-      } else {
-        std::stable_sort(first, last, [&](const Stop& a, const Stop& b) { return a.place.dot(on) < b.place.dot(on); });
-      }
-      found = true;
+      found = (is_noise ? join_all(k, end) : put_in_order(k, end, most_aside_of_fold * back)) || found;
     }
     return found;
+  }
+
+  bool join_all(std::size_t first, std::size_t last) {
+    for (std::size_t j = first; j <= last; ++j) {
+      if (stops[j].fixed) return false;
+    }
+    for (std::size_t j = first + 1; j <= last; ++j) join(stops[first], stops[j]);
+    const auto begin = stops.begin() + static_cast<std::ptrdiff_t>(first);
+    stops.erase(begin + 1, begin + static_cast<std::ptrdiff_t>(last - first) + 1);
+    return true;
+  }
+
+  /// Those of a fold, and what is out of order beside it. False where they lie aside of the way that they would be on.
+  bool put_in_order(std::size_t first, std::size_t last, double most_aside) {
+    const std::size_t begin = first - std::min(first, rows_beside_fold);
+    const std::size_t end = std::min(stops.size() - 1, last + rows_beside_fold);
+    const Vector3 on = station(stops[end].place - stops[begin].place);
+    std::vector<std::size_t> order(end - begin - 1);
+    std::iota(order.begin(), order.end(), begin + 1);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return stops[a].place.dot(on) < stops[b].place.dot(on); });
+    std::size_t left = begin + 1;
+    std::size_t right = end - 1;
+    while (left < end && order[left - begin - 1] == left) ++left;
+    while (right > left && order[right - begin - 1] == right) --right;
+    if (left >= right) return false;
+    const Vector3& from = stops[left - 1].place;
+    const Vector3& to = stops[right + 1].place;
+    for (std::size_t j = left; j <= right; ++j) {
+      const Vector3& place = stops[j].place;
+      const double away = station(from + nearest_share(place, from, to) * (to - from) - place).norm();
+      if (stops[j].fixed || away > std::max(reach_of_folds * reach_, most_aside)) return false;
+    }
+    const std::vector<Stop> before(stops.begin() + static_cast<std::ptrdiff_t>(left),
+                                   stops.begin() + static_cast<std::ptrdiff_t>(right) + 1);
+    for (std::size_t j = left; j <= right; ++j) stops[j] = before[order[j - begin - 1] - left];
+    return true;
   }
 
   [[nodiscard]] double median_edge(std::size_t about) const {
     std::vector<double> edges;
     const std::size_t begin = about > rows_about ? about - rows_about : 0;
     for (std::size_t k = begin; k + 1 < std::min(stops.size(), about + rows_about); ++k)
-      edges.push_back((stops[k + 1].place - stops[k].place).norm());
+      edges.push_back(station(stops[k + 1].place - stops[k].place).norm());
     const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
     std::nth_element(edges.begin(), middle, edges.end());
     return *middle;
@@ -162,9 +261,9 @@ class Way {
   void leave_out_turns_at_ends() {
     const double most = reach_of_folds * reach_;
     const auto turns = [&](const Stop& end, const Stop& next, const Stop& beyond) {
-      const Vector3 step = next.place - end.place;
+      const Vector3 step = station(next.place - end.place);
       return !next.fixed && step.norm() <= most && step.dot(beyond.place - next.place) < 0 &&
-             (beyond.place - end.place).norm() < (beyond.place - next.place).norm();
+             station(beyond.place - end.place).norm() < station(beyond.place - next.place).norm();
     };
     while (!closed_ && stops.size() > 3 && turns(stops[0], stops[1], stops[2])) erase(1);
     while (!closed_ && stops.size() > 3) {
@@ -177,6 +276,8 @@ class Way {
   const std::vector<ChainNode>& chain_;
   bool closed_;
   double reach_;
+  const DenseCurve& along_;
+  std::vector<std::uint8_t> turns_;
   std::vector<std::size_t> joined_with_;  // of every row that begins a stop, or is in one
 };
 
@@ -212,8 +313,9 @@ double turn_between(const Vector3& a, const Vector3& b) {
 }
 
 /// How far apart nodes should be at each vertex of a way. It ends with its first vertex again where closed.
-std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::vector<std::uint8_t>& fixed, bool closed,
-                                  double tolerance) {
+/// sharp: where it need not turn within the tolerance.
+std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::vector<std::uint8_t>& fixed,
+                                  const std::vector<std::uint8_t>& sharp, bool closed, double tolerance) {
   const std::size_t count = way.size();
   std::vector<std::uint8_t> kept(count, 0);
   for (std::size_t k = 0; k < count; ++k) kept[k] = fixed[k];
@@ -224,6 +326,9 @@ std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::ve
   if (half + 1 < count) keep_vertices(way, half, count - 1, tolerance, kept);
   std::vector<double> length(count, 0);
   for (std::size_t k = 1; k < count; ++k) length[k] = length[k - 1] + (way[k] - way[k - 1]).norm();
+  // Corners move by up to the tolerance, and edges beside them should not turn round then.
+  const bool has_corners = std::find(sharp.begin(), sharp.end(), 1) != sharp.end();
+  const double least = has_corners ? least_share_of_tolerance * tolerance : 0;
   std::vector<double> spacing(count, length.back());
   std::vector<std::size_t> vertices;
   for (std::size_t k = 0; k < count; ++k) {
@@ -236,7 +341,7 @@ std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::ve
   for (std::size_t k = 0; k < count; ++k) {
     const double rows = (length[std::min(k + 1, count - 1)] - length[k > 0 ? k - 1 : 0]) /
                         static_cast<double>(std::min(k + 1, count - 1) - (k > 0 ? k - 1 : 0));
-    spacing[k] = std::max(spacing[k], least_share_of_rows * rows);
+    spacing[k] = std::max(spacing[k], std::max(least_share_of_rows * rows, least));
   }
   // A corner is what turns by more than the vertices beside it: there the curve turns within the tolerance.
   std::vector<Vector3> turns(vertices.size(), Vector3::Zero());
@@ -253,7 +358,7 @@ std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::ve
       if (turns[w].dot(turns[v]) > 0) beside = std::max(beside, angles[w]);
     }
     const double excess = angles[v] - beside;
-    if (!(excess > greatest_turn_of_edge)) continue;
+    if (!(excess > greatest_turn_of_edge) || sharp[vertices[v]] != 0) continue;
     const double half_turn = std::min(excess / 2, greatest_half_turn);
     const double radius = tolerance / (1 / std::cos(half_turn) - 1);
     const std::size_t k = vertices[v];
@@ -282,7 +387,7 @@ std::vector<double> spacing_along(const std::vector<Vector3>& way, const std::ve
 
 void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, DenseCurve& curve,
                std::vector<CurvePoint>& points) {
-  Way found(chain, closed, reach_of_rows * scale.noise);
+  Way found(chain, closed, scale, curve);
   std::vector<Stop>& stops = found.stops;
   if (stops.size() < (closed ? 3U : 2U)) {
     // Nothing that could be bent.
@@ -305,12 +410,14 @@ void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScal
   }
   std::vector<Vector3> way;
   std::vector<std::uint8_t> fixed;
+  std::vector<std::uint8_t> sharp;
   for (const Stop& stop : stops) {
     way.push_back(stop.place);
     fixed.push_back(stop.fixed ? 1 : 0);
+    sharp.push_back(stop.corner || (stop.fixed && chain[stop.node].corner) ? 1 : 0);
   }
   if (!closed && !fixed.empty()) fixed.front() = fixed.back() = 1;
-  const std::vector<double> spacing = spacing_along(way, fixed, closed, scale.tolerance);
+  const std::vector<double> spacing = spacing_along(way, fixed, sharp, closed, scale.tolerance);
   const std::uint32_t begin = curve.size();
   std::vector<Node> nodes;
   // The node of the curve at each stop, and where the stop lies along the way.
@@ -327,10 +434,10 @@ void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScal
   const auto add_stop = [&](std::size_t k) {
     Node& node = add(way[k], length[k], spacing[k]);
     if (!stops[k].fixed) return;
-    const ChainNode& from = chain[stops[k].node];
+    const ChainNode& from = chain[stops[k].corner ? found.middle_row(stops[k]) : stops[k].node];
     node.tangent = from.tangent;
     node.held = from.held;
-    node.corner = from.corner;
+    node.corner = sharp[k] != 0;
     node.from = from.from;
     node.dense = false;
   };
@@ -387,7 +494,7 @@ void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScal
 }
 
 DenseCurve with_new_nodes(const DenseCurve& curve, double least) {
-  DenseCurve result;
+  DenseCurve result(false, curve.moving());
   for (const auto& chain : curve.chains()) {
     std::vector<std::uint32_t> way;
     way.reserve(chain.count + 1);
@@ -454,7 +561,7 @@ void find_places(const DenseCurve& curve, std::vector<CurvePoint>& points) {
   for (std::size_t j = 0; j < points.size(); ++j) {
     end_if_cancelled_at(j);
     CurvePoint& point = points[j];
-    const double away = (curve.at(point.at) - point.place).norm();
+    const double away = curve.offset(point.at, point.place).norm();
     point.at = curve.nearest(point.place, point.at, 2 * away + 2 * curve.edge_length(point.at.edge));
   }
 }
@@ -464,9 +571,10 @@ void carry_places(const DenseCurve& before, const DenseCurve& curve, std::vector
   const auto lengths_of = [](const DenseCurve& of) {
     std::vector<std::vector<double>> sums;
     for (const auto& chain : of.chains()) {
-      std::vector<double>& sum = sums.emplace_back(chain.count + 1, 0);
+      std::vector<double> sum(chain.count + 1, 0);
       for (std::uint32_t k = 0; k < chain.count; ++k)
         sum[k + 1] = sum[k] + (of.is_edge(chain.begin + k) ? of.edge_length(chain.begin + k) : 0);
+      sums.push_back(std::move(sum));
     }
     return sums;
   };

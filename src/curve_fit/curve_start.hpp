@@ -26,11 +26,12 @@ struct ChainNode {
 struct StartScale {
   double noise = 0;      ///< of points, across
   double tolerance = 0;  ///< how far a curve may go from the polyline of the points
+  double sharp = 0;      ///< places where the way turns by more than this are corners, in radians; 0: none are
 };
 
 /// A first curve through a chain: equal rows and those closer together than twice the noise are one; a few rows back
 /// and forth are brought into order; nodes come as dense as the bends of that ask for. points: those of the chain's own
-/// nodes, at their places, are added.
+/// nodes, at their places, are added. Of the rows at a corner that is found the middle one is its node.
 void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, DenseCurve& curve,
                std::vector<CurvePoint>& points);
 
@@ -44,6 +45,11 @@ void smooth_out(DenseCurve& curve, const std::vector<CurvePoint>& points, double
 
 /// The same for a smoothing length.
 void smooth_out_by(DenseCurve& curve, const std::vector<CurvePoint>& points, double length);
+
+/// The same as smooth as it takes for the expected distance from where points without noise would lie to be least, by
+/// Mallows' C_p (Stein's unbiased estimate of the risk). noise: their standard deviation in each of so many directions
+/// across. Returns the root mean square of what points are off then.
+double smooth_out_by_risk(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise, int directions);
 
 /// The same by absolute distances in place of squares, which single points that are off do not draw aside: as smooth as
 /// it can be with half of the points as near as noise of that standard deviation leaves them.

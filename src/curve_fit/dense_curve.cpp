@@ -13,6 +13,11 @@ namespace {
 using Matrix3 = Eigen::Matrix3d;
 
 constexpr int newton_steps = 3;
+constexpr int newton_steps_to_station = 8;
+constexpr int halvings_to_station = 4;
+// What coordinates that move count for where a place with the others is sought: next to nothing, unless the curve runs
+// along them.
+constexpr double share_of_moving = 1e-4;
 
 /// Of e/|e|².
 Vector3 inverted(const Vector3& e) { return e / e.squaredNorm(); }
@@ -82,6 +87,10 @@ DenseCurve::CurvatureRow DenseCurve::curvature_row(std::uint32_t node, bool afte
       2 / square * (Matrix3::Identity() - tangent * tangent.transpose() - 2 / square * aside * e.transpose());
   row.slopes[0] = -row.slopes[1];
   return row;
+}
+
+double DenseCurve::greatest_curvature(std::uint32_t node) const {
+  return std::max(curvature_row(node, false).curvature.norm(), curvature_row(node, true).curvature.norm());
 }
 
 DenseCurve::Bend DenseCurve::bend(std::uint32_t node, bool after) const {
@@ -195,12 +204,18 @@ DenseCurve::PlaceRow DenseCurve::place_row(const CurvePlace& at) const {
   return row;
 }
 
+Vector3 DenseCurve::sought(const Vector3& v) const {
+  return moves_freely() ? v : Vector3(v - (1 - share_of_moving) * moving_.cwiseProduct(v));
+}
+
 CurvePlace DenseCurve::nearest(const Vector3& point, const CurvePlace& about, double reach) const {
   CurvePlace best = about;
   double least = std::numeric_limits<double>::infinity();
   const auto look = [&](std::uint32_t edge) {
-    const double share = nearest_share(point, place(edge), place(next_[edge]));
-    const double distance = (place(edge) + share * (place(next_[edge]) - place(edge)) - point).squaredNorm();
+    const Vector3 chord = sought(place(next_[edge]) - place(edge));
+    const Vector3 away = sought(point - place(edge));
+    const double share = nearest_share(away, Vector3::Zero(), chord);
+    const double distance = (share * chord - away).squaredNorm();
     if (distance < least) {
       least = distance;
       best = {edge, share};
@@ -221,15 +236,23 @@ CurvePlace DenseCurve::nearest(const Vector3& point, const CurvePlace& about, do
   }
   if (straight_) return best;
   // From the chord to the curve over it.
-  for (int step = 0; step < newton_steps; ++step) {
+  const int steps = moves_freely() ? newton_steps : newton_steps_to_station;
+  for (int step = 0; step < steps; ++step) {
     const Quintic curve = quintic(best.edge);
-    const Vector3 slope = curve.slope(best.share);
+    const Vector3 slope = sought(curve.slope(best.share));
     const double square = slope.squaredNorm();
     if (!(square > 0)) break;
-    const double share = best.share + (point - curve.at(best.share)).dot(slope) / square;
-    if (share > 1 && step + 1 < newton_steps && next_[best.edge] != none && is_edge(next_[best.edge])) {
+    const Vector3 away = sought(point - curve.at(best.share));
+    double share = best.share + away.dot(slope) / square;
+    // Where the curve turns round, a step may go too far.
+    const auto is_further = [&] {
+      return sought(point - curve.at(std::clamp(share, 0.0, 1.0))).squaredNorm() > away.squaredNorm();
+    };
+    for (int half = 0; !moves_freely() && half < halvings_to_station && is_further(); ++half)
+      share = (share + best.share) / 2;
+    if (share > 1 && step + 1 < steps && next_[best.edge] != none && is_edge(next_[best.edge])) {
       best = {next_[best.edge], 0};
-    } else if (share < 0 && step + 1 < newton_steps && before_[best.edge] != none) {
+    } else if (share < 0 && step + 1 < steps && before_[best.edge] != none) {
       best = {before_[best.edge], 1};
     } else {
       best.share = std::clamp(share, 0.0, 1.0);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "vspring/types.hpp"
@@ -36,8 +37,10 @@ class DenseCurve {
     double spacing = 0;                 ///< how far from it the next nodes should be
   };
 
-  /// straight: the curve is its chords, with no quintics over them.
-  explicit DenseCurve(bool straight = false) : straight_(straight) {}
+  /// straight: the curve is its chords, with no quintics over them. moving: 1 for coordinates that nodes move in, 0 for
+  /// others.
+  explicit DenseCurve(bool straight = false, Vector3 moving = Vector3::Ones())
+      : straight_(straight), moving_(std::move(moving)) {}
 
   void add_chain(const std::vector<Node>& nodes, bool closed);
 
@@ -45,7 +48,20 @@ class DenseCurve {
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
   [[nodiscard]] const Node& node(std::uint32_t i) const { return nodes_[i]; }
   [[nodiscard]] const Vector3& place(std::uint32_t i) const { return nodes_[i].place; }
-  void set_place(std::uint32_t i, const Vector3& place) { nodes_[i].place = place; }
+  /// In the coordinates that move.
+  void set_place(std::uint32_t i, const Vector3& place) {
+    for (int k = 0; k < 3; ++k) {
+      if (moving_[k] != 0) nodes_[i].place[k] = place[k];
+    }
+  }
+  [[nodiscard]] const Vector3& moving() const { return moving_; }
+  [[nodiscard]] bool moves_freely() const { return moving_ == Vector3::Ones(); }
+  /// What counts of a vector for where things lie along the curve: all of it, or the coordinates that do not move.
+  [[nodiscard]] Vector3 station(const Vector3& v) const {
+    return moves_freely() ? v : Vector3((Vector3::Ones() - moving_).cwiseProduct(v));
+  }
+  /// Where it is.
+  void hold(std::uint32_t i) { nodes_[i].held = true; }
   void set_spacing(std::uint32_t i, double spacing) { nodes_[i].spacing = spacing; }
   void set_tangent(std::uint32_t i, const Vector3& tangent) { nodes_[i].tangent = tangent; }
   /// Neighbours along the chain; none at its ends. An edge has the number of the node that it begins at.
@@ -74,7 +90,14 @@ class DenseCurve {
   };
   [[nodiscard]] CurvatureRow curvature_row(std::uint32_t node, bool after) const;
 
+  /// The greatest curvature beside a node; 0 where it has none.
+  [[nodiscard]] double greatest_curvature(std::uint32_t node) const;
+
   [[nodiscard]] Vector3 at(const CurvePlace& at) const;
+  /// How far a place is from a point, in the coordinates that move.
+  [[nodiscard]] Vector3 offset(const CurvePlace& at, const Vector3& point) const {
+    return moving_.cwiseProduct(this->at(at) - point);
+  }
   [[nodiscard]] Vector3 direction(const CurvePlace& at) const;
 
   /// Weights of the nodes before an edge, at its ends and after it, of a place on it, and what no node has a part in.
@@ -86,7 +109,7 @@ class DenseCurve {
   [[nodiscard]] PlaceRow place_row(const CurvePlace& at) const;
 
   /// The place nearest to a point among those up to `reach` along the curve away from another; corners and held nodes
-  /// do not stop it.
+  /// do not stop it. Where some coordinates do not move, that with the point's values of these, or nearest to them.
   [[nodiscard]] CurvePlace nearest(const Vector3& point, const CurvePlace& about, double reach) const;
 
  private:
@@ -96,8 +119,11 @@ class DenseCurve {
     [[nodiscard]] Vector3 slope(double share) const;
   };
   [[nodiscard]] Quintic quintic(std::uint32_t edge) const;
+  /// As lengths of vectors tell which place is nearest.
+  [[nodiscard]] Vector3 sought(const Vector3& v) const;
 
   bool straight_;
+  Vector3 moving_;
   std::vector<Chain> chains_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> next_;

@@ -13,8 +13,13 @@ namespace vspring {
 namespace {
 
 constexpr std::size_t longest_run = 3;
-// Of the median length between rows about them.
-constexpr double clearly_aside = 6;
+// Of the median length between rows about them: where the way goes on straight to them and from them, as at a tip, and
+// where it does not.
+constexpr double aside_of_tip = 6;
+constexpr double aside_of_spike = 2.5;
+// Cosine of 60°.
+constexpr double least_cosine_of_tip = 0.5;
+constexpr std::size_t rows_of_direction = 2;
 constexpr std::size_t rows_beside = 8;
 
 struct Spike {
@@ -59,7 +64,17 @@ std::vector<std::uint8_t> find_spikes(std::span<const Vector3> rows, bool closed
         }
         const auto middle = about.begin() + static_cast<std::ptrdiff_t>(about.size() / 2);
         std::nth_element(about.begin(), middle, about.end());
-        if (aside > clearly_aside * *middle) all.push_back({k, n, aside / std::max(*middle, 1e-300)});
+        const auto goes_on = [&](std::size_t from, std::size_t by, std::size_t to) {
+          const Vector3 way = row(by) - row(from);
+          const Vector3 jump = row(to) - row(by);
+          return way.dot(jump) >= least_cosine_of_tip * way.norm() * jump.norm();
+        };
+        const bool has_before = closed || k > rows_of_direction;
+        const bool has_after = closed || k + n + rows_of_direction < count;
+        const bool is_tip = (!has_before || goes_on(k + count - 1 - rows_of_direction, k + count - 1, k)) &&
+                            (!has_after || goes_on(k + n + rows_of_direction, k + n, k + n - 1));
+        const double least = (is_tip ? aside_of_tip : aside_of_spike) * *middle;
+        if (aside > least) all.push_back({k, n, aside / std::max(*middle, 1e-300)});
       }
     }
     if (all.empty()) break;

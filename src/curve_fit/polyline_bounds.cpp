@@ -17,14 +17,16 @@ constexpr std::size_t rows_around = 3;
 // Among which one at another place is looked for.
 constexpr std::size_t most_rows_at_a_place = 64;
 constexpr double greatest_turn_of_arc = 2;
+// Of an edge between whose ends the curve may be further out; 8°.
+constexpr double most_cosine_of_turn = 0.99;
 
 class PolylineBounds {
  public:
   PolylineBounds(const DenseCurve& curve, double reach)
       : curve_(curve),
         reach_(reach),
-        nearest_(curve.size()),
-        least_(curve.size(), std::numeric_limits<double>::infinity()),
+        nearest_(2 * std::size_t{curve.size()}),
+        least_(nearest_.size(), std::numeric_limits<double>::infinity()),
         in_gap_(curve.size(), 0) {}
 
   void look_at(const DenseCurve::Chain& chain, std::span<const CurvePoint> rows) {
@@ -55,15 +57,13 @@ class PolylineBounds {
       for (std::size_t n = k + 2; n <= k + 1 + most && !after && (chain.closed || n < count); ++n) {
         if (is_gap(row(n), row(k + 1))) after = row(n);
       }
-      const PolylineBound gap{0, row(k), row(k + 1), reach_ + rise_over(before, row(k), row(k + 1), after)};
+      const PolylineBound gap{{}, row(k), row(k + 1), reach_ + rise_over(before, row(k), row(k + 1), after)};
       const std::size_t begin = chain.closed ? k + count - rows_around : k - std::min(k, rows_around);
       const std::size_t end = chain.closed ? k + 1 + rows_around : std::min(count - 1, k + 1 + rows_around);
       for_nodes(begin, end, [&](std::uint32_t i) {
-        const double away = gap.distance(curve_.place(i)) / gap.bound;
-        if (in_gap_[i] == 0 || away >= least_[i]) return;
-        least_[i] = away;
-        nearest_[i] = gap;
-        nearest_[i].node = i;
+        if (in_gap_[i] == 0) return;
+        look_at({i, 0}, 2 * std::size_t{i}, gap);
+        if (turns(i)) look_at({i, 0.5}, 2 * std::size_t{i} + 1, gap);
       });
     }
   }
@@ -77,6 +77,19 @@ class PolylineBounds {
   }
 
  private:
+  void look_at(const CurvePlace& at, std::size_t n, const PolylineBound& gap) {
+    const double away = gap.distance(curve_.at(at)) / gap.bound;
+    if (away >= least_[n]) return;
+    least_[n] = away;
+    nearest_[n] = gap;
+    nearest_[n].at = at;
+  }
+
+  [[nodiscard]] bool turns(std::uint32_t edge) const {
+    const Vector3 first = curve_.bend(edge, true).tangent;
+    return first.dot(curve_.bend(curve_.next(edge), false).tangent) < most_cosine_of_turn;
+  }
+
   [[nodiscard]] bool is_gap(const Vector3& a, const Vector3& b) const { return (b - a).norm() > least_gap * reach_; }
 
   /// Of the middle two of four points: of the arc that turns as they do at the end where they turn less. What noise may

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,15 +18,28 @@ namespace {
 constexpr double first_smoothing = 1e2;
 constexpr double least_smoothing = 1e-16;
 constexpr double coarse_stride = 1e-2;
+constexpr double fine_stride = 0.3;
+// Of the points: parameters.
+constexpr double most_freedom = 0.5;
+// How often parameters count for the risk: more than once, as noise may be more than it was estimated to be, and who
+// follows it by a little has many bends.
+constexpr double caution = 3;
 constexpr int halvings = 5;
 // So that what no point has a part in is straight.
 constexpr double least_bending = 1e-7;
 // Of the length at first.
 constexpr double longest = 1.25;
+// Of the points, and of the tolerance: some lie by what is held, and would have the whole curve follow the noise.
+constexpr double share_outside = 0.1;
+constexpr double most_outside = 2;
+// Of the root mean square.
+constexpr double reach_of_rms_at_first = 2.5;
+constexpr double more_turning = 0.5;
 // To either side of a point's place.
 constexpr int edges_about = 1;
 constexpr double robust_stride = 0.1;
 constexpr int robust_turns = 6;
+constexpr int most_turns_drawing_in = 8;
 
 /// A sum of places with weights, and a vector.
 struct Affine {
@@ -98,6 +112,33 @@ class SmoothingSpline {
     take();
   }
 
+  /// Returns the root mean square of what it leaves.
+  double run_by_risk(double noise, int directions) {
+    double least = std::numeric_limits<double>::infinity();
+    double rms = 0;
+    std::vector<Vector3> best;
+    const auto pulls = [](const CurvePoint& point) { return point.weight > 0; };
+    const auto count = static_cast<double>(std::count_if(points_.begin(), points_.end(), pulls));
+    double smoothing = first_smoothing / fine_stride;
+    while (smoothing > least_smoothing) {
+      smoothing *= fine_stride;
+      end_if_cancelled();
+      if (!solve(smoothing)) continue;
+      const double freedom = this->freedom();
+      // What follows every point tells nothing.
+      if (freedom > most_freedom * count) break;
+      const double square = mean_square_across();
+      const double risk = square / directions + 2 * caution * noise * noise * freedom / count;
+      if (!(risk < least) || !is_sane()) continue;
+      least = risk;
+      rms = std::sqrt(square);
+      best = places_;
+    }
+    places_ = std::move(best);
+    take();
+    return rms;
+  }
+
   void run_robustly(double noise) {
     double smoothing = first_smoothing;
     while (smoothing > least_smoothing) {
@@ -115,7 +156,8 @@ class SmoothingSpline {
         (void)solve(smoothing);
       }
       std::vector<double> distances;
-      for (const CurvePoint& point : points_) distances.push_back(squared_distance(point));
+      for (const CurvePoint& point : points_)
+        distances.push_back(curve_.moves_freely() ? squared_distance(point) : squared_residual(point));
       const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
       std::nth_element(distances.begin(), middle, distances.end());
       if (std::sqrt(*middle) <= median_of_noise * noise) break;
@@ -153,6 +195,7 @@ class SmoothingSpline {
         places_ = found;
       }
     }
+    if (smoothing >= least_smoothing) draw_in(within, rms, smoothing);
     take();
   }
 
@@ -165,11 +208,47 @@ class SmoothingSpline {
     }
   }
 
+  /// Points that are further away count more until they are not, or the curve turns more for it: a tip goes out then,
+  /// and no loop is made for rows that have no order.
+  void draw_in(double within, double rms, double smoothing) {
+    const double most = within > 0 ? within : reach_of_rms_at_first * rms;
+    const double most_turning = turning() + more_turning;
+    for (int turn = 0; turn < most_turns_drawing_in; ++turn) {
+      bool outside = false;
+      for (std::size_t j = 0; j < points_.size(); ++j) {
+        const double away = curve_.moves_freely() ? squared_distance(points_[j]) : squared_residual(points_[j]);
+        const double beyond = std::sqrt(away) / most;
+        if (!(points_[j].weight > 0) || beyond <= 1) continue;
+        outside = true;
+        counts_[j] *= std::pow(1 + beyond, 2);
+      }
+      if (!outside) return;
+      find_data();
+      const std::vector<Vector3> before = places_;
+      if (solve(smoothing) && is_sane() && turning() <= most_turning) continue;
+      places_ = before;
+      return;
+    }
+  }
+
+  /// Of all edges, in radians.
+  [[nodiscard]] double turning() const {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < curve_.size(); ++i) {
+      if (!curve_.is_edge(i) || curve_.before(i) == DenseCurve::none) continue;
+      const Vector3 first = found(i) - found(curve_.before(i));
+      const Vector3 second = found(curve_.next(i)) - found(i);
+      sum += std::atan2(first.cross(second).norm(), first.dot(second));
+    }
+    return sum;
+  }
+
   void find_data() {
     data_ = LeastSquares(columns_, width_);
     double weights = 0;
     for (const CurvePoint& point : points_) weights += point.weight;
     for (std::size_t j = 0; j < points_.size(); ++j) add(row_of(points_[j]), counts_[j] * points_[j].weight / weights);
+    data_rows_ = rows_;
     take_rows(data_);
   }
 
@@ -254,7 +333,14 @@ class SmoothingSpline {
       sum.add(i, data_.triangle.row(i), data_.right[i], 1);
     }
     places_ = std::move(sum.right);
+    triangle_ = sum.triangle;
     sum.triangle.solve_upper(std::span(places_));
+    const Vector3& moving = curve_.moving();
+    for (std::uint32_t i = 0; i < curve_.size() && !curve_.moves_freely(); ++i) {
+      if (column_[i] < 0) continue;
+      Vector3& place = places_[static_cast<std::size_t>(column_[i])];
+      place = curve_.place(i) + moving.cwiseProduct(place - curve_.place(i));
+    }
     return std::all_of(places_.begin(), places_.end(), [](const Vector3& place) { return place.allFinite(); });
   }
 
@@ -271,27 +357,65 @@ class SmoothingSpline {
 
   [[nodiscard]] bool is_near(double within, double rms) const {
     double squares = 0;
-    double greatest = 0;
+    double outside = 0;
     double weights = 0;
     for (const CurvePoint& point : points_) {
       if (!(point.weight > 0)) continue;
-      // Where the way comes back, the nearest place may be one of its other half.
-      const double square = within > 0 ? squared_residual(point) : squared_distance(point);
-      greatest = std::max(greatest, square);
+      const double square = this->square(point, within);
+      if (within > 0 && square > std::pow(most_outside * within, 2)) return false;
+      outside += square > within * within ? point.weight : 0;
       squares += point.weight * square;
       weights += point.weight;
     }
-    return within > 0 ? greatest <= within * within : squares <= weights * rms * rms;
+    return within > 0 ? outside <= share_outside * weights : squares <= weights * rms * rms;
   }
 
-  [[nodiscard]] double squared_residual(const CurvePoint& point) const {
+  /// Of its distance. Where the way comes back, the nearest place may be one of its other half.
+  [[nodiscard]] double square(const CurvePoint& point, double within) const {
+    return within > 0 || !curve_.moves_freely() ? squared_residual(point) : squared_distance(point);
+  }
+
+  /// How many parameters the spline has in effect, in each coordinate: the trace of what takes points to their places.
+  [[nodiscard]] double freedom() const {
+    const std::vector<BandTriangle::Row> inverse = triangle_.inverse_in_band();
+    double trace = 0;
+    for (const Row& row : data_rows_) {
+      const std::size_t width = std::min(width_, columns_ - row.first);
+      for (std::size_t a = 0; a < width; ++a) {
+        for (std::size_t b = 0; b < width; ++b)
+          trace += row.factor * row.factor * row.entries[a] * row.entries[b] *
+                   inverse[row.first + std::min(a, b)][a > b ? a - b : b - a];
+      }
+    }
+    return trace;
+  }
+
+  /// Of points from their places, across the curve.
+  [[nodiscard]] double mean_square_across() const {
+    double squares = 0;
+    double weights = 0;
+    for (const CurvePoint& point : points_) {
+      Vector3 away = residual(point);
+      if (curve_.moves_freely()) {
+        const Vector3 along = curve_.direction(point.at);
+        away -= away.dot(along) * along;
+      }
+      squares += point.weight * away.squaredNorm();
+      weights += point.weight;
+    }
+    return squares / weights;
+  }
+
+  [[nodiscard]] double squared_residual(const CurvePoint& point) const { return residual(point).squaredNorm(); }
+
+  [[nodiscard]] Vector3 residual(const CurvePoint& point) const {
     const Affine row = row_of(point);
     Vector3 away = row.rest;
     for (int k = 0; k < row.count; ++k) {
       const auto n = static_cast<std::size_t>(k);
       away += row.weights[n] * found(row.nodes[n]);
     }
-    return away.squaredNorm();
+    return curve_.moving().cwiseProduct(away);
   }
 
   /// From the chords about its place.
@@ -322,6 +446,8 @@ class SmoothingSpline {
     double factor;
   };
   std::vector<Row> rows_;  ///< until they are taken
+  std::vector<Row> data_rows_;
+  BandTriangle triangle_{0, 1};  ///< of the last solution
   LeastSquares fixed_{0, 1};
   LeastSquares data_{0, 1};
   double length_ = 0;
@@ -337,6 +463,10 @@ void smooth_out(DenseCurve& curve, const std::vector<CurvePoint>& points, double
 
 void smooth_out_by(DenseCurve& curve, const std::vector<CurvePoint>& points, double length) {
   SmoothingSpline(curve, points).run_by(length);
+}
+
+double smooth_out_by_risk(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise, int directions) {
+  return SmoothingSpline(curve, points).run_by_risk(noise, directions);
 }
 
 void smooth_out_robustly(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise) {

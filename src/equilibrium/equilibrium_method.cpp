@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/cancellation.hpp"
+#include "equilibrium/flow_search.hpp"
 #include "equilibrium/relaxation.hpp"
 #include "spring/spacing.hpp"
 #include "sweep/sweep.hpp"
@@ -56,6 +57,7 @@ class EquilibriumSearch : private Relaxation {
     static constexpr Strategy strategies[] = {
         {"in place", &Search::may_be_in_place, &Search::stay_in_place},
         {"coarse to fine", &Search::is_out_of_place, &Search::go_down},
+        {"flow", &Search::may_follow_flow, &Search::go_along_flow},
         {"spacing of the input", &Search::may_keep_spacing, &Search::keep_spacing},
         {"windings of the input", &Search::may_have_lost_windings, &Search::wind_as_input},
     };
@@ -118,6 +120,7 @@ class EquilibriumSearch : private Relaxation {
   /// Coarse levels first, each to its equilibrium, each the start of the next finer one.
   void go_down() {
     const int limit = task_.method.max_iterations.value_or(default_limit);
+    came_from_coarse_ = true;
     // Where noise has folded the finest level, its own start is no help.
     const bool is_folded = !shape().laplacian_weights.empty() && has_crease(last());
     hierarchy_.start();
@@ -317,6 +320,14 @@ class EquilibriumSearch : private Relaxation {
     return greatest < edge * edge && fault(check).empty() && energy_of(net).sum < energy;
   }
 
+  bool may_follow_flow() {
+    const Net& net = shape();
+    return came_from_coarse_ && unfinished() && !points_ && !task_.method.max_iterations && !net.is_curve &&
+           !net.spheres.on() && !is_underconstrained(net);
+  }
+
+  void go_along_flow() { search_along_flow(*this, hierarchy_, model_, input_, call_); }
+
   /// A level too coarse for the shape to have an equilibrium, or to have the right one, hands up what is no help: then
   /// the start itself may be one. The better of both stays.
   void try_own_start(std::size_t level, std::span<const Eigen::Vector3f> start, int limit) {
@@ -371,6 +382,7 @@ class EquilibriumSearch : private Relaxation {
   StartPlaces input_{std::vector<Vector3>()};
   Displacements displacements_;
   std::optional<std::size_t> level_;  ///< while coarser ones are worked on, the one that the shape was handed up to
+  bool came_from_coarse_ = false;
   bool has_looked_for_winding_ = false;
   bool lost_winding_ = false;  ///< what fault() found last
 };

@@ -41,6 +41,7 @@ constexpr std::size_t nodes_in_a_row = 7;
 constexpr std::size_t most_in_a_row = 127;
 // In standard deviations of the heights over it.
 constexpr double long_way = 4;
+constexpr double flatness = 1e-3;
 // Least degrees of freedom that tell anything.
 constexpr std::size_t least_freedom = 3;
 // Of nodes, beyond which they are hubs that everybody is a neighbour of.
@@ -254,6 +255,35 @@ NoiseEstimate estimate_noise(const PolygonCurve& curve) {
   }
   NoiseEstimate estimate = summary(std::move(found), std::move(edges), 0);
   estimate.directions = heights;
+  return estimate;
+}
+
+NoiseEstimate estimate_noise(const PolygonCurve& curve, const std::array<bool, 3>& moving_axes) {
+  if (moving_axes == std::array{true, true, true}) return estimate_noise(curve);
+  // So flat that what is across it is what moves.
+  std::vector<Vector3> flat(curve.positions().size(), Vector3::Zero());
+  std::vector<PolygonCurve::Chain> chains = curve.chains();
+  for (auto& chain : chains) {
+    double way = 0;
+    for (std::size_t k = 0; k < chain.nodes.size(); ++k) {
+      const Vector3 step = curve.position(chain.nodes[k]) - curve.position(chain.nodes[k > 0 ? k - 1 : 0]);
+      Vector3& place = flat[static_cast<std::size_t>(chain.nodes[k])];
+      double squares = 0;
+      int moving = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (moving_axes[static_cast<std::size_t>(axis)])
+          place[1 + moving++ % 2] = flatness * curve.position(chain.nodes[k])[axis];
+        else
+          squares += step[axis] * step[axis];
+      }
+      way += std::sqrt(squares);
+      place.x() = way;
+    }
+    chain.closed = false;
+  }
+  NoiseEstimate estimate = estimate_noise(PolygonCurve(std::move(flat), std::move(chains)));
+  estimate.deviation /= flatness;
+  estimate.edges /= flatness;
   return estimate;
 }
 

@@ -7,11 +7,14 @@
 #include <cmath>
 #include <string>
 
+#include "base/degrees.hpp"
 #include "base/threads.hpp"
 #include "constraints/holding.hpp"
 #include "curve_fit/outliers.hpp"
 #include "points/nearest_nodes.hpp"
+#include "shape/corners.hpp"
 #include "shape/planarity.hpp"
+#include "vspring/error.hpp"
 #include "vspring/noise.hpp"
 
 namespace vspring {
@@ -25,6 +28,9 @@ constexpr double outlying = 4.5;
 constexpr std::size_t most_named = 10;
 // Of the size: what lies no further from a line lies on it.
 constexpr double on_a_line = 1e-9;
+// Of coordinates that stay along a chain: there and back round a nose, and steps that are out of order.
+constexpr std::size_t fewest_turns = 4;
+constexpr std::size_t rows_for_a_turn = 10;
 
 }  // namespace
 
@@ -42,8 +48,12 @@ CurveFitInput::CurveFitInput(const PolygonCurve& curve, const Constraints& const
     }
   }
   kept_ = counted_;
+  if (!options.moves_freely() && !own_nodes_)
+    throw Error(ErrorCode::invalid_argument,
+                "coordinates can be kept only where the points are the curve's own nodes; let all of them move");
   check(context);
   make_frame();
+  check_stations();
 }
 
 bool CurveFitInput::pulls() const {
@@ -167,17 +177,67 @@ void CurveFitInput::make_frame() {
       aside = std::max(aside, (one - local.front()).cross(along).norm() / std::max(along.norm(), 1e-300));
     if (aside < on_a_line) plane_ = Vector3(along.unitOrthogonal());
   }
+  if (!options_.moves_freely()) find_moving(local);
+}
+
+void CurveFitInput::find_moving(std::span<const Vector3> places) {
+  Vector3 axes = Vector3::Zero();
+  for (int axis = 0; axis < 3; ++axis) axes[axis] = options_.moving_axes[static_cast<std::size_t>(axis)] ? 1 : 0;
+  Vector3 kept = Vector3::Zero();
+  for (const Vector3& one : places) {
+    const Vector3 away = (Vector3::Ones() - axes).cwiseProduct(one - places.front());
+    if (away.norm() > kept.norm()) kept = away;
+  }
+  moving_ = kept.norm() > 0 ? axes : Vector3::Ones();
+  if (!(kept.norm() > 0)) return;
+  if (axes.sum() > 1)
+    plane_.reset();
+  else
+    plane_ = kept.cross(axes).normalized();
+}
+
+Vector3 CurveFitInput::moved(Index node, const Vector3& place) const {
+  const Vector3 position = to_input(place);
+  Vector3 result = curve_.position(node);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (options_.moving_axes[static_cast<std::size_t>(axis)]) result[axis] = position[axis];
+  }
+  return result;
+}
+
+void CurveFitInput::check_stations() const {
+  if (moving_ == Vector3::Ones()) return;
+  for (const auto& chain : curve_.chains()) {
+    Vector3 last = Vector3::Zero();
+    std::size_t turns = 0;
+    Index first = -1;
+    for (std::size_t k = 1; k < chain.nodes.size(); ++k) {
+      const Vector3 step = (Vector3::Ones() - moving_).cwiseProduct(place(chain.nodes[k]) - place(chain.nodes[k - 1]));
+      if (step.dot(last) < 0 && turns++ == 0) first = chain.nodes[k - 1];
+      if (!step.isZero(0)) last = step;
+    }
+    if (turns <= std::max(fewest_turns, chain.nodes.size() / rows_for_a_turn)) continue;
+    throw Error(ErrorCode::unusable_shape,
+                fmt::format("node {}: what is to stay turns back there and {} times more along the curve, so it says "
+                            "nothing of the way; put the nodes in order, or let all coordinates move",
+                            first, turns - 1));
+  }
 }
 
 CurveFitTask CurveFitInput::task() const {
   CurveFitTask task;
   const double scale = frame_.scale();
   task.plane = plane_;
+  task.moving = moving_;
   task.in_order = own_nodes_;
   task.within = options_.within().value_or(0) * scale;
   task.rms = options_.rms().value_or(0) * scale;
   task.noise = task.within > 0 ? noise_of_bound * task.within : task.rms;
-  if (task.noise == 0) task.noise = estimate_noise(curve_).deviation * scale;
+  if (options_.noise()) task.noise = *options_.noise() * scale;
+  if (task.noise == 0) task.noise = estimate_noise(curve_, options_.moving_axes).deviation * scale;
+  task.least_radius = options_.least_radius * scale;
+  task.sharp = options_.sharp / degrees_per_radian;
+  const std::vector<std::uint8_t> is_corner = marked_corners(options_.fair.corners, curve_.node_count());
   const auto& method = std::get<EquilibriumMethod>(options_.fair.method);
   task.tolerance = method.tolerance;
   double edges = 0;
@@ -192,6 +252,7 @@ CurveFitTask CurveFitInput::task() const {
       one.place = frame_.to_local(place(node));
       one.held = held;
       one.from = node;
+      one.corner = is_corner[i] != 0;
       if (constraints_.tangent_fixed(node)) one.tangent = constraints_.tangent(node);
       if (constraints_.normal_fixed(node) && plane_ && one.tangent.isZero(0)) one.tangent = tangent_across(chain, node);
       if (own_nodes_ && weight(i) > 0 && kept_[i] != 0) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "curve_fit/curve_fitter.hpp"
@@ -13,7 +14,9 @@ namespace vspring {
 /// A curve, its constraints and its points as a fit is given them, and in the coordinates in which it is found.
 class CurveFitInput {
  public:
-  /// Throws what check_constraints() does; ends may be free where points pull at them.
+  /// Throws what check_constraints() does; ends may be free where points pull at them. Throws Error(unusable_shape)
+  /// where coordinates that do not move go back and forth along a chain, and Error(invalid_argument) where some do not
+  /// and the points are not the nodes.
   CurveFitInput(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
                 const FitOptions& options, const Context& context);
 
@@ -46,6 +49,10 @@ class CurveFitInput {
 
   [[nodiscard]] Vector3 to_local(const Vector3& place) const { return frame_.to_local(place); }
   [[nodiscard]] Vector3 to_input(const Vector3& place) const { return place / frame_.scale() + centre_; }
+  /// 1 for coordinates that move, 0 for others: all of them where all nodes have the same values of the others.
+  [[nodiscard]] const Vector3& moving() const { return moving_; }
+  /// A node's own values of the coordinates that it keeps, and those of a place of the curve for the others.
+  [[nodiscard]] Vector3 moved(Index node, const Vector3& place) const;
   /// Lengths of the input in local ones.
   [[nodiscard]] double scale() const { return frame_.scale(); }
 
@@ -54,6 +61,8 @@ class CurveFitInput {
   void check(const Context& context);
   void count_point(Index node, std::vector<Index>& points_of);
   void make_frame();
+  void find_moving(std::span<const Vector3> places);
+  void check_stations() const;
   [[nodiscard]] Vector3 tangent_across(const PolygonCurve::Chain& chain, Index node) const;
 
   const PolygonCurve& curve_;
@@ -64,6 +73,7 @@ class CurveFitInput {
   Frame frame_;
   Vector3 centre_ = Vector3::Zero();
   std::optional<Vector3> plane_;  ///< its normal, where all lies in one
+  Vector3 moving_ = Vector3::Ones();
   std::vector<std::uint8_t> counted_;
   std::vector<std::uint8_t> kept_;
   std::vector<Warning> warnings_;

@@ -13,7 +13,7 @@ namespace {
 // Of the mean edge: nodes come no nearer to each other.
 constexpr double least_edge = 1e-4;
 // Of the turn within a spacing: 45°.
-constexpr double cosine_of_sharp = 0.7;
+constexpr double cosine_of_tight_bend = 0.7;
 
 class NodePlaces {
  public:
@@ -72,6 +72,13 @@ class NodePlaces {
     double begin = 0;
     const auto place_run = [&](double end) {
       if (run.empty()) return;
+      // Around a closed chain one beside its first node may lie a whole turn away.
+      double last = begin;
+      for (const std::size_t k : run) {
+        if (!closed || std::isnan(wanted[k])) continue;
+        wanted[k] += whole * std::round((last - wanted[k]) / whole);
+        last = wanted[k];
+      }
       const std::vector<double> at = places_between(nodes, run, wanted, begin, end, apart);
       for (std::size_t n = 0; n < run.size(); ++n) put(run[n], at[n]);
       run.clear();
@@ -201,11 +208,11 @@ void place_nodes(const PolygonCurve& file, const CurveFound& found, NodePlacing 
   for (std::size_t c = 0; c < file.chains().size(); ++c) nodes.place_chain(c);
 }
 
-std::vector<Index> sharp_nodes(const DenseCurve& curve, const Resampling& how, double unit) {
+std::vector<Index> tight_bends(const DenseCurve& curve, const Resampling& how, double unit) {
   double length = 0;
   for (std::uint32_t i = 0; i < curve.size(); ++i) length += curve.is_edge(i) ? curve.edge_length(i) : 0;
   const double spacing = how.spacing ? *how.spacing / unit : length / static_cast<double>(*how.nodes);
-  std::vector<Index> sharp;
+  std::vector<Index> bends;
   for (const auto& chain : curve.chains()) {
     double since = std::numeric_limits<double>::infinity();
     for (std::uint32_t k = 0; k < chain.count; ++k) {
@@ -227,12 +234,13 @@ std::vector<Index> sharp_nodes(const DenseCurve& curve, const Resampling& how, d
         last = curve.next(last);
         most = most && !(curve.bend(last, false).curvature.norm() > bent);
       }
-      if (!most || !(curve.bend(first, true).tangent.dot(curve.bend(last, false).tangent) < cosine_of_sharp)) continue;
-      sharp.push_back(static_cast<Index>(i));
+      if (!most || !(curve.bend(first, true).tangent.dot(curve.bend(last, false).tangent) < cosine_of_tight_bend))
+        continue;
+      bends.push_back(static_cast<Index>(i));
       since = 0;
     }
   }
-  return sharp;
+  return bends;
 }
 
 }  // namespace vspring

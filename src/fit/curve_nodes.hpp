@@ -21,6 +21,6 @@ void place_nodes(const PolygonCurve& file, const CurveFound& found, NodePlacing 
 
 /// Where a curve turns most, of places where it turns by more than 45° within the spacing of new nodes: their
 /// chords would cut that off. unit: of the curve's lengths in those of the input.
-std::vector<Index> sharp_nodes(const DenseCurve& curve, const Resampling& how, double unit);
+std::vector<Index> tight_bends(const DenseCurve& curve, const Resampling& how, double unit);
 
 }  // namespace vspring

@@ -359,6 +359,8 @@ FitResult fit_shape(const typename Subject::Shape& shape, const Constraints& con
 
 FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {
+  if (!options.moves_freely())
+    throw Error(ErrorCode::invalid_argument, "coordinates can be kept on curves only; let all of them move");
   const auto fit_held = [&](const Constraints& held) {
     if (!options.fair.fair_boundary) return fit_shape<FitSurface>(mesh, held, points, options, context);
     options.validate();
@@ -377,10 +379,6 @@ FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const Sca
 
 FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {
-  if (options.noise())
-    throw Error(
-        ErrorCode::invalid_argument,
-        "noise can be taken off surfaces only: of a curve ask for the root mean square of its points' distances");
   options.validate();
   check_points(points);
   const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
@@ -390,7 +388,9 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   });
   // Springs would draw them in.
   if (has_free_end && !method) (void)check_constraints(curve, constraints);
-  if (options.tolerance() || (has_free_end && method)) return fit_curve(curve, constraints, points, options, context);
+  const bool has_nodes_of_its_own = options.tolerance() || options.noise() || !options.moves_freely() ||
+                                    options.least_radius > 0 || options.sharp > 0 || !options.fair.corners.empty();
+  if (has_nodes_of_its_own || (has_free_end && method)) return fit_curve(curve, constraints, points, options, context);
   FitResult balanced = fit_shape<FitCurve>(curve, constraints, points, options, context);
   const Outcome outcome = balanced.report.fair.outcome;
   const bool is_found = outcome == Outcome::converged || outcome == Outcome::cancelled;

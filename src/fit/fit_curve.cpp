@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -16,6 +17,8 @@
 #include "fit/curve_nodes.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/fit_warnings.hpp"
+#include "fit/profile.hpp"
+#include "shape/corners.hpp"
 #include "vspring/error.hpp"
 #include "vspring/figures.hpp"
 
@@ -28,9 +31,19 @@ constexpr double sparse_share = 0.05;
 // Of the tolerance, or of how far another curve is from the polyline of the points.
 constexpr double far_off_way = 2;
 // Of the tolerance, and how often it is tried.
-constexpr double cut_off_a_little = 1.2;
+constexpr double most_cut_off = 1.2;
+constexpr double most_spared = 0.7;
+// Of how far places may be from the polyline.
+constexpr double next_to_nothing_beyond = 1.001;
 constexpr double share_of_nearer = 0.997;
-constexpr int most_turns_nearer = 3;
+constexpr int most_turns_nearer = 5;
+constexpr int most_turns_of_chords = 4;
+// Of the length of the curve: rows that were left out lie no further from the one before.
+constexpr double reach_to_next_row = 0.25;
+// Of the size.
+constexpr double same_place = 1e-7;
+// Of the least radius: what chords of an arc show of it.
+constexpr double share_of_radius = 0.99;
 
 class CurveFit {
  public:
@@ -43,7 +56,9 @@ class CurveFit {
   /// The result of fair(), where that is within the tolerance: then nothing pulls.
   std::optional<FitResult> plain_fairing() {
     const FitOptions& options = input_.options();
-    if (!options.tolerance() || options.outliers > 0) return std::nullopt;
+    // What keeps corners holds them where their points are.
+    const bool has_corners = options.sharp > 0 || !options.fair.corners.empty();
+    if (!options.tolerance() || options.outliers > 0 || !options.moves_freely() || has_corners) return std::nullopt;
     FairResult plain;
     try {
       (void)check_constraints(input_.curve(), input_.constraints());
@@ -53,10 +68,11 @@ class CurveFit {
       return std::nullopt;
     }
     if (plain.report.outcome != Outcome::converged) return std::nullopt;
+    const Resampled own{input_.curve(), input_.constraints(), {}};
     PolygonCurve moved = input_.curve();
     moved.set_positions(plain.positions);
-    if (figure(distances(moved)) > *options.tolerance()) return std::nullopt;
-    FitResult result = this->result(std::move(plain.positions), input_.curve(), input_.constraints());
+    if (figure(distances(moved)) > *options.tolerance() || radius_kept(sharpest(moved, own)) < 1) return std::nullopt;
+    FitResult result = this->result(std::move(plain.positions), own);
     result.report.fair = std::move(plain.report);
     result.report.pulling_points = result.report.pulled_nodes = result.report.most_points = 0;
     return result;
@@ -68,20 +84,14 @@ class CurveFit {
     Resampled nodes;  ///< with the file's own chains, or new ones
     double figure = 0;
     double way_off = 0;  ///< from the polyline of the points
+    double radius_kept = 1;
     CurveFigures figures = {};
   };
 
   template <typename Put>
   Attempt attempt(const CurveFitTask& task, Put put) {
     found_ = vspring::fit_curve(task, [&](double share) { progress_.report("curve", (share + task.evenly) / 2); });
-    Attempt attempt{found_, put()};
-    std::vector<Vector3> positions = attempt.nodes.curve.positions();
-    draw_chords_in(positions, attempt.nodes);
-    attempt.nodes.curve.set_positions(std::move(positions));
-    attempt.figure = figure(distances(attempt.nodes.curve));
-    attempt.way_off = way_off(attempt.nodes.curve).greatest;
-    attempt.figures = measure_curve(attempt.nodes.curve, &attempt.nodes.constraints);
-    return attempt;
+    return measured(put());
   }
 
   /// Tells nodes of their places on the curve that was found, which goes by change of curvature in proportion to
@@ -95,23 +105,28 @@ class CurveFit {
       if (input_.options().outliers > 0) input_.leave_outliers_out();
       CurveFitTask task = input_.task();
       const auto tolerance = input_.options().tolerance();
-      // Where chords cut off a little too much, the curve is held a little nearer.
+      // Where chords cut off too much, the curve is held nearer; where it is bent too much between its own nodes, to a
+      // larger radius.
       for (int turn = 0; turn < most_turns_nearer; ++turn) {
+        std::optional<Attempt> now;
         for (const bool evenly : {false, true}) {
           if (evenly && !tolerance) break;
           task.evenly = evenly;
           Attempt attempt = this->attempt(task, put);
-          if (!best || is_better(attempt, *best)) best = std::move(attempt);
+          if (!now || is_better(attempt, *now)) now = std::move(attempt);
         }
-        if (!tolerance || best->figure <= *tolerance || best->figure > cut_off_a_little * *tolerance) break;
-        task.within *= share_of_nearer * *tolerance / best->figure;
-        task.rms *= share_of_nearer * *tolerance / best->figure;
+        const bool ends = !leave_room(*now, task);
+        if (!best || is_nearer(*now, *best)) best = std::move(now);
+        if (ends) break;
       }
     } catch (const Cancelled&) {
     }
     if (!best) return false;
     found_ = std::move(best->found);
     nodes_ = std::move(best->nodes);
+    for (int turn = 0; turn < most_turns_of_chords && draw_chords_in(); ++turn) {
+    }
+    keep_what_is_fairer();
     return true;
   }
 
@@ -123,7 +138,8 @@ class CurveFit {
   /// The file's nodes on it.
   [[nodiscard]] Resampled own_nodes() const {
     Resampled own{input_.curve(), input_.constraints(), {}};
-    own.curve.set_positions(positions_on_curve());
+    const bool free = input_.moving() == Vector3::Ones();
+    own.curve.set_positions(free ? positions_on_curve() : positions_at_stations());
     return own;
   }
 
@@ -146,7 +162,41 @@ class CurveFit {
       if (constraints.position_fixed(node))
         positions[i] = constraints.position(node);
       else if (in_chain[i] != 0)
-        positions[i] = input_.to_input(places[i]);
+        positions[i] = input_.moved(node, places[i]);
+    }
+    return positions;
+  }
+
+  /// Where the curve has the file's values of the coordinates that do not move.
+  [[nodiscard]] std::vector<Vector3> positions_at_stations() const {
+    const PolygonCurve& curve = input_.curve();
+    const Constraints& constraints = input_.constraints();
+    std::vector<Vector3> positions = curve.positions();
+    std::vector<std::optional<CurvePlace>> places(positions.size());
+    for (const CurvePoint& point : found_.points) places[static_cast<std::size_t>(point.number)] = point.at;
+    for (std::size_t c = 0; c < curve.chains().size(); ++c) {
+      const auto& nodes = curve.chains()[c].nodes;
+      const DenseCurve::Chain& chain = found_.curve.chains()[c];
+      // Rows that pull at nothing are looked for about the one before, or about the first that does.
+      CurvePlace about{chain.begin, 0};
+      std::optional<Vector3> before;
+      for (const Index node : nodes) {
+        const auto i = static_cast<std::size_t>(node);
+        if (constraints.position_fixed(node)) {
+          before = positions[i] = constraints.position(node);
+          continue;
+        }
+        if (!found_.curve.is_edge(chain.begin)) continue;
+        if (!places[i])
+          places[i] = found_.curve.nearest(input_.to_local(input_.place(node)), about, way_between_rows(chain));
+        about = *places[i];
+        positions[i] = input_.moved(node, found_.curve.at(about));
+        // Rows at one station are one place, to the last digit.
+        const Vector3 apart = before ? Vector3(positions[i] - *before) : Vector3::Ones();
+        const bool same_station = found_.curve.station(apart).isZero(0);
+        if (same_station && apart.norm() * input_.scale() < same_place) positions[i] = *before;
+        before = positions[i];
+      }
     }
     return positions;
   }
@@ -165,8 +215,13 @@ class CurveFit {
       if (constraints.tangent_fixed(from)) held.fix_tangent(node, constraints.tangent(from));
       if (constraints.normal_fixed(from)) held.fix_normal(node, constraints.normal(from));
     }
-    for (const Index node : sharp_nodes(on, how, 1 / input_.scale())) held.fix_position(node, dense.position(node));
-    Resampled made = resample(dense, held, how);
+    for (const Index node : tight_bends(on, how, 1 / input_.scale())) held.fix_position(node, dense.position(node));
+    Resampling between = how;
+    between.corners.clear();
+    for (std::uint32_t i = 0; i < on.size(); ++i) {
+      if (on.node(i).corner) between.corners.push_back(static_cast<Index>(i));
+    }
+    Resampled made = resample(dense, held, between);
     for (std::size_t k = 0; k < made.from.size(); ++k) {
       Index& from = made.from[k];
       if (from >= 0) from = on.node(static_cast<std::uint32_t>(from)).from;
@@ -176,66 +231,66 @@ class CurveFit {
   }
 
   /// Nodes that are far apart cut off what the curve does between them: where that is more than the tolerance allows
-  /// for, they go to where their chords are within it. Elsewhere too, if these are fairer then, as where a table is
-  /// coarse.
-  void draw_chords_in(std::vector<Vector3>& positions, const Resampled& nodes) {
+  /// for, they go to where their chords are within it. False where they do not. Elsewhere too, if these are fairer
+  /// then, as where a table is coarse.
+  bool draw_chords_in() {
     const auto tolerance = input_.options().tolerance();
-    if (!tolerance) return;
-    const PolygonCurve& shape = nodes.curve;
-    const Constraints& constraints = nodes.constraints;
-    PolygonCurve moved = shape;
-    const double before = figure(distances(moved));
-    if (before <= *tolerance && !(input_.options().within() && are_sparse(moved))) return;
-    DenseCurve chords(true);
-    for (const auto& chain : shape.chains()) {
-      std::vector<DenseCurve::Node> along;
-      for (const Index i : chain.nodes) {
-        DenseCurve::Node& node = along.emplace_back();
-        node.place = input_.to_local(moved.position(i));
-        node.held = constraints.position_fixed(i);
-        if (constraints.tangent_fixed(i)) node.tangent = constraints.tangent(i);
-        node.from = i;
-      }
-      chords.add_chain(along, chain.closed);
-    }
+    // At a station of its own no node is cut off.
+    if (!tolerance || context_.cancelled() || (nodes_.from.empty() && input_.moving() != Vector3::Ones())) return false;
+    const Attempt before = measured(nodes_);
+    if (before.figure <= *tolerance && !(input_.options().within() && are_sparse(nodes_.curve))) return false;
+    const DenseCurve chords = this->chords(nodes_.curve, nodes_);
     CurveFitTask task = input_.task();
     task.nodes = &chords;
     task.evenly = found_.evenly;
     task.scattered = found_.points;
+    // Nodes that are the points keep the way between them.
+    task.keeps_way = !nodes_.from.empty();
     carry_places(found_.curve, chords, task.scattered);
-    std::vector<Vector3> places;
-    const auto draw = [&] {
-      const CurveFound drawn = vspring::fit_curve(task, [](double) {});
-      places = positions;
-      for (std::uint32_t i = 0; i < drawn.curve.size(); ++i) {
-        const auto& node = drawn.curve.node(i);
-        if (!node.held) places[static_cast<std::size_t>(node.from)] = input_.to_input(node.place);
-      }
-      PolygonCurve curve = shape;
-      curve.set_positions(places);
-      return figure(distances(curve));
-    };
-    // Nodes that are the points keep the way between them; others may, if that leaves them enough room.
-    task.in_order = task.in_order && !nodes.from.empty();
-    double after = draw();
-    if (task.in_order && after > *tolerance) {
-      task.in_order = false;
-      after = draw();
+    const CurveFound drawn = vspring::fit_curve(task, [](double) {});
+    Resampled moved = nodes_;
+    std::vector<Vector3> places = nodes_.curve.positions();
+    for (std::uint32_t i = 0; i < drawn.curve.size(); ++i) {
+      const auto& node = drawn.curve.node(i);
+      if (!node.held) places[static_cast<std::size_t>(node.from)] = input_.to_input(node.place);
     }
-    const CurveFigures of_positions = measure_curve(moved, &constraints);
-    const double way_off_before = way_off(moved).greatest;
-    moved.set_positions(places);
-    const CurveFigures of_places = measure_curve(moved, &constraints);
-    const bool fairer = of_places.curvature_variation < of_positions.curvature_variation &&
-                        of_places.curvature_extrema <= of_positions.curvature_extrema &&
-                        of_places.inflections <= of_positions.inflections;
+    moved.curve.set_positions(std::move(places));
+    const Attempt after = measured(moved);
+    const bool fairer = after.figures.curvature_variation < before.figures.curvature_variation &&
+                        after.figures.curvature_extrema <= before.figures.curvature_extrema &&
+                        after.figures.inflections <= before.figures.inflections;
     // Points may be near a curve that goes anywhere between them.
-    const bool stays = way_off(moved).greatest <= far_off_way * std::max(way_off_before, *tolerance);
-    if (stays && (before > *tolerance ? after < before : after <= *tolerance && fairer)) positions = std::move(places);
+    const bool stays =
+        after.way_off <= far_off_way * std::max(before.way_off, *tolerance) && after.radius_kept >= before.radius_kept;
+    const bool better = before.figure > *tolerance
+                            ? after.figure < before.figure
+                            : fairer && after.figure <= *tolerance && drawn.beyond <= next_to_nothing_beyond;
+    if (!better || !stays) return false;
+    nodes_ = std::move(moved);
+    return true;
   }
 
-  /// positions: of `shape`, which has the file's nodes or new ones.
-  FitResult result(std::vector<Vector3> positions, const PolygonCurve& shape, const Constraints& constraints) {
+  /// The rows themselves, which are within any tolerance, where the curve that was found is no fairer.
+  void keep_what_is_fairer() {
+    const Constraints& constraints = input_.constraints();
+    if (!input_.own_nodes() || !nodes_.from.empty() || !input_.options().tolerance()) return;
+    for (Index i = 0; i < input_.curve().node_count(); ++i) {
+      const bool free = !constraints.tangent_fixed(i) && !constraints.normal_fixed(i);
+      if (!free || input_.kept()[static_cast<std::size_t>(i)] != input_.counted()[static_cast<std::size_t>(i)]) return;
+      if (constraints.position_fixed(i) && constraints.position(i) != input_.curve().position(i)) return;
+    }
+    const Attempt as_they_came = measured({input_.curve(), constraints, {}});
+    const CurveFigures rows = as_they_came.figures;
+    const CurveFigures found = measured(nodes_).figures;
+    if (as_they_came.radius_kept == 1 && rows.curvature_variation < found.curvature_variation &&
+        rows.curvature_extrema <= found.curvature_extrema && rows.inflections <= found.inflections)
+      nodes_.curve = input_.curve();
+  }
+
+  /// positions: of the file's nodes or of new ones.
+  FitResult result(std::vector<Vector3> positions, const Resampled& nodes) {
+    const PolygonCurve& shape = nodes.curve;
+    const Constraints& constraints = nodes.constraints;
     FitResult result;
     FitReport& report = result.report;
     FairReport& fair = report.fair;
@@ -253,7 +308,7 @@ class CurveFit {
     PolygonCurve moved = shape;
     moved.set_positions(result.positions);
     const auto& kept = input_.kept();
-    result.distances = point_distances(input_.points().positions, moved, measuring_);
+    result.distances = distances(moved);
     report.before = summary(distances(input_.curve()), input_.counted());
     report.after = summary(result.distances, kept);
     report.shape = way_off(moved);
@@ -263,13 +318,42 @@ class CurveFit {
     report.pulling_points = input_.pulling_points();
     report.pulled_nodes = input_.pulled_nodes();
     report.most_points = input_.most_points();
-    conclude(result);
+    const std::vector<std::uint8_t> corners = this->corners(nodes);
+    fair.corners = static_cast<Index>(std::count(corners.begin(), corners.end(), 1));
+    conclude(result, sharpest(moved, nodes));
     return result;
   }
 
  private:
+  /// Of the points: of nodes that keep coordinates, from where they were.
   [[nodiscard]] std::vector<double> distances(const PolygonCurve& from) const {
-    return point_distances(input_.points().positions, from, measuring_);
+    const std::vector<Vector3>& points = input_.points().positions;
+    if (!keep_stations(from)) return point_distances(points, from, measuring_);
+    std::vector<double> distances;
+    distances.reserve(points.size());
+    for (std::size_t j = 0; j < points.size(); ++j) distances.push_back((from.positions()[j] - points[j]).norm());
+    return distances;
+  }
+
+  /// Whether nodes are those of the input, and have moved only as they may.
+  [[nodiscard]] bool keep_stations(const PolygonCurve& moved) const {
+    const std::vector<Vector3>& points = input_.points().positions;
+    if (input_.moving() == Vector3::Ones() || moved.positions().size() != points.size()) return false;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const bool held = input_.constraints().position_fixed(static_cast<Index>(j));
+      for (int axis = 0; axis < 3 && !held; ++axis) {
+        if (input_.moving()[axis] == 0 && moved.positions()[j][axis] != points[j][axis]) return false;
+      }
+    }
+    return true;
+  }
+
+  /// How far along the curve a row that pulls at nothing may be from the one before.
+  [[nodiscard]] double way_between_rows(const DenseCurve::Chain& chain) const {
+    double length = 0;
+    for (std::uint32_t i = chain.begin; i < chain.begin + chain.count; ++i)
+      length += found_.curve.is_edge(i) ? found_.curve.edge_length(i) : 0;
+    return length * reach_to_next_row;
   }
 
   /// Near the polyline of the points and within the tolerance first, then with fewer inflections, fewer extremes of
@@ -281,16 +365,110 @@ class CurveFit {
     if ((a.way_off <= most) != (b.way_off <= most)) return a.way_off <= most;
     if (a.found.converged != b.found.converged) return a.found.converged;
     if (within != (b.figure <= tolerance)) return within;
+    if (a.radius_kept != b.radius_kept) return a.radius_kept > b.radius_kept;
     if (a.figures.inflections != b.figures.inflections) return a.figures.inflections < b.figures.inflections;
     if (a.figures.curvature_extrema != b.figures.curvature_extrema)
       return a.figures.curvature_extrema < b.figures.curvature_extrema;
     return a.figures.curvature_variation < b.figures.curvature_variation;
   }
 
+  /// The edges of a shape, with what is held at its nodes.
+  [[nodiscard]] DenseCurve chords(const PolygonCurve& shape, const Resampled& nodes) const {
+    DenseCurve chords(true, input_.moving());
+    const Constraints& constraints = nodes.constraints;
+    const std::vector<std::uint8_t> corners = this->corners(nodes);
+    for (const auto& chain : shape.chains()) {
+      std::vector<DenseCurve::Node> along;
+      along.reserve(chain.nodes.size());
+      for (const Index i : chain.nodes) {
+        DenseCurve::Node& node = along.emplace_back();
+        node.place = input_.to_local(shape.position(i));
+        node.held = constraints.position_fixed(i);
+        if (constraints.tangent_fixed(i)) node.tangent = constraints.tangent(i);
+        node.corner = corners[static_cast<std::size_t>(i)] != 0;
+        node.from = i;
+      }
+      chords.add_chain(along, chain.closed);
+    }
+    return chords;
+  }
+
+  /// 1 for those of these nodes that are corners of the curve that was found.
+  [[nodiscard]] std::vector<std::uint8_t> corners(const Resampled& nodes) const {
+    std::vector<std::uint8_t> of_file(static_cast<std::size_t>(input_.curve().node_count()), 0);
+    for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
+      const auto& node = found_.curve.node(i);
+      if (node.corner && node.from >= 0) of_file[static_cast<std::size_t>(node.from)] = 1;
+    }
+    if (nodes.from.empty()) return of_file;
+    std::vector<std::uint8_t> corners(nodes.from.size(), 0);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      if (nodes.from[k] >= 0) corners[k] = of_file[static_cast<std::size_t>(nodes.from[k])];
+    }
+    return corners;
+  }
+
+  struct Sharpest {
+    Index node = -1;  ///< none where nothing is bent
+    double radius = std::numeric_limits<double>::infinity();
+  };
+
+  /// Where a shape is bent most.
+  [[nodiscard]] Sharpest sharpest(const PolygonCurve& shape, const Resampled& nodes) const {
+    Sharpest most;
+    const DenseCurve chords = this->chords(shape, nodes);
+    for (std::uint32_t i = 0; i < chords.size(); ++i) {
+      const double radius = 1 / (chords.greatest_curvature(i) * input_.scale());
+      if (radius < most.radius) most = {chords.node(i).from, radius};
+    }
+    return most;
+  }
+
+  /// The share of the least radius that is there, 1 where all is.
+  [[nodiscard]] double radius_kept(const Sharpest& most) const {
+    const double least = share_of_radius * input_.options().least_radius;
+    return most.radius < least ? most.radius / least : 1;
+  }
+
   /// What is to be within the tolerance.
   [[nodiscard]] double figure(const std::vector<double>& distances) const {
     const Distance all = summary(distances, input_.kept()).all;
     return input_.options().within() ? all.greatest : all.rms;
+  }
+
+  /// Of attempts for one tolerance after the other.
+  [[nodiscard]] bool is_nearer(const Attempt& a, const Attempt& b) const {
+    return a.figure < b.figure || (a.figure == b.figure && a.radius_kept > b.radius_kept);
+  }
+
+  /// For what is beyond, in another attempt. False where nothing is, or so much that there is no room.
+  bool leave_room(const Attempt& attempt, CurveFitTask& task) const {
+    const bool is_sharp = attempt.radius_kept < 1 && attempt.radius_kept * most_cut_off >= 1;
+    if (is_sharp) task.least_radius /= share_of_nearer * attempt.radius_kept;
+    const auto tolerance = input_.options().tolerance();
+    if (!tolerance || attempt.figure <= *tolerance) return is_sharp;
+    if (!input_.options().within()) {
+      task.rms *= share_of_nearer * *tolerance / attempt.figure;
+      return attempt.figure <= most_cut_off * *tolerance;
+    }
+    const std::vector<double> distances = this->distances(attempt.nodes.curve);
+    task.spare.resize(distances.size(), 0);
+    for (std::size_t j = 0; j < distances.size(); ++j) {
+      if (input_.kept()[j] == 0 || distances[j] <= *tolerance) continue;
+      task.spare[j] += (distances[j] - share_of_nearer * *tolerance) * input_.scale();
+      if (task.spare[j] > most_spared * task.within) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] Attempt measured(Resampled nodes) const {
+    Attempt attempt{found_, std::move(nodes)};
+    attempt.figure = figure(distances(attempt.nodes.curve));
+    attempt.way_off = way_off(attempt.nodes.curve).greatest;
+    const PolygonCurve& shape = attempt.nodes.curve;
+    attempt.radius_kept = radius_kept(sharpest(shape, attempt.nodes));
+    attempt.figures = measure_curve(cut_at_corners(shape, corners(attempt.nodes)), &attempt.nodes.constraints);
+    return attempt;
   }
 
   /// Whether no edge is much shorter than those about it, and none shorter than the tolerance.
@@ -364,9 +542,13 @@ class CurveFit {
     return {std::move(places), std::move(chains)};
   }
 
-  void conclude(FitResult& result) const {
+  void conclude(FitResult& result, const Sharpest& most_bent) const {
     FitReport& report = result.report;
     FairReport& fair = report.fair;
+    if (input_.options().least_radius > 0 && most_bent.node >= 0) {
+      report.least_radius = most_bent.radius;
+      report.sharpest_node = most_bent.node;
+    }
     if (context_.cancelled()) {
       fair.outcome = Outcome::cancelled;
       return;
@@ -381,6 +563,16 @@ class CurveFit {
                            .seconds = 0});
     const auto& options = input_.options();
     const auto tolerance = options.tolerance();
+    const bool is_sharp = radius_kept(most_bent) < 1;
+    if (is_sharp) {
+      fair.outcome = Outcome::stalled;
+      fair.warnings.push_back(
+          {WarningCode::radius_not_kept,
+           fmt::format(
+               "no shape was found that is nowhere bent by a radius of less than {:g}: this one is by {:.4g} at "
+               "node {}; draw it less closely there, hold less, or allow a smaller radius",
+               options.least_radius, most_bent.radius, most_bent.node)});
+    }
     if (!tolerance) {
       report.smoothing_length = found_.smoothing / input_.scale();
       warn_if_left_behind(report, input_.points().positions);
@@ -396,7 +588,7 @@ class CurveFit {
                                fmt::format("no shape within {:g} was found: this is the nearest; points lie at what is "
                                            "held, or edges are too long",
                                            *tolerance)});
-    } else if (!found_.converged) {
+    } else if (!found_.converged && !is_sharp) {
       fair.warnings.push_back(
           {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest"});
     }
@@ -410,6 +602,23 @@ class CurveFit {
   Resampled nodes_{.curve = {}, .constraints = Constraints(0), .from = {}};
 };
 
+/// With the root mean square that noise leaves in place of its deviation.
+FitOptions with_rms_of_noise(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
+                             const FitOptions& options, Context& context) {
+  FitOptions found = options;
+  found.criterion = RootMeanSquare{*options.noise()};
+  CurveFitInput input(curve, constraints, points, options, context);
+  if (!input.pulls()) return found;
+  try {
+    const CancellationScope cancellation(context);
+    if (options.outliers > 0) input.leave_outliers_out();
+    const double rms = rms_of_noise(input.task()) / input.scale();
+    if (rms > 0) found.criterion = RootMeanSquare{rms};
+  } catch (const Cancelled&) {
+  }
+  return found;
+}
+
 /// As they came, where they are held.
 std::vector<Vector3> unchanged(const CurveFitInput& input) {
   std::vector<Vector3> positions = input.curve().positions();
@@ -421,11 +630,25 @@ std::vector<Vector3> unchanged(const CurveFitInput& input) {
 
 FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
                     const FitOptions& options, Context& context) {
+  if (Profile::is_needed(curve, constraints, options)) {
+    const Profile profile(curve, constraints, options);
+    FitResult result =
+        fit_curve(profile.curve(), profile.constraints(),
+                  {.positions = profile.curve().positions(), .weights = points.weights}, profile.options(), context);
+    result.positions = profile.lifted(result.positions);
+    return result;
+  }
+  if (options.noise()) {
+    const FitOptions found = with_rms_of_noise(curve, constraints, points, options, context);
+    FitResult result = fit_curve(curve, constraints, points, found, context);
+    result.report.noise_leaves = found.rms();
+    return result;
+  }
   const Stopwatch stopwatch;
   CurveFit run(curve, constraints, points, options, context);
   if (!run.input().pulls()) {
     FairResult plain = fair(curve, constraints, options.fair, context);
-    FitResult result = run.result(std::move(plain.positions), curve, constraints);
+    FitResult result = run.result(std::move(plain.positions), {curve, constraints, {}});
     result.report.fair = std::move(plain.report);
     return result;
   }
@@ -440,7 +663,7 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
   } else {
     positions = unchanged(run.input());
   }
-  FitResult result = run.result(std::move(positions), curve, constraints);
+  FitResult result = run.result(std::move(positions), {curve, constraints, {}});
   FairReport& fair = result.report.fair;
   double squares = 0;
   for (std::size_t i = 0; i < result.positions.size(); ++i) {
@@ -456,12 +679,24 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
 
 ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,
                                  const FitOptions& options, Context& context) {
-  const Stopwatch stopwatch;
+  if (Profile::is_needed(curve, constraints, options)) {
+    const Profile profile(curve, constraints, options);
+    ResampledFit made = fit_curve_resampled(profile.curve(), profile.constraints(), how, profile.options(), context);
+    profile.lift(made);
+    return made;
+  }
   const ScatteredPoints points{.positions = curve.positions()};
+  if (options.noise()) {
+    const FitOptions found = with_rms_of_noise(curve, constraints, points, options, context);
+    ResampledFit made = fit_curve_resampled(curve, constraints, how, found, context);
+    made.fit.report.noise_leaves = found.rms();
+    return made;
+  }
+  const Stopwatch stopwatch;
   ResampledFit made{resample(curve, constraints, how), {}};
   CurveFit run(curve, constraints, points, options, context);
   if (run.input().pulls() && run.find([&] { return run.resampled(how); })) made.resampled = run.nodes();
-  made.fit = run.result(made.resampled.curve.positions(), made.resampled.curve, made.resampled.constraints);
+  made.fit = run.result(made.resampled.curve.positions(), made.resampled);
   FairReport& fair = made.fit.report.fair;
   const Distance moves = distance(made.fit.positions, curve);
   fair.greatest_move = moves.greatest;

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "io/point_formats.hpp"
@@ -136,10 +137,23 @@ void FitOptions::validate() const {
   check_length("rms", rms());
   check_length("noise", noise());
   if (!(outliers >= 0 && outliers < 1)) refuse(fmt::format("outliers must be from 0 to less than 1, not {}", outliers));
+  if (!(least_radius >= 0 && std::isfinite(least_radius)))
+    refuse(fmt::format("least radius must be 0 or more, not {}", least_radius));
+  if (!(sharp >= 0 && sharp < 180))
+    refuse(fmt::format("sharp must be an angle from 0 to less than 180 degrees, not {}", sharp));
+  const bool has_corners = sharp > 0 || !fair.corners.empty();
+  for (const auto& [asked, what] : {std::pair(least_radius > 0, "a least radius"), std::pair(has_corners, "corners")}) {
+    if (asked && fair.method_kind() != Method::equilibrium)
+      refuse(fmt::format("{} can be kept by the method equilibrium only, not by {}", what, name(fair.method_kind())));
+    if (asked && fair.strength < 1) refuse(fmt::format("{} can be kept at full strength only", what));
+  }
   const bool is_amount = tolerance() || noise();
   if (is_amount && fair.method_kind() != Method::equilibrium)
     refuse(fmt::format("points can be fitted to a tolerance by the method equilibrium only, not by {}",
                        name(fair.method_kind())));
+  if (moving_axes == std::array{false, false, false}) refuse("no coordinate moves: let one of x, y and z");
+  if (!moves_freely() && fair.method_kind() != Method::equilibrium)
+    refuse(fmt::format("coordinates can be kept by the method equilibrium only, not by {}", name(fair.method_kind())));
   if (is_amount && fair.strength < 1) refuse("points can be fitted to a tolerance at full strength only");
 }
 

@@ -6,7 +6,9 @@ namespace vspring {
 ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how,
                            const FitOptions& options, Context& context) {
   options.validate();
-  if (options.fair.method_kind() == Method::equilibrium && !options.weight())
+  const bool has_nodes_of_its_own =
+      !options.weight() || options.least_radius > 0 || options.sharp > 0 || !options.fair.corners.empty();
+  if (options.fair.method_kind() == Method::equilibrium && has_nodes_of_its_own)
     return fit_curve_resampled(curve, constraints, how, options, context);
   ResampledFit made{resample(curve, constraints, how), {}};
   made.fit = fit(made.resampled.curve, made.resampled.constraints, {.positions = curve.positions()}, options, context);

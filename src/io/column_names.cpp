@@ -171,6 +171,18 @@ std::size_t column_named(const Cells& header, std::string_view name) {
   return static_cast<std::size_t>(found - header.begin());
 }
 
+std::size_t column_like(const Cells& header, std::string_view name) { return find_name(header, name).column; }
+
+bool chooses_elevations(const InputFile& file, const ColumnChoice& choice) {
+  if (choice.empty()) return false;
+  const Cells cells(choice.begin(), choice.end());
+  const bool elevations = column_named(cells, "ele") < cells.size();
+  if (!find_degrees(cells) || cells.size() != (elevations ? 3 : 2))
+    throw Error(ErrorCode::invalid_argument,
+                file.name + ": columns of a track are lon,lat or lon,lat,ele; correct the choice of columns");
+  return elevations;
+}
+
 std::vector<std::size_t> chosen_columns(const InputFile& file, const Cells& first, std::size_t offset,
                                         const ColumnChoice& choice) {
   if (choice.size() != 2 && choice.size() != 3)
@@ -196,7 +208,8 @@ void refuse_choice(const InputFile& file, const ColumnChoice& choice) {
   if (!choice.empty())
     throw Error(
         ErrorCode::invalid_argument,
-        file.name + ": columns can be chosen in CSV and XYZ only; leave the choice of columns out, or name the format");
+        file.name +
+            ": columns can be chosen in CSV, XYZ and GPX only; leave the choice of columns out, or name the format");
 }
 
 void require_columns(const InputFile& file, const Cells& row, std::size_t offset,

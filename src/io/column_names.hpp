@@ -33,10 +33,17 @@ std::optional<std::array<std::size_t, 2>> find_degrees(const Cells& header);
 /// The column that is called so, in any case, or the number of cells.
 std::size_t column_named(const Cells& header, std::string_view name);
 
+/// The column of that name, alone or with a unit and in any case, or the number of cells.
+std::size_t column_like(const Cells& header, std::string_view name);
+
 /// The columns that were chosen, from 0. first: the file's first row, at an offset, for names. Throws
 /// Error(invalid_argument) where the choice is none, and Error(unusable_file) where no column has a name.
 std::vector<std::size_t> chosen_columns(const InputFile& file, const Cells& first, std::size_t offset,
                                         const ColumnChoice& choice);
+
+/// Whether elevations are chosen of a track, besides longitude and latitude. Throws Error(invalid_argument) for other
+/// columns.
+bool chooses_elevations(const InputFile& file, const ColumnChoice& choice);
 
 /// Throws Error(invalid_argument) where columns are chosen of a file that is no table.
 void refuse_choice(const InputFile& file, const ColumnChoice& choice);

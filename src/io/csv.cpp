@@ -29,6 +29,7 @@ struct CsvLayout {
   std::vector<std::size_t> normal;    ///< columns that the header names nx, ny and nz; or none
   std::string warning;                ///< of columns that had to be guessed; empty without
   bool degrees = false;               ///< the first two columns are longitude and latitude
+  std::vector<std::string> names;     ///< of the columns in the header; none without
 };
 
 /// Finds the columns of coordinates: those that are chosen, else those that a header names, see
@@ -164,7 +165,7 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
   const std::vector<TableLine> all_rows = first_rows(file.bytes);
   std::span<const TableLine> rows = all_rows;
   if (rows.empty()) file.refuse(no_rows);
-  CsvLayout layout{find_cutter(file, all_rows), {}, {}, {}, {}, {}};
+  CsvLayout layout{find_cutter(file, all_rows), {}, {}, {}, {}, {}, false, {}};
   const std::size_t cells_below = rows.size() > 1 ? layout.cutter.cut(rows[1].text).size() : 0;
   Cells first = layout.cutter.cut(rows.front().text);
   if (layout.cutter.cuts_at_blanks() && first.size() > cells_below) first = with_units(first);
@@ -204,6 +205,9 @@ CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice) {
     layout.columns = std::move(named.columns);
     if (!named.remark.empty()) layout.warning = fmt::format("{}:{}: {}", file.name, file.line_of(offset), named.remark);
   }
+  for (const std::size_t column : layout.columns) {
+    if (layout.header) layout.names.emplace_back(column < first.size() ? first[column] : "");
+  }
   return layout;
 }
 
@@ -225,6 +229,7 @@ CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice, const std::
   reader.read(body);
   CurveFile curve = reader.take(std::move(file), CurveFormat::csv, plane);
   if (!layout.warning.empty()) curve.warnings.push_back(layout.warning);
+  curve.column_names = layout.names;
   return curve;
 }
 

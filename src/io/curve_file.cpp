@@ -77,7 +77,7 @@ CurveFile curve_of(InputFile file, std::optional<CurveFormat> format, const Colu
                    const std::optional<LocalPlane>& plane) {
   const std::optional<CurveFormat> said = format ? format : curve_format(extension_of(file.name));
   const CurveFormat taken = said ? *said : detect_curve_format(file);
-  if (taken != CurveFormat::csv && taken != CurveFormat::xyz) refuse_choice(file, columns);
+  if (taken != CurveFormat::csv && taken != CurveFormat::xyz && taken != CurveFormat::gpx) refuse_choice(file, columns);
   switch (taken) {
     case CurveFormat::obj:
       return read_obj_curve(std::move(file));
@@ -88,7 +88,7 @@ CurveFile curve_of(InputFile file, std::optional<CurveFormat> format, const Colu
     case CurveFormat::xyz:
       return read_xyz_curve(std::move(file), columns);
     case CurveFormat::gpx:
-      return read_gpx_curve(std::move(file), plane);
+      return read_gpx_curve(std::move(file), columns, plane);
     case CurveFormat::svg:
       break;
   }

@@ -49,7 +49,7 @@ CurveFile read_obj_curve(InputFile file);
 CurveFile read_csv_curve(InputFile file, const ColumnChoice& choice, const std::optional<LocalPlane>& plane);
 CurveFile read_dat_curve(InputFile file);
 CurveFile read_xyz_curve(InputFile file, const ColumnChoice& choice);
-CurveFile read_gpx_curve(InputFile file, const std::optional<LocalPlane>& plane);
+CurveFile read_gpx_curve(InputFile file, const ColumnChoice& choice, const std::optional<LocalPlane>& plane);
 
 /// What a file of a curve is to be made from.
 struct FreshCurve {

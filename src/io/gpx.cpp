@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/message_text.hpp"
+#include "io/column_names.hpp"
 #include "io/curve_formats.hpp"
 #include "io/degrees.hpp"
 #include "io/face_list.hpp"
@@ -37,6 +38,7 @@ class GpxSource : public CurveSource {
     Span element;
     Span latitude;
     Span longitude;
+    Span elevation = {0, 0};  ///< where elevations are a coordinate
   };
   std::vector<Point> points;  ///< ascending
   std::optional<LocalPlane> plane;
@@ -46,17 +48,25 @@ class GpxSource : public CurveSource {
 };
 
 std::string GpxSource::point_text(std::size_t node, const Rewriting& what) const {
-  const auto& [element, latitude, longitude] = points[node];
+  const auto& [element, latitude, longitude, elevation] = points[node];
   const std::string_view text = std::string_view(file.bytes).substr(element.begin, element.end - element.begin);
   if (what.moved[node] == 0) return std::string(text);
   const LocalPlane::Place place = plane->place(what.places[node]);
   std::array<std::pair<Span, double>, 2> values = {{{latitude, place.latitude}, {longitude, place.longitude}}};
   if (longitude.begin < latitude.begin) std::swap(values[0], values[1]);
   TextRewriter out(text);
-  for (const auto& [span, degrees] : values) {
-    std::string number;
-    append_degrees(number, degrees);
-    out.replace(span.begin - element.begin, span.end - element.begin, number);
+  std::string number;
+  if (what.places[node].head<2>() != positions[node].head<2>()) {
+    for (const auto& [span, degrees] : values) {
+      number.clear();
+      append_degrees(number, degrees);
+      out.replace(span.begin - element.begin, span.end - element.begin, number);
+    }
+  }
+  if (what.places[node].z() != positions[node].z()) {
+    number.clear();
+    append_number(number, what.places[node].z());
+    out.replace(elevation.begin - element.begin, elevation.end - element.begin, number);
   }
   return out.finish();
 }
@@ -73,7 +83,7 @@ std::string GpxSource::rewritten(const Rewriting& what) const {
 
 class GpxReader {
  public:
-  explicit GpxReader(const InputFile& file) : file_(file), scanner_(file) {}
+  GpxReader(const InputFile& file, bool elevations) : file_(file), scanner_(file), elevations_(elevations) {}
 
   void read();
   CurveFile take(InputFile file, const std::optional<LocalPlane>& plane);
@@ -82,11 +92,14 @@ class GpxReader {
   void begin_element();
   void begin_chain();
   void begin_point();
+  void end_point();
+  void read_elevation();
   /// The span of an attribute of the element that begins here, and the number that it is.
   std::pair<Span, double> number_of_attribute(std::string_view name) const;
 
   const InputFile& file_;
   XmlScanner scanner_;
+  bool elevations_;  ///< are a coordinate
   std::shared_ptr<GpxSource> source_ = std::make_shared<GpxSource>();
   std::vector<PolygonCurve::Chain> chains_;
   bool in_chain_ = false;
@@ -103,11 +116,12 @@ void GpxReader::read() {
       begin_element();
       if (is_chain) begin_chain();
       if (is_point) begin_point();
+      if (name == "ele" && elevations_) read_elevation();
     } else if (is_chain) {
       in_chain_ = false;
       if (chains_.back().nodes.empty()) chains_.pop_back();
     } else if (is_point) {
-      source_->points.back().element.end = scanner_.end();
+      end_point();
     }
   }
 }
@@ -125,7 +139,7 @@ void GpxReader::begin_element() {
     file_.refuse_line(scanner_.begin(),
                       fmt::format("the file holds <{}> where GPX has <gpx>; choose a GPX file", in_one_line(name, 24)));
   for (const auto& [element, what] : known) {
-    if (name == element) carried_.insert(what);
+    if (name == element && !(elevations_ && name == "ele")) carried_.insert(what);
   }
 }
 
@@ -163,13 +177,35 @@ void GpxReader::begin_point() {
   source_->positions.emplace_back(longitude, latitude, 0);
 }
 
+void GpxReader::read_elevation() {
+  if (scanner_.parent() != "trkpt" && scanner_.parent() != "rtept") return;
+  const std::size_t begin = scanner_.end();
+  const std::size_t end = std::min(file_.bytes.find('<', begin), file_.bytes.size());
+  const std::string_view text = trimmed(std::string_view(file_.bytes).substr(begin, end - begin));
+  const std::optional<double> number = number_of(text);
+  if (!number)
+    file_.refuse_line(scanner_.begin(),
+                      fmt::format("{} stands where an elevation belongs; repair the point", in_quotes(text)));
+  source_->positions.back().z() = *number;
+  source_->points.back().elevation = {begin, end};
+}
+
+void GpxReader::end_point() {
+  auto& point = source_->points.back();
+  point.element.end = scanner_.end();
+  if (elevations_ && point.elevation.end == 0)
+    file_.refuse_line(point.element.begin,
+                      "the point has no elevation; add it, or leave ele out of the choice of columns");
+}
+
 CurveFile GpxReader::take(InputFile file, const std::optional<LocalPlane>& plane) {
   if (source_->points.empty()) file.refuse("no track and no route with points is in it; choose another file");
   if (std::none_of(chains_.begin(), chains_.end(), [](const auto& chain) { return chain.nodes.size() > 1; }))
     file.refuse("no two of its points follow each other; choose another file");
   CurveFile curve;
   curve.format = CurveFormat::gpx;
-  curve.planar = true;
+  curve.planar = !elevations_;
+  if (elevations_) curve.column_names = {"lon", "lat", "ele"};
   curve.plane = take_to_plane(source_->positions, plane);
   const std::string warning = stretch_warning(file, *curve.plane, source_->positions);
   if (!warning.empty()) curve.warnings.push_back(warning);
@@ -184,8 +220,8 @@ CurveFile GpxReader::take(InputFile file, const std::optional<LocalPlane>& plane
 
 }  // namespace
 
-CurveFile read_gpx_curve(InputFile file, const std::optional<LocalPlane>& plane) {
-  GpxReader reader(file);
+CurveFile read_gpx_curve(InputFile file, const ColumnChoice& choice, const std::optional<LocalPlane>& plane) {
+  GpxReader reader(file, chooses_elevations(file, choice));
   reader.read();
   return reader.take(std::move(file), plane);
 }

@@ -29,8 +29,8 @@ ScatteredPoints read_surface_points(InputFile file, SurfaceFormat format) {
   return {read_stl(std::move(file)).mesh.positions()};
 }
 
-ScatteredPoints read_gpx_points(InputFile file, const std::optional<LocalPlane>& plane) {
-  const CurveFile curve = read_gpx_curve(std::move(file), plane);
+ScatteredPoints read_gpx_points(InputFile file, const ColumnChoice& columns, const std::optional<LocalPlane>& plane) {
+  const CurveFile curve = read_gpx_curve(std::move(file), columns, plane);
   return {.positions = curve.curve.positions(), .plane = curve.plane, .warnings = curve.warnings};
 }
 
@@ -46,7 +46,7 @@ ScatteredPoints points_of(InputFile file, const ColumnChoice& columns, const std
     }
     curve = detect_curve_format(file);
   }
-  if (*curve != CurveFormat::csv && *curve != CurveFormat::xyz) refuse_choice(file, columns);
+  if (*curve == CurveFormat::dat || *curve == CurveFormat::svg) refuse_choice(file, columns);
   switch (*curve) {
     case CurveFormat::csv:
       return read_csv_points(file, columns, plane);
@@ -55,7 +55,7 @@ ScatteredPoints points_of(InputFile file, const ColumnChoice& columns, const std
     case CurveFormat::xyz:
       return read_xyz_points(file, columns);
     case CurveFormat::gpx:
-      return read_gpx_points(std::move(file), plane);
+      return read_gpx_points(std::move(file), columns, plane);
     default:
       break;
   }

@@ -109,13 +109,19 @@ std::string_view TableSource::text_of(const Row& row) const {
   return line_at(file.bytes, row.offset, line_end_of(file.bytes)).text;
 }
 
-std::string TableSource::with_numbers(std::string_view row, const Vector3& numbers,
+std::string TableSource::with_numbers(std::string_view row, std::size_t node, const Vector3& place,
                                       const std::vector<std::size_t>& by_place) const {
+  const Vector3 numbers = numbers_at(place);
+  const auto stays = [&](Eigen::Index k) {
+    const Vector3& before = positions[node];
+    return plane && k < 2 ? before.head<2>() == place.head<2>() : before[k] == place[k];
+  };
   CellCutter knife = cutter;
   const std::vector<std::string_view>& cells = knife.cut(row);
   TextRewriter out(row);
   std::string number;
   for (const std::size_t k : by_place) {
+    if (stays(static_cast<Eigen::Index>(k))) continue;
     const std::string_view cell = cells[columns[k]];
     const auto begin = static_cast<std::size_t>(cell.data() - row.data());
     number.clear();
@@ -144,7 +150,7 @@ std::string TableSource::rewritten(const Rewriting& what) const {
     const std::size_t begin = rows[slot].offset;
     const std::size_t end = begin + text_of(rows[slot]).size();
     if (what.moved[node] != 0)
-      out.replace(begin, end, with_numbers(text, numbers_at(what.places[node]), by_place));
+      out.replace(begin, end, with_numbers(text, node, what.places[node], by_place));
     else
       out.replace(begin, end, text);
   }

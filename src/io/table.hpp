@@ -98,8 +98,9 @@ class TableSource : public CurveSource {
   /// What stands in the columns.
   [[nodiscard]] Vector3 numbers_at(const Vector3& position) const;
   [[nodiscard]] std::string_view text_of(const Row& row) const;
-  /// A row with other numbers in its columns. by_place: which column comes first, second and third in a row.
-  [[nodiscard]] std::string with_numbers(std::string_view row, const Vector3& numbers,
+  /// A row with other numbers in its columns, where a node is no longer what it was there. by_place: which column comes
+  /// first, second and third in a row.
+  [[nodiscard]] std::string with_numbers(std::string_view row, std::size_t node, const Vector3& place,
                                          const std::vector<std::size_t>& by_place) const;
 };
 

@@ -46,6 +46,11 @@ class InteriorPoint {
     double multiplier_step = 0;
     double target = 0;  ///< of slack · multiplier, less what the predictor makes of both steps
     double bend = 0;    ///< what the predictor leaves of the bound, as that is not linear
+    // Of those with a price, which multiplier and spare add up to.
+    double beyond = 0;
+    double spare = 0;
+    double beyond_step = 0;
+    double beyond_target = 0;  ///< of beyond · spare, as of slack · multiplier
   };
 
  public:
@@ -59,6 +64,7 @@ class InteriorPoint {
         triangle_(x_.size(), width_of(program)) {
     for (std::size_t r = 0; r < program.rows.size(); ++r) {
       if (program.rows[r].bound > 0) bounds_.push_back({r});
+      has_prices_ = has_prices_ || program.rows[r].price > 0;
     }
   }
 
@@ -74,21 +80,26 @@ class InteriorPoint {
         result.found = true;
         break;
       }
-      // Multipliers that grow so far have no bounds to go to.
-      if (!(gap <= hopeless_gap * std::max(objective_, next_to_nothing_left * first_objective_))) break;
+      // Multipliers that grow so far have no bounds to go to; a price stops them.
+      if (!has_prices_ && !(gap <= hopeless_gap * std::max(objective_, next_to_nothing_left * first_objective_))) break;
       factor();
-      for (Bound& bound : bounds_) bound.target = bound.bend = 0;
+      for (Bound& bound : bounds_) bound.target = bound.beyond_target = bound.bend = 0;
       find_step();
       if (!bounds_.empty()) {
         // The predictor goes straight for the optimum; what it finds tells how far to aim.
         const double ahead = std::min(1.0, share_of_step());
         double after = 0;
-        for (const Bound& bound : bounds_)
+        std::size_t products = 0;
+        for (const Bound& bound : bounds_) {
           after += (bound.slack + ahead * bound.slack_step) * (bound.multiplier + ahead * bound.multiplier_step);
-        const double centre = gap > 0 ? std::pow(after / gap, 3) * gap / static_cast<double>(bounds_.size()) : 0;
+          after += (bound.beyond + ahead * bound.beyond_step) * (bound.spare - ahead * bound.multiplier_step);
+          products += has_price(bound) ? 2 : 1;
+        }
+        const double centre = gap > 0 ? std::pow(after / gap, 3) * gap / static_cast<double>(products) : 0;
         for (Bound& bound : bounds_) {
           const Row& row = program_.rows[bound.row];
           bound.target = centre - bound.slack_step * bound.multiplier_step;
+          bound.beyond_target = centre + bound.beyond_step * bound.multiplier_step;
           bound.bend = change(row).squaredNorm() / (2 * row.bound);
         }
         find_step();
@@ -98,10 +109,14 @@ class InteriorPoint {
       for (Bound& bound : bounds_) {
         bound.slack += share * bound.slack_step;
         bound.multiplier += share * bound.multiplier_step;
+        if (!has_price(bound)) continue;
+        bound.beyond += share * bound.beyond_step;
+        bound.spare -= share * bound.multiplier_step;
       }
       find_values();
     }
     result.x = x_;
+    for (const Value& value : values_) result.distances.push_back(value.norm());
     result.multipliers.assign(program_.rows.size(), 0);
     for (const Bound& bound : bounds_) result.multipliers[bound.row] = bound.multiplier;
     return result;
@@ -128,7 +143,30 @@ class InteriorPoint {
     for (Bound& bound : bounds_) {
       bound.slack = std::max(-excess(bound), first_slack * program_.rows[bound.row].bound / 2);
       bound.multiplier = target / bound.slack;
+      if (!has_price(bound)) continue;
+      const double price = program_.rows[bound.row].price;
+      bound.multiplier = std::min(bound.multiplier, price / 2);
+      bound.spare = price - bound.multiplier;
+      bound.beyond = std::max(excess(bound) + bound.slack, first_slack * program_.rows[bound.row].bound / 2);
     }
+  }
+
+  [[nodiscard]] bool has_price(const Bound& bound) const { return program_.rows[bound.row].price > 0; }
+
+  /// (|value|² − bound²) / (2 bound) and its slack, less what is paid for: what is to vanish.
+  [[nodiscard]] double miss(const Bound& bound) const {
+    return excess(bound) + bound.slack - bound.beyond + bound.bend;
+  }
+
+  /// How its multiplier grows with the value.
+  [[nodiscard]] double steepness(const Bound& bound) const {
+    return 1 / (bound.slack / bound.multiplier + (has_price(bound) ? bound.beyond / bound.spare : 0));
+  }
+
+  /// What its multiplier grows by where the value stays, over its steepness.
+  [[nodiscard]] double pull(const Bound& bound) const {
+    const double paid = has_price(bound) ? bound.beyond_target / bound.spare - bound.beyond : 0;
+    return miss(bound) + bound.target / bound.multiplier - bound.slack - paid;
   }
 
   [[nodiscard]] Value product(const Row& row, const std::vector<double>& x) const {
@@ -184,7 +222,7 @@ class InteriorPoint {
 
   [[nodiscard]] double gap() const {
     double sum = 0;
-    for (const Bound& bound : bounds_) sum += bound.slack * bound.multiplier;
+    for (const Bound& bound : bounds_) sum += bound.slack * bound.multiplier + bound.beyond * bound.spare;
     return sum;
   }
 
@@ -194,7 +232,7 @@ class InteriorPoint {
     if (!(left <= enough_balance * size_)) return false;
     if (!(gap <= enough_gap * std::max(objective_, next_to_nothing_left * first_objective_))) return false;
     return std::all_of(bounds_.begin(), bounds_.end(), [&](const Bound& bound) {
-      return excess(bound) <= enough_miss * program_.rows[bound.row].bound;
+      return excess(bound) - bound.beyond <= enough_miss * program_.rows[bound.row].bound;
     });
   }
 
@@ -251,7 +289,7 @@ class InteriorPoint {
     const Value across = slope(bound);
     const auto& window = program_.windows[row.window];
     const double alike = bound.multiplier / row.bound;
-    const double steep = bound.multiplier / bound.slack;
+    const double steep = steepness(bound);
     if constexpr (K == 1) {
       // Both are multiples of the same row.
       add_row(triangle_, window, row.entries, std::sqrt(alike + steep * across.squaredNorm()));
@@ -284,17 +322,15 @@ class InteriorPoint {
 
   void find_step() {
     for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
-    for (const Bound& bound : bounds_) {
-      const double miss = excess(bound) + bound.slack + bound.bend;
-      const double pull = bound.target / bound.slack - bound.multiplier + bound.multiplier / bound.slack * miss;
-      add_to(step_, program_.rows[bound.row], -pull * slope(bound));
-    }
+    for (const Bound& bound : bounds_)
+      add_to(step_, program_.rows[bound.row], -steepness(bound) * pull(bound) * slope(bound));
     triangle_.solve(std::span(step_));
     for (Bound& bound : bounds_) {
       const double rise = slope(bound).dot(change(program_.rows[bound.row]));
-      bound.slack_step = -(excess(bound) + bound.slack + bound.bend) - rise;
-      bound.multiplier_step =
-          bound.target / bound.slack - bound.multiplier - bound.multiplier / bound.slack * bound.slack_step;
+      bound.multiplier_step = steepness(bound) * (rise + pull(bound));
+      bound.slack_step = (bound.target - bound.slack * bound.multiplier_step) / bound.multiplier - bound.slack;
+      if (has_price(bound))
+        bound.beyond_step = (bound.beyond_target + bound.beyond * bound.multiplier_step) / bound.spare - bound.beyond;
     }
   }
 
@@ -303,6 +339,9 @@ class InteriorPoint {
     for (const Bound& bound : bounds_) {
       if (bound.slack_step < 0) share = std::min(share, -bound.slack / bound.slack_step);
       if (bound.multiplier_step < 0) share = std::min(share, -bound.multiplier / bound.multiplier_step);
+      if (!has_price(bound)) continue;
+      if (bound.beyond_step < 0) share = std::min(share, -bound.beyond / bound.beyond_step);
+      if (bound.multiplier_step > 0) share = std::min(share, bound.spare / bound.multiplier_step);
     }
     return share;
   }
@@ -316,6 +355,7 @@ class InteriorPoint {
   std::vector<std::size_t> bound_order_;  // by their first unknown
   BandTriangle objective_triangle_;
   BandTriangle triangle_;
+  bool has_prices_ = false;
   double objective_ = 0;
   double first_objective_ = 0;
   double size_ = 0;

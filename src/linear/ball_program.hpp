@@ -9,7 +9,7 @@
 namespace vspring {
 
 /// A convex program over blocks of K unknowns along curves: least Σ weight |row · x + offset|² with |row · x + offset|
-/// ≤ bound for some of the rows. Rows see the four blocks of a window.
+/// ≤ bound for some of the rows, or with a price for what some are beyond. Rows see the four blocks of a window.
 template <int K>
 struct BallProgram {
   static constexpr std::int32_t none = -1;
@@ -22,6 +22,7 @@ struct BallProgram {
     Eigen::Matrix<double, K, 1> offset = Eigen::Matrix<double, K, 1>::Zero();
     double weight = 0;
     double bound = 0;  ///< 0: none
+    double price = 0;  ///< of what it is beyond, in halves of the objective a length; 0: it may not be
   };
 
   std::size_t blocks = 0;
@@ -31,15 +32,17 @@ struct BallProgram {
 
 struct BallSolution {
   std::vector<double> x;  ///< K for each block
-  bool found = false;     ///< all bounds are kept, and no x that keeps them is better by more than 1e-5
+  bool found = false;     ///< all bounds without a price are kept, and no x that keeps them is better by more than 1e-5
   int steps = 0;
+  /// Of each row: |row · x + offset|.
+  std::vector<double> distances;
   /// For each row, the multiplier of its bound.
   std::vector<double> multipliers;
 };
 
 /// By a primal-dual interior-point method with a predictor (Mehrotra 1992; Boyd and Vandenberghe, Convex Optimization,
-/// §11.7), for constraints (|row · x + offset|² − bound²) / (2 bound) ≤ 0. x = 0 need not keep the bounds. At most 40
-/// steps. Cost of one: linear.
+/// §11.7), for constraints (|row · x + offset|² − bound²) / (2 bound) ≤ 0, or ≤ what is paid for. x = 0 need not keep
+/// the bounds. At most 40 steps. Cost of one: linear.
 template <int K>
 BallSolution solve(const BallProgram<K>& program);
 

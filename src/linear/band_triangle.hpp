@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -38,7 +40,8 @@ class BandTriangle {
     std::size_t rest = width_;
     for (std::size_t column = first; column < rows_.size() && rest > 0; ++column) {
       Row& above = rows_[column];
-      if (left[0] != 0) {
+      // What is left of a row dwindles along the band, until its square is no number any more.
+      if (left[0] * left[0] >= std::numeric_limits<double>::min()) {
         const double length = std::sqrt(above[0] * above[0] + left[0] * left[0]);
         const double cosine = above[0] / length;
         const double sine = left[0] / length;
@@ -78,6 +81,21 @@ class BandTriangle {
       for (std::size_t k = 1; k < width_ && i + k < size(); ++k) right[i + k] -= rows_[i][k] * right[i];
     }
     solve_upper(right);
+  }
+
+  /// The entries of (Rᵀ R)⁻¹ that lie in the band: of each row, from its diagonal on (Takahashi, Fagan and Chen 1973).
+  /// Cost: as many as columns, times width².
+  [[nodiscard]] std::vector<Row> inverse_in_band() const {
+    std::vector<Row> inverse(size(), Row{});
+    for (std::size_t i = size(); i-- > 0;) {
+      const std::size_t width = std::min(width_, size() - i);
+      for (std::size_t k = width; k-- > 0;) {
+        double sum = k == 0 ? 1 / rows_[i][0] : 0;
+        for (std::size_t m = 1; m < width; ++m) sum -= rows_[i][m] * inverse[i + std::min(k, m)][k > m ? k - m : m - k];
+        inverse[i][k] = sum / rows_[i][0];
+      }
+    }
+    return inverse;
   }
 
  private:

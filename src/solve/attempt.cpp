@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "equilibrium/account.hpp"
@@ -15,23 +17,34 @@ namespace {
 constexpr double as_near_as_rounding = 1e-8;
 constexpr const char* ways_out = "hold more nodes, or normals, let a smaller region move, or only take its noise off";
 
-const Attempt* best_of(std::span<const Attempt> attempts, bool start_is_sound) {
-  for (const Attempt& attempt : attempts) {
-    if (attempt.stands()) return &attempt;
-  }
+const Attempt* best_of(std::span<const Attempt> attempts, const StartShape& start) {
   const Attempt& last = attempts.back();
-  return last.fault.empty() || (!start_is_sound && !last.is_misplaced) ? &last : nullptr;
+  if (attempts.size() > 1 && !last.is_final()) {
+    const Attempt* best = nullptr;
+    double least = start.is_sound ? start.bending : std::numeric_limits<double>::infinity();
+    for (const Attempt& attempt : attempts) {
+      if (!attempt.fault.empty() || attempt.bending >= least) continue;
+      least = attempt.bending;
+      best = &attempt;
+    }
+    if (best) return best;
+  } else if (last.fault.empty()) {
+    return &last;
+  }
+  return start.is_sound || last.is_misplaced ? nullptr : &last;
 }
 
-/// In words, where what was found is not what was asked for; by itself that of springs says nothing. is_second: whether
-/// another attempt came first.
-std::optional<Warning> difference_from_asked(const Attempt& found, const FairOptions& options, bool is_second) {
+/// In words, where what was found is not what was asked for. Spheres that do not suit say nothing: has_tried_spheres.
+std::optional<Warning> difference_from_asked(const Attempt& found, const FairOptions& options, bool has_tried_spheres) {
+  if (found.is_even)
+    return Warning{WarningCode::other_distribution,
+                   "with the spacing of the input no equilibrium was found: nodes go to the mean of their neighbours"};
   if (options.springs == Springs::sphere && found.springs == Springs::edge) {
     if (options.fair_by == FairBy::bending)
       return Warning{
           WarningCode::other_springs,
           "least bending is for sphere springs, which would not see what is held here: these are edge springs"};
-    if (is_second)
+    if (has_tried_spheres)
       return Warning{WarningCode::other_springs, "sphere springs have no equilibrium here: these are edge springs"};
   }
   if (options.fair_by == FairBy::curvature && found.fair_by == FairBy::bending)
@@ -46,34 +59,39 @@ bool Attempt::is_final() const {
   return stands() || outcome == Outcome::cancelled || (fault.empty() && expected_error < as_near_as_rounding);
 }
 
-const Attempt* pick(std::span<const Attempt> attempts, bool start_is_sound, const FairOptions& options,
+const Attempt* pick(std::span<const Attempt> attempts, const StartShape& start, const FairOptions& options,
                     FairReport& report) {
   const Attempt& last = attempts.back();
-  const bool was_cancelled = last.outcome == Outcome::cancelled;
-  const Attempt* best = options.as_found ? &last : best_of(attempts, start_is_sound);
-  const Attempt& told = best ? *best : last;
+  const Attempt* best = options.as_found ? &last : best_of(attempts, start);
+  const auto worse =
+      std::find_if(attempts.begin(), attempts.end(), [](const Attempt& one) { return !one.fault.empty(); });
+  const Attempt& told = best ? *best : worse != attempts.end() ? *worse : last;
   report.springs = told.springs;
   report.fair_by = told.fair_by;
-  report.outcome = told.outcome;
+  report.outcome = last.outcome == Outcome::cancelled ? last.outcome : told.outcome;
   report.expected_error = told.expected_error;
   report.residual = told.expected_error;
-  if (told.fault.empty()) {
-    const bool is_bent_less = attempts.size() > 1 && !told.stands() && !was_cancelled;
-    const auto difference = difference_from_asked(told, options, &told != attempts.data());
-    if (difference && !is_bent_less) report.warnings.push_back(*difference);
-    if (is_bent_less)
-      report.warnings.push_back(
-          {WarningCode::no_equilibrium, fmt::format("no equilibrium was found: this is the input, bent less, {}; {}",
-                                                    distance_from_equilibrium(report), ways_out)});
+  if (!told.fault.empty()) {
+    if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
+    report.warnings.push_back(
+        {WarningCode::worse_than_input,
+         best ? "what was found is worse than the input: " + told.fault
+              : fmt::format("no equilibrium was found that is no worse than the input ({}): this is the input with its "
+                            "constraints; {}",
+                            told.fault, ways_out)});
     return best;
   }
-  if (!was_cancelled) report.outcome = Outcome::worse_than_input;
-  report.warnings.push_back(
-      {WarningCode::worse_than_input,
-       best ? "what was found is worse than the input: " + told.fault
-            : fmt::format("no equilibrium was found that is no worse than the input ({}): this is the input with its "
-                          "constraints; {}",
-                          told.fault, ways_out)});
+  if (attempts.size() > 1 && !told.is_final()) {
+    report.warnings.push_back(
+        {WarningCode::no_equilibrium,
+         fmt::format("no equilibrium was found: this is {}; {}",
+                     best ? "the shape on the way that is bent least, " + distance_from_equilibrium(report)
+                          : "the input with its constraints, which is bent less than all that was found",
+                     ways_out)});
+    return best;
+  }
+  const auto difference = difference_from_asked(told, options, attempts.front().springs == Springs::sphere);
+  if (difference) report.warnings.push_back(*difference);
   return best;
 }
 

@@ -1,5 +1,6 @@
 // Curves (§4.8).
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -10,14 +11,39 @@
 #include "equilibrium/account.hpp"
 #include "equilibrium/equilibrium_method.hpp"
 #include "equilibrium/from_options.hpp"
+#include "shape/corners.hpp"
 #include "solve/papers_method.hpp"
 #include "spring/curve_net.hpp"
 #include "vspring/fair.hpp"
 
 namespace vspring {
 
+namespace {
+
+/// Each side of a corner as a chain of its own.
+FairResult fair_sides(const PolygonCurve& curve, const Constraints& constraints, const FairOptions& options,
+                      Context& context) {
+  if (constraints.node_count() != curve.node_count()) (void)check_constraints(curve, constraints);
+  Constraints held = constraints;
+  std::vector<std::uint8_t> corners = marked_corners(options.corners, curve.node_count());
+  for (const Index node : options.corners) {
+    if (held.tangent_fixed(node) || held.normal_fixed(node))
+      corners[static_cast<std::size_t>(node)] = 0;
+    else if (!held.position_fixed(node))
+      held.fix_position(node, curve.position(node));
+  }
+  FairOptions of_sides = options;
+  of_sides.corners.clear();
+  FairResult result = fair(cut_at_corners(curve, corners), held, of_sides, context);
+  result.report.corners = static_cast<Index>(std::count(corners.begin(), corners.end(), 1));
+  return result;
+}
+
+}  // namespace
+
 FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const FairOptions& options,
                 Context& context) {
+  if (!options.corners.empty()) return fair_sides(curve, constraints, options, context);
   const Stopwatch stopwatch;
   options.validate();
   FairResult result;

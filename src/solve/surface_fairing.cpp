@@ -9,6 +9,7 @@
 
 #include "base/cancellation.hpp"
 #include "base/stopwatch.hpp"
+#include "checks/bending_energy.hpp"
 #include "checks/new_crossings.hpp"
 #include "equilibrium/account.hpp"
 #include "equilibrium/equilibrium_method.hpp"
@@ -34,6 +35,11 @@ bool hold_the_same(const Constraints& a, const Constraints& b) {
 
 // On the shape itself: what leads somewhere takes up to some 90 steps that bend it less, and springs fewer from there.
 constexpr int iterations_from_near = 100;
+
+// On each level, of an even distribution where that of the input leads nowhere: the coarsest may need two starts.
+constexpr int iterations_of_a_try = 100;
+// Of the work that is allowed: what that try may take at least, where the flow from other spacing has left none.
+constexpr double work_of_a_try = 0.2;
 
 // On each level, while somebody drags: what leads nowhere is for later.
 constexpr int iterations_in_a_hurry = 40;
@@ -177,42 +183,67 @@ FairResult SurfaceFairing::unchanged(const Constraints& constraints, FairResult&
 
 void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const EquilibriumCall& call) {
   const FairOptions& options = call.options;
-  std::vector<Attempt> attempts;
-  attempts.push_back(go_from_coarse_levels(options.springs, constraints, call));
   // Whoever gives a number of iterations, or asks for what is found, gets that.
-  const bool may_be_another = call.method.fallbacks && !call.method.max_iterations && !options.as_found;
-  const bool is_by_curvature = options.fair_by == FairBy::curvature;
-  const bool is_by_spheres = attempts.front().springs == Springs::sphere;
-  const auto go_on = [&] { return may_be_another && !attempts.back().is_final(); };
-  if (go_on() && is_by_spheres && is_by_curvature)
+  const bool is_only = call.method.max_iterations || options.as_found;
+  std::vector<Attempt> attempts;
+  const auto go_on = [&] { return !is_only && !attempts.back().is_final(); };
+  attempts.push_back(go_from_coarse_levels(options.springs, constraints, call));
+  if (go_on() && attempts.back().springs == Springs::sphere && options.fair_by == FairBy::curvature)
     attempts.push_back(go_from_coarse_levels(Springs::edge, constraints, call));
-  if (go_on()) {
-    take_sphere_springs(constraints, options);
+  if (go_on() && !attempts.back().fault.empty()) {
     Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
-    // As much again.
-    call.report.most_work += call.report.work;
-    if (is_by_spheres) attempts.push_back(go_from_smooth_input(relaxation, constraints, call));
-    if (!go_on()) return take_best(attempts, constraints, call);
-    Attempt bent_less = bend_less(relaxation, constraints, call);
-    const bool was_cancelled = bent_less.outcome == Outcome::cancelled;
-    if (go_on() && is_by_spheres && !was_cancelled)
-      attempts.push_back(go_on_by_springs("from less bending", relaxation, constraints, call));
-    if (go_on() && !was_cancelled && !bent_less.stands()) {
-      hierarchy_->start_from_membrane(relaxation.last());
-      attempts.push_back(bend_less(relaxation, constraints, call));
+    for (const bool keeps_spacing : {false, true}) {
+      if (go_on()) attempts.push_back(go_from_input(keeps_spacing, relaxation, constraints, call));
     }
-    if (go_on()) attempts.push_back(std::move(bent_less));
   }
-  take_best(attempts, constraints, call);
+  const bool may_be_another = call.method.fallbacks;
+  if (may_be_another && go_on() && !options.distribution) attempts.push_back(go_evenly(constraints, call));
+  if (may_be_another && go_on()) go_by_less_bending(attempts, constraints, call);
+  take_best(std::move(attempts), constraints, call);
 }
 
-void SurfaceFairing::take_best(const std::vector<Attempt>& attempts, const Constraints& constraints,
-                               const EquilibriumCall& call) {
+void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Constraints& constraints,
+                                        const EquilibriumCall& call) {
+  const bool is_by_spheres = attempts.front().springs == Springs::sphere;
+  hierarchy_.reset();
+  make_levels(gather_part(*whole_, part_, constraints, true), constraints, call.options);
+  Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
+  // As much again.
+  call.report.most_work += call.report.work;
+  if (is_by_spheres) attempts.push_back(go_from_input(false, relaxation, constraints, call));
+  if (attempts.back().is_final()) return;
   Net& net = hierarchy_->finest();
   net.positions = start_places(net, whole_->positions(), constraints);
-  const bool start_is_sound = check_->fault_of_places(net).empty();
-  if (const Attempt* const best = pick(attempts, start_is_sound, call.options, call.report))
-    std::copy(best->places.begin(), best->places.end(), net.positions.begin());
+  Attempt bent_less = bend_less(relaxation, constraints, call);
+  const auto go_on = [&] { return bent_less.outcome != Outcome::cancelled && !attempts.back().is_final(); };
+  if (go_on() && is_by_spheres)
+    attempts.push_back(go_on_by_springs("from less bending", relaxation, constraints, call));
+  if (go_on() && !bent_less.stands()) {
+    hierarchy_->start_from_membrane(relaxation.last());
+    attempts.push_back(bend_less(relaxation, constraints, call));
+  }
+  if (!attempts.back().is_final()) attempts.push_back(std::move(bent_less));
+}
+
+void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints& constraints,
+                               const EquilibriumCall& call) {
+  Net& net = hierarchy_->finest();
+  const auto go_to = [&net](const std::vector<Vector3>& places) {
+    std::copy_n(places.begin(), net.moving, net.positions.begin());
+  };
+  const std::vector<Vector3> start = start_places(net, whole_->positions(), constraints);
+  StartShape start_shape;
+  if (attempts.size() > 1 && !attempts.back().is_final()) {
+    const BendingEnergy bending(net);
+    start_shape.bending = bending.of(start, team_);
+    for (Attempt& attempt : attempts) {
+      go_to(attempt.places);
+      attempt.bending = bending.of(net.positions, team_);
+    }
+  }
+  net.positions = start;
+  start_shape.is_sound = check_->fault_of_places(net).empty();
+  if (const Attempt* const best = pick(attempts, start_shape, call.options, call.report)) go_to(best->places);
 }
 
 Attempt SurfaceFairing::attempt(const Constraints& constraints, const EquilibriumCall& call) {
@@ -260,33 +291,46 @@ void SurfaceFairing::make_levels(Net net, const Constraints& constraints, const 
   hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
 }
 
-void SurfaceFairing::take_sphere_springs(const Constraints& constraints, const FairOptions& options) {
-  Net& last = hierarchy_->finest();
-  if (last.spheres.on()) {
-    last.positions = start_places(last, whole_->positions(), constraints);
-    return;
-  }
-  hierarchy_.reset();
-  make_levels(gather_part(*whole_, part_, constraints, true), constraints, options);
+Attempt SurfaceFairing::go_evenly(const Constraints& constraints, const EquilibriumCall& call) {
+  FairReport& report = call.report;
+  FairOptions options = call.options;
+  options.distribution = Distribution::even;
+  options.as_found = true;
+  EquilibriumMethod method = call.method;
+  method.max_iterations = iterations_of_a_try;
+  const double most_work = report.most_work;
+  report.most_work = std::max(most_work, report.work + work_of_a_try * most_work);
+  Attempt result =
+      go_from_coarse_levels(options.springs, constraints, {call, options, method, call.looks_at_crossings});
+  report.most_work = std::max(most_work, report.work);
+  result.is_even = true;
+  return result;
 }
 
 Attempt SurfaceFairing::bend_less(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call) {
   use_least_bending(hierarchy_->finest());
   relaxation.set_strategy("less bending");
   relaxation.bend_less(iterations_from_near);
-  return attempt(constraints, call);
+  Attempt result = attempt(constraints, call);
+  // One of a family is none to be called the one.
+  if (result.outcome == Outcome::converged && is_underconstrained(hierarchy_->finest()))
+    result.outcome = Outcome::stalled;
+  return result;
 }
 
-Attempt SurfaceFairing::go_from_smooth_input(Relaxation& relaxation, const Constraints& constraints,
-                                             const EquilibriumCall& call) {
+Attempt SurfaceFairing::go_from_input(bool keeps_spacing, Relaxation& relaxation, const Constraints& constraints,
+                                      const EquilibriumCall& call) {
   Net& net = hierarchy_->finest();
-  const std::vector<Vector3> start = net.positions;
-  const std::vector<Vector3> smooth = rest_positions(net, team_);
-  std::copy_n(smooth.begin(), net.moving, net.positions.begin());
-  if (call.options.fair_by == FairBy::bending) use_least_bending(net);
-  Attempt result = go_on_by_springs("from the input without its noise", relaxation, constraints, call);
-  net.positions = start;
-  return result;
+  net.positions = start_places(net, whole_->positions(), constraints);
+  if (keeps_spacing) {
+    update_directions(net, *model_, team_);
+    hierarchy_->set_laplacian_weights(model_->present_laplacian_weights(net));
+  } else {
+    const std::vector<Vector3> smooth = rest_positions(net, team_);
+    std::copy_n(smooth.begin(), net.moving, net.positions.begin());
+  }
+  return go_on_by_springs(keeps_spacing ? "from the input, with its spacing" : "from the input without its noise",
+                          relaxation, constraints, call);
 }
 
 Attempt SurfaceFairing::go_on_by_springs(const char* strategy, Relaxation& relaxation, const Constraints& constraints,

@@ -54,20 +54,23 @@ class SurfaceFairing {
   void run_to_equilibrium(const Constraints& constraints, const EquilibriumCall& call);
   /// With sphere springs, where they are wanted and suit, else with edge springs.
   Attempt go_from_coarse_levels(Springs springs, const Constraints& constraints, const EquilibriumCall& call);
+  /// The same with nodes at the mean of their neighbours, from the input.
+  Attempt go_evenly(const Constraints& constraints, const EquilibriumCall& call);
+  /// By the springs of hierarchy_, from the start without its noise, or as it is with the spacing that it has.
+  Attempt go_from_input(bool keeps_spacing, Relaxation& relaxation, const Constraints& constraints,
+                        const EquilibriumCall& call);
+  /// By steps that bend the start less, and by springs from there.
+  void go_by_less_bending(std::vector<Attempt>& attempts, const Constraints& constraints, const EquilibriumCall& call);
   /// From the shape of hierarchy_, by steps that bend it less.
   Attempt bend_less(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
-  /// From there to an equilibrium of sphere springs.
+  /// From there to an equilibrium of its springs.
   Attempt go_on_by_springs(const char* strategy, Relaxation& relaxation, const Constraints& constraints,
                            const EquilibriumCall& call);
-  /// The same from the start without its noise, which stays in hierarchy_.
-  Attempt go_from_smooth_input(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
   /// Makes that of the attempts the shape which is the result, or the start.
-  void take_best(const std::vector<Attempt>& attempts, const Constraints& constraints, const EquilibriumCall& call);
+  void take_best(std::vector<Attempt> attempts, const Constraints& constraints, const EquilibriumCall& call);
   /// The shape that was reached, looked at.
   Attempt attempt(const Constraints& constraints, const EquilibriumCall& call);
   void make_levels(Net net, const Constraints& constraints, const FairOptions& options);
-  /// Makes hierarchy_ the start with sphere springs.
-  void take_sphere_springs(const Constraints& constraints, const FairOptions& options);
   /// From the last shape. False where that leads nowhere.
   bool go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance, FairReport& report);
   /// Where faces cross each other that did not before, in words.

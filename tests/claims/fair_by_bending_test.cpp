@@ -88,12 +88,10 @@ TEST(FairByBending, ATubeBulgesToBendLess) {
 TEST(FairByBending, ATubeBetweenRimsThatAreFreeToTurnBulgesAsItsEquationSays) {
   // By shooting from the middle: ΔH + 2H(H² − K) = 0, not curved across the rims. A cylinder has next to no V-Spring
   // energy, which says nothing against a shape that bends less.
-  for (const auto& [height, radius] : {std::pair(3.000, 1.356), std::pair(4.620, 2.000)}) {
+  for (const auto& [height, radius] : {std::pair(3.000, 1.356), std::pair(4.620, 2.000), std::pair(5.694, 2.500)}) {
     SCOPED_TRACE(height);
     const PolygonMesh tube = generate::tube({.columns = 24, .rows = 16, .faces = Faces::quads}, 1, height);
-    FairOptions even = by(FairBy::bending);
-    even.distribution = Distribution::even;
-    const FairResult result = fair(tube, held_boundary(tube), even);
+    const FairResult result = fair(tube, held_boundary(tube), by(FairBy::bending));
     EXPECT_EQ(result.report.outcome, Outcome::converged);
     EXPECT_EQ(result.report.fair_by, FairBy::bending);
     EXPECT_NEAR(result.positions[std::size_t{8} * 24].head<2>().norm(), radius, 0.002 * radius);
@@ -130,7 +128,7 @@ TEST(FairByBending, IsForSphereSprings) {
   EXPECT_TRUE(faired(Springs::sphere, FairBy::curvature).report.warnings.empty());
   const FairResult of_edges = faired(Springs::edge, FairBy::bending);
   EXPECT_EQ(of_edges.positions, result.positions);
-  EXPECT_TRUE(of_edges.report.warnings.empty()) << of_edges.report.warnings.front().text;
+  EXPECT_TRUE(of_edges.report.warnings.empty());
 }
 
 TEST(FairByBending, ASessionKeepsToIt) {

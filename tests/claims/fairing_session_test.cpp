@@ -314,9 +314,7 @@ TEST(FairingSession, SaysThatADragFoldsTheShapeAndComesBackFromIt) {
   const PolygonMesh mesh = generate::plane({.columns = 12, .rows = 12});
   Constraints constraints = held_boundary(mesh);
   const Index node = 6 * 13 + 6;
-  FairOptions options = to(1e-6);
-  options.method = EquilibriumMethod{.tolerance = 1e-6};
-  FairingSession session(mesh, options);
+  FairingSession session(mesh, to(1e-6));
   Context context;
   const auto drag_to = [&](double way) {
     constraints.fix_position(node, mesh.position(node) + Vector3(way, 0, 0));

@@ -343,8 +343,6 @@ TEST(FitNoisyScan, RefusesWhatHasNoNodesOfItsOwn) {
   FitOptions rim = without_noise(0.01);
   rim.fair.fair_boundary.emplace();
   EXPECT_THROW((void)fit(torus, none, others, rim), Error);
-  const PolygonCurve curve(torus.positions(), true);
-  EXPECT_THROW((void)fit(curve, none, {.positions = torus.positions()}, without_noise(0.01)), Error);
 }
 
 }  // namespace

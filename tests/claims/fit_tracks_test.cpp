@@ -75,6 +75,56 @@ TEST(FitTracks, AreFinishedAndNearBothWays) {
   }
 }
 
+double greatest_turn(const std::vector<Vector3>& places) {
+  double greatest = 0;
+  for (std::size_t k = 1; k + 1 < places.size(); ++k) {
+    const Vector3 before = places[k] - places[k - 1];
+    const Vector3 after = places[k + 1] - places[k];
+    greatest = std::max(greatest, std::atan2(before.cross(after).norm(), before.dot(after)));
+  }
+  return greatest;
+}
+
+TEST(FitTracks, RowsThatChangedPlacesDoNotFoldTheCurve) {
+  Draw draw(8);
+  std::vector<Vector3> rows;
+  rows.reserve(60);
+  for (int k = 0; k < 60; ++k) {
+    // A gap after row 32: there the way to where it goes on is a chord.
+    const double x = 5 * k + (k > 32 ? 40 : 0);
+    rows.emplace_back(x + draw.uniform(-0.1, 0.1), 40 * std::sin(0.02 * x) + draw.uniform(-0.1, 0.1), 0);
+  }
+  std::swap(rows[12], rows[14]);
+  std::swap(rows[13], rows[15]);
+  std::swap(rows[30], rows[32]);
+  FitOptions options;
+  options.fair.distribution = Distribution::keep;
+  for (const FitCriterion& criterion : {FitCriterion(Within{0.3}), FitCriterion(RootMeanSquare{0.1})}) {
+    options.criterion = criterion;
+    const FitResult result = fit(PolygonCurve(rows), held_ends(rows), {.positions = rows}, options);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    EXPECT_GT(greatest_turn(rows), 3);
+    EXPECT_LT(greatest_turn(result.positions), 0.3);
+  }
+}
+
+TEST(FitTracks, AStopAtAHeldEndDoesNotMakeTheRestFollowNoise) {
+  Draw draw(9);
+  std::vector<Vector3> rows;
+  rows.reserve(160);
+  for (int k = 0; k < 130; ++k)
+    rows.emplace_back(2 * k + draw.uniform(-0.5, 0.5), 30 * std::sin(0.02 * k) + draw.uniform(-0.5, 0.5), 0);
+  // Further from each other than from where they truly are.
+  for (int k = 0; k < 30; ++k)
+    rows.emplace_back(260 + draw.uniform(-0.9, 0.9), 30 * std::sin(2.6) + draw.uniform(-0.9, 0.9), 0);
+  FitOptions options{.criterion = Within{1.2}};
+  options.fair.distribution = Distribution::keep;
+  const FitResult result = fit(PolygonCurve(rows), held_ends(rows), {.positions = rows}, options);
+  const std::vector<Vector3> moving(result.positions.begin(), result.positions.begin() + 120);
+  EXPECT_LT(greatest_turn(moving), 0.1);
+  EXPECT_LT(distance(std::span(rows).first(120), PolygonCurve(result.positions)).greatest, 1.2);
+}
+
 TEST(FitTracks, ReadingsThatAreOffAreLeftOutBeforeAnythingIsPlaced) {
   Track track = tracks()[1];
   std::vector<Vector3> rows = track.rows;

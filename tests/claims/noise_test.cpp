@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -80,6 +81,30 @@ TEST(Noise, OfCurvesIsEstimatedInThePlaneAndInSpace) {
       for (Vector3& p : noisy) p.z() = 0;
     }
     EXPECT_NEAR(estimate_noise(PolygonCurve(noisy)).deviation, 0.003, 0.0006) << rise;
+  }
+}
+
+TEST(Noise, OfHeightsIsVertical) {
+  for (const bool in_space : {false, true}) {
+    std::vector<Vector3> nodes;
+    for (int k = 0; k < 600; ++k) {
+      const double way = 0.05 * k;
+      const double height = 2 * way + std::sin(way);
+      if (in_space)
+        nodes.emplace_back(std::cos(way / 4) * 4, std::sin(way / 4) * 4, height);
+      else
+        nodes.emplace_back(way, height, 0);
+    }
+    const std::size_t axis = in_space ? 2 : 1;
+    const std::vector<Vector3> disturbed_nodes = disturbed(nodes, 0.01, 4);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      nodes[i][static_cast<Eigen::Index>(axis)] = disturbed_nodes[i][static_cast<Eigen::Index>(axis)];
+    std::array<bool, 3> moving = {false, false, false};
+    moving[axis] = true;
+    const NoiseEstimate noise = estimate_noise(PolygonCurve(nodes), moving);
+    EXPECT_NEAR(noise.deviation, 0.01, 0.002);
+    EXPECT_NEAR(noise.edges, noise.deviation / 0.05, 0.01 * noise.edges);
+    EXPECT_EQ(noise.directions, 1);
   }
 }
 

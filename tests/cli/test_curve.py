@@ -30,11 +30,65 @@ class Curve(Case):
         self.assertEqual(result.returncode, status, result.stderr.decode())
         return result
 
-    def test_only_surfaces_have_their_noise_taken_off_by_filters(self):
-        self.assertNotIn(b"--noise", run("curve", "--help").stdout)
-        text = csv(arc(20, noise=0.02))
-        self.curve(text, "--noise", "auto", status=1)
-        self.assertNotIn(b"--noise", self.curve(text, "--rms", "1", "--within", "1", status=1).stderr)
+    def test_noise_is_found_and_taken_off(self):
+        generator = random.Random(9)
+        rows = [(k / 20 + generator.gauss(0, 0.03), math.sin(k / 20) + generator.gauss(0, 0.03)) for k in range(200)]
+        text = csv(rows)
+        run("measure", self.write("in.csv", text), "--report", self.folder / "m.json")
+        figures = self.read_json("m.json")["figures"]
+        reports = {}
+        for option in ("--noise", "--rms", "--within"):
+            self.curve(text, option, "auto", "--report", self.folder / "r.json", output=f"out{option}.csv")
+            reports[option] = self.read_json("r.json")["points"]
+            self.assertEqual(reports[option]["estimated_noise"], figures["noise"])
+        self.assertAlmostEqual(figures["noise"], 0.03, delta=0.006)
+        self.assertEqual(reports["--noise"]["noise"], figures["noise"])
+        self.assertEqual(reports["--within"]["within"], figures["within_auto"])
+        # A root mean square by the noise is what the noise leaves.
+        self.assertEqual((self.folder / "out--rms.csv").read_bytes(), (self.folder / "out--noise.csv").read_bytes())
+        self.assertAlmostEqual(reports["--noise"]["distance"]["after"]["rms"], reports["--noise"]["noise_leaves"], delta=0.001)
+        off = [y - math.sin(x) for x, y in read(self.folder / "out--noise.csv")]
+        self.assertLess(math.sqrt(sum(y * y for y in off) / len(off)), 0.013)
+        self.assertIn("noise leaves", self.curve(text, "--noise", "0.03").stdout.decode())
+        self.assertIn(b"only one of", self.curve(text, "--rms", "1", "--noise", "1", status=1).stderr)
+
+    def test_only_the_columns_that_are_named_move(self):
+        generator = random.Random(3)
+        rows = [(f"{1.5 * k:.2f}", f"{10 * math.sin(k / 20) + generator.uniform(-0.2, 0.2):.3f}", f"p{k}") for k in range(100)]
+        text = "dist_m,ele_m,note\n" + "".join(",".join(row) + "\n" for row in rows)
+        columns = ("--columns", "dist_m,ele_m")
+        said = self.curve(text, *columns, "--move", "ele_m", "--within", "0.25", "--report", self.folder / "r.json").stdout.decode()
+        self.assertIn("moved            ele_m alone", said)
+        after = [tuple(line.split(",")) for line in (self.folder / "out.csv").read_text().splitlines()[1:]]
+        self.assertEqual([(a[0], a[2]) for a in after], [(a[0], a[2]) for a in rows])
+        moves = [abs(float(a[1]) - float(b[1])) for a, b in zip(after, rows)]
+        self.assertLessEqual(max(moves), 0.25)
+        self.assertGreater(max(moves), 0.2)
+        report = self.read_json("r.json")
+        self.assertEqual(report["points"]["moving"], ["ele_m"])
+        self.assertAlmostEqual(report["points"]["distance"]["after"]["greatest"], max(moves), 12)
+        figures = report["fairness"]
+        self.assertLess(figures["after"]["rms_turn"], figures["before"]["rms_turn"] / 5)
+        self.curve(text, *columns, "--move", "y", "--within", "0.25", output="letter.csv")
+        self.assertEqual((self.folder / "letter.csv").read_bytes(), (self.folder / "out.csv").read_bytes())
+
+    def test_columns_that_cannot_move_are_named(self):
+        text = "dist,ele\n" + csv((k, math.sin(k)) for k in range(20))
+        columns = ("--columns", "dist,ele")
+        for options, words in (
+                (("--move", "height", "--within", "1"), "'height' is no coordinate of this curve; it has x or 'dist', y or 'ele'"),
+                (("--move", "ele"), "--move: how near to the rows is the curve to stay? give --within, --rms, --noise or --smoothing-length"),
+                (("--move", "ele", "--within", "1", "--method", "sweep"), "by the method equilibrium only"),
+                (("--move", "ele", "--weight", "1", "--method", "multigrid"), "by the method equilibrium only")):
+            with self.subTest(options):
+                self.assertIn(words, self.curve(text, *columns, *options, status=1).stderr.decode())
+        said = self.curve(text, *columns, "--move", "dist,ele", "--within", "0.1").stderr.decode()
+        self.assertIn("--move has no effect here: these are all coordinates that there are", said)
+        said = self.curve(text, *columns, "--move", "ele", "--within", "0.1", "--distribution", "even").stderr.decode()
+        self.assertIn("--distribution has no effect here", said)
+        shuffled = "x,y\n" + csv((k * 7 % 20, math.sin(k)) for k in range(20))
+        self.assertIn("put the nodes in order (--order)",
+                      self.curve(shuffled, "--move", "y", "--within", "0.1", status=2).stderr.decode())
 
     def end_tangents(self, count, angle):
         rules = {"rules": [{"nodes": [0, count - 1], "tangent": [[0, 1], [-math.sin(angle), math.cos(angle)]]}]}
@@ -233,6 +287,27 @@ class Curve(Case):
             with self.subTest(options=options):
                 self.curve(csv(helix), "--fix-normals", "boundary", *options)
                 self.assertEqual(len(read(self.folder / "out.csv")), 61)
+
+    def test_corners_stay_sharp(self):
+        noise = random.Random(3)
+        sides = [(k, 0) for k in range(40)] + [(40, k) for k in range(30)] + [(40 - k, 30) for k in range(40)] + [(0, 30 - k) for k in range(30)]
+        rows = csv([(x + noise.uniform(-0.4, 0.4), y + noise.uniform(-0.4, 0.4)) for x, y in sides])
+        report = ("--report", self.folder / "r.json")
+        for options in (("--within", "1"), ("--within", "1", "--spacing", "2")):
+            done = self.curve(rows, "--closed", "--sharp", "40", *options, *report)
+            self.assertIn("corners          4 kept sharp\n", done.stdout.decode())
+            self.assertEqual(self.read_json("r.json")["corners"], 4)
+            self.assertGreater(self.read_json("r.json")["fairness"]["after"]["greatest_turn"], 80)
+        self.assertNotIn("corners", self.curve(rows, "--closed", "--within", "1", *report).stdout.decode())
+        self.assertEqual(self.read_json("r.json")["corners"], 0)
+        # Without points nodes at corners keep their places, new ones lie between them.
+        road = csv([(k, 0.1 * noise.uniform(-1, 1) * (0 < k < 40)) for k in range(41)] + [(40, k) for k in range(1, 31)])
+        for options in ((), ("--resample", "36")):
+            done = self.curve(road, "--sharp", "60", *options, *report)
+            self.assertEqual(self.read_json("r.json")["corners"], 1)
+            points = read(self.folder / "out.csv")
+            self.assertIn((40, 0), points)
+            self.assertLess(max(min(abs(y), abs(x - 40)) for x, y in points), 1e-3)
 
     def test_picture(self):
         self.curve(csv(arc(30, noise=0.05)), "--picture", self.folder / "a.svg")

@@ -64,6 +64,8 @@ STAND_INS = {
     "aerofoil.dat": ROOT / "examples/naca-2412.dat",
     "outline.csv": outline,
     "track.csv": walk,
+    "profile.csv": lambda: "dist_m,ele_m\n" + "".join(f"{5 * k},{400 + 9 * math.sin(k / 9) + 0.2 * math.cos(37 * k):.2f}\n" for k in range(80)),
+    "drawing.csv": lambda: "".join(f"{k},{0.1 * (k % 2)}\n" for k in range(20)) + "".join(f"{20 + 0.1 * (k % 2)},{k}\n" for k in range(20)),
     "track.gpx": lambda: gpx(track(60, 3)),
     "log.csv": lambda: "time,lat,lon\n" + "".join(f"{k},{a!r},{b!r}\n" for k, (a, b) in enumerate(track(60, 3))),
     "cloud.csv": lambda: "".join(sorted(f"{math.sin(7 * k):.3f},{k + 0.01 * math.cos(11 * k):.3f}\n" for k in (j / 40 for j in range(41)))),

@@ -265,6 +265,23 @@ class Fit(Case):
         self.assertEqual(run("measure", path, "--report", self.folder / "figures.json").returncode, 0)
         return self.read_json("figures.json")["figures"]
 
+    def test_a_least_radius_is_kept_or_it_is_said_where_it_is_not(self):
+        rows = "".join(f"{2 * k},{0.3 * (-1) ** k}\n" for k in range(20)) + "".join(f"40,{2 * k}\n" for k in range(20))
+        track = self.write("track.csv", rows)
+        for radius, status in ((10, 0), (30, 3)):
+            done = run("curve", track, "-o", self.folder / "out.csv", "--within", "2", "--min-radius", str(radius), "--report",
+                       self.folder / "r.json")
+            self.assertEqual(done.returncode, status, done.stderr.decode())
+            report = self.read_json("r.json")
+            self.assertEqual(report["points"]["min_radius"], radius)
+            least = report["points"]["least_radius"]
+            self.assertIn(f"least radius     {least['radius']:.4g} units, at node {least['node']}", done.stdout.decode())
+            self.assertEqual("radius-not-kept" in report["warning_codes"], status == 3)
+            self.assertEqual(least["radius"] >= 0.99 * radius, status == 0)
+            self.assertLessEqual(report["points"]["distance"]["after"]["greatest"], 2)
+        self.assertIn(f"at node {least['node']};", done.stderr.decode())
+        self.assertEqual(run("curve", track, "-o", self.folder / "out.csv", "--min-radius", "3").returncode, 1)
+
     def test_a_closed_surface_that_only_points_hold(self):
         shape = self.write("ball.obj", sphere(4, radius=0.9))
         points = self.write("points.obj", sphere(12, radius=1.0))

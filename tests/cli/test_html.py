@@ -444,7 +444,7 @@ class Page(Html):
         measured = self.read_json("measured.json")
         columns = [measured["compared_with"]["figures"], measured["figures"]]
         # How noisy a shape seems to be is no figure of a run.
-        self.assertEqual(set(table) | {"noise", "noise_in_edges"}, set(columns[0]))
+        self.assertEqual(set(table) | {"noise", "noise_in_edges", "within_auto"}, set(columns[0]))
         self.assertLessEqual(set(fairness["before"]), set(table))
         for key, shown in table.items():
             for value, column, figures in zip(shown, ("before", "after"), columns, strict=True):

@@ -64,6 +64,21 @@ class Tracks(Case):
         run("measure", self.folder / "out.gpx", "--quiet", "--report", self.folder / "m.json")
         self.assertEqual(self.read_json("m.json")["figures"]["inflections"], figures["fairness"]["after"]["inflections"])
 
+    def test_elevations_alone_are_smoothed(self):
+        path = self.write("in.gpx", gpx(track(100, 2)).replace("<ele>401<", "<ele>403<").replace("<ele>450<", "<ele>448.50<"))
+        said = self.curve(path, "out.gpx", "--columns", "lon,lat,ele", "--move", "ele", "--within", "4").stdout.decode()
+        self.assertIn("moved            ele alone", said)
+        before, after = path.read_text(), (self.folder / "out.gpx").read_text()
+        elevations = [float(text) for text in re.findall("<ele>(.*?)</ele>", after)]
+        for k, elevation in enumerate(elevations):
+            self.assertLessEqual(abs(elevation - 400 - k), 4 + 2)
+        differences = [b - a for a, b in zip(elevations, elevations[1:])]
+        self.assertLess(max(differences) - min(differences), 1)
+        blank = lambda text: re.sub("<ele>.*?</ele>", "", text)
+        self.assertEqual(blank(before), blank(after))
+        # Without its column there is none to move.
+        self.assertIn(b"'ele' is no coordinate", self.curve(path, "out.gpx", "--move", "ele", "--within", "4", status=1).stderr)
+
     def test_new_points_are_a_new_track(self):
         self.curve(self.write("in.gpx", gpx(track(100, 2))), "out.gpx", "--within", "3", "--spacing", "5")
         after = places_of(self.folder / "out.gpx")

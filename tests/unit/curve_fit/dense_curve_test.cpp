@@ -38,6 +38,20 @@ TEST(DenseCurve, NearestIsTheFootOnTheCurveAndNotOnItsChord) {
   EXPECT_NEAR((curve.at(place) - point).norm(), 0.3, 1e-6);
 }
 
+TEST(DenseCurve, NearestWhereStationsStayIsTheOneWithTheSameStation) {
+  std::vector<DenseCurve::Node> nodes;
+  for (int k = 0; k <= 20; ++k) nodes.emplace_back().place = {0.1 * k, std::sin(0.2 * k), 0};
+  DenseCurve curve(false, {0, 1, 0});
+  curve.add_chain(nodes, false);
+  const Vector3 point(1.234, 5, 0);
+  const CurvePlace place = curve.nearest(point, {0, 0}, 10);
+  EXPECT_NEAR(curve.at(place).x(), point.x(), 1e-6);
+  EXPECT_EQ(curve.offset(place, point).x(), 0);
+  EXPECT_NEAR(curve.offset(place, point).y(), std::sin(2 * point.x()) - 5, 1e-3);
+  curve.set_place(3, {7, 8, 9});
+  EXPECT_EQ(curve.place(3), Vector3(nodes[3].place.x(), 8, 0));
+}
+
 TEST(DenseCurve, CurvatureRowsAreItsDerivatives) {
   DenseCurve curve = on_circle(1);
   const auto row = curve.curvature_row(2, true);

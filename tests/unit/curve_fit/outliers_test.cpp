@@ -39,5 +39,21 @@ TEST(Spikes, AreFoundAloneAndInRunsOfThreeAndAThousandTimesOff) {
   EXPECT_EQ(one[80], 1);
 }
 
+TEST(Spikes, OfAFewEdgesAreFoundButNotWhereTheWayGoesOnStraight) {
+  std::vector<Vector3> rows = wave(100);
+  rows[20].y() += 4;
+  for (const std::size_t k : {50U, 51U, 52U}) rows[k].y() -= 5;
+  const auto spikes = find_spikes(rows, false, 20);
+  for (std::size_t k = 0; k < rows.size(); ++k) EXPECT_EQ(spikes[k], k == 20 || (k >= 50 && k <= 52) ? 1 : 0) << k;
+  // Out and back, with its tip four edges on.
+  std::vector<Vector3> tip;
+  tip.reserve(61);
+  for (int k = 0; k < 30; ++k) tip.emplace_back(k, 0, 0);
+  tip.emplace_back(33, 0, 0);
+  for (int k = 29; k >= 0; --k) tip.emplace_back(k, 0.2, 0);
+  const auto none = find_spikes(tip, false, 20);
+  EXPECT_EQ(std::count(none.begin(), none.end(), 1), 0);
+}
+
 }  // namespace
 }  // namespace vspring::outliers_test

@@ -16,7 +16,7 @@ TEST_F(CurveDat, ReadsSelig) {
   EXPECT_FALSE(file.curve.chains()[0].closed);
   EXPECT_EQ(file.curve.position(3), Vector3(0.5, -0.02, 0));
   EXPECT_EQ(unmoved(selig, "dat"), selig);
-  EXPECT_EQ(moved(selig, "dat", {{3, {0.5, -0.03, 0}}}), replaced(selig, " .5 -0.02", " 0.5 -0.03"));
+  EXPECT_EQ(moved(selig, "dat", {{3, {0.5, -0.03, 0}}}), replaced(selig, " .5 -0.02", " .5 -0.03"));
   // Many files have no name.
   EXPECT_EQ(read(selig.substr(15), "dat").curve.node_count(), 5);
   EXPECT_EQ(read("0012\n1 0\n0 0\n", "dat").name, "0012");
@@ -37,8 +37,8 @@ TEST_F(CurveDat, ReadsLednicerAsOneChainFromTheTrailingEdge) {
 
 TEST_F(CurveDat, MovesTheLeadingEdgeOfBothSides) {
   EXPECT_EQ(moved(lednicer, "dat", {{0, {-0.01, 0, 0}}, {4, {1, -0.002, 0}}}),
-            replaced(replaced(replaced(lednicer, " 0.0 0.0\r", " -0.01 0\r"), " 0 0.000\r", " -0.01 0\r"), "1.0 -0.001",
-                     "1 -0.002"));
+            replaced(replaced(replaced(lednicer, " 0.0 0.0\r", " -0.01 0.0\r"), " 0 0.000\r", " -0.01 0.000\r"),
+                     "1.0 -0.001", "1.0 -0.002"));
 }
 
 TEST_F(CurveDat, ReadsLednicerWithoutEmptyLinesAndWithTwoLeadingEdges) {

@@ -37,6 +37,32 @@ TEST_F(CurveGpx, ReadsSegmentsAndRoutesAsChains) {
   EXPECT_TRUE(file.warnings.empty());
 }
 
+TEST_F(CurveGpx, ElevationsAreACoordinateWhereTheyAreChosen) {
+  const std::string text =
+      "<gpx><trk><trkseg><trkpt lat=\"47\" lon=\"8\"><ele> 430.50 </ele><hr>9</hr></trkpt>"
+      "<trkpt lat=\"47.0010\" lon=\"8\"><ele>431</ele></trkpt></trkseg></trk></gpx>";
+  const CurveFile file = read_curve_bytes(text, "a.gpx", std::nullopt, {"lat", "lon", "ele"});
+  EXPECT_FALSE(file.planar);
+  EXPECT_EQ(file.curve.position(0).z(), 430.5);
+  EXPECT_EQ(file.column_names, (std::vector<std::string>{"lon", "lat", "ele"}));
+  std::vector<Vector3> positions = file.curve.positions();
+  positions[0].z() = 430.25;
+  EXPECT_EQ(curve_bytes("b.gpx", file, positions).bytes, replaced(text, " 430.50 ", "430.25"));
+  const auto refusal = [](const std::string& of, const ColumnChoice& choice) {
+    try {
+      (void)read_curve_bytes(of, "a.gpx", std::nullopt, choice);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal(replaced(text, "<ele>431</ele>", ""), {"lon", "lat", "ele"}).find("no elevation"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(text, "431", "high"), {"lon", "lat", "ele"}).find("'high' stands where"),
+            std::string::npos);
+  EXPECT_NE(refusal(text, {"lon", "ele"}).find("lon,lat or lon,lat,ele"), std::string::npos);
+}
+
 TEST_F(CurveGpx, ChangesNothingButDegreesOfWhatMoved) {
   EXPECT_EQ(unmoved(logged, "gpx"), logged);
   const LocalPlane plane = *read(logged, "gpx").plane;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "unit/io/curve_round_trip.hpp"
@@ -24,8 +25,37 @@ TEST_F(CurveTable, ReadsEveryDelimiter) {
     EXPECT_EQ(file.format, CurveFormat::csv);
     EXPECT_EQ(unmoved(text, "csv"), text);
     EXPECT_EQ(moved(text, "csv", {{0, {0.5, 7, -20}}}),
-              replaced(text, row("0.5", "1", "-2e1"), row("0.5", "7", "-20")));
+              replaced(text, row("0.5", "1", "-2e1"), row("0.5", "7", "-2e1")));
   }
+}
+
+TEST_F(CurveTable, AxesAreChosenByLettersAndByNamesOfColumns) {
+  using Axes = std::array<bool, 3>;
+  const CurveFile file =
+      read_curve_bytes("no,dist_m,Ele [m]\n1,0,5\n2,1,6\n", "a.csv", std::nullopt, {"dist_m", "ele"});
+  EXPECT_EQ(file.column_names, (std::vector<std::string>{"dist_m", "Ele [m]"}));
+  for (const char* name : {"y", "ele", "ELE", "Ele [m]"})
+    EXPECT_EQ(choose_axes(file, {name}), (Axes{false, true, false}));
+  EXPECT_EQ(choose_axes(file, {"dist_m", "y"}), (Axes{true, true, false}));
+  EXPECT_EQ(choose_axes(read("1 2 3\n4 5 6\n", "xyz"), {"yz"}), (Axes{false, true, true}));
+  // A column may be called by another letter than the one that it is read as.
+  const CurveFile side = read_curve_bytes("x,z\n1,0\n2,1\n", "a.csv", std::nullopt, {"x", "z"});
+  EXPECT_EQ(choose_axes(side, {"z"}), (Axes{false, true, false}));
+  const auto refusal = [](const CurveFile& of, const std::string& name) {
+    try {
+      (void)choose_axes(of, {name});
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(
+      refusal(file, "height").find("'height' is no coordinate of this curve; it has x or 'dist_m', y or 'Ele [m]'"),
+      std::string::npos);
+  EXPECT_NE(refusal(file, "z").find("'z' is no coordinate"), std::string::npos);
+  EXPECT_NE(refusal(file, "").find("'' is no coordinate"), std::string::npos);
+  const CurveFile track = read("lat,lon\n47,8\n47.1,8\n", "csv");
+  EXPECT_NE(refusal(track, "lat").find("move together"), std::string::npos);
 }
 
 TEST_F(CurveTable, FindsTheColumnsThatTheHeaderNames) {
@@ -152,8 +182,9 @@ TEST_F(CurveTable, RefusesAChoiceThatIsNone) {
   for (const ColumnChoice& columns :
        {ColumnChoice{"1"}, {"1", "2", "3", "2"}, {"2", "2"}, {"a", "2"}, {"0", "1"}, {"", "1"}})
     EXPECT_NE(refusal("a.csv", text, columns, ErrorCode::invalid_argument), "");
-  EXPECT_EQ(refusal("a.dat", "0 1\n1 2\n", {"1", "2"}, ErrorCode::invalid_argument),
-            "a.dat: columns can be chosen in CSV and XYZ only; leave the choice of columns out, or name the format");
+  EXPECT_EQ(
+      refusal("a.dat", "0 1\n1 2\n", {"1", "2"}, ErrorCode::invalid_argument),
+      "a.dat: columns can be chosen in CSV, XYZ and GPX only; leave the choice of columns out, or name the format");
 }
 
 TEST_F(CurveTable, ReadsDecimalCommasAndWritesThem) {
@@ -248,7 +279,7 @@ TEST_F(CurveTable, ReadsXyzWithAnythingBehindTheCoordinates) {
   ASSERT_EQ(file.curve.chains().size(), 2U);
   EXPECT_EQ(file.curve.position(0), Vector3(1, 2, 3.5));
   EXPECT_EQ(moved(text, "xyz", {{0, {1, 2, 0.1}}, {3, {0, 0, 0}}}),
-            replaced(replaced(text, "1.0 2 3.50", "1 2 0.1"), "7 8 10", "0 0 0"));
+            replaced(replaced(text, "1.0 2 3.50", "1.0 2 0.1"), "7 8 10", "0 0 0"));
   const CurveFile flat = read("0 1 a\n2 3 b\n", "xyz");
   EXPECT_TRUE(flat.planar);
   EXPECT_EQ(flat.curve.position(1), Vector3(2, 3, 0));

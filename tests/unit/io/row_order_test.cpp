@@ -23,7 +23,7 @@ TEST_F(RowOrder, MovesRowsWithAllThatIsInThem) {
   EXPECT_EQ(ordered(text, "csv", 2),
             "# c\nid;x;y;note\na;0;0;first\nb;1;0;second\n# between\nc;2,0;0;\"third; \"  \r\nd;3;0;last");
   EXPECT_EQ(ordered(text, "csv", 2, false, {{1, {2, 0.5, 0}}}),
-            "# c\nid;x;y;note\na;0;0;first\nb;1;0;second\n# between\nc;2;0,5;\"third; \"  \r\nd;3;0;last");
+            "# c\nid;x;y;note\na;0;0;first\nb;1;0;second\n# between\nc;2,0;0,5;\"third; \"  \r\nd;3;0;last");
   EXPECT_EQ(ordered("0 0 a\n2 0 c\n1 0 b\n", "xyz", 2), "0 0 a\n1 0 b\n2 0 c\n");
   EXPECT_EQ(ordered("name\n1 0\n0 0\n0.5 0\n", "dat", 2), "name\n1 0\n0.5 0\n0 0\n");
 }

@@ -49,5 +49,28 @@ TEST(BallProgram, SaysWhereBoundsLeaveNothing) {
   EXPECT_FALSE(solve(program).found);
 }
 
+TEST(BallProgram, ABoundWithAPriceGivesWayWhereThePullIsWorthMore) {
+  BallProgram<1> program = drawn_to<1>(Eigen::Matrix<double, 1, 1>(3), 1);
+  // x − 3 + price · x = 0 beyond the bound.
+  program.rows[1].price = 0.5;
+  const BallSolution cheap = solve(program);
+  EXPECT_TRUE(cheap.found);
+  EXPECT_NEAR(cheap.x[0], 2, 1e-4);
+  EXPECT_NEAR(cheap.distances[1], 2, 1e-4);
+  program.rows[1].price = 100;
+  EXPECT_NEAR(solve(program).x[0], 1, 1e-4);
+}
+
+TEST(BallProgram, OfTwoBoundsThatLeaveNothingTheOneWithoutAPriceIsKept) {
+  BallProgram<1> program = drawn_to<1>(Eigen::Matrix<double, 1, 1>(3), 1);
+  auto other = program.rows[1];
+  other.offset[0] = -5;
+  other.price = 1000;
+  program.rows.push_back(other);
+  const BallSolution solution = solve(program);
+  EXPECT_TRUE(solution.found);
+  EXPECT_NEAR(solution.x[0], 1, 1e-4);
+}
+
 }  // namespace
 }  // namespace vspring::ball_program_test

@@ -62,7 +62,7 @@ constexpr double curvature_left[] = {0.5, 0.9, 0.98, 1};
 // How far from the polyline places may be: of the root mean square, and of the furthest point at the start.
 constexpr double reach_of_rms = 4;
 constexpr double spare_of_reach = 1.5;
-// Of that: who is nearer is not looked at.
+// Of that: places that are nearer have no bound in a step.
 constexpr double far_share = 0.3;
 // Of the noise beyond so much of an edge.
 constexpr double least_smoothing_of_noise = 4;
@@ -112,9 +112,7 @@ class CurveFitter {
     for (int k = 0; k < risk_starts && !found_.points.empty(); ++k) {
       rms = smooth_out_by_risk(found_.curve, found_.points, task_.noise, K);
       find_places(found_.curve, found_.points);
-      DenseCurve now = with_new_nodes(found_.curve, least_spacing());
-      carry_places(found_.curve, now, found_.points);
-      found_.curve = std::move(now);
+      take_new_nodes(with_new_nodes(found_.curve, least_spacing()));
     }
     return rms;
   }
@@ -160,7 +158,7 @@ class CurveFitter {
   /// How far the curve may go from the polyline of the points, about.
   [[nodiscard]] double tolerance() const { return std::max(task_.within, times_noise * task_.noise); }
 
-  /// Between nodes: who turns within that goes from one bound to the other and back.
+  /// Between nodes: in less than that a curve does not get from one bound to the other and back.
   [[nodiscard]] double least_spacing() const { return least_spacing_in_tolerances * tolerance(); }
 
   void begin_on_way() {
@@ -492,7 +490,9 @@ class CurveFitter {
   /// Those that were paid for, to where the step goes.
   void loosen_bounds(const BallSolution& solution) {
     gives_way_ = true;
-    for (const auto& [bound, row] : bounded_) *bound = std::max(*bound, loosened * solution.distances[row]);
+    for (const auto& [bound, row] : bounded_) {
+      if (solution.distances[row] > *bound) *bound = loosened * solution.distances[row];
+    }
   }
 
   /// All to where they are.
@@ -625,7 +625,6 @@ class CurveFitter {
   }
 
   void measure() {
-    found_.evenly = task_.evenly;
     found_.rms = rms();
     for (const CurvePoint& point : found_.points)
       found_.greatest = std::max(found_.greatest, found_.curve.offset(point.at, point.place).norm());

@@ -46,7 +46,6 @@ struct CurveFound {
   DenseCurve curve;
   std::vector<CurvePoint> points;  ///< with their places; those of scattered ones last
   bool converged = false;
-  bool evenly = false;  ///< as the task said
   double greatest = 0;  ///< distance of the points
   double rms = 0;
   double beyond = 0;     ///< the greatest share of its bound that a place of the curve is away from the polyline

@@ -100,11 +100,15 @@ class PolylineBounds {
     const Vector3 first = a ? (b - *a).cross(edge) : Vector3::Zero();
     const Vector3 second = d ? edge.cross(*d - c) : Vector3::Zero();
     if (a && d && !(first.dot(second) > 0)) return 0;
-    const auto angle = [](const Vector3& x, const Vector3& y) { return std::atan2(x.cross(y).norm(), x.dot(y)); };
-    double turn = a || d ? greatest_turn_of_arc : 0;
-    if (a) turn = std::min(turn, angle(b - *a, edge));
-    if (d) turn = std::min(turn, angle(edge, *d - c));
-    return std::max(0.0, edge.norm() / 2 * std::tan(turn / 4) - reach_ / 2);
+    // From the edge to the circle through its ends and the point before or after.
+    const auto angle = [&](const Vector3& beside) {
+      const double turn = std::atan2(beside.cross(edge).norm(), beside.dot(edge));
+      return turn * edge.norm() / (edge.norm() + beside.norm());
+    };
+    double turn = a || d ? greatest_turn_of_arc / 2 : 0;
+    if (a) turn = std::min(turn, angle(b - *a));
+    if (d) turn = std::min(turn, angle(*d - c));
+    return std::max(0.0, edge.norm() / 2 * std::tan(turn / 2) - reach_ / 2);
   }
 
   const DenseCurve& curve_;

@@ -20,7 +20,7 @@ constexpr double least_smoothing = 1e-16;
 constexpr double coarse_stride = 1e-2;
 constexpr double fine_stride = 0.3;
 // Of the points: parameters.
-constexpr double most_freedom = 0.5;
+constexpr double most_freedom = 0.9;
 // How often parameters count for the risk: more than once, as noise may be more than it was estimated to be, and who
 // follows it by a little has many bends.
 constexpr double caution = 3;

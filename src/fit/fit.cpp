@@ -390,7 +390,9 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   if (has_free_end && !method) (void)check_constraints(curve, constraints);
   const bool has_nodes_of_its_own = options.tolerance() || options.noise() || !options.moves_freely() ||
                                     options.least_radius > 0 || options.sharp > 0 || !options.fair.corners.empty();
-  if (has_nodes_of_its_own || (has_free_end && method)) return fit_curve(curve, constraints, points, options, context);
+  // Outliers are found before nodes go anywhere.
+  if (has_nodes_of_its_own || ((has_free_end || options.outliers > 0) && method))
+    return fit_curve(curve, constraints, points, options, context);
   FitResult balanced = fit_shape<FitCurve>(curve, constraints, points, options, context);
   const Outcome outcome = balanced.report.fair.outcome;
   const bool is_found = outcome == Outcome::converged || outcome == Outcome::cancelled;

@@ -30,14 +30,15 @@ namespace {
 constexpr double sparse_share = 0.05;
 // Of the tolerance, or of how far another curve is from the polyline of the points.
 constexpr double far_off_way = 2;
-// Of the tolerance, and how often it is tried.
+// Of the tolerance: what chords may cut off for the curve to be drawn nearer, in all and at one point, and how near.
 constexpr double most_cut_off = 1.2;
 constexpr double most_spared = 0.7;
-// Of how far places may be from the polyline.
-constexpr double next_to_nothing_beyond = 1.001;
 constexpr double share_of_nearer = 0.997;
 constexpr int most_turns_nearer = 5;
 constexpr int most_turns_of_chords = 4;
+constexpr int most_turns_of_pulling = 8;
+// Of how far places may be from the polyline.
+constexpr double next_to_nothing_beyond = 1.001;
 // Of the length of the curve: rows that were left out lie no further from the one before.
 constexpr double reach_to_next_row = 0.25;
 // Of the size.
@@ -78,9 +79,8 @@ class CurveFit {
     return result;
   }
 
-  /// A curve, and the nodes that are wanted on it.
-  struct Attempt {
-    CurveFound found;
+  /// The nodes that are wanted on a curve.
+  struct Measured {
     Resampled nodes;  ///< with the file's own chains, or new ones
     double figure = 0;
     double way_off = 0;  ///< from the polyline of the points
@@ -88,10 +88,15 @@ class CurveFit {
     CurveFigures figures = {};
   };
 
+  struct Attempt : Measured {
+    CurveFound found;
+  };
+
   template <typename Put>
   Attempt attempt(const CurveFitTask& task, Put put) {
     found_ = vspring::fit_curve(task, [&](double share) { progress_.report("curve", (share + task.evenly) / 2); });
-    return measured(put());
+    Measured nodes = measured(put());
+    return {std::move(nodes), std::move(found_)};
   }
 
   /// Tells nodes of their places on the curve that was found, which goes by change of curvature in proportion to
@@ -123,10 +128,11 @@ class CurveFit {
     }
     if (!best) return false;
     found_ = std::move(best->found);
-    nodes_ = std::move(best->nodes);
-    for (int turn = 0; turn < most_turns_of_chords && draw_chords_in(); ++turn) {
+    for (int turn = 0; turn < most_turns_of_chords && draw_chords_in(*best); ++turn) {
     }
-    keep_what_is_fairer();
+    pull_to_rows(*best);
+    keep_what_is_fairer(*best);
+    nodes_ = std::move(best->nodes);
     return true;
   }
 
@@ -233,58 +239,85 @@ class CurveFit {
   /// Nodes that are far apart cut off what the curve does between them: where that is more than the tolerance allows
   /// for, they go to where their chords are within it. False where they do not. Elsewhere too, if these are fairer
   /// then, as where a table is coarse.
-  bool draw_chords_in() {
+  bool draw_chords_in(Measured& before, bool were_pulled = false) {
     const auto tolerance = input_.options().tolerance();
+    const bool are_new = !before.nodes.from.empty();
     // At a station of its own no node is cut off.
-    if (!tolerance || context_.cancelled() || (nodes_.from.empty() && input_.moving() != Vector3::Ones())) return false;
-    const Attempt before = measured(nodes_);
-    if (before.figure <= *tolerance && !(input_.options().within() && are_sparse(nodes_.curve))) return false;
-    const DenseCurve chords = this->chords(nodes_.curve, nodes_);
+    if (!tolerance || context_.cancelled() || (!are_new && input_.moving() != Vector3::Ones())) return false;
+    if (before.figure <= *tolerance && !were_pulled && !(input_.options().within() && are_sparse(before.nodes.curve)))
+      return false;
+    const DenseCurve chords = this->chords(before.nodes.curve, before.nodes);
     CurveFitTask task = input_.task();
     task.nodes = &chords;
-    task.evenly = found_.evenly;
+    task.evenly = true;
     task.scattered = found_.points;
     // Nodes that are the points keep the way between them.
-    task.keeps_way = !nodes_.from.empty();
+    task.keeps_way = are_new;
     carry_places(found_.curve, chords, task.scattered);
     const CurveFound drawn = vspring::fit_curve(task, [](double) {});
-    Resampled moved = nodes_;
-    std::vector<Vector3> places = nodes_.curve.positions();
+    Resampled moved = before.nodes;
+    std::vector<Vector3> places = moved.curve.positions();
     for (std::uint32_t i = 0; i < drawn.curve.size(); ++i) {
       const auto& node = drawn.curve.node(i);
       if (!node.held) places[static_cast<std::size_t>(node.from)] = input_.to_input(node.place);
     }
     moved.curve.set_positions(std::move(places));
-    const Attempt after = measured(moved);
-    const bool fairer = after.figures.curvature_variation < before.figures.curvature_variation &&
-                        after.figures.curvature_extrema <= before.figures.curvature_extrema &&
-                        after.figures.inflections <= before.figures.inflections;
+    Measured after = measured(std::move(moved));
     // Points may be near a curve that goes anywhere between them.
     const bool stays =
         after.way_off <= far_off_way * std::max(before.way_off, *tolerance) && after.radius_kept >= before.radius_kept;
+    const bool fairer = were_pulled ? after.figures.curvature_variation < before.figures.curvature_variation
+                                    : is_fairer(after.figures, before.figures);
     const bool better = before.figure > *tolerance
                             ? after.figure < before.figure
                             : fairer && after.figure <= *tolerance && drawn.beyond <= next_to_nothing_beyond;
     if (!better || !stays) return false;
-    nodes_ = std::move(moved);
+    if (were_pulled) found_.converged = drawn.converged;
+    before = std::move(after);
     return true;
   }
 
+  /// Rows are within any tolerance of themselves: where the curve is not of some, their nodes go to where they are, and
+  /// from there to where their chords are fairest.
+  void pull_to_rows(Measured& found) {
+    const auto within = input_.options().within();
+    if (!within || !input_.own_nodes() || !found.nodes.from.empty()) return;
+    bool were_pulled = false;
+    for (int turn = 0; turn < most_turns_of_pulling && found.figure > *within; ++turn) {
+      std::vector<Vector3> places = found.nodes.curve.positions();
+      const std::vector<double> distances = movable_distances(found.nodes);
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        if (input_.kept()[i] == 0 || distances[i] <= *within) continue;
+        const Vector3 row = input_.curve().position(static_cast<Index>(i));
+        places[i] = row + share_of_nearer * *within * (places[i] - row).normalized();
+      }
+      Resampled pulled = found.nodes;
+      pulled.curve.set_positions(std::move(places));
+      Measured now = measured(std::move(pulled));
+      if (!(now.figure < found.figure)) return;
+      found = std::move(now);
+      found_.converged = false;
+      were_pulled = true;
+    }
+    if (were_pulled) (void)draw_chords_in(found, true);
+  }
+
   /// The rows themselves, which are within any tolerance, where the curve that was found is no fairer.
-  void keep_what_is_fairer() {
+  void keep_what_is_fairer(Measured& found) {
     const Constraints& constraints = input_.constraints();
-    if (!input_.own_nodes() || !nodes_.from.empty() || !input_.options().tolerance()) return;
+    const FitOptions& options = input_.options();
+    if (!input_.own_nodes() || !found.nodes.from.empty() || !options.tolerance()) return;
+    if (options.fair.distribution.value_or(Distribution::even) == Distribution::even) return;
     for (Index i = 0; i < input_.curve().node_count(); ++i) {
       const bool free = !constraints.tangent_fixed(i) && !constraints.normal_fixed(i);
       if (!free || input_.kept()[static_cast<std::size_t>(i)] != input_.counted()[static_cast<std::size_t>(i)]) return;
       if (constraints.position_fixed(i) && constraints.position(i) != input_.curve().position(i)) return;
     }
-    const Attempt as_they_came = measured({input_.curve(), constraints, {}});
-    const CurveFigures rows = as_they_came.figures;
-    const CurveFigures found = measured(nodes_).figures;
-    if (as_they_came.radius_kept == 1 && rows.curvature_variation < found.curvature_variation &&
-        rows.curvature_extrema <= found.curvature_extrema && rows.inflections <= found.inflections)
-      nodes_.curve = input_.curve();
+    Measured rows = measured({input_.curve(), constraints, {}});
+    // A shape that may not be the fairest is not to vary more than what came.
+    const bool varies_less = rows.figures.curvature_variation < found.figures.curvature_variation;
+    if (rows.radius_kept == 1 && (found_.converged ? is_fairer(rows.figures, found.figures) : varies_less))
+      found = std::move(rows);
   }
 
   /// positions: of the file's nodes or of new ones.
@@ -372,6 +405,11 @@ class CurveFit {
     return a.figures.curvature_variation < b.figures.curvature_variation;
   }
 
+  [[nodiscard]] static bool is_fairer(const CurveFigures& a, const CurveFigures& b) {
+    return a.curvature_variation < b.curvature_variation && a.curvature_extrema <= b.curvature_extrema &&
+           a.inflections <= b.inflections;
+  }
+
   /// The edges of a shape, with what is held at its nodes.
   [[nodiscard]] DenseCurve chords(const PolygonCurve& shape, const Resampled& nodes) const {
     DenseCurve chords(true, input_.moving());
@@ -413,9 +451,10 @@ class CurveFit {
     double radius = std::numeric_limits<double>::infinity();
   };
 
-  /// Where a shape is bent most.
+  /// Where a shape is bent most, if that is asked for.
   [[nodiscard]] Sharpest sharpest(const PolygonCurve& shape, const Resampled& nodes) const {
     Sharpest most;
+    if (!(input_.options().least_radius > 0)) return most;
     const DenseCurve chords = this->chords(shape, nodes);
     for (std::uint32_t i = 0; i < chords.size(); ++i) {
       const double radius = 1 / (chords.greatest_curvature(i) * input_.scale());
@@ -430,19 +469,41 @@ class CurveFit {
     return most.radius < least ? most.radius / least : 1;
   }
 
+  /// 0 for points that are nowhere nearer than at a node that is held: nothing can be done about them.
+  [[nodiscard]] std::vector<double> movable_distances(const Resampled& nodes) const {
+    std::vector<double> distances = this->distances(nodes.curve);
+    const auto within = input_.options().within();
+    for (std::size_t j = 0; j < distances.size(); ++j) {
+      if (within && distances[j] > *within && is_at_held(j, distances[j], nodes)) distances[j] = 0;
+    }
+    return distances;
+  }
+
+  [[nodiscard]] bool is_at_held(std::size_t point, double distance, const Resampled& nodes) const {
+    for (Index i = 0; i < nodes.constraints.node_count(); ++i) {
+      if (!nodes.constraints.position_fixed(i)) continue;
+      if ((nodes.curve.position(i) - input_.points().positions[point]).norm() <= next_to_nothing_beyond * distance)
+        return true;
+    }
+    return false;
+  }
+
   /// What is to be within the tolerance.
   [[nodiscard]] double figure(const std::vector<double>& distances) const {
     const Distance all = summary(distances, input_.kept()).all;
     return input_.options().within() ? all.greatest : all.rms;
   }
 
-  /// Of attempts for one tolerance after the other.
-  [[nodiscard]] bool is_nearer(const Attempt& a, const Attempt& b) const {
-    return a.figure < b.figure || (a.figure == b.figure && a.radius_kept > b.radius_kept);
+  /// Of attempts one after the other: whether less of it is beyond the tolerance, or as much and it is less sharp.
+  [[nodiscard]] bool is_nearer(const Measured& a, const Measured& b) const {
+    const double least = input_.options().tolerance().value_or(std::numeric_limits<double>::infinity());
+    const double beyond = std::max(a.figure, least);
+    const double other = std::max(b.figure, least);
+    return beyond < other || (beyond == other && a.radius_kept > b.radius_kept);
   }
 
   /// For what is beyond, in another attempt. False where nothing is, or so much that there is no room.
-  bool leave_room(const Attempt& attempt, CurveFitTask& task) const {
+  bool leave_room(const Measured& attempt, CurveFitTask& task) const {
     const bool is_sharp = attempt.radius_kept < 1 && attempt.radius_kept * most_cut_off >= 1;
     if (is_sharp) task.least_radius /= share_of_nearer * attempt.radius_kept;
     const auto tolerance = input_.options().tolerance();
@@ -461,14 +522,14 @@ class CurveFit {
     return true;
   }
 
-  [[nodiscard]] Attempt measured(Resampled nodes) const {
-    Attempt attempt{found_, std::move(nodes)};
-    attempt.figure = figure(distances(attempt.nodes.curve));
-    attempt.way_off = way_off(attempt.nodes.curve).greatest;
-    const PolygonCurve& shape = attempt.nodes.curve;
-    attempt.radius_kept = radius_kept(sharpest(shape, attempt.nodes));
-    attempt.figures = measure_curve(cut_at_corners(shape, corners(attempt.nodes)), &attempt.nodes.constraints);
-    return attempt;
+  [[nodiscard]] Measured measured(Resampled nodes) const {
+    Measured found{std::move(nodes)};
+    const PolygonCurve& shape = found.nodes.curve;
+    found.figure = figure(movable_distances(found.nodes));
+    found.way_off = way_off(shape).greatest;
+    found.radius_kept = radius_kept(sharpest(shape, found.nodes));
+    found.figures = measure_curve(cut_at_corners(shape, corners(found.nodes)), &found.nodes.constraints);
+    return found;
   }
 
   /// Whether no edge is much shorter than those about it, and none shorter than the tolerance.
@@ -545,7 +606,7 @@ class CurveFit {
   void conclude(FitResult& result, const Sharpest& most_bent) const {
     FitReport& report = result.report;
     FairReport& fair = report.fair;
-    if (input_.options().least_radius > 0 && most_bent.node >= 0) {
+    if (most_bent.node >= 0) {
       report.least_radius = most_bent.radius;
       report.sharpest_node = most_bent.node;
     }
@@ -584,14 +645,42 @@ class CurveFit {
     if (options.within()) report.active_points = active_points(result.distances, kept, *tolerance);
     if (figure(result.distances) > *tolerance) {
       fair.outcome = Outcome::stalled;
-      fair.warnings.push_back({WarningCode::outside_tolerance,
-                               fmt::format("no shape within {:g} was found: this is the nearest; points lie at what is "
-                                           "held, or edges are too long",
-                                           *tolerance)});
+      fair.warnings.push_back({WarningCode::outside_tolerance, outside(result, *tolerance)});
+    } else if (goes_beyond(report)) {
+      fair.outcome = Outcome::stalled;
+      fair.warnings.push_back(
+          {WarningCode::outside_tolerance,
+           fmt::format("all points are within {:g} of the shape, but it goes {:.4g} away from the line through them; "
+                       "put the rows in order, leave out what is off, or allow more",
+                       *tolerance, report.shape.greatest)});
     } else if (!found_.converged && !is_sharp) {
       fair.warnings.push_back(
           {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest"});
     }
+  }
+
+  /// What is told of points that are further off than the tolerance.
+  [[nodiscard]] std::string outside(const FitResult& result, double tolerance) const {
+    if (!input_.options().within())
+      return fmt::format(
+          "no shape within {:g} was found: this is the nearest; points lie at what is held, or edges "
+          "are too long",
+          tolerance);
+    std::vector<double> distances = result.distances;
+    for (std::size_t j = 0; j < distances.size(); ++j) distances[j] *= input_.kept()[j];
+    const auto point =
+        static_cast<std::size_t>(std::max_element(distances.begin(), distances.end()) - distances.begin());
+    return fmt::format("no shape within {:g} was found: this is the nearest; point {} is {:.4g} away{}", tolerance,
+                       point, distances[point],
+                       is_at_held(point, distances[point], nodes_)
+                           ? ", and nearest to a node that is held: do not hold that, or allow more"
+                           : ": edges are too long there, or what is held is near");
+  }
+
+  /// Whether the curve could not be held near the polyline of the points, and the shape is far from it, too.
+  [[nodiscard]] bool goes_beyond(const FitReport& report) const {
+    if (!input_.options().within() || !input_.own_nodes()) return false;
+    return found_.beyond > far_off_way && report.shape.greatest > far_off_way * *input_.options().within();
   }
 
   CurveFitInput input_;

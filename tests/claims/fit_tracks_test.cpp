@@ -75,16 +75,6 @@ TEST(FitTracks, AreFinishedAndNearBothWays) {
   }
 }
 
-double greatest_turn(const std::vector<Vector3>& places) {
-  double greatest = 0;
-  for (std::size_t k = 1; k + 1 < places.size(); ++k) {
-    const Vector3 before = places[k] - places[k - 1];
-    const Vector3 after = places[k + 1] - places[k];
-    greatest = std::max(greatest, std::atan2(before.cross(after).norm(), before.dot(after)));
-  }
-  return greatest;
-}
-
 TEST(FitTracks, RowsThatChangedPlacesDoNotFoldTheCurve) {
   Draw draw(8);
   std::vector<Vector3> rows;
@@ -92,7 +82,9 @@ TEST(FitTracks, RowsThatChangedPlacesDoNotFoldTheCurve) {
   for (int k = 0; k < 60; ++k) {
     // A gap after row 32: there the way to where it goes on is a chord.
     const double x = 5 * k + (k > 32 ? 40 : 0);
-    rows.emplace_back(x + draw.uniform(-0.1, 0.1), 40 * std::sin(0.02 * x) + draw.uniform(-0.1, 0.1), 0);
+    Vector3 off = draw.in_cube(0.1);
+    off.z() = 0;
+    rows.emplace_back(Vector3(x, 40 * std::sin(0.02 * x), 0) + off);
   }
   std::swap(rows[12], rows[14]);
   std::swap(rows[13], rows[15]);
@@ -103,8 +95,8 @@ TEST(FitTracks, RowsThatChangedPlacesDoNotFoldTheCurve) {
     options.criterion = criterion;
     const FitResult result = fit(PolygonCurve(rows), held_ends(rows), {.positions = rows}, options);
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
-    EXPECT_GT(greatest_turn(rows), 3);
-    EXPECT_LT(greatest_turn(result.positions), 0.3);
+    EXPECT_GT(measure(PolygonCurve(rows)).greatest_turn, 170);
+    EXPECT_LT(measure(PolygonCurve(result.positions)).greatest_turn, 15);
   }
 }
 
@@ -112,17 +104,41 @@ TEST(FitTracks, AStopAtAHeldEndDoesNotMakeTheRestFollowNoise) {
   Draw draw(9);
   std::vector<Vector3> rows;
   rows.reserve(160);
-  for (int k = 0; k < 130; ++k)
-    rows.emplace_back(2 * k + draw.uniform(-0.5, 0.5), 30 * std::sin(0.02 * k) + draw.uniform(-0.5, 0.5), 0);
+  const auto log = [&](double k, double noise) {
+    Vector3 off = draw.in_cube(noise);
+    off.z() = 0;
+    rows.emplace_back(Vector3(2 * k, 30 * std::sin(0.02 * k), 0) + off);
+  };
+  for (int k = 0; k < 130; ++k) log(k, 0.5);
   // Further from each other than from where they truly are.
-  for (int k = 0; k < 30; ++k)
-    rows.emplace_back(260 + draw.uniform(-0.9, 0.9), 30 * std::sin(2.6) + draw.uniform(-0.9, 0.9), 0);
+  for (int k = 0; k < 30; ++k) log(130, 0.9);
   FitOptions options{.criterion = Within{1.2}};
   options.fair.distribution = Distribution::keep;
   const FitResult result = fit(PolygonCurve(rows), held_ends(rows), {.positions = rows}, options);
   const std::vector<Vector3> moving(result.positions.begin(), result.positions.begin() + 120);
-  EXPECT_LT(greatest_turn(moving), 0.1);
+  EXPECT_LT(measure(PolygonCurve(moving)).greatest_turn, 5);
   EXPECT_LT(distance(std::span(rows).first(120), PolygonCurve(result.positions)).greatest, 1.2);
+}
+
+TEST(FitTracks, RowsThatNoFairCurveGoesAlongAreWithinAllTheSame) {
+  Draw draw(11);
+  for (int drawn = 0; drawn < 3; ++drawn) {
+    SCOPED_TRACE(drawn);
+    std::vector<Vector3> rows;
+    rows.reserve(60);
+    for (int k = 0; k < 60; ++k) {
+      Vector3 step = draw.in_cube(5);
+      step.z() = 0;
+      rows.push_back(k == 0 ? step : Vector3(rows.back() + step));
+    }
+    FitOptions options{.criterion = Within{1}};
+    options.fair.distribution = Distribution::keep;
+    const PolygonCurve curve(rows, true);
+    const FitResult result = fit(curve, Constraints(60), {.positions = rows}, options);
+    EXPECT_LE(*std::max_element(result.distances.begin(), result.distances.end()), 1);
+    const PolygonCurve shape(result.positions, true);
+    EXPECT_LE(measure_curve(shape).curvature_variation, measure_curve(curve).curvature_variation);
+  }
 }
 
 TEST(FitTracks, ReadingsThatAreOffAreLeftOutBeforeAnythingIsPlaced) {
@@ -130,13 +146,15 @@ TEST(FitTracks, ReadingsThatAreOffAreLeftOutBeforeAnythingIsPlaced) {
   std::vector<Vector3> rows = track.rows;
   rows[30].y() += 60;
   rows[90] *= 1000;
-  FitOptions options{.criterion = RootMeanSquare{0.3}};
-  options.fair.distribution = Distribution::keep;
-  options.outliers = 0.03;
-  const FitResult result = fit(PolygonCurve(rows), held_ends(rows), {.positions = rows}, options);
-  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
-  EXPECT_EQ(result.report.outliers, 2);
-  EXPECT_LT(distance(result.positions, PolygonCurve(track.rows)).greatest, tolerance);
+  for (const FitCriterion& criterion : {FitCriterion(RootMeanSquare{0.3}), FitCriterion(SmoothingLength{4})}) {
+    FitOptions options{.criterion = criterion};
+    options.fair.distribution = Distribution::keep;
+    options.outliers = 0.03;
+    const FitResult result = fit(PolygonCurve(rows), held_ends(rows), {.positions = rows}, options);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    EXPECT_EQ(result.report.outliers, 2);
+    EXPECT_LT(distance(result.positions, PolygonCurve(track.rows)).greatest, tolerance);
+  }
 }
 
 }  // namespace

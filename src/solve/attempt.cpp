@@ -20,14 +20,8 @@ constexpr const char* ways_out = "hold more nodes, or normals, let a smaller reg
 const Attempt* best_of(std::span<const Attempt> attempts, const StartShape& start) {
   const Attempt& last = attempts.back();
   if (attempts.size() > 1 && !last.is_final()) {
-    const Attempt* best = nullptr;
-    double least = start.is_sound ? start.bending : std::numeric_limits<double>::infinity();
-    for (const Attempt& attempt : attempts) {
-      if (!attempt.fault.empty() || attempt.bending >= least) continue;
-      least = attempt.bending;
-      best = &attempt;
-    }
-    if (best) return best;
+    const double most = start.is_sound ? start.bending : std::numeric_limits<double>::infinity();
+    if (const Attempt* const best = bent_least(attempts, most)) return best;
   } else if (last.fault.empty()) {
     return &last;
   }
@@ -54,6 +48,15 @@ std::optional<Warning> difference_from_asked(const Attempt& found, const FairOpt
 }
 
 }  // namespace
+
+const Attempt* bent_least(std::span<const Attempt> attempts, double most) {
+  const Attempt* best = nullptr;
+  for (const Attempt& attempt : attempts) {
+    if (!attempt.fault.empty() || !(attempt.bending < most)) continue;
+    if (!best || attempt.bending <= best->bending) best = &attempt;
+  }
+  return best;
+}
 
 bool Attempt::is_final() const {
   return stands() || outcome == Outcome::cancelled || (fault.empty() && expected_error < as_near_as_rounding);

@@ -33,6 +33,10 @@ struct StartShape {
   double bending = 0;    ///< as in Attempt
 };
 
+/// Of the attempts that are no worse than the start and bent less than that, the one that is bent least; of equal ones
+/// the last. None: null.
+const Attempt* bent_least(std::span<const Attempt> attempts, double most);
+
 /// Which of the attempts is the result: the last where it is final, or the options say that it is wanted as found; or
 /// else of those that are no worse than the start, and of the start, the one that is bent least. None: that is the
 /// start. Says so in the report: outcome, expected error, springs, what it is fair by, and warnings. A start that is

@@ -192,9 +192,7 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const Eq
     attempts.push_back(go_from_coarse_levels(Springs::edge, constraints, call));
   if (go_on() && !attempts.back().fault.empty()) {
     Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
-    for (const bool keeps_spacing : {false, true}) {
-      if (go_on()) attempts.push_back(go_from_input(keeps_spacing, relaxation, constraints, call));
-    }
+    attempts.push_back(go_from_input(true, relaxation, constraints, call));
   }
   const bool may_be_another = call.method.fallbacks;
   if (may_be_another && go_on() && !options.distribution) attempts.push_back(go_evenly(constraints, call));
@@ -214,6 +212,10 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   if (attempts.back().is_final()) return;
   Net& net = hierarchy_->finest();
   net.positions = start_places(net, whole_->positions(), constraints);
+  const double at_first = BendingEnergy(net).of(net.positions, team_);
+  measure_bending(attempts);
+  if (const Attempt* const best = bent_least(attempts, at_first))
+    std::copy(best->places.begin(), best->places.end(), net.positions.begin());
   Attempt bent_less = bend_less(relaxation, constraints, call);
   const auto go_on = [&] { return bent_less.outcome != Outcome::cancelled && !attempts.back().is_final(); };
   if (go_on() && is_by_spheres)
@@ -228,22 +230,24 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
 void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints& constraints,
                                const EquilibriumCall& call) {
   Net& net = hierarchy_->finest();
-  const auto go_to = [&net](const std::vector<Vector3>& places) {
-    std::copy_n(places.begin(), net.moving, net.positions.begin());
-  };
-  const std::vector<Vector3> start = start_places(net, whole_->positions(), constraints);
-  StartShape start_shape;
+  net.positions = start_places(net, whole_->positions(), constraints);
+  StartShape start = {.is_sound = check_->fault_of_places(net).empty()};
   if (attempts.size() > 1 && !attempts.back().is_final()) {
-    const BendingEnergy bending(net);
-    start_shape.bending = bending.of(start, team_);
-    for (Attempt& attempt : attempts) {
-      go_to(attempt.places);
-      attempt.bending = bending.of(net.positions, team_);
-    }
+    measure_bending(attempts);
+    start.bending = BendingEnergy(net).of(net.positions, team_);
   }
-  net.positions = start;
-  start_shape.is_sound = check_->fault_of_places(net).empty();
-  if (const Attempt* const best = pick(attempts, start_shape, call.options, call.report)) go_to(best->places);
+  if (const Attempt* const best = pick(attempts, start, call.options, call.report))
+    std::copy(best->places.begin(), best->places.end(), net.positions.begin());
+}
+
+void SurfaceFairing::measure_bending(std::vector<Attempt>& attempts) {
+  const Net& net = hierarchy_->finest();
+  const BendingEnergy bending(net);
+  std::vector<Vector3> positions = net.positions;
+  for (Attempt& attempt : attempts) {
+    std::copy(attempt.places.begin(), attempt.places.end(), positions.begin());
+    attempt.bending = bending.of(positions, team_);
+  }
 }
 
 Attempt SurfaceFairing::attempt(const Constraints& constraints, const EquilibriumCall& call) {

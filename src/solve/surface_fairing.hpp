@@ -59,7 +59,8 @@ class SurfaceFairing {
   /// By the springs of hierarchy_, from the start without its noise, or as it is with the spacing that it has.
   Attempt go_from_input(bool keeps_spacing, Relaxation& relaxation, const Constraints& constraints,
                         const EquilibriumCall& call);
-  /// By steps that bend the start less, and by springs from there.
+  /// By sphere springs from the start without its noise, by steps that bend the best so far less, by springs from there
+  /// and by such steps from a membrane.
   void go_by_less_bending(std::vector<Attempt>& attempts, const Constraints& constraints, const EquilibriumCall& call);
   /// From the shape of hierarchy_, by steps that bend it less.
   Attempt bend_less(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
@@ -68,6 +69,8 @@ class SurfaceFairing {
                            const EquilibriumCall& call);
   /// Makes that of the attempts the shape which is the result, or the start.
   void take_best(std::vector<Attempt> attempts, const Constraints& constraints, const EquilibriumCall& call);
+  /// On the net of hierarchy_.
+  void measure_bending(std::vector<Attempt>& attempts);
   /// The shape that was reached, looked at.
   Attempt attempt(const Constraints& constraints, const EquilibriumCall& call);
   void make_levels(Net net, const Constraints& constraints, const FairOptions& options);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "support/surfaces.hpp"
@@ -41,6 +42,24 @@ TEST(FairLessBending, ATubeWithoutAnEquilibriumBecomesOneOfLeastBending) {
     alone.method = EquilibriumMethod{.fallbacks = false};
     EXPECT_NE(fair(tube, held_boundary(tube), alone).report.outcome, Outcome::converged);
   }
+}
+
+TEST(FairLessBending, FromAMembraneWhatNoiseHasCrumpledIsForgotten) {
+  const PolygonMesh tube = generate::tube({.columns = 10, .rows = 6, .faces = Faces::hexagons}, 1, 3);
+  std::vector<std::vector<Vector3>> found;
+  for (const std::uint64_t seed : {1U, 9U}) {
+    SCOPED_TRACE(seed);
+    const PolygonMesh crumpled = generate::add_noise(tube, 0.5, seed);
+    ASSERT_GT(measure(crumpled).greatest_turn, 120);
+    const FairResult result = fair(crumpled, held_boundary(crumpled));
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_EQ(result.report.fair_by, FairBy::bending);
+    EXPECT_LT(measure(with_positions(tube, result.positions)).greatest_turn, 80);
+    EXPECT_LT(bending(tube, result.positions), bending(crumpled, crumpled.positions()) / 2);
+    found.push_back(result.positions);
+  }
+  // Held nodes have no noise; the others have forgotten theirs.
+  EXPECT_LT(greatest_distance(found[0], found[1]), 1e-3);
 }
 
 }  // namespace

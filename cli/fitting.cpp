@@ -98,14 +98,12 @@ void settle_moving(PullArguments& arguments, const CurveFile& file) {
   if (file.planar && arguments.moving_axes[0] && arguments.moving_axes[1]) arguments.moving_axes[2] = true;
 }
 
-double within_of_noise(const NoiseEstimate& noise) { return (noise.directions == 2 ? 3.44 : 3) * noise.deviation; }
-
 void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise, bool is_curve) {
   if (!(noise.deviation > 0))
     throw Error(ErrorCode::unusable_shape,
                 arguments.automatic + " auto: this shape has no noise, or too few nodes to tell; give a number");
   arguments.estimate = noise;
-  if (arguments.automatic == "--within") arguments.within = within_of_noise(noise);
+  if (arguments.automatic == "--within") arguments.within = greatest_of_noise(noise);
   const bool takes_it_off = arguments.automatic == "--noise" || (arguments.automatic == "--rms" && is_curve);
   arguments.rms = arguments.automatic == "--rms" && !is_curve ? std::optional(noise.deviation) : std::nullopt;
   if (takes_it_off) arguments.noise = noise.deviation;
@@ -117,10 +115,9 @@ void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, s
   if (!is_larger) return;
   warnings.push_back(
       {WarningCode::noise_is_larger,
-       fmt::format(
-           "the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
-           "{:.3g} in each coordinate; --noise auto takes that off, --within auto allows for three times as much",
-           noise.deviation)});
+       fmt::format("the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
+                   "{:.3g} in each coordinate; --noise auto takes that off, --within auto allows for",
+                   noise.deviation)});
 }
 
 FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing) {

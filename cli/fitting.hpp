@@ -31,9 +31,6 @@ struct PullArguments {
   std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that it was set by
 };
 
-/// What 3 of 1,000 distances are beyond, across in one direction and in two.
-[[nodiscard]] double within_of_noise(const NoiseEstimate& noise);
-
 /// Gives the option that is "auto" its value, by the noise of the nodes as they came: --within three times its standard
 /// deviation, --rms and --noise once. Of a curve --rms auto is --noise auto: a root mean square that is a little too
 /// small for the noise has it followed. Throws Error(unusable_shape) where that cannot be told.

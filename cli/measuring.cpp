@@ -44,7 +44,7 @@ std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape, const 
                      "as estimated, standard deviation in each coordinate: what --noise auto takes", noise.deviation,
                      false});
   figures.push_back({"within_auto", "within auto", "units", "what --within auto takes for that noise",
-                     within_of_noise(noise), false});
+                     greatest_of_noise(noise), false});
   figures.push_back({"noise_in_edges", "noise in edges", "", "the same in median edges", noise.edges, false});
   return figures;
 }

@@ -37,6 +37,8 @@ constexpr int most_steps_of_corners = 8;
 constexpr int grids_of_corners = 3;
 // Of the energy, in a step: what changes less is there.
 constexpr double settled_energy = 1e-4;
+// Of a bound, in a step.
+constexpr double settled_share = 0.01;
 // Of the energy at first.
 constexpr double next_to_no_energy = 1e-6;
 // Of edges, in a step.
@@ -117,9 +119,17 @@ class CurveFitter {
     return rms;
   }
 
+  CurveFound start() {
+    begin();
+    return std::move(found_);
+  }
+
   CurveFound run() {
     if (task_.nodes) return run_on_nodes();
-    begin();
+    if (task_.start)
+      begin_from(*task_.start);
+    else
+      begin();
     if (has_corners()) place_corners();
     for (int grid = 0; grid < most_grids; ++grid) {
       most_work_ = std::max(most_work_, static_cast<std::size_t>(task_.most_steps) * found_.curve.size() / (grid + 1));
@@ -174,6 +184,11 @@ class CurveFitter {
       const auto number = static_cast<std::size_t>(point.number);
       point.bound = task_.within - (point.number >= 0 && !task_.spare.empty() ? task_.spare[number] : 0);
     }
+  }
+
+  void begin_from(const CurveFound& start) {
+    found_ = start;
+    set_bounds();
   }
 
   void begin() {
@@ -364,7 +379,7 @@ class CurveFitter {
       }
       last_step = greatest * share;
       found_.error = last_step;
-      const bool still = last_step < task_.tolerance;
+      const bool still = excess <= 1 && last_step < settled_step();
       const bool settled = !springs_ &&
                            ((share == 1 && energy - now <= settled_energy * energy) || now <= nothing_left_) &&
                            excess <= 1 && bent <= 1;
@@ -379,6 +394,11 @@ class CurveFitter {
       if (++sides_done == sides) return;
     }
     found_.converged = false;
+  }
+
+  /// What moves no further is there. Of a tolerance that is close to what the whole is to be as near to, less.
+  [[nodiscard]] double settled_step() const {
+    return task_.within > 0 ? std::min(task_.tolerance, settled_share * task_.within) : task_.tolerance;
   }
 
   /// Nodes do not go along the curve, so that corners can't go far on one grid. Afterwards they stay where they are.
@@ -661,6 +681,11 @@ std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task
 double rms_of_noise(const CurveFitTask& task) {
   const std::function<void(double)> none = [](double) {};
   return task.plane ? CurveFitter<1>(task, none).rms_of_noise() : CurveFitter<2>(task, none).rms_of_noise();
+}
+
+CurveFound start_of(const CurveFitTask& task) {
+  const std::function<void(double)> none = [](double) {};
+  return task.plane ? CurveFitter<1>(task, none).start() : CurveFitter<2>(task, none).start();
 }
 
 CurveFound fit_curve(const CurveFitTask& task, const std::function<void(double share)>& progress) {

@@ -9,6 +9,18 @@
 
 namespace vspring {
 
+struct CurveFound {
+  DenseCurve curve;
+  std::vector<CurvePoint> points;  ///< with their places; those of scattered ones last
+  bool converged = false;
+  double greatest = 0;  ///< distance of the points
+  double rms = 0;
+  double beyond = 0;     ///< the greatest share of its bound that a place of the curve is away from the polyline
+  double smoothing = 0;  ///< the smoothing length, where one was given
+  int steps = 0;
+  double error = 0;  ///< how far the last step went
+};
+
 /// Chains and what they are drawn to, in coordinates in which all is of size 1.
 struct CurveFitTask {
   struct Chain {
@@ -20,6 +32,8 @@ struct CurveFitTask {
   std::vector<CurvePoint> scattered;
   /// In place of chains: nodes whose chords are the curve. The scattered points have places on them.
   const DenseCurve* nodes = nullptr;
+  /// What start_of() returned, if it was called: of a task that is the same but for evenly, spare and least_radius.
+  const CurveFound* start = nullptr;
   bool in_order = true;          ///< whether points come in the order of the chains
   bool keeps_way = true;         ///< and whether the curve is held near the polyline through them
   std::optional<Vector3> plane;  ///< its normal, where all lies in one
@@ -42,24 +56,15 @@ struct CurveFitTask {
   int most_steps = 120;     ///< of all programs
 };
 
-struct CurveFound {
-  DenseCurve curve;
-  std::vector<CurvePoint> points;  ///< with their places; those of scattered ones last
-  bool converged = false;
-  double greatest = 0;  ///< distance of the points
-  double rms = 0;
-  double beyond = 0;     ///< the greatest share of its bound that a place of the curve is away from the polyline
-  double smoothing = 0;  ///< the smoothing length, where one was given
-  int steps = 0;
-  double error = 0;  ///< how far the last step went
-};
-
 /// How far the points of a task are from a robust curve through them, by the order of the task's own nodes and then of
 /// the scattered ones, with their numbers; in standard deviations of what the nearer half of them is away.
 std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task);
 
 /// The root mean square distance of the points from a curve that noise of the task's standard deviation leaves.
 double rms_of_noise(const CurveFitTask& task);
+
+/// The smooth curve near the points that steps begin with, where a tolerance is given.
+CurveFound start_of(const CurveFitTask& task);
 
 /// The fairest curve through a task's held nodes that its points allow: of least change of curvature within a tolerance
 /// or a root mean square, or where springs and points balance. Each step is a convex program about the curve as it is.

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 
 #include "base/cancellation.hpp"
+#include "base/dense_algebra.hpp"
 #include "curve_fit/way_corners.hpp"
 #include "shape/segment.hpp"
 
@@ -281,7 +283,26 @@ class Way {
   std::vector<std::size_t> joined_with_;  // of every row that begins a stop, or is in one
 };
 
-/// Marks the vertices of a polyline that stays within a tolerance (Ramer 1972; Douglas and Peucker 1973).
+/// Whether the places of a piece of a way go along a straight line, in their order, within a tolerance.
+bool is_straight(std::span<const Vector3> piece, double tolerance) {
+  Vector3 middle = Vector3::Zero();
+  for (const Vector3& place : piece) middle += place / static_cast<double>(piece.size());
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const Vector3& place : piece) squares += (place - middle) * (place - middle).transpose();
+  Vector3 along = principal_axes(squares).col(2);
+  if (along.dot(piece.back() - piece.front()) < 0) along = -along;
+  double furthest = -std::numeric_limits<double>::infinity();
+  for (const Vector3& place : piece) {
+    const Vector3 away = place - middle;
+    const double at = away.dot(along);
+    furthest = std::max(furthest, at);
+    if (at < furthest - tolerance || (away - at * along).norm() > tolerance) return false;
+  }
+  return true;
+}
+
+/// Marks the vertices of a polyline that stays within a tolerance (Ramer 1972; Douglas and Peucker 1973), or where a
+/// straight line does that need not go through the vertices: these have noise, too.
 void keep_vertices(const std::vector<Vector3>& way, std::size_t begin, std::size_t end, double tolerance,
                    std::vector<std::uint8_t>& kept) {
   std::vector<std::pair<std::size_t, std::size_t>> open = {{begin, end}};
@@ -301,7 +322,7 @@ void keep_vertices(const std::vector<Vector3>& way, std::size_t begin, std::size
         at = k;
       }
     }
-    if (at == a) continue;
+    if (at == a || is_straight(std::span(way).subspan(a, b - a + 1), tolerance)) continue;
     open.emplace_back(a, at);
     open.emplace_back(at, b);
   }

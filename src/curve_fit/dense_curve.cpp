@@ -15,6 +15,8 @@ using Matrix3 = Eigen::Matrix3d;
 constexpr int newton_steps = 3;
 constexpr int newton_steps_to_station = 8;
 constexpr int halvings_to_station = 4;
+// In radians.
+constexpr double greatest_turn_back = 0.1;
 // What coordinates that move count for where a place with the others is sought: next to nothing, unless the curve runs
 // along them.
 constexpr double share_of_moving = 1e-4;
@@ -42,6 +44,7 @@ Vector3 circle_curvature(const Vector3& to_next, const Vector3& to_before) {
 void DenseCurve::add_chain(const std::vector<Node>& nodes, bool closed) {
   const std::uint32_t begin = size();
   const auto count = static_cast<std::uint32_t>(nodes.size());
+  ++version_;
   chains_.push_back({begin, count, closed});
   nodes_.insert(nodes_.end(), nodes.begin(), nodes.end());
   for (std::uint32_t k = 0; k < count; ++k) {
@@ -114,11 +117,54 @@ DenseCurve::Bend DenseCurve::bend(std::uint32_t node, bool after) const {
   return {-mirrored(there.tangent, edge), mirrored(there.curvature, edge)};
 }
 
-DenseCurve::Quintic DenseCurve::quintic(std::uint32_t edge) const {
+// Where curvature changes by k' per length, directions at a node are that of the circle through it and its neighbours,
+// at distances a and b, turned back by k' a b / 6.
+DenseCurve::Bend DenseCurve::exact_bend(std::uint32_t node, bool after) const {
+  Bend found = bend(node, after);
+  if (!is_smooth(node)) return found;
+  const std::uint32_t next = next_[node];
+  const std::uint32_t before = before_[node];
+  const Vector3 ahead = place(next) - place(node);
+  const Vector3 behind = place(node) - place(before);
+  // As they would be here on a circle.
+  const auto here = [](const Vector3& there, const Vector3& way) { return mirrored(there, way.normalized()); };
+  Vector3 first = found.curvature;
+  Vector3 last = found.curvature;
+  double way = 0;
+  if (is_smooth(before)) {
+    first = here(bend(before, true).curvature, behind);
+    way += behind.norm();
+  }
+  if (is_smooth(next)) {
+    last = here(bend(next, false).curvature, ahead);
+    way += ahead.norm();
+  }
+  if (!(way > 0)) return found;
+  const Vector3 change = (last - first) / way;
+  const Vector3 back = ahead.norm() * behind.norm() / 6 * (change - change.dot(found.tangent) * found.tangent);
+  // More is no small turn.
+  if (!(back.squaredNorm() < greatest_turn_back * greatest_turn_back)) return found;
+  found.tangent = (found.tangent - back).normalized();
+  return found;
+}
+
+const DenseCurve::Quintic& DenseCurve::quintic(std::uint32_t edge) const {
+  if (quintics_.size() != nodes_.size()) {
+    quintics_.resize(nodes_.size());
+    versions_.assign(nodes_.size(), 0);
+  }
+  if (versions_[edge] != version_) {
+    quintics_[edge] = new_quintic(edge);
+    versions_[edge] = version_;
+  }
+  return quintics_[edge];
+}
+
+DenseCurve::Quintic DenseCurve::new_quintic(std::uint32_t edge) const {
   const std::uint32_t end = next_[edge];
   const Vector3 chord = place(end) - place(edge);
-  const Bend a = bend(edge, true);
-  const Bend b = bend(end, false);
+  const Bend a = exact_bend(edge, true);
+  const Bend b = exact_bend(end, false);
   // An arc is longer than its chord.
   const double cosine = std::clamp(a.tangent.dot(b.tangent), -1.0, 1.0);
   const double half = std::acos(cosine) / 2;
@@ -238,7 +284,7 @@ CurvePlace DenseCurve::nearest(const Vector3& point, const CurvePlace& about, do
   // From the chord to the curve over it.
   const int steps = moves_freely() ? newton_steps : newton_steps_to_station;
   for (int step = 0; step < steps; ++step) {
-    const Quintic curve = quintic(best.edge);
+    const Quintic& curve = quintic(best.edge);
     const Vector3 slope = sought(curve.slope(best.share));
     const double square = slope.squaredNorm();
     if (!(square > 0)) break;

@@ -53,6 +53,7 @@ class DenseCurve {
     for (int k = 0; k < 3; ++k) {
       if (moving_[k] != 0) nodes_[i].place[k] = place[k];
     }
+    ++version_;
   }
   [[nodiscard]] const Vector3& moving() const { return moving_; }
   [[nodiscard]] bool moves_freely() const { return moving_ == Vector3::Ones(); }
@@ -63,7 +64,10 @@ class DenseCurve {
   /// Where it is.
   void hold(std::uint32_t i) { nodes_[i].held = true; }
   void set_spacing(std::uint32_t i, double spacing) { nodes_[i].spacing = spacing; }
-  void set_tangent(std::uint32_t i, const Vector3& tangent) { nodes_[i].tangent = tangent; }
+  void set_tangent(std::uint32_t i, const Vector3& tangent) {
+    nodes_[i].tangent = tangent;
+    ++version_;
+  }
   /// Neighbours along the chain; none at its ends. An edge has the number of the node that it begins at.
   [[nodiscard]] std::uint32_t next(std::uint32_t i) const { return next_[i]; }
   [[nodiscard]] std::uint32_t before(std::uint32_t i) const { return before_[i]; }
@@ -118,7 +122,11 @@ class DenseCurve {
     [[nodiscard]] Vector3 at(double share) const;
     [[nodiscard]] Vector3 slope(double share) const;
   };
-  [[nodiscard]] Quintic quintic(std::uint32_t edge) const;
+  /// The same where curvature changes along the curve.
+  [[nodiscard]] Bend exact_bend(std::uint32_t node, bool after) const;
+  /// Once for many places on it. Not for threads side by side.
+  [[nodiscard]] const Quintic& quintic(std::uint32_t edge) const;
+  [[nodiscard]] Quintic new_quintic(std::uint32_t edge) const;
   /// As lengths of vectors tell which place is nearest.
   [[nodiscard]] Vector3 sought(const Vector3& v) const;
 
@@ -128,6 +136,9 @@ class DenseCurve {
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> next_;
   std::vector<std::uint32_t> before_;
+  std::uint64_t version_ = 1;  ///< of all places
+  mutable std::vector<Quintic> quintics_;
+  mutable std::vector<std::uint64_t> versions_;  ///< that quintics are of
 };
 
 /// The curvature vector at the origin of the circle through it and two other places, or none where they fall together.

@@ -16,7 +16,7 @@ namespace {
 
 // Of what the spline is smoothed by: from where it is hardly bent, by factors, to where it goes through all points.
 constexpr double first_smoothing = 1e2;
-constexpr double least_smoothing = 1e-16;
+constexpr double least_smoothing = 1e-24;
 constexpr double coarse_stride = 1e-2;
 constexpr double fine_stride = 0.3;
 // Of the points: parameters.
@@ -119,16 +119,19 @@ class SmoothingSpline {
     std::vector<Vector3> best;
     const auto pulls = [](const CurvePoint& point) { return point.weight > 0; };
     const auto count = static_cast<double>(std::count_if(points_.begin(), points_.end(), pulls));
+    const std::vector<double> shares = shares_of_freedom();
+    const std::vector<Vector3> along = directions_at_points();
     double smoothing = first_smoothing / fine_stride;
     while (smoothing > least_smoothing) {
       smoothing *= fine_stride;
       end_if_cancelled();
-      if (!solve(smoothing)) continue;
-      const double freedom = this->freedom();
+      const double freedom = this->freedom(shares, smoothing);
+      const double spread = 2 * caution * noise * noise * freedom / count;
       // What follows every point tells nothing.
-      if (freedom > most_freedom * count) break;
-      const double square = mean_square_across();
-      const double risk = square / directions + 2 * caution * noise * noise * freedom / count;
+      if (freedom > most_freedom * count || spread > least) break;
+      if (!solve(smoothing)) continue;
+      const double square = mean_square_across(along);
+      const double risk = square / directions + spread;
       if (!(risk < least) || !is_sane()) continue;
       least = risk;
       rms = std::sqrt(square);
@@ -248,7 +251,6 @@ class SmoothingSpline {
     double weights = 0;
     for (const CurvePoint& point : points_) weights += point.weight;
     for (std::size_t j = 0; j < points_.size(); ++j) add(row_of(points_[j]), counts_[j] * points_[j].weight / weights);
-    data_rows_ = rows_;
     take_rows(data_);
   }
 
@@ -333,7 +335,6 @@ class SmoothingSpline {
       sum.add(i, data_.triangle.row(i), data_.right[i], 1);
     }
     places_ = std::move(sum.right);
-    triangle_ = sum.triangle;
     sum.triangle.solve_upper(std::span(places_));
     const Vector3& moving = curve_.moving();
     for (std::uint32_t i = 0; i < curve_.size() && !curve_.moves_freely(); ++i) {
@@ -375,31 +376,54 @@ class SmoothingSpline {
     return within > 0 || !curve_.moves_freely() ? squared_residual(point) : squared_distance(point);
   }
 
-  /// How many parameters the spline has in effect, in each coordinate: the trace of what takes points to their places.
-  [[nodiscard]] double freedom() const {
-    const std::vector<BandTriangle::Row> inverse = triangle_.inverse_in_band();
-    double trace = 0;
-    for (const Row& row : data_rows_) {
-      const std::size_t width = std::min(width_, columns_ - row.first);
-      for (std::size_t a = 0; a < width; ++a) {
-        for (std::size_t b = 0; b < width; ++b)
-          trace += row.factor * row.factor * row.entries[a] * row.entries[b] *
-                   inverse[row.first + std::min(a, b)][a > b ? a - b : b - a];
-      }
+  /// What a point has of the parameters of the spline with a smoothing of 1, one after the other: they are as dense as
+  /// (its weight over the length it stands for)^(1/6) / 3 (Silverman 1984).
+  [[nodiscard]] std::vector<double> shares_of_freedom() const {
+    std::vector<double> begins(curve_.size() + 1, 0);
+    for (std::uint32_t i = 0; i < curve_.size(); ++i)
+      begins[i + 1] = begins[i] + (curve_.is_edge(i) ? curve_.edge_length(i) : 0);
+    std::vector<std::pair<double, double>> places;
+    double weights = 0;
+    for (const CurvePoint& point : points_) {
+      if (!(point.weight > 0)) continue;
+      const std::uint32_t edge = point.at.edge;
+      places.emplace_back(begins[edge] + point.at.share * (begins[edge + 1] - begins[edge]), point.weight);
+      weights += point.weight;
     }
-    return trace;
+    std::sort(places.begin(), places.end());
+    std::vector<double> shares;
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      const double from = j > 0 ? places[j - 1].first : 0;
+      const double to = j + 1 < places.size() ? places[j + 1].first : length_;
+      const double length = (to - from) / 2 / length_;
+      shares.push_back(std::pow(places[j].second / weights, 1.0 / 6) * std::pow(length, 5.0 / 6) / 3);
+    }
+    return shares;
+  }
+
+  /// How many parameters the spline has in effect, in each coordinate; a point can tell no more than one.
+  [[nodiscard]] static double freedom(const std::vector<double>& shares, double smoothing) {
+    double sum = 0;
+    for (const double share : shares) sum += std::min(1.0, share * std::pow(smoothing, -1.0 / 6));
+    return sum;
+  }
+
+  /// Of the curve as it was, at the places of points.
+  [[nodiscard]] std::vector<Vector3> directions_at_points() const {
+    std::vector<Vector3> directions(points_.size(), Vector3::Zero());
+    for (std::size_t j = 0; j < points_.size() && curve_.moves_freely(); ++j)
+      directions[j] = curve_.direction(points_[j].at);
+    return directions;
   }
 
   /// Of points from their places, across the curve.
-  [[nodiscard]] double mean_square_across() const {
+  [[nodiscard]] double mean_square_across(const std::vector<Vector3>& along) const {
     double squares = 0;
     double weights = 0;
-    for (const CurvePoint& point : points_) {
+    for (std::size_t j = 0; j < points_.size(); ++j) {
+      const CurvePoint& point = points_[j];
       Vector3 away = residual(point);
-      if (curve_.moves_freely()) {
-        const Vector3 along = curve_.direction(point.at);
-        away -= away.dot(along) * along;
-      }
+      away -= away.dot(along[j]) * along[j];
       squares += point.weight * away.squaredNorm();
       weights += point.weight;
     }
@@ -446,8 +470,6 @@ class SmoothingSpline {
     double factor;
   };
   std::vector<Row> rows_;  ///< until they are taken
-  std::vector<Row> data_rows_;
-  BandTriangle triangle_{0, 1};  ///< of the last solution
   LeastSquares fixed_{0, 1};
   LeastSquares data_{0, 1};
   double length_ = 0;

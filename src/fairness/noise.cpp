@@ -49,6 +49,9 @@ constexpr std::size_t most_faces = 100;
 constexpr std::size_t most_neighbours = 2 * most_faces;
 constexpr double least_pivot = 1e-5;
 constexpr std::size_t places_per_task = 256;
+constexpr double three_deviations = 0.0027;
+// Beyond what any number of nodes leads to.
+constexpr double most_deviations = 10;
 
 /// What nodes around a place say of noise.
 struct Place {
@@ -228,6 +231,18 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
     });
   }
   return summary(std::move(found), std::move(edges), least_extent);
+}
+
+double greatest_of_noise(const NoiseEstimate& noise) {
+  const double beyond = std::min(three_deviations, std::log(2) / std::max(1.0, static_cast<double>(noise.nodes)));
+  if (noise.directions == 2) return std::sqrt(-2 * std::log(beyond)) * noise.deviation;
+  double low = 0;
+  double high = most_deviations;
+  while (high - low > 1e-9) {
+    const double middle = (low + high) / 2;
+    (std::erfc(middle / std::sqrt(2)) > beyond ? low : high) = middle;
+  }
+  return high * noise.deviation;
 }
 
 NoiseEstimate estimate_noise(const PolygonCurve& curve) {

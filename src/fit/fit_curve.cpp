@@ -112,8 +112,13 @@ class CurveFit {
       const auto tolerance = input_.options().tolerance();
       // Where chords cut off too much, the curve is held nearer; where it is bent too much between its own nodes, to a
       // larger radius.
+      CurveFound start;
       for (int turn = 0; turn < most_turns_nearer; ++turn) {
         std::optional<Attempt> now;
+        if (tolerance && (turn == 0 || input_.options().rms())) {
+          start = start_of(task);
+          task.start = &start;
+        }
         for (const bool evenly : {false, true}) {
           if (evenly && !tolerance) break;
           task.evenly = evenly;
@@ -512,7 +517,7 @@ class CurveFit {
       task.rms *= share_of_nearer * *tolerance / attempt.figure;
       return attempt.figure <= most_cut_off * *tolerance;
     }
-    const std::vector<double> distances = this->distances(attempt.nodes.curve);
+    const std::vector<double> distances = movable_distances(attempt.nodes);
     task.spare.resize(distances.size(), 0);
     for (std::size_t j = 0; j < distances.size(); ++j) {
       if (input_.kept()[j] == 0 || distances[j] <= *tolerance) continue;

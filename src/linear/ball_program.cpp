@@ -13,7 +13,7 @@ namespace vspring {
 
 namespace {
 
-constexpr int most_steps = 40;
+constexpr int most_steps = 80;
 // Of the objective.
 constexpr double enough_gap = 1e-6;
 constexpr double next_to_nothing_left = 1e-5;

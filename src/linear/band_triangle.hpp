@@ -83,21 +83,6 @@ class BandTriangle {
     solve_upper(right);
   }
 
-  /// The entries of (Rᵀ R)⁻¹ that lie in the band: of each row, from its diagonal on (Takahashi, Fagan and Chen 1973).
-  /// Cost: as many as columns, times width².
-  [[nodiscard]] std::vector<Row> inverse_in_band() const {
-    std::vector<Row> inverse(size(), Row{});
-    for (std::size_t i = size(); i-- > 0;) {
-      const std::size_t width = std::min(width_, size() - i);
-      for (std::size_t k = width; k-- > 0;) {
-        double sum = k == 0 ? 1 / rows_[i][0] : 0;
-        for (std::size_t m = 1; m < width; ++m) sum -= rows_[i][m] * inverse[i + std::min(k, m)][k > m ? k - m : m - k];
-        inverse[i][k] = sum / rows_[i][0];
-      }
-    }
-    return inverse;
-  }
-
  private:
   std::vector<Row> rows_;  // the diagonal and what is right of it
   std::size_t width_;

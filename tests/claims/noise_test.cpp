@@ -120,5 +120,17 @@ TEST(Noise, IsNothingWhereNothingIsKnown) {
   EXPECT_EQ(estimate_noise(PolygonCurve(positions)).nodes, 0);
 }
 
+TEST(Noise, HalfOfAllShapesStayWithinItsGreatest) {
+  const auto greatest = [](Index nodes, int directions) {
+    return greatest_of_noise({.deviation = 2, .edges = 0, .nodes = nodes, .directions = directions}) / 2;
+  };
+  for (const Index nodes : {1000, 1000000}) {
+    EXPECT_NEAR(std::pow(std::erf(greatest(nodes, 1) / std::sqrt(2)), nodes), 0.5, 1e-3);
+    EXPECT_NEAR(std::pow(1 - std::exp(-std::pow(greatest(nodes, 2), 2) / 2), nodes), 0.5, 1e-3);
+  }
+  EXPECT_NEAR(greatest(10, 1), 3, 1e-3);
+  EXPECT_EQ(greatest_of_noise({}), 0);
+}
+
 }  // namespace
 }  // namespace vspring::noise_test

@@ -120,7 +120,7 @@ DEFAULTS = {
                      "--point-columns", "--closed", "--order", "--resample", "--spacing", "--curve", "--paper", "--quiet", "--fair-boundary",
                      "--ignore-point-normals", "--min-radius", "--sharp", "--move")),
 }
-# Where it is another one: a word of the command line, and what is its default then, by the first that is there.
+# Where it is another one: a word of the command line, and what is its default then.
 OTHER_DISTRIBUTIONS = {"--within": "keep", "--weight": "keep", "curve": "even", "--method": "even"}
 
 

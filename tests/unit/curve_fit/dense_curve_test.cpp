@@ -31,6 +31,34 @@ TEST(DenseCurve, IsACircleWhereItsNodesLieOnOne) {
   }
 }
 
+TEST(DenseCurve, CurvatureIsLinearBetweenNodesOfAnEulerSpiral) {
+  constexpr int steps = 100;
+  std::vector<DenseCurve::Node> nodes;
+  std::vector<double> lengths;
+  Vector3 place = Vector3::Zero();
+  double way = -1;
+  while (way < 1.5) {
+    nodes.emplace_back().place = place;
+    lengths.push_back(way);
+    const double edge = nodes.size() % 2 == 1 ? 0.14 : 0.1;
+    for (int k = 0; k < steps; ++k) {
+      const double middle = way + edge / steps * (k + 0.5);
+      place += edge / steps * Vector3(std::cos(middle * middle / 2), std::sin(middle * middle / 2), 0);
+    }
+    way += edge;
+  }
+  DenseCurve curve;
+  curve.add_chain(nodes, false);
+  for (std::uint32_t i = 2; i + 3 < curve.size(); ++i) {
+    for (const double share : {0.25, 0.5, 0.75}) {
+      const Vector3 here = curve.at({i, share});
+      const double curvature =
+          circle_curvature(curve.at({i, share + 0.1}) - here, curve.at({i, share - 0.1}) - here).norm();
+      EXPECT_NEAR(curvature, std::abs(lengths[i] + share * (lengths[i + 1] - lengths[i])), 0.02);
+    }
+  }
+}
+
 TEST(DenseCurve, NearestIsTheFootOnTheCurveAndNotOnItsChord) {
   const DenseCurve curve = on_circle(2);
   const Vector3 point = 1.3 * Vector3(std::cos(0.85), std::sin(0.85), 0);

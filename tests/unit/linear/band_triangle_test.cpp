@@ -22,27 +22,5 @@ TEST(BandTriangle, WhatDwindlesBelowAllNumbersIsNothing) {
   for (const double one : right) EXPECT_TRUE(std::isfinite(one));
 }
 
-TEST(BandTriangle, ItsInverseInTheBandIsThatOfTheWholeMatrix) {
-  constexpr std::size_t count = 9;
-  constexpr std::size_t width = 4;
-  BandTriangle triangle(count, width);
-  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(count, count);
-  for (std::size_t first = 0; first < count; ++first) {
-    BandTriangle::Row entries{};
-    Eigen::VectorXd row = Eigen::VectorXd::Zero(count);
-    for (std::size_t k = 0; k < width && first + k < count; ++k)
-      row[static_cast<Eigen::Index>(first + k)] = entries[k] = std::cos(static_cast<double>(7 * first + 3 * k)) + 1.5;
-    triangle.add(first, entries, 2);
-    whole += 4 * row * row.transpose();
-  }
-  const Eigen::MatrixXd inverse = whole.inverse();
-  const auto found = triangle.inverse_in_band();
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t k = 0; k < width && i + k < count; ++k)
-      EXPECT_NEAR(found[i][k], inverse(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i + k)),
-                  1e-9 * inverse.norm());
-  }
-}
-
 }  // namespace
 }  // namespace vspring

@@ -45,7 +45,8 @@ struct Summary {
 std::optional<double> error_by(const PolygonMesh& start, const Specimen& specimen,
                                std::optional<Distribution> distribution, const FairResult& result) {
   const double expected = result.report.expected_error.value_or(0);
-  const FairOptions options = {.method = EquilibriumMethod{.tolerance = 1e-12}, .distribution = distribution};
+  const FairOptions options = {
+      .method = EquilibriumMethod{.tolerance = 1e-12}, .fair_by = result.report.fair_by, .distribution = distribution};
   const FairResult truth = fair(start, specimen.constraints, options);
   if (truth.report.outcome != Outcome::converged && !(truth.report.expected_error.value_or(1) < 1e-2 * expected))
     return std::nullopt;

@@ -44,11 +44,9 @@ FairingMethod method_of(const FairingArguments& arguments) {
     case Method::equilibrium:
       break;
   }
-  EquilibriumMethod method = {
-      .tolerance = arguments.tolerance, .max_iterations = arguments.max_iterations, .fallbacks = std::nullopt};
   // The paper's equations are for comparison.
-  if (!arguments.paper) method.fallbacks = Fallbacks{.step_tolerance = step_tolerance};
-  return method;
+  return EquilibriumMethod{
+      .tolerance = arguments.tolerance, .max_iterations = arguments.max_iterations, .fallbacks = !arguments.paper};
 }
 
 /// Where nodes go along the shape unless the command says otherwise.

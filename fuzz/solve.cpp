@@ -18,7 +18,7 @@ FairOptions options_of(FuzzedDataProvider& data) {
   // Where none is named, others may stand for what is not found.
   std::optional<Method> method;
   if (data.ConsumeIntegralInRange(0, 3) == 0) method = data.PickValueInArray(methods);
-  if (method) equilibrium.fallbacks.reset();
+  if (method) equilibrium.fallbacks = false;
   if (data.ConsumeIntegralInRange(0, 3) == 0) options.distribution = data.PickValueInArray(distributions);
   options.springs = data.ConsumeBool() ? Springs::sphere : Springs::edge;
   options.fair_by = data.ConsumeIntegralInRange(0, 3) == 0 ? FairBy::bending : FairBy::curvature;

@@ -75,6 +75,10 @@ MUTATIONS = {
     "src/checks/spring_energy.cpp": [
         ("rim-springs", "springs between held neighbours of moving nodes count", "i < net.computed; ++i", "i < net.moving; ++i"),
     ],
+    "src/checks/bending_energy.cpp": [
+        ("bending-product", "κ₁² + κ₂² = (κ₁ + κ₂)² − 2 κ₁ κ₂", "(fit[2] * fit[4] - fit[3] * fit[3])", "(fit[2] * fit[4])"),
+        ("bending-second-derivative", "twice the form", "2 * plane->share / (plane->unit * plane->unit)", "plane->share / (plane->unit * plane->unit)"),
+    ],
     "src/checks/result_check.cpp": [
         ("bent-as-normals-ask", "worse are both springs and bending", "if (energy <= risen_energy_if_bent * energy_ + unseen) return {};", ""),
         ("bent-less-beside-normals", "worse are both springs and bending", "if (after <= risen_bending * before + unseen) return {};", ""),
@@ -145,6 +149,9 @@ MUTATIONS = {
     ],
     "src/shape/cubic.hpp": [
         ("cubic-speed", "the cubic nearest to a circle", "2 * chord.norm() / (1 + std::sqrt((1 + cosine) / 2))", "chord.norm()"),
+    ],
+    "src/solve/attempt.cpp": [
+        ("bent-least", "of shapes that are no equilibrium the one that is bent least", "attempt.bending <= best->bending", "attempt.bending >= best->bending"),
     ],
     "src/sweep/sweep.cpp": [
         ("normals-once", "Fig. 3: normals anew in every iteration", "update_directions(*net_, *model_, *team_);", ""),

@@ -92,7 +92,7 @@ void add_surface_method(CLI::App& command, FairArguments& arguments, const Fairi
   add_choice(
       command, "--method", arguments.method, methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
-      "plain iteration (default: equilibrium; where it finds none, sweep)")
+      "plain iteration (default: equilibrium)")
       ->group(fairing_group);
   add_stopping_options(command, arguments, "0.001");
   add_choice(

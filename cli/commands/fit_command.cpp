@@ -174,7 +174,7 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
   add_choice(
       command, "--method", arguments.method, methods,
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
-      "plain iteration (default: equilibrium; where it finds none, on surfaces sweep)")
+      "plain iteration (default: equilibrium)")
       ->group(fairing_group);
   add_stopping_options(command, arguments, "0.001, or K/10 where that is less");
   command

@@ -17,23 +17,18 @@ namespace vspring {
 
 enum class Method { equilibrium, multigrid, sweep };
 
-/// What may stand for an equilibrium that is not found, with a warning: on surfaces that of another distribution, where
-/// none is given, and last the shape of the plain iteration; in fits what FitOptions::fair says.
-struct Fallbacks {
-  double step_tolerance = 1e-3;  ///< of the plain iteration, as in SweepMethod
-};
-
 /// The accelerated solver, which goes to the equilibrium itself; see docs/solver.md.
 struct EquilibriumMethod {
   /// Stop when no node is expected to be further from its final place than this share of the diagonal of the box around
   /// the moving nodes and their rim. More than 0.
   double tolerance = 1e-5;
-  /// Stop after so many iterations, on each level; no other springs, distributions or methods are then tried. Empty:
+  /// Stop after so many iterations, on each level; no other springs, distributions or ways are then tried. Empty:
   /// 200 iterations on each level (30 on the finest with sphere springs that are not near by then), no more work than
   /// FairReport::most_work, and where that leads nowhere the other ways of docs/solver.md.
   std::optional<int> max_iterations = std::nullopt;
-  /// Empty: the nearest shape stays.
-  std::optional<Fallbacks> fallbacks = Fallbacks{};
+  /// Whether another shape may stand for an equilibrium that is not found, with a warning: on surfaces that of another
+  /// distribution, where none is given, or one of least bending; in fits what FitOptions::fair says.
+  bool fallbacks = true;
 };
 
 /// The paper's V-cycle over coarser levels (§4.7).
@@ -71,7 +66,7 @@ struct FairOptions {
   /// with moving nodes on more sides than one; and, with a warning, where sphere springs find no equilibrium.
   Springs springs = Springs::sphere;
   /// Surfaces with sphere springs: what is made even or least. The result is that of curvature, with a warning, where
-  /// no shape of least bending is found or edge springs take over.
+  /// edge springs take over; and of least bending where no shape is found whose curvature changes evenly.
   FairBy fair_by = FairBy::curvature;
   /// `printed` is for comparison with the paper.
   Forces forces = Forces::steady;
@@ -139,8 +134,8 @@ struct LevelReport {
   int iterations = 0;
   Outcome outcome = Outcome::converged;  ///< of the level's own test; `cancelled` where it was not reached
   /// What it was part of: "in place", "coarse to fine", "flow", "spacing of the input", "windings of the input", "from
-  /// the input without its noise", "from the input", "from the input, with its spacing", "from the last shape" or
-  /// "V-cycle" (docs/solver.md).
+  /// the input without its noise", "from the input", "from the input, with its spacing", "less bending", "from less
+  /// bending", "from the last shape" or "V-cycle" (docs/solver.md).
   const char* strategy = "";
   double seconds = 0;
 };
@@ -163,9 +158,9 @@ struct FairReport {
   /// The levels that were worked on, the coarsest first. With equilibrium, one iteration on the shape itself may come
   /// before them, which asks whether it is at its equilibrium already. Empty with sweep.
   std::vector<LevelReport> levels;
-  /// Work done on all levels, in iterations of the equilibrium solver on one moving node. A step of the flow counts 60,
-  /// a sweep 1/16, a new factor of a matrix 0.1 to 6 iterations. most_work is the most that would have been done,
-  /// without the sweeps as a last resort; 0 where iterations are limited instead.
+  /// Work done on all levels, in iterations of the equilibrium solver on one moving node. A step of less bending
+  /// counts 6, a step of the flow 60, a sweep 1/16, a new factor of a matrix 0.1 to 6 iterations. most_work is the most
+  /// that would have been done; 0 where iterations are limited instead.
   double work = 0;
   double most_work = 0;
   Index nodes = 0;
@@ -209,8 +204,8 @@ struct FairResult {
 ///
 /// Cost: linear in all nodes, once, and in the moving nodes for every iteration; three to six iterations on the finest
 /// level where all goes well. Where it does not, the work is bounded by FairReport::most_work: 450 iterations of every
-/// moving node, or 1.35 million of one node where that is more, some two seconds for 3,000 nodes, besides sweeps as a
-/// last resort. Memory: about 0.7 kB for every moving node, 0.9 with sphere springs.
+/// moving node, or 1.35 million of one node where that is more, some two seconds for 3,000 nodes.
+/// Memory: about 0.7 kB for every moving node, 0.9 with sphere springs.
 [[nodiscard]] FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const FairOptions& options,
                               Context& context);
 [[nodiscard]] FairResult fair(const PolygonMesh& mesh, const Constraints& constraints, const FairOptions& options = {});

@@ -64,8 +64,8 @@ using FitCriterion = std::variant<Weight, SmoothingLength, Within, RootMeanSquar
 
 struct FitOptions {
   FitCriterion criterion = Weight{};
-  /// As for fair(). Fallbacks, where no equilibrium is found and max_iterations is not given: on surfaces the shape of
-  /// sweep, with a warning, which does not count as converged; on curves one with nodes of its own, on which the
+  /// As for fair(). Fallbacks, where no equilibrium is found and max_iterations is not given: on surfaces one of
+  /// least bending near the points, with a warning; on curves one with nodes of its own, on which the
   /// curve's are put (docs/curves.md). With fair_boundary, for a surface whose own nodes are the points, the boundary
   /// is fitted to its nodes first, as a curve, and the surface then holds it.
   FairOptions fair = {};

@@ -11,7 +11,7 @@ enum class WarningCode : std::uint8_t {
   free_boundary,       ///< boundary nodes are free and are drawn in
   family_of_shapes,    ///< what holds the shape leaves more than one sphere, plane or circle
   other_springs,       ///< edge springs took the place of sphere springs
-  other_fairness,      ///< no shape of least bending was found: this one is fair by curvature
+  other_fairness,      ///< no shape was found that is fair as asked for: by curvature, this is of least bending
   other_distribution,  ///< nodes went to the mean of their neighbours
   no_equilibrium,      ///< none was found; the text says what the shape is
   worse_than_input,    ///< what was found is; the text says how, and what is returned

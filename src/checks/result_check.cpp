@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -11,10 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "checks/bending_energy.hpp"
 #include "checks/curve_crossings.hpp"
 #include "checks/spring_energy.hpp"
 #include "shape/direction.hpp"
-#include "spring/near_nodes.hpp"
 #include "spring/spacing.hpp"
 
 namespace vspring {
@@ -42,9 +41,6 @@ constexpr double risen_bending = 1.3;
 constexpr double risen_smooth_bending = 2.5;
 // Of mean edges: shorter ones, and faces of less than the square of that, are as good as nothing.
 constexpr double collapsed_size = 1e-4;
-// Of products of lengths in those of a link: what few nodes tell nothing of is nothing.
-constexpr double ridge_of_fits = 1e-9;
-
 bool turns_back(const Vector3& a, const Vector3& b) {
   const double product = a.dot(b);
   // Hardly ever: without a root for all others.
@@ -80,52 +76,20 @@ void find_faces(const Net& net, const std::vector<Vector3>& positions, std::size
   }
 }
 
-/// Some ∫ κ₁² + κ₂² over a node's share of the faces around it, from a quadratic through it, fitted to the heights of
-/// its link, of few nodes and those of their links. Angles between faces would also say how long cells lie: on one
-/// sphere 4.9 before these slid and 17.6 after, which were 6.8 both times by fits. spokes, faces: as find_faces() finds
-/// them.
+/// bending_over() of a node. spokes, faces: as find_faces() finds them; beside a rim there is no link all round.
 double bending_at(const Net& net, const std::vector<Vector3>& positions, std::size_t i,
                   std::span<const std::size_t> spokes, std::span<const Vector3> faces) {
-  const auto links = net.rings.links(i);
+  const std::size_t links = net.rings.links(i).size();
   Vector3 normal = Vector3::Zero();
   double share = 0;
   for (std::size_t s = 0; s < faces.size(); ++s) {
     const std::size_t next = spokes[place_after(s, spokes.size())];
-    const std::size_t corners = (next > spokes[s] ? next : next + links.size()) - spokes[s] + 2;
+    const std::size_t corners = (next > spokes[s] ? next : next + links) - spokes[s] + 2;
     normal += faces[s];
     share += 0.5 * faces[s].norm() / static_cast<double>(corners);
   }
-  // Beside a rim there is no link all round.
-  if (!(normal.squaredNorm() > 0)) return 0;
-  normal.normalize();
-  const Vector3 aside = normal.unitOrthogonal();
-  const Vector3 ahead = normal.cross(aside);
-  using Unknowns = Eigen::Matrix<double, 5, 1>;
-  Eigen::Matrix<double, 5, 5> products = Eigen::Matrix<double, 5, 5>::Zero();
-  Unknowns right = Unknowns::Zero();
-  double squares = 0;
-  for (const Link link : links) squares += (positions[link.node()] - positions[i]).squaredNorm();
-  // Lengths in those of the link, so that all unknowns have one unit.
-  const double unit = std::sqrt(squares / static_cast<double>(links.size()));
-  for_near_nodes(net, i, [&](std::size_t j) {
-    const Vector3 e = (positions[j] - positions[i]) / unit;
-    const double square = e.squaredNorm();
-    if (!(square > 0)) return;
-    const double x = e.dot(aside);
-    const double y = e.dot(ahead);
-    const Unknowns row = (Unknowns() << x, y, x * x / 2, x * y, y * y / 2).finished() / square;
-    products += row * row.transpose();
-    right += e.dot(normal) / square * row;
-  });
-  products.diagonal().array() += ridge_of_fits;
-  const Unknowns fit = products.ldlt().solve(right) / unit;
-  const double p = fit[0] * unit;
-  const double q = fit[1] * unit;
-  // Of a graph; κ₁² + κ₂² = (κ₁ + κ₂)² − 2 κ₁ κ₂.
-  const double stretch = 1 + p * p + q * q;
-  const double sum = ((1 + q * q) * fit[2] - 2 * p * q * fit[3] + (1 + p * p) * fit[4]) / std::pow(stretch, 1.5);
-  const double product = (fit[2] * fit[4] - fit[3] * fit[3]) / (stretch * stretch);
-  return (sum * sum - 2 * product) * share;
+  const auto plane = height_plane(net, positions, i, normal, share);
+  return plane ? bending_over(*plane, net, positions, i) : 0;
 }
 
 /// What to find besides what is counted; the rest is 0.

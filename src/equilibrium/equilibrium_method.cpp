@@ -75,14 +75,14 @@ class EquilibriumSearch : private Relaxation {
       report_.outcome = Outcome::cancelled;
     }
     if (report_.outcome == Outcome::cancelled) hand_up_roughly();
-    if (check && !(task_.is_try && report_.outcome == Outcome::cancelled)) {
+    if (check && shape().is_curve) {
       try {
         report_check();
         stay_sound(*check);
       } catch (const Cancelled&) {
-        // That is thrown once. What was only half looked at is looked at whole, here or by whoever tries it.
+        // That is thrown once. What was only half looked at is looked at whole.
         report_.outcome = Outcome::cancelled;
-        if (!task_.is_try) stay_sound(*check);
+        stay_sound(*check);
       }
     }
     // Limits that nobody gave.

@@ -18,7 +18,6 @@ struct SearchTask {
   EquilibriumMethod method;
   std::optional<Distribution> distribution;  ///< as in FairOptions
   bool as_found = false;                     ///< likewise
-  bool is_try = false;  ///< whoever asks looks at what there is when it is cancelled, which is not looked at here
 };
 
 /// By the options of a shape whose method is EquilibriumMethod.
@@ -32,7 +31,7 @@ bool is_underconstrained(const Net& net);
 
 /// Coarse levels first, each to its equilibrium, each the start of the next finer one; none of them where the shape is
 /// at its equilibrium already. Fills outcome, iterations, levels, residual, expected error and history. check:
-/// where given, of the start, the result is no worse or said to be. points: of the levels, if any.
+/// of the start; where given for a curve, the result is no worse or said to be. points: of the levels, if any.
 void run_equilibrium(Hierarchy& hierarchy, const Model& model, const SearchTask& task, const SolverCall& call,
                      const ResultCheck* check, PointLevels* points = nullptr);
 

@@ -5,6 +5,7 @@
 
 #include "base/stopwatch.hpp"
 #include "equilibrium/account.hpp"
+#include "equilibrium/bending_descent.hpp"
 
 namespace vspring {
 
@@ -47,6 +48,11 @@ void Relaxation::relax(std::size_t level, int max_iterations, Preconditioner& pr
   relax(level, max_iterations, [&](const EquilibriumTask& task) {
     return go_to_equilibrium(hierarchy_.net(level), model_, preconditioner, task, call_.team, call_.context);
   });
+}
+
+void Relaxation::bend_less(int max_iterations) {
+  relax(last(), max_iterations,
+        [&](const EquilibriumTask& task) { return descend_bending(shape(), model_, task, call_.team, call_.context); });
 }
 
 void Relaxation::relax_along_flow(int max_iterations, FlowStart start) {

@@ -26,6 +26,8 @@ class Relaxation {
   /// From the shape as it is, by corrections (go_to_equilibrium()).
   void relax(std::size_t level, int max_iterations) { relax(level, max_iterations, hierarchy_.preconditioner(level)); }
   void relax(std::size_t level, int max_iterations, Preconditioner& preconditioner);
+  /// The shape itself, a surface with springs for least bending, by steps that bend it less (descend_bending()).
+  void bend_less(int max_iterations);
   /// The shape itself, along the flow (follow_flow()).
   void relax_along_flow(int max_iterations, FlowStart start);
 

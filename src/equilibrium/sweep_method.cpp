@@ -26,15 +26,7 @@ double share_done(double first, double now, double last) {
   return first > now ? std::log(first / now) / std::log(first / last) : 0;
 }
 
-// In sweeps of one node.
-constexpr double most_of_last_resort = 5e6;
-
 }  // namespace
-
-int sweeps_of_last_resort(std::size_t moving_nodes) {
-  const double most = most_of_last_resort / static_cast<double>(std::max<std::size_t>(moving_nodes, 1));
-  return static_cast<int>(std::clamp(most, 10.0, 1e4));
-}
 
 SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& task, ThreadTeam& team, Context& context) {
   Sweep sweep(net, model, team);

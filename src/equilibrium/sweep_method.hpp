@@ -23,9 +23,6 @@ struct SweepTask {
 /// What a sweep of a node costs, in iterations of the equilibrium solver.
 inline constexpr double work_of_sweep = 1.0 / 16;
 
-/// As many sweeps as are worth it where nobody asked for them and nothing else led anywhere: some half a second.
-int sweeps_of_last_resort(std::size_t moving_nodes);
-
 struct SweepResult {
   Outcome outcome = Outcome::iteration_limit;
   int iterations = 0;

@@ -20,6 +20,7 @@
 #include "base/stopwatch.hpp"
 #include "checks/result_check.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
+#include "equilibrium/bending_descent.hpp"
 #include "equilibrium/sweep_method.hpp"
 #include "fit/fit_curve.hpp"
 #include "fit/fit_points.hpp"
@@ -36,12 +37,8 @@ namespace vspring {
 
 namespace {
 
-// The last steps of a plain iteration are about k times their distance.
-constexpr double step_share = 0.1;
 // Of outliers and shape.
 constexpr int most_turns_of_outliers = 12;
-// Where nodes are drawn to places of their own, waves are short and decay soon.
-constexpr int most_sweeps_with_targets = 2000;
 // Nodes that went so far, root mean square, as a share of the size, to a shape so many times as far from the points,
 // are such a balloon for certain.
 constexpr double balloon_move = 0.1;
@@ -234,7 +231,7 @@ class Fitting {
       return;
     }
     if (report.method == Method::multigrid) {
-      (void)run_on_levels(std::move(points), progress);
+      run_on_levels(std::move(points), progress);
       return;
     }
     if constexpr (std::is_same_v<Subject, FitSurface>) {
@@ -249,48 +246,17 @@ class Fitting {
         return;
       }
     }
-    const bool has_targets = run_on_levels(std::move(points), progress);
-    const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
-    const Fallbacks* const fallbacks = this->fallbacks();
-    if (found || !fallbacks || std::is_same_v<Subject, FitCurve>) return;
-    // The paper's iteration ends where points crumple a shape, too.
-    std::optional<FitResult> nearest;
-    if (has_targets) nearest = run_.result;
-    std::vector<Warning> said = std::move(report.warnings);
-    said.push_back(
-        {WarningCode::no_equilibrium,
-         "no equilibrium was found: this is the plain iteration's shape; the points may be too noisy for their weight "
-         "and for edges as short as these, or too little may be held: hold more nodes, let a smaller region move, or "
-         "keep the distribution of the nodes"});
-    const double work = report.work;
-    const double limit = report.most_work;
-    const Index nodes = report.moving_nodes;
-    run_.start(Method::sweep);
-    SweepMethod method = {.step_tolerance = fallbacks->step_tolerance,
-                          .max_iterations = sweeps_of_last_resort(static_cast<std::size_t>(nodes))};
-    if (options_.weight()) method.step_tolerance = std::min(method.step_tolerance, step_share * *options_.weight());
-    if (nearest) method.max_iterations = std::min(*method.max_iterations, most_sweeps_with_targets);
-    points = run_.untied_points();
-    report.warnings = std::move(said);
-    sweep(std::move(points), method, progress);
-    report.work += work;
-    report.most_work = limit;
-    const bool is_still = report.outcome == Outcome::converged;
-    // Sweeps that are still tell nothing of how far they have to go.
-    if (is_still) report.outcome = Outcome::stalled;
-    if (report.outcome == Outcome::iteration_limit) report.outcome = Outcome::work_limit;
-    if (!nearest || is_still || report.outcome == Outcome::cancelled) return;
-    // Nodes that stay about where they are do not crumple the shape.
-    nearest->report.fair.warnings.push_back(
-        {WarningCode::no_equilibrium,
-         fmt::format("no equilibrium was found: this is the nearest shape, {}; noise may have folded faces: smooth by "
-                     "more or less, or only take its noise off",
-                     distance_from_equilibrium(nearest->report.fair))});
-    run_.result = std::move(*nearest);
+    if constexpr (std::is_same_v<Subject, FitSurface>) {
+      run_on_levels(points, progress);
+      const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
+      if (!found && may_be_another()) bend_less(std::move(points), progress);
+    } else {
+      run_on_levels(std::move(points), progress);
+    }
   }
 
-  /// By equilibrium or multigrid. Returns whether nodes are drawn to places of their own.
-  bool run_on_levels(UntiedPoints points, ProgressReporter& progress) {
+  /// By equilibrium or multigrid.
+  void run_on_levels(UntiedPoints points, ProgressReporter& progress) {
     Net net = run_.gather_start();
     const auto smoothing = smoothing_in(net);
     WarmStartedFit shape(std::move(net), options_.fair, std::move(points), smoothing, run_.team);
@@ -300,14 +266,53 @@ class Fitting {
     else
       shape.find(run_.context, progress, report);
     run_.finish(shape.net());
-    return !shape.net().target_positions.empty();
   }
 
-  /// Null where no other shape may stand for one that was not found.
-  [[nodiscard]] const Fallbacks* fallbacks() const {
+  /// Whether another shape may stand for one that was not found.
+  [[nodiscard]] bool may_be_another() const {
     const auto* const method = std::get_if<EquilibriumMethod>(&options_.fair.method);
-    if (!method || !method->fallbacks || method->max_iterations || options_.fair.as_found) return nullptr;
-    return &*method->fallbacks;
+    return method && method->fallbacks && !method->max_iterations && !options_.fair.as_found;
+  }
+
+  /// Where the springs and the points of a surface find no balance: what is bent least near the points.
+  void bend_less(UntiedPoints points, ProgressReporter& progress) {
+    FairReport& report = run_.result.report.fair;
+    Net net = run_.subject.gather(true);
+    const auto model = model_of(net, options_.fair);
+    PointTies ties = tie_points(net, *model, points, smoothing_in(net), run_.team);
+    points = {};
+    const auto nodes = static_cast<double>(net.moving);
+    const double size = diagonal(net);
+    EquilibriumTask task;
+    task.tolerance = std::get<EquilibriumMethod>(options_.fair.method).tolerance * size;
+    task.most_work = report.most_work / nodes;
+    task.renew_ties = [&](double margin) { return ties.renew(run_.team, margin); };
+    task.on_iteration = [&](double expected) {
+      report.history.push_back(expected / size);
+      progress.report("fairing", 0.5, static_cast<int>(report.history.size()), expected / size);
+    };
+    const EquilibriumResult found = descend_bending(net, *model, task, run_.team, run_.context);
+    report.outcome = found.outcome == Outcome::iteration_limit ? Outcome::work_limit : found.outcome;
+    report.iterations += found.iterations;
+    report.work += found.work * nodes;
+    report.most_work += report.most_work;
+    report.expected_error = report.residual = found.expected_error / size;
+    report.springs = Springs::sphere;
+    report.fair_by = FairBy::bending;
+    report.levels.push_back({.moving_nodes = static_cast<Index>(net.moving),
+                             .iterations = found.iterations,
+                             .outcome = report.outcome,
+                             .strategy = "less bending"});
+    run_.finish(net);
+    if (found.outcome == Outcome::converged)
+      report.warnings.push_back({WarningCode::other_fairness,
+                                 "springs and points found no balance: this is the nearest shape of least bending"});
+    else if (found.outcome != Outcome::cancelled)
+      report.warnings.push_back(
+          {WarningCode::no_equilibrium,
+           fmt::format("no equilibrium was found: this is the input, bent less and drawn to the points, {}; noise may "
+                       "have folded faces: smooth by more or less, or only take its noise off",
+                       distance_from_equilibrium(report))});
   }
 
   void sweep(UntiedPoints points, const SweepMethod& method, ProgressReporter& progress) {

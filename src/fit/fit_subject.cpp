@@ -53,7 +53,7 @@ std::vector<Warning> FitSurface::check(std::span<const std::uint8_t> pulled) con
   return check_part(*whole_, part_, *constraints_, pulled);
 }
 
-Net FitSurface::gather() const { return gather_part(*whole_, part_, *constraints_); }
+Net FitSurface::gather(bool for_spheres) const { return gather_part(*whole_, part_, *constraints_, for_spheres); }
 
 Fairness FitSurface::fairness(const std::vector<Vector3>& positions) {
   const Constraints* held = part_ ? &part_->constraints : constraints_;

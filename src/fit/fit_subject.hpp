@@ -29,7 +29,8 @@ class FitSurface {
   [[nodiscard]] const Constraints& constraints() const { return *constraints_; }
   [[nodiscard]] Index faces() const { return whole_->face_count(); }
   [[nodiscard]] std::vector<Warning> check(std::span<const std::uint8_t> pulled) const;
-  [[nodiscard]] Net gather() const;
+  /// for_spheres: as for gather_net().
+  [[nodiscard]] Net gather(bool for_spheres = false) const;
   [[nodiscard]] Fairness fairness(const std::vector<Vector3>& positions);
   /// Of the points. Held nodes must be where they are held.
   [[nodiscard]] std::vector<double> distances(const std::vector<Vector3>& positions);

@@ -71,8 +71,7 @@ void CholeskySolver::Factor::factorize(const Matrix& matrix) {
   m_factorizationIsOk = true;
 }
 
-void CholeskySolver::build(const SparseRows& rows) {
-  const Matrix matrix = rows.to_eigen();
+void CholeskySolver::build(const Eigen::SparseMatrix<double>& matrix) {
   // As many entries at other places would be written beyond the factor's memory.
   std::vector<int> pattern(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1);
   pattern.insert(pattern.end(), matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());

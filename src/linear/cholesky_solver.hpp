@@ -18,7 +18,9 @@ class CholeskySolver final : public LinearSolver {
 
   /// Makes ready for a matrix; where a pivot vanishes for that with a trifle added to its diagonal. One with the
   /// pattern of the last keeps its ordering.
-  void build(const SparseRows& matrix);
+  void build(const SparseRows& matrix) { build(matrix.to_eigen()); }
+  /// The same of what is below the diagonal and on it.
+  void build(const Eigen::SparseMatrix<double>& matrix);
   /// What that takes, in iterations of the equilibrium solver with all nodes.
   [[nodiscard]] double work_of_building() const;
   void solve(std::span<double> values, const Accuracy& accuracy) override;

@@ -27,7 +27,6 @@ constexpr const char* name_of_step_tolerance = "step tolerance";
 
 void check(const EquilibriumMethod& method) {
   check_positive("tolerance", method.tolerance);
-  if (method.fallbacks) check_positive(name_of_step_tolerance, method.fallbacks->step_tolerance);
   check_limit(method.max_iterations);
 }
 

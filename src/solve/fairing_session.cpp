@@ -35,7 +35,7 @@ class FairingSession::Session {
 class FairingSession::SurfaceSession final : public Session {
  public:
   SurfaceSession(PolygonMesh mesh, const FairOptions& options, int threads)
-      : mesh_(std::move(mesh)), options_(settled(options)), fairing_(mesh_, options_, threads), immovable_(mesh_) {}
+      : mesh_(std::move(mesh)), options_(options), fairing_(mesh_, options_, threads), immovable_(mesh_) {}
 
   FairResult fair(const Constraints& constraints, Context& context) override {
     if (options_.fair_boundary) return vspring::fair(mesh_, constraints, options_, context);
@@ -56,12 +56,6 @@ class FairingSession::SurfaceSession final : public Session {
   }
 
  private:
-  /// Somebody waits: no other method is tried where this one finds nothing.
-  static FairOptions settled(FairOptions options) {
-    if (auto* const method = std::get_if<EquilibriumMethod>(&options.method)) method->fallbacks.reset();
-    return options;
-  }
-
   template <typename Fair>
   FairResult with_immovable_held(const Constraints& constraints, const Fair& fair) {
     return immovable_.run(

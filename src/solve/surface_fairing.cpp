@@ -1,26 +1,23 @@
 #include "solve/surface_fairing.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <variant>
 
 #include "base/cancellation.hpp"
 #include "base/stopwatch.hpp"
+#include "checks/bending_energy.hpp"
 #include "checks/new_crossings.hpp"
-#include "checks/spring_energy.hpp"
 #include "equilibrium/account.hpp"
 #include "equilibrium/equilibrium_method.hpp"
-#include "equilibrium/sweep_method.hpp"
 #include "solve/fair_boundary.hpp"
 #include "solve/papers_method.hpp"
 #include "solve/part_of_mesh.hpp"
 #include "solve/sphere_suited.hpp"
+#include "spring/spacing.hpp"
 
 namespace vspring {
 
@@ -36,26 +33,13 @@ bool hold_the_same(const Constraints& a, const Constraints& b) {
   return true;
 }
 
-bool was_found(const FairReport& report) {
-  return report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
-}
-
-// As a share of the diagonal: for smaller tolerances rounding may have the last word, that of single precision in what
-// the acceleration remembers, too. Other springs would then have another shape, for next to nothing.
-constexpr double as_near_as_rounding = 1e-8;
-
-/// Whether nothing else need be tried: it was found, or as nearly as rounding lets it be.
-bool is_final(const FairReport& report) {
-  return was_found(report) ||
-         (report.outcome != Outcome::worse_than_input && report.expected_error.value_or(1) < as_near_as_rounding);
-}
+// On the shape itself: what leads somewhere takes up to some 90 steps that bend it less, and springs fewer from there.
+constexpr int iterations_from_near = 100;
 
 // On each level, of an even distribution where that of the input leads nowhere: the coarsest may need two starts.
 constexpr int iterations_of_a_try = 100;
 // Of the work that is allowed: what that try may take at least, where the flow from other spacing has left none.
 constexpr double work_of_a_try = 0.2;
-constexpr std::string_view ways_out =
-    "hold more nodes, or normals, let a smaller region move, or only take its noise off";
 
 // On each level, while somebody drags: what leads nowhere is for later.
 constexpr int iterations_in_a_hurry = 40;
@@ -78,16 +62,11 @@ SurfaceFairing::SurfaceFairing(const PolygonMesh& mesh, const FairOptions& optio
 FairResult SurfaceFairing::fair_once(const Constraints& constraints, Context& context) {
   const Stopwatch stopwatch;
   FairResult result;
-  std::optional<Net> made = run(constraints, context, result.report, options_);
+  std::optional<Net> made = run(constraints, context, result.report, options_, true);
   if (!made) return unchanged(constraints, result, stopwatch);
   Net net = std::move(*made);
   if (hierarchy_) net = std::move(*hierarchy_).take();
   hierarchy_.reset();
-  if (crosses_itself(net, constraints, context, result.report)) {
-    net = gather_part(*whole_, part_, constraints);
-    result.report.warnings.back().text +=
-        ": this is the input with its constraints; hold more nodes, or let a smaller part move";
-  }
   finish(net, constraints, result);
   result.report.seconds = stopwatch.seconds();
   return result;
@@ -103,11 +82,10 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
     result = {};
     last_.reset();
     hierarchy_.reset();
-    const auto net = run(constraints, context, result.report, tolerance ? in_a_hurry(options_) : options_);
+    const auto net = run(constraints, context, result.report, tolerance ? in_a_hurry(options_) : options_, !tolerance);
     if (!net) return unchanged(constraints, result, stopwatch);
     if (!hierarchy_) {
       went_astray_ = false;
-      (void)crosses_itself(*net, constraints, context, result.report);
       finish(*net, constraints, result);
       result.report.seconds = stopwatch.seconds();
       return result;
@@ -125,12 +103,13 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
     };
     result.positions = is_of_use ? scatter(net) : scatter(gather_part(*whole_, part_, constraints));
   } else {
-    (void)crosses_itself(net, constraints, context, result.report);
+    if (went_on) warn_of_crossings(net, constraints, context, result.report);
     finish(net, constraints, result);
   }
   if (went_on && outcome == Outcome::cancelled)
     hierarchy_->go_back();
-  else if (went_on || (outcome == Outcome::converged && result.report.method == Method::equilibrium))
+  else if (went_on || (outcome == Outcome::converged && result.report.method == Method::equilibrium &&
+                       result.report.fair_by == options_.fair_by))
     last_ = constraints;
   result.report.seconds = stopwatch.seconds();
   return result;
@@ -155,7 +134,7 @@ bool SurfaceFairing::fits_last(const Constraints& constraints) const {
 }
 
 std::optional<Net> SurfaceFairing::run(const Constraints& constraints, Context& context, FairReport& report,
-                                       const FairOptions& options) {
+                                       const FairOptions& options, bool looks_at_crossings) {
   part_ = active_submesh(*whole_, constraints);
   report.warnings = check_part(*whole_, part_, constraints);
   report.method = options.method_kind();
@@ -166,7 +145,7 @@ std::optional<Net> SurfaceFairing::run(const Constraints& constraints, Context& 
   try {
     const CancellationScope cancellation(context);
     if (const auto* const method = std::get_if<EquilibriumMethod>(&options.method)) {
-      run_to_equilibrium(constraints, {call, options, *method});
+      run_to_equilibrium(constraints, {call, options, *method, looks_at_crossings});
       // It depends on these constraints. Where it was cancelled while it was made anew there is none.
       if (check_) check_->forget_start();
       return Net();
@@ -175,6 +154,7 @@ std::optional<Net> SurfaceFairing::run(const Constraints& constraints, Context& 
     look_at_start(net, constraints);
     net = run_papers_method(std::move(net), *model_, *check_, options, call);
     check_->forget_start();
+    if (looks_at_crossings) warn_of_crossings(net, constraints, context, report);
     return net;
   } catch (const Cancelled&) {
     hierarchy_.reset();
@@ -203,172 +183,166 @@ FairResult SurfaceFairing::unchanged(const Constraints& constraints, FairResult&
 
 void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const EquilibriumCall& call) {
   const FairOptions& options = call.options;
-  FairReport& report = call.report;
-  const FairReport at_first = report;
-  find_equilibrium(options.fair_by, constraints, call);
-  if (options.springs == Springs::edge || options.fair_by == FairBy::curvature) return;
-  if (report.springs == Springs::edge) {
-    report.warnings.push_back(
-        {WarningCode::other_springs,
-         "least bending is for sphere springs, which would not see what is held here: these are edge springs"});
-    return;
+  // Whoever gives a number of iterations, or asks for what is found, gets that.
+  const bool is_only = call.method.max_iterations || options.as_found;
+  std::vector<Attempt> attempts;
+  const auto go_on = [&] { return !is_only && !attempts.back().is_final(); };
+  attempts.push_back(go_from_coarse_levels(options.springs, constraints, call));
+  if (go_on() && attempts.back().springs == Springs::sphere && options.fair_by == FairBy::curvature)
+    attempts.push_back(go_from_coarse_levels(Springs::edge, constraints, call));
+  if (go_on() && !attempts.back().fault.empty()) {
+    Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
+    attempts.push_back(go_from_input(true, relaxation, constraints, call));
   }
-  if (is_final(report) || call.method.max_iterations || options.as_found) return;
-  const FairReport by_bending = std::exchange(report, at_first);
-  find_equilibrium(FairBy::curvature, constraints, call);
-  report.iterations += by_bending.iterations;
-  report.work += by_bending.work;
-  report.most_work += by_bending.most_work;
-  report.warnings.push_back(
-      {WarningCode::other_fairness, "no shape of least bending was found: this is fair by curvature"});
+  const bool may_be_another = call.method.fallbacks;
+  if (may_be_another && go_on() && !options.distribution) attempts.push_back(go_evenly(constraints, call));
+  if (may_be_another && go_on()) go_by_less_bending(attempts, constraints, call);
+  take_best(std::move(attempts), constraints, call);
 }
 
-void SurfaceFairing::find_equilibrium(FairBy fair_by, const Constraints& constraints, const EquilibriumCall& call) {
-  const FairOptions& options = call.options;
-  const FairReport at_first = call.report;
-  find_with_springs(fair_by, constraints, call);
-  const std::optional<Fallbacks>& fallbacks = call.method.fallbacks;
-  if (is_final(call.report) || !fallbacks || call.method.max_iterations || options.as_found) return;
-  if (!options.distribution && try_evenly(fair_by, constraints, at_first, call)) return;
-  if (call.report.fair_by == FairBy::curvature) try_sweeps(constraints, fallbacks->step_tolerance, call);
-}
-
-void SurfaceFairing::find_with_springs(FairBy fair_by, const Constraints& constraints, const EquilibriumCall& call) {
-  const FairOptions& options = call.options;
-  FairReport& report = call.report;
-  bool spheres_have_none = false;
-  for (const Springs springs : {Springs::sphere, Springs::edge}) {
-    const bool is_sphere = springs == Springs::sphere;
-    if (is_sphere && options.springs == Springs::edge) continue;
-    Net net = gather_part(*whole_, part_, constraints, is_sphere);
-    if (is_sphere && !suits_sphere_springs(net)) continue;
-    const bool by_bending = is_sphere && fair_by == FairBy::bending;
-    if (by_bending) use_least_bending(net);
-    hierarchy_.reset();
-    look_at_start(net, constraints);
-    hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
-    // Whoever gives a number of iterations, or asks for what is found, gets that; edge springs come second else, and
-    // after least bending curvature does.
-    const bool is_try = is_sphere && !call.method.max_iterations && !options.as_found;
-    const SearchTask task = {call.method, options.distribution, is_try || options.as_found, is_try};
-    FairReport one = report;
-    run_equilibrium(*hierarchy_, *model_, task, {team_, call.context, call.progress, one}, &*check_);
-    if (is_try && one.outcome == Outcome::cancelled) go_back_if_worse(one);
-    one.springs = springs;
-    one.fair_by = by_bending ? FairBy::bending : FairBy::curvature;
-    if (!is_try || by_bending || is_final(one)) {
-      report = std::move(one);
-      break;
-    }
-    spheres_have_none = true;
-    report.iterations = one.iterations;
-    report.work = one.work;
-  }
-  if (spheres_have_none)
-    report.warnings.push_back(
-        {WarningCode::other_springs, "sphere springs have no equilibrium here: these are edge springs"});
-}
-
-void SurfaceFairing::go_back_if_worse(FairReport& report) {
+void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Constraints& constraints,
+                                        const EquilibriumCall& call) {
+  const bool is_by_spheres = attempts.front().springs == Springs::sphere;
+  hierarchy_.reset();
+  make_levels(gather_part(*whole_, part_, constraints, true), constraints, call.options);
+  Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
+  // As much again.
+  call.report.most_work += call.report.work;
+  if (is_by_spheres) attempts.push_back(go_from_input(false, relaxation, constraints, call));
+  if (attempts.back().is_final()) return;
   Net& net = hierarchy_->finest();
-  std::vector<Vector3> others = net.positions;
-  for (std::size_t i = 0; i < net.moving; ++i) others[i] = net.frame.to_local(whole_->position(net.node[i]));
-  if (net.positions == others) return;
-  const std::string fault = check_->fault(net, true);
-  if (fault.empty()) return;
-  const bool is_nowhere = !check_->misplaced(net).empty();
-  std::swap(net.positions, others);
-  if (!is_nowhere && !check_->fault_of_places(net).empty()) {
-    std::swap(net.positions, others);
-    report.warnings.push_back({WarningCode::worse_than_input, "what was found is worse than the input: " + fault});
-    return;
+  net.positions = start_places(net, whole_->positions(), constraints);
+  const double at_first = BendingEnergy(net).of(net.positions, team_);
+  measure_bending(attempts);
+  if (const Attempt* const best = bent_least(attempts, at_first))
+    std::copy(best->places.begin(), best->places.end(), net.positions.begin());
+  Attempt bent_less = bend_less(relaxation, constraints, call);
+  const auto go_on = [&] { return bent_less.outcome != Outcome::cancelled && !attempts.back().is_final(); };
+  if (go_on() && is_by_spheres)
+    attempts.push_back(go_on_by_springs("from less bending", relaxation, constraints, call));
+  if (go_on() && !bent_less.stands()) {
+    hierarchy_->start_from_membrane(relaxation.last());
+    attempts.push_back(bend_less(relaxation, constraints, call));
   }
-  report.warnings.push_back({WarningCode::worse_than_input, "what was found so far is worse than the input (" + fault +
-                                                                "): this is the input with its constraints"});
+  if (!attempts.back().is_final()) attempts.push_back(std::move(bent_less));
 }
 
-bool SurfaceFairing::try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first,
-                                const EquilibriumCall& call) {
-  const std::vector<Vector3> nearest = hierarchy_->finest().positions;
-  const bool was_with_spheres = hierarchy_->finest().spheres.on();
+void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints& constraints,
+                               const EquilibriumCall& call) {
+  Net& net = hierarchy_->finest();
+  net.positions = start_places(net, whole_->positions(), constraints);
+  StartShape start = {.is_sound = check_->fault_of_places(net).empty()};
+  if (attempts.size() > 1 && !attempts.back().is_final()) {
+    measure_bending(attempts);
+    start.bending = BendingEnergy(net).of(net.positions, team_);
+  }
+  if (const Attempt* const best = pick(attempts, start, call.options, call.report))
+    std::copy(best->places.begin(), best->places.end(), net.positions.begin());
+}
+
+void SurfaceFairing::measure_bending(std::vector<Attempt>& attempts) {
+  const Net& net = hierarchy_->finest();
+  const BendingEnergy bending(net);
+  std::vector<Vector3> positions = net.positions;
+  for (Attempt& attempt : attempts) {
+    std::copy(attempt.places.begin(), attempt.places.end(), positions.begin());
+    attempt.bending = bending.of(positions, team_);
+  }
+}
+
+Attempt SurfaceFairing::attempt(const Constraints& constraints, const EquilibriumCall& call) {
+  Net& net = hierarchy_->finest();
+  Attempt result;
+  result.springs = net.spheres.on() ? Springs::sphere : Springs::edge;
+  result.fair_by = net.spheres.differences.empty() ? FairBy::curvature : FairBy::bending;
+  result.outcome = call.report.outcome;
+  // A limit that nobody gave.
+  if (result.outcome == Outcome::iteration_limit && !call.method.max_iterations) result.outcome = Outcome::work_limit;
+  result.expected_error = call.report.expected_error.value_or(1);
+  result.places.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
+  const bool was_cancelled = result.outcome == Outcome::cancelled;
+  if (was_cancelled && net.positions == start_places(net, whole_->positions(), constraints)) return result;
+  call.progress.report("checking", 0.5);
+  try {
+    result.fault = check_->fault(net, was_cancelled);
+  } catch (const Cancelled&) {
+    // That is thrown once. What was only half looked at is looked at whole.
+    result.outcome = Outcome::cancelled;
+    result.fault = check_->fault(net, true);
+  }
+  if (result.fault.empty() && call.looks_at_crossings && result.outcome != Outcome::cancelled)
+    result.fault = crossings(net, constraints, call.context);
+  result.is_misplaced = !check_->misplaced(net).empty();
+  return result;
+}
+
+Attempt SurfaceFairing::go_from_coarse_levels(Springs springs, const Constraints& constraints,
+                                              const EquilibriumCall& call) {
+  const FairOptions& options = call.options;
+  hierarchy_.reset();
+  std::optional<Net> net;
+  if (springs == Springs::sphere) net = gather_part(*whole_, part_, constraints, true);
+  if (net && !suits_sphere_springs(*net)) net.reset();
+  if (!net) net = gather_part(*whole_, part_, constraints);
+  if (net->spheres.on() && options.fair_by == FairBy::bending) use_least_bending(*net);
+  make_levels(std::move(*net), constraints, options);
+  run_equilibrium(*hierarchy_, *model_, {call.method, options.distribution, options.as_found}, call, &*check_);
+  return attempt(constraints, call);
+}
+
+void SurfaceFairing::make_levels(Net net, const Constraints& constraints, const FairOptions& options) {
+  look_at_start(net, constraints);
+  hierarchy_.emplace(surface_levels(std::move(net), *model_, options.distribution_taken(), team_), team_);
+}
+
+Attempt SurfaceFairing::go_evenly(const Constraints& constraints, const EquilibriumCall& call) {
   FairReport& report = call.report;
-  FairOptions options = options_;
+  FairOptions options = call.options;
   options.distribution = Distribution::even;
   options.as_found = true;
   EquilibriumMethod method = call.method;
   method.max_iterations = iterations_of_a_try;
-  options.method = method;
-  FairReport even = at_first;
-  even.iterations = report.iterations;
-  const double beyond = std::max(0.0, report.work - (1 - work_of_a_try) * report.most_work);
-  even.work = report.work - beyond;
-  even.most_work = report.most_work;
-  try {
-    find_with_springs(fair_by, constraints, {{team_, call.context, call.progress, even}, options, method});
-  } catch (const Cancelled&) {
-    even.outcome = Outcome::cancelled;
-  }
-  even.work += beyond;
-  if (even.outcome == Outcome::converged) {
-    report = std::move(even);
-    report.warnings.push_back(
-        {WarningCode::other_distribution,
-         "with the spacing of the input no equilibrium was found: nodes go to the mean of their neighbours"});
-    return true;
-  }
-  report.iterations = even.iterations;
-  report.work = even.work;
-  const bool was_cancelled = even.outcome == Outcome::cancelled;
-  if (was_cancelled) report.outcome = Outcome::cancelled;
-  if (fair_by == FairBy::bending && !was_cancelled) return false;
-  // Nets with sphere springs have other nodes.
-  Net net = gather_part(*whole_, part_, constraints, was_with_spheres);
-  hierarchy_.reset();
-  if (was_cancelled) {
-    std::vector<Level> only(1);
-    only[0].net = std::move(net);
-    hierarchy_.emplace(std::move(only), team_);
-  } else {
-    look_at_start(net, constraints);
-    hierarchy_.emplace(surface_levels(std::move(net), *model_, options_.distribution_taken(), team_), team_);
-  }
-  hierarchy_->finest().positions = nearest;
-  return was_cancelled;
+  const double most_work = report.most_work;
+  report.most_work = std::max(most_work, report.work + work_of_a_try * most_work);
+  Attempt result =
+      go_from_coarse_levels(options.springs, constraints, {call, options, method, call.looks_at_crossings});
+  report.most_work = std::max(most_work, report.work);
+  result.is_even = true;
+  return result;
 }
 
-void SurfaceFairing::try_sweeps(const Constraints& constraints, double step_tolerance, const SolverCall& call) {
-  FairReport& report = call.report;
-  Net net = gather_part(*whole_, part_, constraints);
-  set_laplacian_weights(net, *model_, options_.distribution_taken(), team_);
-  const SweepMethod method = {.step_tolerance = step_tolerance, .max_iterations = sweeps_of_last_resort(net.moving)};
-  FairReport of_sweeps;
-  run_sweeps(net, *model_, method, {team_, call.context, call.progress, of_sweeps});
-  report.work += of_sweeps.work;
-  Net& nearest = hierarchy_->finest();
-  update_directions(nearest, *model_, team_);
-  update_directions(net, *model_, team_);
-  const bool better = check_->fault(net).empty() && spring_energy(net).sum < spring_energy(nearest).sum;
-  if (better) nearest.positions = net.positions;
-  if (report.outcome == Outcome::worse_than_input) {
-    if (!better) return;
-    report.outcome = Outcome::stalled;
-    // In place of what was said of that.
-    const auto said = std::find_if(report.warnings.begin(), report.warnings.end(), [](const Warning& warning) {
-      return warning.code == WarningCode::worse_than_input;
-    });
-    *said = {
-        WarningCode::no_equilibrium,
-        fmt::format(
-            "no equilibrium was found that is no worse than the input: this is the plain iteration's shape, which is "
-            "fairer; {}",
-            ways_out)};
-    return;
+Attempt SurfaceFairing::bend_less(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call) {
+  use_least_bending(hierarchy_->finest());
+  relaxation.set_strategy("less bending");
+  relaxation.bend_less(iterations_from_near);
+  Attempt result = attempt(constraints, call);
+  // One of a family is none to be called the one.
+  if (result.outcome == Outcome::converged && is_underconstrained(hierarchy_->finest()))
+    result.outcome = Outcome::stalled;
+  return result;
+}
+
+Attempt SurfaceFairing::go_from_input(bool keeps_spacing, Relaxation& relaxation, const Constraints& constraints,
+                                      const EquilibriumCall& call) {
+  Net& net = hierarchy_->finest();
+  net.positions = start_places(net, whole_->positions(), constraints);
+  if (keeps_spacing) {
+    update_directions(net, *model_, team_);
+    hierarchy_->set_laplacian_weights(model_->present_laplacian_weights(net));
+  } else {
+    const std::vector<Vector3> smooth = rest_positions(net, team_);
+    std::copy_n(smooth.begin(), net.moving, net.positions.begin());
   }
-  report.warnings.push_back(
-      {WarningCode::no_equilibrium,
-       fmt::format("no equilibrium was found (the nearest shape is {}): this is {}; {}",
-                   distance_from_equilibrium(report),
-                   better ? "the plain iteration's shape, which is fairer" : "that shape", ways_out)});
+  return go_on_by_springs(keeps_spacing ? "from the input, with its spacing" : "from the input without its noise",
+                          relaxation, constraints, call);
+}
+
+Attempt SurfaceFairing::go_on_by_springs(const char* strategy, Relaxation& relaxation, const Constraints& constraints,
+                                         const EquilibriumCall& call) {
+  if (call.options.fair_by == FairBy::curvature) hierarchy_->finest().spheres.differences.clear();
+  relaxation.set_strategy(strategy);
+  relaxation.relax(relaxation.last(), iterations_from_near);
+  return attempt(constraints, call);
 }
 
 bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance,
@@ -398,14 +372,17 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std
   return true;
 }
 
-bool SurfaceFairing::crosses_itself(const Net& net, const Constraints& constraints, Context& context,
-                                    FairReport& report) {
-  const std::string crossings = new_crossings(
-      *whole_, scatter_positions(net, whole_->positions(), constraints, options_.strength), context, team_);
-  if (crossings.empty()) return false;
+std::string SurfaceFairing::crossings(const Net& net, const Constraints& constraints, Context& context) {
+  return new_crossings(*whole_, scatter_positions(net, whole_->positions(), constraints, options_.strength), context,
+                       team_);
+}
+
+void SurfaceFairing::warn_of_crossings(const Net& net, const Constraints& constraints, Context& context,
+                                       FairReport& report) {
+  const std::string found = crossings(net, constraints, context);
+  if (found.empty()) return;
   report.outcome = Outcome::worse_than_input;
-  report.warnings.push_back({WarningCode::worse_than_input, "what was found is worse than the input: " + crossings});
-  return report.method == Method::equilibrium && !options_.as_found;
+  report.warnings.push_back({WarningCode::worse_than_input, "what was found is worse than the input: " + found});
 }
 
 void SurfaceFairing::finish(const Net& net, const Constraints& constraints, FairResult& result) {

@@ -2,14 +2,17 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/stopwatch.hpp"
 #include "base/threads.hpp"
 #include "checks/result_check.hpp"
 #include "constraints/active_submesh.hpp"
+#include "equilibrium/relaxation.hpp"
 #include "equilibrium/solver_call.hpp"
 #include "equilibrium/surface_hierarchy.hpp"
+#include "solve/attempt.hpp"
 #include "spring/model.hpp"
 #include "vspring/fair.hpp"
 
@@ -38,6 +41,7 @@ class SurfaceFairing {
   struct EquilibriumCall : SolverCall {
     const FairOptions& options;
     const EquilibriumMethod& method;  ///< of the options
+    bool looks_at_crossings;
   };
 
   /// Whether it can go on from the last shape.
@@ -45,26 +49,36 @@ class SurfaceFairing {
   /// Leaves the shape in the net that it returns, or in hierarchy_. None where it was cancelled before there was any
   /// but the input.
   std::optional<Net> run(const Constraints& constraints, Context& context, FairReport& report,
-                         const FairOptions& options);
-  /// The same by the method equilibrium. Where no shape of least bending is found that by curvature comes next.
+                         const FairOptions& options, bool looks_at_crossings);
+  /// The same by the method equilibrium: one attempt after the other until one is final.
   void run_to_equilibrium(const Constraints& constraints, const EquilibriumCall& call);
-  /// The same, made fair by that; with other distributions and, by curvature, the plain iteration if need be.
-  void find_equilibrium(FairBy fair_by, const Constraints& constraints, const EquilibriumCall& call);
-  /// The same with sphere springs, where they are wanted and suit, and with edge springs where these have no
-  /// equilibrium. Iterations and work are added to those that the report has.
-  void find_with_springs(FairBy fair_by, const Constraints& constraints, const EquilibriumCall& call);
-  /// A try that was cancelled: the input with its constraints, where the shape so far is worse.
-  void go_back_if_worse(FairReport& report);
-  /// Where no equilibrium was found: one with another distribution may be. Else the nearest shape stays. at_first: the
-  /// report before anything was tried.
-  bool try_evenly(FairBy fair_by, const Constraints& constraints, const FairReport& at_first,
-                  const EquilibriumCall& call);
-  /// Where no equilibrium was found: the paper's iteration may lead somewhere. The fairer of both stays.
-  void try_sweeps(const Constraints& constraints, double step_tolerance, const SolverCall& call);
+  /// With sphere springs, where they are wanted and suit, else with edge springs.
+  Attempt go_from_coarse_levels(Springs springs, const Constraints& constraints, const EquilibriumCall& call);
+  /// The same with nodes at the mean of their neighbours, from the input.
+  Attempt go_evenly(const Constraints& constraints, const EquilibriumCall& call);
+  /// By the springs of hierarchy_, from the start without its noise, or as it is with the spacing that it has.
+  Attempt go_from_input(bool keeps_spacing, Relaxation& relaxation, const Constraints& constraints,
+                        const EquilibriumCall& call);
+  /// By sphere springs from the start without its noise, by steps that bend the best so far less, by springs from there
+  /// and by such steps from a membrane.
+  void go_by_less_bending(std::vector<Attempt>& attempts, const Constraints& constraints, const EquilibriumCall& call);
+  /// From the shape of hierarchy_, by steps that bend it less.
+  Attempt bend_less(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
+  /// From there to an equilibrium of its springs.
+  Attempt go_on_by_springs(const char* strategy, Relaxation& relaxation, const Constraints& constraints,
+                           const EquilibriumCall& call);
+  /// Makes that of the attempts the shape which is the result, or the start.
+  void take_best(std::vector<Attempt> attempts, const Constraints& constraints, const EquilibriumCall& call);
+  /// On the net of hierarchy_.
+  void measure_bending(std::vector<Attempt>& attempts);
+  /// The shape that was reached, looked at.
+  Attempt attempt(const Constraints& constraints, const EquilibriumCall& call);
+  void make_levels(Net net, const Constraints& constraints, const FairOptions& options);
   /// From the last shape. False where that leads nowhere.
   bool go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance, FairReport& report);
-  /// Says where faces cross each other that did not before. True where they do, and that is not wanted as found.
-  bool crosses_itself(const Net& net, const Constraints& constraints, Context& context, FairReport& report);
+  /// Where faces cross each other that did not before, in words.
+  std::string crossings(const Net& net, const Constraints& constraints, Context& context);
+  void warn_of_crossings(const Net& net, const Constraints& constraints, Context& context, FairReport& report);
   void finish(const Net& net, const Constraints& constraints, FairResult& result);
   /// What the result is compared with. The start is made again from these constraints until it is forgotten.
   void look_at_start(Net& net, const Constraints& constraints);

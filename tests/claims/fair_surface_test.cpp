@@ -198,7 +198,6 @@ TEST(FairSurface, RefusesOptionsOutOfRange) {
   const double nan = std::nan("");
   for (const FairingMethod& method :
        {FairingMethod(EquilibriumMethod{.tolerance = 0}), FairingMethod(EquilibriumMethod{.max_iterations = -1}),
-        FairingMethod(EquilibriumMethod{.fallbacks = Fallbacks{.step_tolerance = nan}}),
         FairingMethod(MultigridMethod{.step_tolerance = nan}), FairingMethod(MultigridMethod{.max_iterations = -1}),
         FairingMethod(MultigridMethod{.levels = 0}), FairingMethod(MultigridMethod{.pre_smoothing = -1}),
         FairingMethod(SweepMethod{.step_tolerance = 0}), FairingMethod(SweepMethod{.max_iterations = -1})})

@@ -113,12 +113,17 @@ class Fair(Case):
     def test_noise_is_taken_off_by_what_the_nodes_say(self):
         noisy = support.sphere(12, noise=0.02)
         off = lambda text: max(abs(math.hypot(*map(float, line.split()[1:])) - 2) for line in vertex_lines(text))
+        run("measure", self.write("noisy.obj", noisy), "--report", self.folder / "measured.json")
+        figures = self.read_json("measured.json")["figures"]
+        # More nodes have a greater greatest.
+        self.assertGreater(figures["within_auto"], 3 * figures["noise"])
         for options, share in (("--noise", 0.6), ("--rms", 0.6), ("--within", 1.5)):
             with self.subTest(options):
                 result = self.fair(options, "auto", "--report", self.folder / "report.json", text=noisy)
                 points = self.read_json("report.json")["points"]
                 self.assertAlmostEqual(points["estimated_noise"], 0.02 / math.sqrt(3), delta=0.002)
-                self.assertEqual(points[options[2:]], points["estimated_noise"] * (3 if options == "--within" else 1))
+                self.assertEqual(points["estimated_noise"], figures["noise"])
+                self.assertEqual(points[options[2:]], figures["within_auto" if options == "--within" else "noise"])
                 self.assertIn(b"noise estimated", result.stdout)
                 self.assertLess(off((self.folder / "out.obj").read_text()), share * off(noisy))
         for wrong in ("0", "-1", "much", "nan"):

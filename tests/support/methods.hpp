@@ -10,7 +10,7 @@ namespace vspring::support {
 
 /// The equilibrium, or the nearest shape that was found.
 inline EquilibriumMethod equilibrium_alone(double tolerance = 1e-5) {
-  return {.tolerance = tolerance, .fallbacks = std::nullopt};
+  return {.tolerance = tolerance, .fallbacks = false};
 }
 
 }  // namespace vspring::support

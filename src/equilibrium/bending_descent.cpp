@@ -1,0 +1,291 @@
+#include "equilibrium/bending_descent.hpp"
+
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <deque>
+#include <utility>
+#include <vector>
+
+#include "base/cancellation.hpp"
+#include "checks/bending_energy.hpp"
+#include "checks/result_check.hpp"
+#include "equilibrium/edge_turns.hpp"
+#include "linear/cholesky_solver.hpp"
+#include "spring/bending_factor.hpp"
+#include "spring/point_force.hpp"
+#include "spring/spacing.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of an edge, in one step.
+constexpr double most_turn = 0.3;
+// What is added to the diagonal, as a share of it, at first and at most; less after each step that was taken, until
+// there is none.
+constexpr double first_damping = 1;
+constexpr double most_damping = 1e4;
+constexpr double least_damping = 1e-5;
+constexpr double change_of_damping = 10;
+// Of the greatest: where nothing is bent a node stays.
+constexpr double least_on_diagonal = 1e-12;
+// And the energies of a step, in iterations of the equilibrium solver.
+constexpr double work_of_slopes = 6;
+// Of the fall that the slopes promise.
+constexpr double least_fall = 1e-4;
+// Lengths tried along a way: the best by a parabola through what was found there.
+constexpr int most_lengths = 3;
+constexpr double most_change_of_length = 10;
+constexpr double near_enough_to_best = 0.2;
+// Steps over which the rate is looked at that they shrink by, and what it is at least and at most.
+constexpr std::size_t steps_of_rate = 5;
+constexpr double least_rate = 0.5;
+constexpr double most_rate = 0.95;
+constexpr int steps_per_tie = 5;
+
+class BendingDescent {
+ public:
+  BendingDescent(Net& net, const Model& model, ThreadTeam& team)
+      : net_(net), model_(model), team_(team), bending_(net), solver_(team) {
+    model.prepare(net_);
+  }
+
+  EquilibriumResult run(const EquilibriumTask& task, Context& context) {
+    EquilibriumResult result;
+    try {
+      sound_ = net_.positions;
+      const CancellationScope cancellation(context);
+      start();
+      follow(task, result);
+    } catch (const Cancelled&) {
+      result.outcome = Outcome::cancelled;
+    }
+    // Where folds were fewer at first at the cost of bending, and the way ended too soon.
+    if (net_.points.empty() && !input_.empty() && bending_.of(sound_, team_) > energy_of_input_) {
+      sound_ = input_;
+      if (result.outcome == Outcome::converged) result.outcome = Outcome::stalled;
+    }
+    net_.positions = sound_;
+    return result;
+  }
+
+ private:
+  /// Without its noise, where that leaves fewer folds, or as many and less bending.
+  void start() {
+    best_ = net_.positions;
+    energy_of_input_ = energy_ = bending_.of(best_, team_);
+    input_ = best_;
+    most_turned_ = turned_edges(net_, team_);
+    net_.positions = rest_positions(net_, team_);
+    const double energy = bending_.of(net_.positions, team_);
+    if (std::pair(turned_edges(net_, team_), energy) < std::pair(most_turned_, energy_)) {
+      energy_ = energy;
+      best_ = net_.positions;
+    }
+    sound_ = net_.positions = best_;
+  }
+
+  void follow(const EquilibriumTask& task, EquilibriumResult& result) {
+    double damping = first_damping;
+    // Nothing is known of it.
+    result.expected_error = 1;
+    std::deque<double> sizes;
+    for (; result.iterations < task.max_iterations; ++result.iterations) {
+      if (result.work + 1 > task.most_work) {
+        result.outcome = Outcome::work_limit;
+        return;
+      }
+      end_if_cancelled();
+      if (task.renew_ties && result.iterations % steps_per_tie == 0) (void)task.renew_ties(0);
+      if (!find_way(damping, result)) {
+        result.outcome = Outcome::stalled;
+        return;
+      }
+      const double size = length_of(across_);
+      if (damping == 0) {
+        sizes.push_back(size);
+        if (sizes.size() > steps_of_rate + 1) sizes.pop_front();
+        const bool is_known = sizes.size() > steps_of_rate;
+        const double rate =
+            is_known ? std::pow(size / sizes.front(), 1 / static_cast<double>(steps_of_rate)) : most_rate;
+        result.expected_error = size / (1 - std::clamp(rate, least_rate, most_rate));
+        if (result.expected_error < task.tolerance && !(task.renew_ties && task.renew_ties(0))) {
+          ++result.iterations;
+          result.outcome = sound_ == best_ ? Outcome::converged : Outcome::stalled;
+          return;
+        }
+      }
+      if (task.on_iteration) task.on_iteration(result.expected_error);
+      if (!go()) {
+        conjugate_.clear();
+        damping = std::max(change_of_damping * damping, least_damping);
+        if (damping > most_damping) {
+          result.outcome = Outcome::stalled;
+          return;
+        }
+        continue;
+      }
+      if (turned_edges(net_, team_) <= most_turned_) sound_ = best_;
+      damping = damping / change_of_damping < least_damping ? 0 : damping / change_of_damping;
+    }
+  }
+
+  /// Where to from here.
+  bool find_way(double damping, EquilibriumResult& result) {
+    update_directions(net_, model_, team_);
+    slopes_.swap(slopes_before_);
+    along_.swap(along_before_);
+    slopes_ = bending_.slopes(net_.positions, team_);
+    Eigen::SparseMatrix<double> matrix = bending_.second_derivative(net_.positions);
+    look_at_points();
+    for (std::size_t i = 0; i < pulls_.size(); ++i) {
+      slopes_[i] -= pulls_[i].force;
+      const auto at = static_cast<Eigen::Index>(i);
+      matrix.coeffRef(at, at) += pulls_[i].stiffness;
+    }
+    const double least = least_on_diagonal * matrix.diagonal().maxCoeff();
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+      double& diagonal = matrix.coeffRef(i, i);
+      diagonal += damping * diagonal + least;
+    }
+    solver_.build(matrix);
+    result.work += work_of_slopes + solver_.work_of_building();
+    along_ = slopes_;
+    solver_.solve(along_, {});
+    for (double& way : along_) way = -way;
+    across_.resize(net_.moving);
+    for (std::size_t i = 0; i < net_.moving; ++i) across_[i] = along_[i] * net_.normals[i];
+    return std::isfinite(length_of(across_));
+  }
+
+  /// What points ask of each node along its normal from where it is now, in the units of the energy.
+  void look_at_points() {
+    energy_ = bending_.of(best_, team_);
+    if (net_.points.empty()) return;
+    const double kappa = bending_factor(net_);
+    pulls_.resize(net_.moving);
+    from_ = best_;
+    for (std::size_t i = 0; i < net_.moving; ++i) {
+      const Vector3& normal = net_.normals[i];
+      const PointForce points =
+          point_force(net_, i, mean_edge(net_, i), [&](const Vector3& d) { return Vector3(d.dot(normal) * normal); });
+      const double scale = 2 / kappa * bending_.weight(best_, i);
+      pulls_[i] = {scale * points.displacement.dot(normal), scale * points.stiffness};
+    }
+  }
+
+  /// Of the shape of the net.
+  double energy_now() {
+    double energy = bending_.of(net_.positions, team_);
+    for (std::size_t i = 0; i < pulls_.size(); ++i) {
+      const double way = (net_.positions[i] - from_[i]).dot(net_.normals[i]);
+      energy += way * (pulls_[i].stiffness * way / 2 - pulls_[i].force);
+    }
+    return energy;
+  }
+
+  /// Across the surface: conjugate to the step before (Polak and Ribière), as far as the energy falls most.
+  bool go() {
+    double share_of_last = 0;
+    if (!conjugate_.empty()) {
+      double change = 0;
+      double last = 0;
+      for (std::size_t i = 0; i < net_.moving; ++i) {
+        change += slopes_[i] * (along_[i] - along_before_[i]);
+        last += slopes_before_[i] * along_before_[i];
+      }
+      share_of_last = std::max(0.0, change / last);
+    }
+    const auto slope_of = [&] {
+      double slope = 0;
+      for (std::size_t i = 0; i < net_.moving; ++i) slope += slopes_[i] * conjugate_[i];
+      return slope;
+    };
+    conjugate_.resize(net_.moving, 0);
+    for (std::size_t i = 0; i < net_.moving; ++i) conjugate_[i] = along_[i] + share_of_last * conjugate_[i];
+    double slope = slope_of();
+    if (!(slope < 0)) {
+      conjugate_ = along_;
+      slope = slope_of();
+    }
+    if (!(slope < 0)) return false;
+    std::vector<Vector3> step(net_.moving);
+    for (std::size_t i = 0; i < net_.moving; ++i) step[i] = conjugate_[i] * net_.normals[i];
+    const double longest = most_turn / turn_of(step);
+    double length = std::min(1.0, longest);
+    const double before = energy_;
+    const std::vector<Vector3> start = best_;
+    bool taken = false;
+    for (int k = 0; k < most_lengths; ++k) {
+      const double least = energy_;
+      const std::vector<Vector3> places = std::exchange(best_, start);
+      const bool is_better = take(step, length, std::min(least, before + least_fall * length * slope));
+      if (!is_better) net_.positions = best_ = places;
+      const double curved = (looked_at_ - before - slope * length) / (length * length);
+      const double best = curved > 0 ? -slope / (2 * curved) : longest;
+      taken = taken || is_better;
+      if (taken && (!is_better || std::abs(best - length) < near_enough_to_best * length)) break;
+      length =
+          std::min(std::clamp(best, length / most_change_of_length, (is_better ? most_change_of_length : 0.5) * length),
+                   longest);
+    }
+    return taken;
+  }
+
+  /// Goes so far from the best shape, and stays there if the energy is at most that. Where no more edges turn than did
+  /// at first, that is the best so far that is no worse than the start.
+  bool take(const std::vector<Vector3>& step, double share, double most) {
+    for (std::size_t i = 0; i < net_.moving; ++i) net_.positions[i] = best_[i] + share * step[i];
+    looked_at_ = energy_now();
+    if (!(looked_at_ <= most)) {
+      net_.positions = best_;
+      return false;
+    }
+    energy_ = looked_at_;
+    best_ = net_.positions;
+    return true;
+  }
+
+  double turn_of(const std::vector<Vector3>& step) { return edge_turns(net_, step, team_).largest; }
+
+  double length_of(const std::vector<Vector3>& step) {
+    return std::sqrt(greatest_over_nodes(net_, team_, [&](std::size_t i) { return step[i].squaredNorm(); }));
+  }
+
+  Net& net_;
+  const Model& model_;
+  ThreadTeam& team_;
+  BendingEnergy bending_;
+  CholeskySolver solver_;
+  std::vector<Vector3> best_;
+  std::vector<Vector3> sound_;  ///< the best where no more edges turn than at first
+  std::vector<Vector3> input_;
+  double energy_of_input_ = 0;
+  double energy_ = 0;            ///< of the best shape
+  double looked_at_ = 0;         ///< of the last one
+  std::size_t most_turned_ = 0;  ///< edges
+  /// By points.
+  struct Pull {
+    double force;
+    double stiffness;
+  };
+  std::vector<Pull> pulls_;
+  std::vector<Vector3> from_;  ///< where nodes were pulled so
+  std::vector<double> slopes_;
+  std::vector<double> slopes_before_;
+  std::vector<double> along_;  ///< the normals
+  std::vector<double> along_before_;
+  std::vector<double> conjugate_;
+  std::vector<Vector3> across_;
+};
+
+}  // namespace
+
+EquilibriumResult descend_bending(Net& net, const Model& model, const EquilibriumTask& task, ThreadTeam& team,
+                                  Context& context) {
+  return BendingDescent(net, model, team).run(task, context);
+}
+
+}  // namespace vspring

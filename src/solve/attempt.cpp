@@ -1,0 +1,101 @@
+#include "solve/attempt.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "equilibrium/account.hpp"
+
+namespace vspring {
+
+namespace {
+
+// As a share of the diagonal: for smaller tolerances rounding may have the last word, that of single precision in what
+// the acceleration remembers, too. Another shape would be had for next to nothing.
+constexpr double as_near_as_rounding = 1e-8;
+constexpr const char* ways_out = "hold more nodes, or normals, let a smaller region move, or only take its noise off";
+
+const Attempt* best_of(std::span<const Attempt> attempts, const StartShape& start) {
+  const Attempt& last = attempts.back();
+  if (attempts.size() > 1 && !last.is_final()) {
+    const double most = start.is_sound ? start.bending : std::numeric_limits<double>::infinity();
+    if (const Attempt* const best = bent_least(attempts, most)) return best;
+  } else if (last.fault.empty()) {
+    return &last;
+  }
+  return start.is_sound || last.is_misplaced ? nullptr : &last;
+}
+
+/// In words, where what was found is not what was asked for. Spheres that do not suit say nothing: has_tried_spheres.
+std::optional<Warning> difference_from_asked(const Attempt& found, const FairOptions& options, bool has_tried_spheres) {
+  if (found.is_even)
+    return Warning{WarningCode::other_distribution,
+                   "with the spacing of the input no equilibrium was found: nodes go to the mean of their neighbours"};
+  if (options.springs == Springs::sphere && found.springs == Springs::edge) {
+    if (options.fair_by == FairBy::bending)
+      return Warning{
+          WarningCode::other_springs,
+          "least bending is for sphere springs, which would not see what is held here: these are edge springs"};
+    if (has_tried_spheres)
+      return Warning{WarningCode::other_springs, "sphere springs have no equilibrium here: these are edge springs"};
+  }
+  if (options.fair_by == FairBy::curvature && found.fair_by == FairBy::bending)
+    return Warning{WarningCode::other_fairness,
+                   "no shape whose curvature changes evenly was found: this is the nearest of least bending"};
+  return std::nullopt;
+}
+
+}  // namespace
+
+const Attempt* bent_least(std::span<const Attempt> attempts, double most) {
+  const Attempt* best = nullptr;
+  for (const Attempt& attempt : attempts) {
+    if (!attempt.fault.empty() || !(attempt.bending < most)) continue;
+    if (!best || attempt.bending <= best->bending) best = &attempt;
+  }
+  return best;
+}
+
+bool Attempt::is_final() const {
+  return stands() || outcome == Outcome::cancelled || (fault.empty() && expected_error < as_near_as_rounding);
+}
+
+const Attempt* pick(std::span<const Attempt> attempts, const StartShape& start, const FairOptions& options,
+                    FairReport& report) {
+  const Attempt& last = attempts.back();
+  const Attempt* best = options.as_found ? &last : best_of(attempts, start);
+  const auto worse =
+      std::find_if(attempts.begin(), attempts.end(), [](const Attempt& one) { return !one.fault.empty(); });
+  const Attempt& told = best ? *best : worse != attempts.end() ? *worse : last;
+  report.springs = told.springs;
+  report.fair_by = told.fair_by;
+  report.outcome = last.outcome == Outcome::cancelled ? last.outcome : told.outcome;
+  report.expected_error = told.expected_error;
+  report.residual = told.expected_error;
+  if (!told.fault.empty()) {
+    if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
+    report.warnings.push_back(
+        {WarningCode::worse_than_input,
+         best ? "what was found is worse than the input: " + told.fault
+              : fmt::format("no equilibrium was found that is no worse than the input ({}): this is the input with its "
+                            "constraints; {}",
+                            told.fault, ways_out)});
+    return best;
+  }
+  if (attempts.size() > 1 && !told.is_final()) {
+    report.warnings.push_back(
+        {WarningCode::no_equilibrium,
+         fmt::format("no equilibrium was found: this is {}; {}",
+                     best ? "the shape on the way that is bent least, " + distance_from_equilibrium(report)
+                          : "the input with its constraints, which is bent less than all that was found",
+                     ways_out)});
+    return best;
+  }
+  const auto difference = difference_from_asked(told, options, attempts.front().springs == Springs::sphere);
+  if (difference) report.warnings.push_back(*difference);
+  return best;
+}
+
+}  // namespace vspring

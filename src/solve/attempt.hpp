@@ -1,0 +1,47 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "vspring/fair.hpp"
+
+namespace vspring {
+
+/// One way towards a fair shape, and where it led.
+struct Attempt {
+  Springs springs = Springs::sphere;
+  FairBy fair_by = FairBy::curvature;
+  bool is_even = false;  ///< nodes went to the mean of their neighbours, which nobody asked for
+  Outcome outcome = Outcome::stalled;
+  double expected_error = 1;    ///< as in FairReport
+  double bending = 0;           ///< ∫ κ₁² + κ₂² dA (BendingEnergy), where none is final
+  std::vector<Vector3> places;  ///< of the moving nodes, in the net's coordinates
+  std::string fault;            ///< what is worse about it than about the start, in words; empty where nothing is
+  bool is_misplaced = false;    ///< some node is nowhere, or far out
+
+  /// Whether it is an equilibrium, and no worse than the start.
+  [[nodiscard]] bool stands() const { return outcome == Outcome::converged && fault.empty(); }
+  /// Whether nothing else need be tried: it stands, or as nearly as rounding lets it, or somebody has cancelled.
+  [[nodiscard]] bool is_final() const;
+};
+
+/// What the attempts began with.
+struct StartShape {
+  bool is_sound = true;  ///< it has no folds of its own
+  double bending = 0;    ///< as in Attempt
+};
+
+/// Of the attempts that are no worse than the start and bent less than that, the one that is bent least; of equal ones
+/// the last. None: null.
+const Attempt* bent_least(std::span<const Attempt> attempts, double most);
+
+/// Which of the attempts is the result: the last where it is final, or the options say that it is wanted as found; or
+/// else of those that are no worse than the start, and of the start, the one that is bent least. None: that is the
+/// start. Says so in the report: outcome, expected error, springs, what it is fair by, and warnings. A start that is
+/// not sound is no result: the last is, all the same.
+const Attempt* pick(std::span<const Attempt> attempts, const StartShape& start, const FairOptions& options,
+                    FairReport& report);
+
+}  // namespace vspring

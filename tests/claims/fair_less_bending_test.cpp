@@ -1,0 +1,66 @@
+// Where no shape is found whose curvature changes evenly: one of least bending is, or one that is bent less than it
+// came.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "support/surfaces.hpp"
+#include "vspring/vspring.hpp"
+
+namespace vspring::fair_less_bending_test {
+namespace {
+
+using namespace support;
+using generate::Faces;
+
+double bending(const PolygonMesh& mesh, const std::vector<Vector3>& positions) {
+  return measure_surface(with_positions(mesh, positions)).bending_energy;
+}
+
+bool has(const FairReport& report, WarningCode code) {
+  for (const Warning& warning : report.warnings) {
+    if (warning.code == code) return true;
+  }
+  return false;
+}
+
+TEST(FairLessBending, ATubeWithoutAnEquilibriumBecomesOneOfLeastBending) {
+  for (const double height : {6, 12}) {
+    SCOPED_TRACE(height);
+    const PolygonMesh tube =
+        generate::add_noise(generate::tube({.columns = 12, .rows = 16, .faces = Faces::hexagons}, 1, height), 0.05, 3);
+    const FairResult result = fair(tube, held_boundary(tube));
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_EQ(result.report.fair_by, FairBy::bending);
+    EXPECT_TRUE(has(result.report, WarningCode::other_fairness));
+    EXPECT_FALSE(has(result.report, WarningCode::no_equilibrium));
+    EXPECT_LT(bending(tube, result.positions), 0.8 * bending(tube, tube.positions()));
+    // Whoever wants nothing else gets what there is.
+    FairOptions alone;
+    alone.method = EquilibriumMethod{.fallbacks = false};
+    EXPECT_NE(fair(tube, held_boundary(tube), alone).report.outcome, Outcome::converged);
+  }
+}
+
+TEST(FairLessBending, FromAMembraneWhatNoiseHasCrumpledIsForgotten) {
+  const PolygonMesh tube = generate::tube({.columns = 10, .rows = 6, .faces = Faces::hexagons}, 1, 3);
+  std::vector<std::vector<Vector3>> found;
+  for (const std::uint64_t seed : {1U, 9U}) {
+    SCOPED_TRACE(seed);
+    const PolygonMesh crumpled = generate::add_noise(tube, 0.5, seed);
+    ASSERT_GT(measure(crumpled).greatest_turn, 120);
+    const FairResult result = fair(crumpled, held_boundary(crumpled));
+    EXPECT_EQ(result.report.outcome, Outcome::converged);
+    EXPECT_EQ(result.report.fair_by, FairBy::bending);
+    EXPECT_LT(measure(with_positions(tube, result.positions)).greatest_turn, 80);
+    EXPECT_LT(bending(tube, result.positions), bending(crumpled, crumpled.positions()) / 2);
+    found.push_back(result.positions);
+  }
+  // Held nodes have no noise; the others have forgotten theirs.
+  EXPECT_LT(greatest_distance(found[0], found[1]), 1e-3);
+}
+
+}  // namespace
+}  // namespace vspring::fair_less_bending_test

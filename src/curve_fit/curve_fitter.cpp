@@ -264,7 +264,8 @@ class CurveFitter {
   void find_places_between() {
     gives_way_ = false;
     between_.clear();
-    if (task_.in_order && task_.keeps_way) between_ = polyline_bounds(found_.curve, found_.points, reach());
+    if (task_.in_order && task_.keeps_way)
+      between_ = polyline_bounds(found_.curve, found_.points, reach(), {.everywhere = task_.way_share < 1});
     for (PolylineBound& one : between_) one.bound *= task_.way_share;
   }
 

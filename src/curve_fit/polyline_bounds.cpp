@@ -23,13 +23,13 @@ constexpr int parts_of_turning = 2;
 
 class PolylineBounds {
  public:
-  PolylineBounds(const DenseCurve& curve, double reach, int parts)
+  PolylineBounds(const DenseCurve& curve, double reach, BoundedPlaces places)
       : curve_(curve),
         reach_(reach),
-        parts_(parts),
-        nearest_(static_cast<std::size_t>(parts) * curve.size()),
+        parts_(std::max(places.parts, parts_of_turning)),
+        nearest_(static_cast<std::size_t>(parts_) * curve.size()),
         least_(nearest_.size(), std::numeric_limits<double>::infinity()),
-        in_gap_(curve.size(), 0) {}
+        in_gap_(curve.size(), places.everywhere ? 1 : 0) {}
 
   void look_at(const DenseCurve::Chain& chain, std::span<const CurvePoint> rows) {
     const std::size_t count = rows.size();
@@ -126,8 +126,8 @@ class PolylineBounds {
 }  // namespace
 
 std::vector<PolylineBound> polyline_bounds(const DenseCurve& curve, std::span<const CurvePoint> points, double reach,
-                                           int parts) {
-  PolylineBounds bounds(curve, reach, std::max(parts, parts_of_turning));
+                                           BoundedPlaces places) {
+  PolylineBounds bounds(curve, reach, places);
   std::size_t first = 0;
   for (const auto& chain : curve.chains()) {
     std::size_t end = first;

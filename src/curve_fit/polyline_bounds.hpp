@@ -22,11 +22,14 @@ struct PolylineBound {
   [[nodiscard]] double distance(const Vector3& place) const { return (place - nearest(place)).norm(); }
 };
 
-/// For nodes, and the middles of edges that turn much, or so many equal parts of all edges, where points are more than
-/// half of `reach` apart: they may be that far from the polyline of the points, and by as much more as an arc rises
-/// over an edge that turns the same way at both ends. points: with their places, those of each chain in its order.
-/// Cost: linear.
+struct BoundedPlaces {
+  bool everywhere = false;  ///< also where points are not more than half of the reach apart
+  int parts = 0;            ///< of all edges, at the beginning of each; 0: nodes, and middles of edges that turn much
+};
+
+/// Places may be as far from the polyline of the points as `reach`, and by as much more as an arc rises over an edge of
+/// it that turns the same way at both ends. points: with their places, those of each chain in its order. Cost: linear.
 std::vector<PolylineBound> polyline_bounds(const DenseCurve& curve, std::span<const CurvePoint> points, double reach,
-                                           int parts = 0);
+                                           BoundedPlaces places = {});
 
 }  // namespace vspring

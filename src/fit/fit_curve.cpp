@@ -605,8 +605,8 @@ class CurveFit {
     carry_places(found_.curve, chords, points);
     std::vector<Vector3> places;
     std::vector<double> beyond;
-    for (const PolylineBound& one :
-         polyline_bounds(chords, points, *input_.options().within() * input_.scale(), parts_of_edge)) {
+    for (const PolylineBound& one : polyline_bounds(chords, points, *input_.options().within() * input_.scale(),
+                                                    {.everywhere = true, .parts = parts_of_edge})) {
       const double share = one.distance(chords.at(one.at)) / one.bound;
       if (!(share > 1)) continue;
       places.push_back(input_.to_input(chords.at(one.at)));

@@ -24,6 +24,13 @@ def read(path):
     return [tuple(float(v) for v in line.split(",")) for line in lines[1 if lines[0][0].isalpha() else 0:]]
 
 
+def from_segment(place, a, b):
+    along = (b[0] - a[0], b[1] - a[1])
+    share = ((place[0] - a[0]) * along[0] + (place[1] - a[1]) * along[1]) / (along[0] ** 2 + along[1] ** 2)
+    share = min(1, max(0, share))
+    return math.hypot(a[0] + share * along[0] - place[0], a[1] + share * along[1] - place[1])
+
+
 class Curve(Case):
     def curve(self, text, *options, name="in.csv", output="out.csv", status=0):
         result = run("curve", self.write(name, text), "-o", self.folder / output, *options)
@@ -51,6 +58,17 @@ class Curve(Case):
         self.assertLess(math.sqrt(sum(y * y for y in off) / len(off)), 0.013)
         self.assertIn("noise leaves", self.curve(text, "--noise", "0.03").stdout.decode())
         self.assertIn(b"only one of", self.curve(text, "--rms", "1", "--noise", "1", status=1).stderr)
+
+    def test_chords_of_new_nodes_stay_near_the_polyline_of_the_rows(self):
+        for seed in (8, 16, 49):
+            generator = random.Random(seed)
+            noise = lambda: generator.uniform(-1, 1)
+            rows = [(2.2 * k + noise(), noise()) for k in range(40)]
+            rows += [(85.8 + 2.2 * k * math.cos(math.radians(150)) + noise(), 2.2 * k * math.sin(math.radians(150)) + noise()) for k in range(1, 40)]
+            self.curve(csv(rows), "--within", "1.5", "--resample", "45")
+            nodes = read(self.folder / "out.csv")
+            places = [tuple(a + part / 16 * (b - a) for a, b in zip(*edge)) for edge in zip(nodes, nodes[1:]) for part in range(17)]
+            self.assertLessEqual(max(min(from_segment(place, *edge) for edge in zip(rows, rows[1:])) for place in places), 1.5 * 1.0001)
 
     def test_only_the_columns_that_are_named_move(self):
         generator = random.Random(3)

@@ -13,13 +13,12 @@
 #include "base/cancellation.hpp"
 #include "base/progress.hpp"
 #include "base/stopwatch.hpp"
-#include "curve_fit/polyline_bounds.hpp"
 #include "fit/curve_fit_input.hpp"
-#include "fit/curve_nodes.hpp"
+#include "fit/curve_measures.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/fit_warnings.hpp"
+#include "fit/found_nodes.hpp"
 #include "fit/profile.hpp"
-#include "shape/corners.hpp"
 #include "vspring/error.hpp"
 #include "vspring/figures.hpp"
 
@@ -38,26 +37,17 @@ constexpr double share_of_nearer = 0.997;
 constexpr int most_turns_nearer = 5;
 constexpr int most_turns_of_chords = 4;
 constexpr int most_turns_of_pulling = 8;
-// Of the tolerance, on long edges.
-constexpr double places_apart = 0.5;
-constexpr int parts_of_edge = 8;
-constexpr double most_places_on_edge = 32;
 // Of how far places may be from the polyline.
 constexpr double next_to_nothing_beyond = 1.001;
-// Of the length of the curve: rows that were left out lie no further from the one before.
-constexpr double reach_to_next_row = 0.25;
-// Of the size.
-constexpr double same_place = 1e-7;
-// Of the least radius: what chords of an arc show of it.
-constexpr double share_of_radius = 0.99;
 
 class CurveFit {
  public:
   CurveFit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
            const FitOptions& options, Context& context)
-      : input_(curve, constraints, points, options, context), context_(context), progress_(context) {
-    measuring_.threads = context.threads;
-  }
+      : input_(curve, constraints, points, options, context),
+        context_(context),
+        progress_(context),
+        measures_(input_, found_, context.threads) {}
 
   /// The result of fair(), where that is within the tolerance: then nothing pulls.
   std::optional<FitResult> plain_fairing() {
@@ -77,31 +67,23 @@ class CurveFit {
     const Resampled own{input_.curve(), input_.constraints(), {}};
     PolygonCurve moved = input_.curve();
     moved.set_positions(plain.positions);
-    if (figure(distances(moved)) > *options.tolerance() || radius_kept(sharpest(moved, own)) < 1) return std::nullopt;
+    if (measures_.figure(measures_.distances(moved)) > *options.tolerance() ||
+        measures_.radius_kept(measures_.sharpest(moved, own)) < 1)
+      return std::nullopt;
     FitResult result = this->result(std::move(plain.positions), own);
     result.report.fair = std::move(plain.report);
     result.report.pulling_points = result.report.pulled_nodes = result.report.most_points = 0;
     return result;
   }
 
-  /// The nodes that are wanted on a curve.
-  struct Measured {
-    Resampled nodes;        ///< with the file's own chains, or new ones
-    double figure = 0;      ///< what is to be within the tolerance
-    double way_off = 0;     ///< from the polyline of the points
-    double way_beyond = 0;  ///< the greatest share that a node is away from it of what that may be; 0: all is within
-    double radius_kept = 1;
-    CurveFigures figures = {};
-  };
-
-  struct Attempt : Measured {
+  struct Attempt : MeasuredNodes {
     CurveFound found;
   };
 
   template <typename Put>
   Attempt attempt(const CurveFitTask& task, Put put) {
     found_ = vspring::fit_curve(task, [&](double share) { progress_.report("curve", (share + task.evenly) / 2); });
-    Measured nodes = measured(put());
+    MeasuredNodes nodes = measures_.measured(put());
     return {std::move(nodes), std::move(found_)};
   }
 
@@ -152,112 +134,20 @@ class CurveFit {
 
   [[nodiscard]] const CurveFitInput& input() const { return input_; }
 
-  /// The file's nodes on it.
-  [[nodiscard]] Resampled own_nodes() const {
-    Resampled own{input_.curve(), input_.constraints(), {}};
-    const bool free = input_.moving() == Vector3::Ones();
-    own.curve.set_positions(free ? positions_on_curve() : positions_at_stations());
-    return own;
-  }
-
-  [[nodiscard]] std::vector<Vector3> positions_on_curve() const {
-    const PolygonCurve& curve = input_.curve();
-    const Constraints& constraints = input_.constraints();
-    const Distribution distribution = input_.options().fair.distribution.value_or(Distribution::even);
-    std::vector<Vector3> places(curve.positions().size());
-    std::vector<std::uint8_t> in_chain(places.size(), 0);
-    for (const auto& chain : curve.chains()) {
-      for (const Index i : chain.nodes) {
-        places[static_cast<std::size_t>(i)] = input_.to_local(input_.place(i));
-        in_chain[static_cast<std::size_t>(i)] = 1;
-      }
-    }
-    place_nodes(curve, found_, {.own_points = input_.own_nodes(), .even = distribution == Distribution::even}, places);
-    std::vector<Vector3> positions = curve.positions();
-    for (std::size_t i = 0; i < positions.size(); ++i) {
-      const auto node = static_cast<Index>(i);
-      if (constraints.position_fixed(node))
-        positions[i] = constraints.position(node);
-      else if (in_chain[i] != 0)
-        positions[i] = input_.moved(node, places[i]);
-    }
-    return positions;
-  }
-
-  /// Where the curve has the file's values of the coordinates that do not move.
-  [[nodiscard]] std::vector<Vector3> positions_at_stations() const {
-    const PolygonCurve& curve = input_.curve();
-    const Constraints& constraints = input_.constraints();
-    std::vector<Vector3> positions = curve.positions();
-    std::vector<std::optional<CurvePlace>> places(positions.size());
-    for (const CurvePoint& point : found_.points) places[static_cast<std::size_t>(point.number)] = point.at;
-    for (std::size_t c = 0; c < curve.chains().size(); ++c) {
-      const auto& nodes = curve.chains()[c].nodes;
-      const DenseCurve::Chain& chain = found_.curve.chains()[c];
-      // Rows that pull at nothing are looked for about the one before, or about the first that does.
-      CurvePlace about{chain.begin, 0};
-      std::optional<Vector3> before;
-      for (const Index node : nodes) {
-        const auto i = static_cast<std::size_t>(node);
-        if (constraints.position_fixed(node)) {
-          before = positions[i] = constraints.position(node);
-          continue;
-        }
-        if (!found_.curve.is_edge(chain.begin)) continue;
-        if (!places[i])
-          places[i] = found_.curve.nearest(input_.to_local(input_.place(node)), about, way_between_rows(chain));
-        about = *places[i];
-        positions[i] = input_.moved(node, found_.curve.at(about));
-        // Rows at one station are one place, to the last digit.
-        const Vector3 apart = before ? Vector3(positions[i] - *before) : Vector3::Ones();
-        const bool same_station = found_.curve.station(apart).isZero(0);
-        if (same_station && apart.norm() * input_.scale() < same_place) positions[i] = *before;
-        before = positions[i];
-      }
-    }
-    return positions;
-  }
-
-  /// New nodes on it, spaced as they are to be.
-  [[nodiscard]] Resampled resampled(const Resampling& how) const {
-    const Constraints& constraints = input_.constraints();
-    const DenseCurve& on = found_.curve;
-    const PolygonCurve dense = polygon();
-    Constraints held(dense.node_count());
-    for (std::uint32_t i = 0; i < on.size(); ++i) {
-      const Index from = on.node(i).from;
-      const auto node = static_cast<Index>(i);
-      if (from < 0) continue;
-      if (constraints.position_fixed(from)) held.fix_position(node, constraints.position(from));
-      if (constraints.tangent_fixed(from)) held.fix_tangent(node, constraints.tangent(from));
-      if (constraints.normal_fixed(from)) held.fix_normal(node, constraints.normal(from));
-    }
-    for (const Index node : tight_bends(on, how, 1 / input_.scale())) held.fix_position(node, dense.position(node));
-    Resampling between = how;
-    between.corners.clear();
-    for (std::uint32_t i = 0; i < on.size(); ++i) {
-      if (on.node(i).corner) between.corners.push_back(static_cast<Index>(i));
-    }
-    Resampled made = resample(dense, held, between);
-    for (std::size_t k = 0; k < made.from.size(); ++k) {
-      Index& from = made.from[k];
-      if (from >= 0) from = on.node(static_cast<std::uint32_t>(from)).from;
-      if (from < 0 || !constraints.position_fixed(from)) made.constraints.free_position(static_cast<Index>(k));
-    }
-    return made;
-  }
+  /// The curve itself.
+  [[nodiscard]] const CurveFound& found() const { return found_; }
 
   /// Nodes that are far apart cut off what the curve does between them: where that is more than the tolerance allows
   /// for, they go to where their chords are within it. False where they do not. Elsewhere too, if these are fairer
   /// then, as where a table is coarse.
-  bool draw_chords_in(Measured& before, bool were_pulled = false) {
+  bool draw_chords_in(MeasuredNodes& before, bool were_pulled = false) {
     const auto tolerance = input_.options().tolerance();
     const bool are_new = !before.nodes.from.empty();
     // At a station of its own no node is cut off.
     if (!tolerance || context_.cancelled() || (!are_new && input_.moving() != Vector3::Ones())) return false;
     if (before.figure <= *tolerance && !were_pulled && !(input_.options().within() && are_sparse(before.nodes.curve)))
       return false;
-    const DenseCurve chords = this->chords(before.nodes.curve, before.nodes);
+    const DenseCurve chords = measures_.chords(before.nodes.curve, before.nodes);
     CurveFitTask task = input_.task();
     task.nodes = &chords;
     task.evenly = true;
@@ -273,7 +163,7 @@ class CurveFit {
       if (!node.held) places[static_cast<std::size_t>(node.from)] = input_.to_input(node.place);
     }
     moved.curve.set_positions(std::move(places));
-    Measured after = measured(std::move(moved));
+    MeasuredNodes after = measures_.measured(std::move(moved));
     // Points may be near a curve that goes anywhere between them.
     const bool stays =
         after.way_off <= far_off_way * std::max(before.way_off, *tolerance) && after.radius_kept >= before.radius_kept;
@@ -290,13 +180,13 @@ class CurveFit {
 
   /// Rows are within any tolerance of themselves: where the curve is not of some, their nodes go to where they are, and
   /// from there to where their chords are fairest.
-  void pull_to_rows(Measured& found) {
+  void pull_to_rows(MeasuredNodes& found) {
     const auto within = input_.options().within();
     if (!within || !input_.own_nodes() || !found.nodes.from.empty()) return;
     bool were_pulled = false;
     for (int turn = 0; turn < most_turns_of_pulling && found.figure > *within; ++turn) {
       std::vector<Vector3> places = found.nodes.curve.positions();
-      const std::vector<double> distances = movable_distances(found.nodes);
+      const std::vector<double> distances = measures_.movable_distances(found.nodes);
       for (std::size_t i = 0; i < places.size(); ++i) {
         if (input_.kept()[i] == 0 || distances[i] <= *within) continue;
         const Vector3 row = input_.curve().position(static_cast<Index>(i));
@@ -304,7 +194,7 @@ class CurveFit {
       }
       Resampled pulled = found.nodes;
       pulled.curve.set_positions(std::move(places));
-      Measured now = measured(std::move(pulled));
+      MeasuredNodes now = measures_.measured(std::move(pulled));
       if (!(now.figure < found.figure)) return;
       found = std::move(now);
       found_.converged = false;
@@ -314,7 +204,7 @@ class CurveFit {
   }
 
   /// The rows themselves, which are within any tolerance, where the curve that was found is no fairer.
-  void keep_what_is_fairer(Measured& found) {
+  void keep_what_is_fairer(MeasuredNodes& found) {
     const Constraints& constraints = input_.constraints();
     const FitOptions& options = input_.options();
     if (!input_.own_nodes() || !found.nodes.from.empty() || !options.tolerance()) return;
@@ -324,7 +214,7 @@ class CurveFit {
       if (!free || input_.kept()[static_cast<std::size_t>(i)] != input_.counted()[static_cast<std::size_t>(i)]) return;
       if (constraints.position_fixed(i) && constraints.position(i) != input_.curve().position(i)) return;
     }
-    Measured rows = measured({input_.curve(), constraints, {}});
+    MeasuredNodes rows = measures_.measured({input_.curve(), constraints, {}});
     // A shape that may not be the fairest is not to vary more than what came.
     const bool varies_less = rows.figures.curvature_variation < found.figures.curvature_variation;
     if (rows.radius_kept == 1 && (found_.converged ? is_fairer(rows.figures, found.figures) : varies_less))
@@ -352,54 +242,23 @@ class CurveFit {
     PolygonCurve moved = shape;
     moved.set_positions(result.positions);
     const auto& kept = input_.kept();
-    result.distances = distances(moved);
-    report.before = summary(distances(input_.curve()), input_.counted());
+    result.distances = measures_.distances(moved);
+    report.before = summary(measures_.distances(input_.curve()), input_.counted());
     report.after = summary(result.distances, kept);
-    report.shape = way_off(moved);
-    if (input_.own_nodes() && nodes_.from.empty()) report.greatest_slide = greatest_slide(moved);
+    report.shape = measures_.way_off(moved);
+    if (input_.own_nodes() && nodes_.from.empty()) report.greatest_slide = measures_.greatest_slide(moved);
     report.points = static_cast<Index>(std::count(input_.counted().begin(), input_.counted().end(), 1));
     report.outliers = report.points - static_cast<Index>(std::count(kept.begin(), kept.end(), 1));
     report.pulling_points = input_.pulling_points();
     report.pulled_nodes = input_.pulled_nodes();
     report.most_points = input_.most_points();
-    const std::vector<std::uint8_t> corners = this->corners(nodes);
+    const std::vector<std::uint8_t> corners = measures_.corners(nodes);
     fair.corners = static_cast<Index>(std::count(corners.begin(), corners.end(), 1));
-    conclude(result, sharpest(moved, nodes));
+    conclude(result, measures_.sharpest(moved, nodes));
     return result;
   }
 
  private:
-  /// Of the points: of nodes that keep coordinates, from where they were.
-  [[nodiscard]] std::vector<double> distances(const PolygonCurve& from) const {
-    const std::vector<Vector3>& points = input_.points().positions;
-    if (!keep_stations(from)) return point_distances(points, from, measuring_);
-    std::vector<double> distances;
-    distances.reserve(points.size());
-    for (std::size_t j = 0; j < points.size(); ++j) distances.push_back((from.positions()[j] - points[j]).norm());
-    return distances;
-  }
-
-  /// Whether nodes are those of the input, and have moved only as they may.
-  [[nodiscard]] bool keep_stations(const PolygonCurve& moved) const {
-    const std::vector<Vector3>& points = input_.points().positions;
-    if (input_.moving() == Vector3::Ones() || moved.positions().size() != points.size()) return false;
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      const bool held = input_.constraints().position_fixed(static_cast<Index>(j));
-      for (int axis = 0; axis < 3 && !held; ++axis) {
-        if (input_.moving()[axis] == 0 && moved.positions()[j][axis] != points[j][axis]) return false;
-      }
-    }
-    return true;
-  }
-
-  /// How far along the curve a row that pulls at nothing may be from the one before.
-  [[nodiscard]] double way_between_rows(const DenseCurve::Chain& chain) const {
-    double length = 0;
-    for (std::uint32_t i = chain.begin; i < chain.begin + chain.count; ++i)
-      length += found_.curve.is_edge(i) ? found_.curve.edge_length(i) : 0;
-    return length * reach_to_next_row;
-  }
-
   /// Near the polyline of the points and within the tolerance first, then with fewer inflections, fewer extremes of
   /// curvature, less variation.
   [[nodiscard]] bool is_better(const Attempt& a, const Attempt& b) const {
@@ -421,92 +280,8 @@ class CurveFit {
            a.inflections <= b.inflections;
   }
 
-  /// The edges of a shape, with what is held at its nodes.
-  [[nodiscard]] DenseCurve chords(const PolygonCurve& shape, const Resampled& nodes) const {
-    DenseCurve chords(true, input_.moving());
-    const Constraints& constraints = nodes.constraints;
-    const std::vector<std::uint8_t> corners = this->corners(nodes);
-    for (const auto& chain : shape.chains()) {
-      std::vector<DenseCurve::Node> along;
-      along.reserve(chain.nodes.size());
-      for (const Index i : chain.nodes) {
-        DenseCurve::Node& node = along.emplace_back();
-        node.place = input_.to_local(shape.position(i));
-        node.held = constraints.position_fixed(i);
-        if (constraints.tangent_fixed(i)) node.tangent = constraints.tangent(i);
-        node.corner = corners[static_cast<std::size_t>(i)] != 0;
-        node.from = i;
-      }
-      chords.add_chain(along, chain.closed);
-    }
-    return chords;
-  }
-
-  /// 1 for those of these nodes that are corners of the curve that was found.
-  [[nodiscard]] std::vector<std::uint8_t> corners(const Resampled& nodes) const {
-    std::vector<std::uint8_t> of_file(static_cast<std::size_t>(input_.curve().node_count()), 0);
-    for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
-      const auto& node = found_.curve.node(i);
-      if (node.corner && node.from >= 0) of_file[static_cast<std::size_t>(node.from)] = 1;
-    }
-    if (nodes.from.empty()) return of_file;
-    std::vector<std::uint8_t> corners(nodes.from.size(), 0);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      if (nodes.from[k] >= 0) corners[k] = of_file[static_cast<std::size_t>(nodes.from[k])];
-    }
-    return corners;
-  }
-
-  struct Sharpest {
-    Index node = -1;  ///< none where nothing is bent
-    double radius = std::numeric_limits<double>::infinity();
-  };
-
-  /// Where a shape is bent most, if that is asked for.
-  [[nodiscard]] Sharpest sharpest(const PolygonCurve& shape, const Resampled& nodes) const {
-    Sharpest most;
-    if (!(input_.options().least_radius > 0)) return most;
-    const DenseCurve chords = this->chords(shape, nodes);
-    for (std::uint32_t i = 0; i < chords.size(); ++i) {
-      const double radius = 1 / (chords.greatest_curvature(i) * input_.scale());
-      if (radius < most.radius) most = {chords.node(i).from, radius};
-    }
-    return most;
-  }
-
-  /// The share of the least radius that is there, 1 where all is.
-  [[nodiscard]] double radius_kept(const Sharpest& most) const {
-    const double least = share_of_radius * input_.options().least_radius;
-    return most.radius < least ? most.radius / least : 1;
-  }
-
-  /// 0 for points that are nowhere nearer than at a node that is held: nothing can be done about them.
-  [[nodiscard]] std::vector<double> movable_distances(const Resampled& nodes) const {
-    std::vector<double> distances = this->distances(nodes.curve);
-    const auto within = input_.options().within();
-    for (std::size_t j = 0; j < distances.size(); ++j) {
-      if (within && distances[j] > *within && is_at_held(j, distances[j], nodes)) distances[j] = 0;
-    }
-    return distances;
-  }
-
-  [[nodiscard]] bool is_at_held(std::size_t point, double distance, const Resampled& nodes) const {
-    for (Index i = 0; i < nodes.constraints.node_count(); ++i) {
-      if (!nodes.constraints.position_fixed(i)) continue;
-      if ((nodes.curve.position(i) - input_.points().positions[point]).norm() <= next_to_nothing_beyond * distance)
-        return true;
-    }
-    return false;
-  }
-
-  /// What is to be within the tolerance.
-  [[nodiscard]] double figure(const std::vector<double>& distances) const {
-    const Distance all = summary(distances, input_.kept()).all;
-    return input_.options().within() ? all.greatest : all.rms;
-  }
-
   /// Of attempts one after the other: whether less of it is beyond the tolerance, or as much and it is less sharp.
-  [[nodiscard]] bool is_nearer(const Measured& a, const Measured& b) const {
+  [[nodiscard]] bool is_nearer(const MeasuredNodes& a, const MeasuredNodes& b) const {
     const double least = input_.options().tolerance().value_or(std::numeric_limits<double>::infinity());
     const double beyond = std::max(a.figure, least);
     const double other = std::max(b.figure, least);
@@ -514,7 +289,7 @@ class CurveFit {
   }
 
   /// For what is beyond, in another attempt. False where nothing is, or so much that there is no room.
-  bool leave_room(const Measured& attempt, CurveFitTask& task) const {
+  bool leave_room(const MeasuredNodes& attempt, CurveFitTask& task) const {
     const bool is_sharp = attempt.radius_kept < 1 && attempt.radius_kept * most_cut_off >= 1;
     if (is_sharp) task.least_radius /= share_of_nearer * attempt.radius_kept;
     const auto tolerance = input_.options().tolerance();
@@ -525,7 +300,7 @@ class CurveFit {
     }
     if (attempt.way_beyond > most_cut_off) return false;
     if (attempt.way_beyond > 1) task.way_share *= share_of_nearer / attempt.way_beyond;
-    const std::vector<double> distances = movable_distances(attempt.nodes);
+    const std::vector<double> distances = measures_.movable_distances(attempt.nodes);
     task.spare.resize(distances.size(), 0);
     for (std::size_t j = 0; j < distances.size(); ++j) {
       if (input_.kept()[j] == 0 || distances[j] <= *tolerance) continue;
@@ -533,20 +308,6 @@ class CurveFit {
       if (task.spare[j] > most_spared * task.within) return false;
     }
     return true;
-  }
-
-  [[nodiscard]] Measured measured(Resampled nodes) const {
-    Measured found{std::move(nodes)};
-    const PolygonCurve& shape = found.nodes.curve;
-    found.figure = figure(movable_distances(found.nodes));
-    found.way_off = way_off(shape).greatest;
-    if (const auto within = input_.options().within(); within && found.way_off > *within) {
-      found.way_beyond = way_beyond(found.nodes);
-      found.figure = std::max(found.figure, found.way_beyond * *within);
-    }
-    found.radius_kept = radius_kept(sharpest(shape, found.nodes));
-    found.figures = measure_curve(cut_at_corners(shape, corners(found.nodes)), &found.nodes.constraints);
-    return found;
   }
 
   /// Whether no edge is much shorter than those about it, and none shorter than the tolerance.
@@ -565,98 +326,7 @@ class CurveFit {
     return true;
   }
 
-  /// How far places of the curve are from the polyline of the points, which are its own nodes; without a count where
-  /// they are not.
-  [[nodiscard]] Distance way_off(const PolygonCurve& moved) const {
-    if (!input_.own_nodes()) return {};
-    const auto within = input_.options().within();
-    const std::optional<PolygonCurve> way = this->way();
-    if (!way) return {};
-    std::vector<Vector3> places;
-    for (const auto& chain : moved.chains()) {
-      const std::size_t count = chain.nodes.size();
-      for (std::size_t k = 0; k < count; ++k) {
-        const Vector3& here = moved.position(chain.nodes[k]);
-        const Vector3& next = moved.position(chain.nodes[(k + 1) % count]);
-        places.push_back(here);
-        if (k + 1 == count && !chain.closed) continue;
-        const double apart = within ? (next - here).norm() / (places_apart * *within) : 0;
-        const int parts = static_cast<int>(std::clamp(apart, 2.0, most_places_on_edge));
-        for (int part = 1; part < parts; ++part) places.emplace_back(here + (next - here) * part / parts);
-      }
-    }
-    return distance(places, *way, measuring_);
-  }
-
-  /// The polyline of the points, less what was left out.
-  [[nodiscard]] std::optional<PolygonCurve> way() const {
-    std::vector<PolygonCurve::Chain> chains = input_.curve().chains();
-    for (auto& chain : chains) {
-      std::erase_if(chain.nodes, [&](Index i) { return input_.kept()[static_cast<std::size_t>(i)] == 0; });
-      if (chain.nodes.size() < 2) return std::nullopt;
-    }
-    return PolygonCurve(input_.curve().positions(), std::move(chains));
-  }
-
-  /// Of places that are further from the polyline than the tolerance, the greatest share of what they may be.
-  [[nodiscard]] double way_beyond(const Resampled& nodes) const {
-    const DenseCurve chords = this->chords(nodes.curve, nodes);
-    std::vector<CurvePoint> points = found_.points;
-    carry_places(found_.curve, chords, points);
-    std::vector<Vector3> places;
-    std::vector<double> beyond;
-    for (const PolylineBound& one : polyline_bounds(chords, points, *input_.options().within() * input_.scale(),
-                                                    {.everywhere = true, .parts = parts_of_edge})) {
-      const double share = one.distance(chords.at(one.at)) / one.bound;
-      if (!(share > 1)) continue;
-      places.push_back(input_.to_input(chords.at(one.at)));
-      beyond.push_back(share);
-    }
-    // Another piece of the way may be nearer.
-    const std::optional<PolygonCurve> way = this->way();
-    if (!way || places.empty()) return 0;
-    const std::vector<double> distances = point_distances(places, *way, measuring_);
-    double greatest = 0;
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      if (distances[k] > *input_.options().within()) greatest = std::max(greatest, beyond[k]);
-    }
-    return greatest;
-  }
-
-  /// The greatest way of a node along the curve.
-  [[nodiscard]] double greatest_slide(const PolygonCurve& moved) const {
-    double greatest = 0;
-    for (const auto& chain : moved.chains()) {
-      const std::size_t count = chain.nodes.size();
-      for (std::size_t k = 0; k < count && count > 1; ++k) {
-        const std::size_t before = k > 0 ? k - 1 : chain.closed ? count - 1 : 0;
-        const std::size_t after = k + 1 < count ? k + 1 : chain.closed ? 0 : k;
-        const Vector3 along = (moved.position(chain.nodes[after]) - moved.position(chain.nodes[before])).normalized();
-        const Vector3 way = moved.position(chain.nodes[k]) - input_.curve().position(chain.nodes[k]);
-        greatest = std::max(greatest, std::abs(along.dot(way)));
-      }
-    }
-    return greatest;
-  }
-
-  [[nodiscard]] PolygonCurve polygon() const {
-    const Constraints& constraints = input_.constraints();
-    std::vector<Vector3> places;
-    std::vector<PolygonCurve::Chain> chains;
-    for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
-      const auto& node = found_.curve.node(i);
-      const bool held = node.from >= 0 && constraints.position_fixed(node.from);
-      places.push_back(held ? constraints.position(node.from) : input_.to_input(node.place));
-    }
-    for (const auto& chain : found_.curve.chains()) {
-      auto& made = chains.emplace_back();
-      made.closed = chain.closed;
-      for (std::uint32_t k = 0; k < chain.count; ++k) made.nodes.push_back(static_cast<Index>(chain.begin + k));
-    }
-    return {std::move(places), std::move(chains)};
-  }
-
-  void conclude(FitResult& result, const Sharpest& most_bent) const {
+  void conclude(FitResult& result, const SharpestNode& most_bent) const {
     FitReport& report = result.report;
     FairReport& fair = report.fair;
     if (most_bent.node >= 0) {
@@ -677,7 +347,7 @@ class CurveFit {
                            .seconds = 0});
     const auto& options = input_.options();
     const auto tolerance = options.tolerance();
-    const bool is_sharp = radius_kept(most_bent) < 1;
+    const bool is_sharp = measures_.radius_kept(most_bent) < 1;
     if (is_sharp) {
       fair.outcome = Outcome::stalled;
       fair.warnings.push_back(
@@ -696,7 +366,7 @@ class CurveFit {
     for (std::size_t j = 0; j < kept.size(); ++j)
       report.outside_points += kept[j] != 0 && result.distances[j] > *tolerance ? 1 : 0;
     if (options.within()) report.active_points = active_points(result.distances, kept, *tolerance);
-    if (figure(result.distances) > *tolerance) {
+    if (measures_.figure(result.distances) > *tolerance) {
       fair.outcome = Outcome::stalled;
       fair.warnings.push_back({WarningCode::outside_tolerance, outside(result, *tolerance)});
     } else if (goes_beyond(report)) {
@@ -725,7 +395,7 @@ class CurveFit {
         static_cast<std::size_t>(std::max_element(distances.begin(), distances.end()) - distances.begin());
     return fmt::format("no shape within {:g} was found: this is the nearest; point {} is {:.4g} away{}", tolerance,
                        point, distances[point],
-                       is_at_held(point, distances[point], nodes_)
+                       measures_.is_at_held(point, distances[point], nodes_)
                            ? ", and nearest to a node that is held: do not hold that, or allow more"
                            : ": edges are too long there, or what is held is near");
   }
@@ -738,9 +408,9 @@ class CurveFit {
 
   CurveFitInput input_;
   Context& context_;
-  Context measuring_;  // after somebody has cancelled, too
   ProgressReporter progress_;
   CurveFound found_;
+  CurveMeasures measures_;
   Resampled nodes_{.curve = {}, .constraints = Constraints(0), .from = {}};
 };
 
@@ -796,7 +466,7 @@ FitResult fit_curve(const PolygonCurve& curve, const Constraints& constraints, c
   }
   if (auto plain = run.plain_fairing()) return *std::move(plain);
   std::vector<Vector3> positions;
-  if (run.find([&] { return run.own_nodes(); })) {
+  if (run.find([&] { return own_nodes(run.input(), run.found()); })) {
     positions = run.nodes().curve.positions();
     for (std::size_t i = 0; i < positions.size(); ++i) {
       if (options.fair.strength < 1 && !constraints.position_fixed(static_cast<Index>(i)))
@@ -837,7 +507,8 @@ ResampledFit fit_curve_resampled(const PolygonCurve& curve, const Constraints& c
   const Stopwatch stopwatch;
   ResampledFit made{resample(curve, constraints, how), {}};
   CurveFit run(curve, constraints, points, options, context);
-  if (run.input().pulls() && run.find([&] { return run.resampled(how); })) made.resampled = run.nodes();
+  if (run.input().pulls() && run.find([&] { return new_nodes(run.input(), run.found(), how); }))
+    made.resampled = run.nodes();
   made.fit = run.result(made.resampled.curve.positions(), made.resampled);
   FairReport& fair = made.fit.report.fair;
   const Distance moves = distance(made.fit.positions, curve);

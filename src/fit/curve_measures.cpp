@@ -1,0 +1,215 @@
+#include "fit/curve_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "curve_fit/curve_start.hpp"
+#include "curve_fit/polyline_bounds.hpp"
+#include "fit/fit_points.hpp"
+#include "shape/corners.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of the tolerance, on long edges.
+constexpr double places_apart = 0.5;
+constexpr int parts_of_edge = 8;
+constexpr double most_places_on_edge = 32;
+// Of the least radius: what chords of an arc show of it.
+constexpr double share_of_radius = 0.99;
+// Of the distance from a node.
+constexpr double as_far_as_held = 1.001;
+
+std::vector<Vector3> held_places(const Resampled& nodes) {
+  std::vector<Vector3> places;
+  for (Index i = 0; i < nodes.constraints.node_count(); ++i) {
+    if (nodes.constraints.position_fixed(i)) places.push_back(nodes.curve.position(i));
+  }
+  return places;
+}
+
+bool is_as_near(const std::vector<Vector3>& places, const Vector3& point, double distance) {
+  return std::any_of(places.begin(), places.end(),
+                     [&](const Vector3& place) { return (place - point).norm() <= as_far_as_held * distance; });
+}
+
+}  // namespace
+
+std::vector<double> CurveMeasures::distances(const PolygonCurve& from) const {
+  const std::vector<Vector3>& points = input_.points().positions;
+  if (!keep_stations(from)) return point_distances(points, from, context_);
+  std::vector<double> distances;
+  distances.reserve(points.size());
+  for (std::size_t j = 0; j < points.size(); ++j) distances.push_back((from.positions()[j] - points[j]).norm());
+  return distances;
+}
+
+bool CurveMeasures::keep_stations(const PolygonCurve& moved) const {
+  const std::vector<Vector3>& points = input_.points().positions;
+  if (input_.moving() == Vector3::Ones() || moved.positions().size() != points.size()) return false;
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    const bool held = input_.constraints().position_fixed(static_cast<Index>(j));
+    for (int axis = 0; axis < 3 && !held; ++axis) {
+      if (input_.moving()[axis] == 0 && moved.positions()[j][axis] != points[j][axis]) return false;
+    }
+  }
+  return true;
+}
+
+DenseCurve CurveMeasures::chords(const PolygonCurve& shape, const Resampled& nodes) const {
+  DenseCurve chords(true, input_.moving());
+  const Constraints& constraints = nodes.constraints;
+  const std::vector<std::uint8_t> corners = this->corners(nodes);
+  for (const auto& chain : shape.chains()) {
+    std::vector<DenseCurve::Node> along;
+    along.reserve(chain.nodes.size());
+    for (const Index i : chain.nodes) {
+      DenseCurve::Node& node = along.emplace_back();
+      node.place = input_.to_local(shape.position(i));
+      node.held = constraints.position_fixed(i);
+      if (constraints.tangent_fixed(i)) node.tangent = constraints.tangent(i);
+      node.corner = corners[static_cast<std::size_t>(i)] != 0;
+      node.from = i;
+    }
+    chords.add_chain(along, chain.closed);
+  }
+  return chords;
+}
+
+std::vector<std::uint8_t> CurveMeasures::corners(const Resampled& nodes) const {
+  std::vector<std::uint8_t> of_file(static_cast<std::size_t>(input_.curve().node_count()), 0);
+  for (std::uint32_t i = 0; i < found_.curve.size(); ++i) {
+    const auto& node = found_.curve.node(i);
+    if (node.corner && node.from >= 0) of_file[static_cast<std::size_t>(node.from)] = 1;
+  }
+  if (nodes.from.empty()) return of_file;
+  std::vector<std::uint8_t> corners(nodes.from.size(), 0);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    if (nodes.from[k] >= 0) corners[k] = of_file[static_cast<std::size_t>(nodes.from[k])];
+  }
+  return corners;
+}
+
+SharpestNode CurveMeasures::sharpest(const PolygonCurve& shape, const Resampled& nodes) const {
+  SharpestNode most;
+  if (!(input_.options().least_radius > 0)) return most;
+  const DenseCurve chords = this->chords(shape, nodes);
+  for (std::uint32_t i = 0; i < chords.size(); ++i) {
+    const double radius = 1 / (chords.greatest_curvature(i) * input_.scale());
+    if (radius < most.radius) most = {chords.node(i).from, radius};
+  }
+  return most;
+}
+
+double CurveMeasures::radius_kept(const SharpestNode& most) const {
+  const double least = share_of_radius * input_.options().least_radius;
+  return most.radius < least ? most.radius / least : 1;
+}
+
+std::vector<double> CurveMeasures::movable_distances(const Resampled& nodes) const {
+  std::vector<double> distances = this->distances(nodes.curve);
+  const auto within = input_.options().within();
+  const std::vector<Vector3> held = held_places(nodes);
+  for (std::size_t j = 0; j < distances.size(); ++j) {
+    if (within && distances[j] > *within && is_as_near(held, input_.points().positions[j], distances[j]))
+      distances[j] = 0;
+  }
+  return distances;
+}
+
+bool CurveMeasures::is_at_held(std::size_t point, double distance, const Resampled& nodes) const {
+  return is_as_near(held_places(nodes), input_.points().positions[point], distance);
+}
+
+double CurveMeasures::figure(const std::vector<double>& distances) const {
+  const Distance all = summary(distances, input_.kept()).all;
+  return input_.options().within() ? all.greatest : all.rms;
+}
+
+MeasuredNodes CurveMeasures::measured(Resampled nodes) const {
+  MeasuredNodes found{std::move(nodes)};
+  const PolygonCurve& shape = found.nodes.curve;
+  found.figure = figure(movable_distances(found.nodes));
+  found.way_off = way_off(shape).greatest;
+  if (const auto within = input_.options().within(); within && found.way_off > *within) {
+    found.way_beyond = way_beyond(found.nodes);
+    found.figure = std::max(found.figure, found.way_beyond * *within);
+  }
+  found.radius_kept = radius_kept(sharpest(shape, found.nodes));
+  found.figures = measure_curve(cut_at_corners(shape, corners(found.nodes)), &found.nodes.constraints);
+  return found;
+}
+
+Distance CurveMeasures::way_off(const PolygonCurve& moved) const {
+  if (!input_.own_nodes()) return {};
+  const auto within = input_.options().within();
+  const std::optional<PolygonCurve> way = this->way();
+  if (!way) return {};
+  std::vector<Vector3> places;
+  for (const auto& chain : moved.chains()) {
+    const std::size_t count = chain.nodes.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vector3& here = moved.position(chain.nodes[k]);
+      const Vector3& next = moved.position(chain.nodes[(k + 1) % count]);
+      places.push_back(here);
+      if (k + 1 == count && !chain.closed) continue;
+      const double apart = within ? (next - here).norm() / (places_apart * *within) : 0;
+      const int parts = static_cast<int>(std::clamp(apart, 2.0, most_places_on_edge));
+      for (int part = 1; part < parts; ++part) places.emplace_back(here + (next - here) * part / parts);
+    }
+  }
+  return distance(places, *way, context_);
+}
+
+std::optional<PolygonCurve> CurveMeasures::way() const {
+  std::vector<PolygonCurve::Chain> chains = input_.curve().chains();
+  for (auto& chain : chains) {
+    std::erase_if(chain.nodes, [&](Index i) { return input_.kept()[static_cast<std::size_t>(i)] == 0; });
+    if (chain.nodes.size() < 2) return std::nullopt;
+  }
+  return PolygonCurve(input_.curve().positions(), std::move(chains));
+}
+
+/// Of places that are further from the polyline than the tolerance, the greatest share of what they may be.
+double CurveMeasures::way_beyond(const Resampled& nodes) const {
+  const DenseCurve chords = this->chords(nodes.curve, nodes);
+  std::vector<CurvePoint> points = found_.points;
+  carry_places(found_.curve, chords, points);
+  std::vector<Vector3> places;
+  std::vector<double> beyond;
+  for (const PolylineBound& one : polyline_bounds(chords, points, *input_.options().within() * input_.scale(),
+                                                  {.everywhere = true, .parts = parts_of_edge})) {
+    const double share = one.distance(chords.at(one.at)) / one.bound;
+    if (!(share > 1)) continue;
+    places.push_back(input_.to_input(chords.at(one.at)));
+    beyond.push_back(share);
+  }
+  // Another piece of the way may be nearer.
+  const std::optional<PolygonCurve> way = this->way();
+  if (!way || places.empty()) return 0;
+  const std::vector<double> distances = point_distances(places, *way, context_);
+  double greatest = 0;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (distances[k] > *input_.options().within()) greatest = std::max(greatest, beyond[k]);
+  }
+  return greatest;
+}
+
+double CurveMeasures::greatest_slide(const PolygonCurve& moved) const {
+  double greatest = 0;
+  for (const auto& chain : moved.chains()) {
+    const std::size_t count = chain.nodes.size();
+    for (std::size_t k = 0; k < count && count > 1; ++k) {
+      const std::size_t before = k > 0 ? k - 1 : chain.closed ? count - 1 : 0;
+      const std::size_t after = k + 1 < count ? k + 1 : chain.closed ? 0 : k;
+      const Vector3 along = (moved.position(chain.nodes[after]) - moved.position(chain.nodes[before])).normalized();
+      const Vector3 way = moved.position(chain.nodes[k]) - input_.curve().position(chain.nodes[k]);
+      greatest = std::max(greatest, std::abs(along.dot(way)));
+    }
+  }
+  return greatest;
+}
+
+}  // namespace vspring

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "curve_fit/curve_fitter.hpp"
+#include "fit/curve_fit_input.hpp"
+#include "vspring/context.hpp"
+#include "vspring/distance.hpp"
+#include "vspring/figures.hpp"
+#include "vspring/resample.hpp"
+
+namespace vspring {
+
+/// The nodes that are wanted on a curve, and how good they are.
+struct MeasuredNodes {
+  Resampled nodes;        ///< with the file's own chains, or new ones
+  double figure = 0;      ///< what is to be within the tolerance
+  double way_off = 0;     ///< from the polyline of the points
+  double way_beyond = 0;  ///< the greatest share that a place is away from it of what that may be; 0: all is within
+  double radius_kept = 1;
+  CurveFigures figures = {};
+};
+
+/// Where a curve is bent most.
+struct SharpestNode {
+  Index node = -1;  ///< none where nothing is bent
+  double radius = std::numeric_limits<double>::infinity();
+};
+
+/// Measures nodes on the curve that was found for an input, by what was asked for. input, found: are looked at in each
+/// call, and have to outlive it.
+class CurveMeasures {
+ public:
+  CurveMeasures(const CurveFitInput& input, const CurveFound& found, int threads) : input_(input), found_(found) {
+    context_.threads = threads;
+  }
+
+  [[nodiscard]] MeasuredNodes measured(Resampled nodes) const;
+
+  /// Of the points: of nodes that keep coordinates, from where they were.
+  [[nodiscard]] std::vector<double> distances(const PolygonCurve& from) const;
+  /// The same, 0 for points further than the tolerance that are nowhere nearer than at a node that is held: nothing can
+  /// be done about them.
+  [[nodiscard]] std::vector<double> movable_distances(const Resampled& nodes) const;
+  [[nodiscard]] bool is_at_held(std::size_t point, double distance, const Resampled& nodes) const;
+  /// What is to be within the tolerance.
+  [[nodiscard]] double figure(const std::vector<double>& distances) const;
+  /// How far places of the curve are from the polyline of the points, which are its own nodes; without a count where
+  /// they are not.
+  [[nodiscard]] Distance way_off(const PolygonCurve& moved) const;
+  /// The greatest way of a node along the curve.
+  [[nodiscard]] double greatest_slide(const PolygonCurve& moved) const;
+  /// Where a shape is bent most, if that is asked for.
+  [[nodiscard]] SharpestNode sharpest(const PolygonCurve& shape, const Resampled& nodes) const;
+  /// The share of the least radius that is there, 1 where all is.
+  [[nodiscard]] double radius_kept(const SharpestNode& most) const;
+  /// The edges of a shape, with what is held at its nodes.
+  [[nodiscard]] DenseCurve chords(const PolygonCurve& shape, const Resampled& nodes) const;
+  /// 1 for those of these nodes that are corners of the curve that was found.
+  [[nodiscard]] std::vector<std::uint8_t> corners(const Resampled& nodes) const;
+
+ private:
+  /// Whether nodes are those of the input, and have moved only as they may.
+  [[nodiscard]] bool keep_stations(const PolygonCurve& moved) const;
+  [[nodiscard]] double way_beyond(const Resampled& nodes) const;
+  /// The polyline of the points, less what was left out.
+  [[nodiscard]] std::optional<PolygonCurve> way() const;
+
+  const CurveFitInput& input_;
+  const CurveFound& found_;
+  Context context_;  // its own: after somebody has cancelled, too
+};
+
+}  // namespace vspring

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "curve_fit/curve_fitter.hpp"
+#include "fit/curve_fit_input.hpp"
+#include "vspring/resample.hpp"
+
+namespace vspring {
+
+/// The file's nodes on the curve that was found: at the nearest places, or at their stations where these stay.
+Resampled own_nodes(const CurveFitInput& input, const CurveFound& found);
+
+/// New nodes on it, spaced as they are to be.
+Resampled new_nodes(const CurveFitInput& input, const CurveFound& found, const Resampling& how);
+
+}  // namespace vspring

@@ -40,6 +40,8 @@ class SurfaceHierarchy final : public Hierarchy {
 
   /// The last one for the shape itself, or one made anew where there is none.
   Preconditioner& kept_preconditioner();
+  /// Gives back the memory of the last one.
+  void forget_preconditioner() { preconditioner_.reset(); }
 
   /// Held nodes of the shape itself go to their new places, and have their new normals; its moving nodes follow as they
   /// did the last times, and with what those times do not make up for as they would if slopes were small. Coarser

@@ -17,9 +17,9 @@ struct Attempt {
   Outcome outcome = Outcome::stalled;
   double expected_error = 1;    ///< as in FairReport
   double bending = 0;           ///< ∫ κ₁² + κ₂² dA (BendingEnergy), where none is final
-  std::vector<Vector3> places;  ///< of the moving nodes, in the net's coordinates
+  std::vector<Vector3> places;  ///< of the moving nodes, in the net's coordinates; none where it is final
   std::string fault;            ///< what is worse about it than about the start, in words; empty where nothing is
-  bool is_misplaced = false;    ///< some node is nowhere, or far out
+  bool is_misplaced = false;    ///< some node is nowhere, or far out; looked at where it does not stand
 
   /// Whether it is an equilibrium, and no worse than the start.
   [[nodiscard]] bool stands() const { return outcome == Outcome::converged && fault.empty(); }

@@ -76,6 +76,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
                                       std::optional<double> tolerance) {
   const Stopwatch stopwatch;
   FairResult result;
+  goes_on_ = true;
   const bool is_doubtful = !tolerance && went_astray_;
   const bool went_on = !is_doubtful && fits_last(constraints) && go_on(constraints, context, tolerance, result.report);
   if (!went_on) {
@@ -230,14 +231,20 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
 void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints& constraints,
                                const EquilibriumCall& call) {
   Net& net = hierarchy_->finest();
-  net.positions = start_places(net, whole_->positions(), constraints);
-  StartShape start = {.is_sound = check_->fault_of_places(net).empty()};
-  if (attempts.size() > 1 && !attempts.back().is_final()) {
-    measure_bending(attempts);
-    start.bending = BendingEnergy(net).of(net.positions, team_);
+  Attempt& last = attempts.back();
+  StartShape start;
+  if (!last.is_final() || !last.fault.empty()) {
+    if (last.places.empty()) keep_places(last);
+    net.positions = start_places(net, whole_->positions(), constraints);
+    start.is_sound = check_->fault_of_places(net).empty();
+    if (attempts.size() > 1 && !last.is_final()) {
+      measure_bending(attempts);
+      start.bending = BendingEnergy(net).of(net.positions, team_);
+    }
   }
-  if (const Attempt* const best = pick(attempts, start, call.options, call.report))
-    std::copy(best->places.begin(), best->places.end(), net.positions.begin());
+  const Attempt* const best = pick(attempts, start, call.options, call.report);
+  // What is final is where the net is.
+  if (best && !best->places.empty()) std::copy(best->places.begin(), best->places.end(), net.positions.begin());
 }
 
 void SurfaceFairing::measure_bending(std::vector<Attempt>& attempts) {
@@ -259,7 +266,6 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
   // A limit that nobody gave.
   if (result.outcome == Outcome::iteration_limit && !call.method.max_iterations) result.outcome = Outcome::work_limit;
   result.expected_error = call.report.expected_error.value_or(1);
-  result.places.assign(net.positions.begin(), net.positions.begin() + static_cast<std::ptrdiff_t>(net.moving));
   const bool was_cancelled = result.outcome == Outcome::cancelled;
   if (was_cancelled && net.positions == start_places(net, whole_->positions(), constraints)) return result;
   call.progress.report("checking", 0.5);
@@ -270,10 +276,19 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
     result.outcome = Outcome::cancelled;
     result.fault = check_->fault(net, true);
   }
-  if (result.fault.empty() && call.looks_at_crossings && result.outcome != Outcome::cancelled)
+  if (result.fault.empty() && call.looks_at_crossings && result.outcome != Outcome::cancelled) {
+    if (!goes_on_) hierarchy_->forget_preconditioner();
     result.fault = crossings(net, constraints, call.context);
-  result.is_misplaced = !check_->misplaced(net).empty();
+  }
+  if (!result.is_final() || !result.fault.empty()) result.is_misplaced = !check_->misplaced(net).empty();
+  if (!result.is_final()) keep_places(result);
   return result;
+}
+
+void SurfaceFairing::keep_places(Attempt& attempt) const {
+  const std::vector<Vector3>& positions = hierarchy_->finest().positions;
+  attempt.places.assign(positions.begin(),
+                        positions.begin() + static_cast<std::ptrdiff_t>(hierarchy_->finest().moving));
 }
 
 Attempt SurfaceFairing::go_from_coarse_levels(Springs springs, const Constraints& constraints,
@@ -319,6 +334,8 @@ Attempt SurfaceFairing::bend_less(Relaxation& relaxation, const Constraints& con
   // One of a family is none to be called the one.
   if (result.outcome == Outcome::converged && is_underconstrained(hierarchy_->finest()))
     result.outcome = Outcome::stalled;
+  // Other attempts go on from there.
+  keep_places(result);
   return result;
 }
 

@@ -71,6 +71,8 @@ class SurfaceFairing {
   void take_best(std::vector<Attempt> attempts, const Constraints& constraints, const EquilibriumCall& call);
   /// On the net of hierarchy_.
   void measure_bending(std::vector<Attempt>& attempts);
+  /// Those that were reached.
+  void keep_places(Attempt& attempt) const;
   /// The shape that was reached, looked at.
   Attempt attempt(const Constraints& constraints, const EquilibriumCall& call);
   void make_levels(Net net, const Constraints& constraints, const FairOptions& options);
@@ -92,6 +94,7 @@ class SurfaceFairing {
   std::unique_ptr<const Model> model_;
   std::optional<ResultCheck> check_;
   std::optional<SurfaceHierarchy> hierarchy_;
+  bool goes_on_ = false;  ///< whether what the hierarchy has may be of use once more
   // Of the last shape, where that is an equilibrium to go on from.
   std::optional<Constraints> last_;
   // Since the last shape that was not a picture of a drag, one led nowhere or to something worse: equilibria that are

@@ -116,7 +116,7 @@ void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, s
   warnings.push_back(
       {WarningCode::noise_is_larger,
        fmt::format("the noise of the nodes seems to be larger than the tolerance allows for: a standard deviation of "
-                   "{:.3g} in each coordinate; --noise auto takes that off, --within auto allows for",
+                   "{:.3g} in each coordinate; --noise auto takes it off, --within auto allows for it",
                    noise.deviation)});
 }
 

@@ -31,9 +31,9 @@ struct PullArguments {
   std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that it was set by
 };
 
-/// Gives the option that is "auto" its value, by the noise of the nodes as they came: --within three times its standard
-/// deviation, --rms and --noise once. Of a curve --rms auto is --noise auto: a root mean square that is a little too
-/// small for the noise has it followed. Throws Error(unusable_shape) where that cannot be told.
+/// Gives the option that is "auto" its value, by the noise of the nodes as they came: --within greatest_of_noise(),
+/// --rms and --noise its standard deviation. Of a curve --rms auto is --noise auto: a root mean square that is a little
+/// too small for the noise has it followed. Throws Error(unusable_shape) where that cannot be told.
 void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise, bool is_curve);
 
 /// In the coordinates that move.

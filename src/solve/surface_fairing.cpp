@@ -277,6 +277,7 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
     result.fault = check_->fault(net, true);
   }
   if (result.fault.empty() && call.looks_at_crossings && result.outcome != Outcome::cancelled) {
+    // The search needs as much memory.
     if (!goes_on_) hierarchy_->forget_preconditioner();
     result.fault = crossings(net, constraints, call.context);
   }

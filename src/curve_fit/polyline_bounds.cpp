@@ -12,6 +12,8 @@ namespace {
 
 // Of the reach, between points: nearer ones tell all there is to tell of what is between them.
 constexpr double least_gap = 0.5;
+// Of the reach, along the curve from one point's place to the next one's: between near points it may go far as well.
+constexpr double long_way = 2;
 // To either side: places beside corners may be nearer to another piece of the polyline.
 constexpr std::size_t rows_around = 3;
 // Among which one at another place is looked for.
@@ -36,18 +38,33 @@ class PolylineBounds {
     if (count < 2) return;
     const std::size_t gaps = count - (chain.closed ? 0 : 1);
     const auto row = [&](std::size_t k) -> const Vector3& { return rows[k % count].place; };
-    // Calls with the nodes from one row's place to another's; those of rows that go back have none.
+    const std::vector<double> length = lengths_along(chain);
+    const auto way = [&](std::uint32_t from, std::uint32_t to) {
+      const double ahead = length[to - chain.begin] - length[from - chain.begin];
+      return ahead < 0 ? ahead + length.back() : ahead;
+    };
+    // Calls with the nodes from the first to the last place of some rows, one after the other; of two that go back with
+    // none.
     const auto for_nodes = [&](std::size_t from, std::size_t to, auto use) {
-      const std::uint32_t begin = rows[from % count].at.edge;
-      const std::uint32_t nodes = (rows[to % count].at.edge + chain.count - begin) % chain.count;
-      if (nodes > chain.count / 2) return;
-      std::uint32_t i = curve_.next(begin);
-      for (std::uint32_t n = 0; n < nodes && i != DenseCurve::none; ++n, i = curve_.next(i)) {
+      std::uint32_t begin = rows[from % count].at.edge;
+      std::uint32_t end = rows[to % count].at.edge;
+      if (chain.closed) {
+        if (2 * way(begin, end) > length.back()) return;
+      } else {
+        for (std::size_t k = from; k < to && to > from + 1; ++k) {
+          begin = std::min(begin, rows[k].at.edge);
+          end = std::max(end, rows[k].at.edge);
+        }
+        if (end < begin) return;
+      }
+      for (std::uint32_t i = begin; i != end;) {
+        i = curve_.next(i);
         if (!curve_.node(i).held && curve_.is_edge(i)) use(i);
       }
     };
     for (std::size_t k = 0; k < gaps; ++k) {
-      if (is_gap(row(k), row(k + 1))) for_nodes(k, k + 1, [&](std::uint32_t i) { in_gap_[i] = 1; });
+      const bool goes_far = way(rows[k].at.edge, rows[(k + 1) % count].at.edge) > long_way * reach_;
+      if (goes_far || is_gap(row(k), row(k + 1))) for_nodes(k, k + 1, [&](std::uint32_t i) { in_gap_[i] = 1; });
     }
     for (std::size_t k = 0; k < gaps; ++k) {
       std::optional<Vector3> before;
@@ -80,6 +97,16 @@ class PolylineBounds {
   }
 
  private:
+  /// From the first node of a chain to each, and all around or to its end.
+  [[nodiscard]] std::vector<double> lengths_along(const DenseCurve::Chain& chain) const {
+    std::vector<double> length(chain.count + 1, 0);
+    for (std::uint32_t k = 0; k < chain.count; ++k) {
+      const std::uint32_t i = chain.begin + k;
+      length[k + 1] = length[k] + (curve_.is_edge(i) ? curve_.edge_length(i) : 0);
+    }
+    return length;
+  }
+
   void look_at(const CurvePlace& at, std::size_t n, const PolylineBound& gap) {
     const double away = gap.distance(curve_.at(at)) / gap.bound;
     if (away >= least_[n]) return;

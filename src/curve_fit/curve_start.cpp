@@ -28,6 +28,8 @@ constexpr std::size_t most_rows_of_fold = 4;
 constexpr double most_edges_of_fold = 10;
 // Of how far back: so far aside rows may be of the way that they are put on.
 constexpr double most_aside_of_fold = 0.4;
+// From one edge to the next, 60°: in an order that has no more rows may lie anywhere.
+constexpr double cosine_of_gentle_bend = 0.5;
 constexpr std::size_t rows_beside_fold = 3;
 constexpr std::size_t rows_about = 8;
 constexpr int most_turns_of_folds = 10;
@@ -236,16 +238,31 @@ class Way {
     while (left < end && order[left - begin - 1] == left) ++left;
     while (right > left && order[right - begin - 1] == right) --right;
     if (left >= right) return false;
-    const Vector3& from = stops[left - 1].place;
-    const Vector3& to = stops[right + 1].place;
+    std::vector<Vector3> places = {stops[left - 1].place};
+    for (std::size_t j = left; j <= right; ++j) places.push_back(stops[order[j - begin - 1]].place);
+    places.push_back(stops[right + 1].place);
+    const bool goes_on = bends_gently(places);
+    const Vector3& from = places.front();
+    const Vector3& to = places.back();
     for (std::size_t j = left; j <= right; ++j) {
       const Vector3& place = stops[j].place;
       const double away = station(from + nearest_share(place, from, to) * (to - from) - place).norm();
-      if (stops[j].fixed || away > std::max(reach_of_folds * reach_, most_aside)) return false;
+      const bool is_aside = !goes_on && away > std::max(reach_of_folds * reach_, most_aside);
+      if (stops[j].fixed || is_aside) return false;
     }
     const std::vector<Stop> before(stops.begin() + static_cast<std::ptrdiff_t>(left),
                                    stops.begin() + static_cast<std::ptrdiff_t>(right) + 1);
     for (std::size_t j = left; j <= right; ++j) stops[j] = before[order[j - begin - 1] - left];
+    return true;
+  }
+
+  /// As a way in its right order does.
+  [[nodiscard]] bool bends_gently(const std::vector<Vector3>& places) const {
+    for (std::size_t k = 1; k + 1 < places.size(); ++k) {
+      const Vector3 a = station(places[k] - places[k - 1]);
+      const Vector3 b = station(places[k + 1] - places[k]);
+      if (!(a.dot(b) > cosine_of_gentle_bend * a.norm() * b.norm())) return false;
+    }
     return true;
   }
 
@@ -490,10 +507,14 @@ void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScal
   const auto edges = static_cast<std::uint32_t>(nodes.size() - (closed ? 0 : 1));
   std::vector<std::size_t> stop_of(chain.size(), 0);
   for (std::size_t k = 0; k + (closed ? 1 : 0) < stops.size(); ++k) stop_of[stops[k].node] = k;
+  // In the order of the way.
+  std::vector<std::pair<std::size_t, std::size_t>> rows;
   for (std::size_t k = 0; k < chain.size(); ++k) {
+    if (chain[k].point >= 0) rows.emplace_back(stop_of[found.first_row(k)], k);
+  }
+  std::sort(rows.begin(), rows.end());
+  for (const auto& [stop, k] : rows) {
     const ChainNode& row = chain[k];
-    if (row.point < 0) continue;
-    const std::size_t stop = stop_of[found.first_row(k)];
     // Not further than the stops beside: the way may come back here.
     double at = length[stop];
     double least = std::numeric_limits<double>::infinity();

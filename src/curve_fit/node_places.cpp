@@ -38,7 +38,7 @@ void set_in_order(std::vector<double>& values, double apart, double least, doubl
   };
   std::vector<Pool> pools;
   for (std::size_t k = 0; k < count; ++k) {
-    pools.push_back({values[k] - least - from[k], 1});
+    pools.push_back({sorted[k] - least - from[k], 1});
     while (pools.size() > 1 && pools[pools.size() - 2].mean() >= pools.back().mean()) {
       const Pool last = pools.back();
       pools.pop_back();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "curve_fit/curve_start.hpp"
@@ -164,10 +165,21 @@ Distance CurveMeasures::way_off(const PolygonCurve& moved) const {
 }
 
 std::optional<PolygonCurve> CurveMeasures::way() const {
+  constexpr std::size_t unknown = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> order(input_.kept().size(), unknown);
+  for (std::size_t j = 0; j < found_.points.size(); ++j) order[static_cast<std::size_t>(found_.points[j].number)] = j;
   std::vector<PolygonCurve::Chain> chains = input_.curve().chains();
   for (auto& chain : chains) {
     std::erase_if(chain.nodes, [&](Index i) { return input_.kept()[static_cast<std::size_t>(i)] == 0; });
     if (chain.nodes.size() < 2) return std::nullopt;
+    const auto rank = [&](Index i) { return order[static_cast<std::size_t>(i)]; };
+    // What is no point comes after the one before it.
+    for (std::size_t k = 1; k < chain.nodes.size(); ++k) {
+      std::size_t& own = order[static_cast<std::size_t>(chain.nodes[k])];
+      if (own == unknown) own = rank(chain.nodes[k - 1]);
+    }
+    if (rank(chain.nodes.front()) != unknown)
+      std::stable_sort(chain.nodes.begin(), chain.nodes.end(), [&](Index a, Index b) { return rank(a) < rank(b); });
   }
   return PolygonCurve(input_.curve().positions(), std::move(chains));
 }

@@ -23,6 +23,8 @@ constexpr double first_share = 0.95;
 constexpr double aimed_share = 0.995;
 // Of how far the curve may go, so that it does not go beyond between nodes.
 constexpr double aimed_share_of_way = 0.98;
+// Of that, across the curve, where what is away along it is nearly all.
+constexpr double least_share_across = 0.01;
 constexpr int starts = 2;
 constexpr int robust_starts = 2;
 constexpr int risk_starts = 4;
@@ -32,6 +34,9 @@ constexpr double times_noise = 3;
 constexpr double least_spacing_in_tolerances = 0.05;
 constexpr int most_grids = 4;
 constexpr int most_steps_on_grid = 30;
+// Of what is beyond bounds, that is left after so many steps.
+constexpr int steps_per_look = 10;
+constexpr double hopeless_share = 0.9;
 // While corners move.
 constexpr int most_steps_of_corners = 8;
 constexpr int grids_of_corners = 3;
@@ -48,6 +53,7 @@ constexpr int most_halvings = 6;
 // Of a step, that is taken to keep edges from turning further; damped where it were less.
 constexpr double least_share = 0.15;
 constexpr int most_dampings = 5;
+constexpr double no_less_for_damping = 0.8;
 constexpr double first_damping = 0.01;
 constexpr double more_damping = 8;
 constexpr double less_damping = 0.1;
@@ -73,6 +79,8 @@ constexpr double edges_of_noise = 0.4;
 constexpr double spacing_of_springs = 0.25;
 constexpr int most_trials_of_weight = 24;
 constexpr double near_rms = 0.985;
+// Of a root mean square, for points that can be moved: with less than that the curve follows their noise.
+constexpr double least_share_of_rms = 0.95;
 constexpr double no_nearer = 0.995;
 constexpr int most_without_gain = 3;
 constexpr double next_to_no_weight = 1e-3;
@@ -289,14 +297,21 @@ class CurveFitter {
     const int sides = has_corners() ? 2 : 1;
     int sides_done = 0;
     double last_step = std::numeric_limits<double>::infinity();
+    double excess_at_look = std::numeric_limits<double>::infinity();
     for (int step = 0; step < most_steps && work_ < most_work_; ++step) {
       end_if_cancelled();
+      if (step % steps_per_look == 0) {
+        // What is far beyond its bounds and comes no nearer stays so.
+        if (excess - 1 > hopeless_share * (excess_at_look - 1)) break;
+        excess_at_look = excess;
+      }
       ++found_.steps;
       work_ += found_.curve.size();
       const DenseCurve before = found_.curve;
       std::vector<CurvePoint> places = found_.points;
       double greatest = 0;
       double turn = 0;
+      double last_turn = std::numeric_limits<double>::infinity();
       bool found = false;
       std::vector<Vector3> moves(before.size(), Vector3::Zero());
       for (int trial = 0; trial < most_dampings; ++trial) {
@@ -341,6 +356,9 @@ class CurveFitter {
           return;
         }
         if (turn * least_share <= greatest_turn_of_step) break;
+        // Bounds have to be met, however much a step is damped.
+        if (turn > no_less_for_damping * last_turn) break;
+        last_turn = turn;
         damping_ = damping_ > 0 ? more_damping * damping_ : first_damping * energy / squares;
       }
       double share = turn > greatest_turn_of_step ? greatest_turn_of_step / turn : 1;
@@ -366,9 +384,14 @@ class CurveFitter {
         bent = bend;
         break;
       }
+      const bool damped = damping_ > 0;
       if (!better) {
         found_.curve = before;
         found_.points = places;
+        if (damped) {
+          damping_ = 0;
+          continue;
+        }
         found_.converged = found && bent <= 1;
         ahead_ = !ahead_;
         if (++sides_done < sides) continue;
@@ -381,8 +404,8 @@ class CurveFitter {
       }
       last_step = greatest * share;
       found_.error = last_step;
-      const bool still = excess <= 1 && last_step < settled_step();
-      const bool settled = !springs_ &&
+      const bool still = !damped && excess <= 1 && last_step < settled_step();
+      const bool settled = !springs_ && !damped &&
                            ((share == 1 && energy - now <= settled_energy * energy) || now <= nothing_left_) &&
                            excess <= 1 && bent <= 1;
       energy = now;
@@ -456,11 +479,11 @@ class CurveFitter {
       program.add_bending(tie_break);
     }
     for (CurvePoint& point : found_.points) {
-      if (!(point.weight > 0) || is_at_held(point)) continue;
+      if (!(point.weight > 0) || found_.curve.is_at_held(point.at)) continue;
       CurvePoint aimed = point;
       set_bound(aimed, point.bound, aimed_share);
       const std::size_t row = program.add_point(aimed, data_weight_);
-      if (point.bound > 0) bounded_.emplace_back(&point.bound, row);
+      if (point.bound > 0) bounded_.push_back({&point.bound, row, 0});
     }
     for (PolylineBound& one : between_) {
       const Vector3 place = found_.curve.at(one.at);
@@ -469,7 +492,11 @@ class CurveFitter {
       point.place = one.nearest(place);
       point.at = one.at;
       set_bound(point, one.bound, aimed_share_of_way);
-      bounded_.emplace_back(&one.bound, program.add_bound(point));
+      // Nodes go across the curve, which may go across the polyline, as at tips.
+      const double along = (place - point.place).dot(found_.curve.direction(one.at));
+      const double across = std::sqrt(std::max(0.0, point.bound * point.bound - along * along));
+      point.bound = std::max(across, least_share_across * point.bound);
+      bounded_.push_back({&one.bound, program.add_bound(point), along});
     }
     if (damping_ > 0) program.add_damping(damping_);
     if (task_.least_radius > 0)
@@ -512,8 +539,9 @@ class CurveFitter {
   /// Those that were paid for, to where the step goes.
   void loosen_bounds(const BallSolution& solution) {
     gives_way_ = true;
-    for (const auto& [bound, row] : bounded_) {
-      if (solution.distances[row] > *bound) *bound = loosened * solution.distances[row];
+    for (const auto& [bound, row, along] : bounded_) {
+      const double away = std::hypot(solution.distances[row], along);
+      if (away > *bound) *bound = loosened * away;
     }
   }
 
@@ -528,17 +556,11 @@ class CurveFitter {
       one.bound = std::max(one.bound, loosened * one.distance(found_.curve.at(one.at)));
   }
 
-  /// Nearest to a node that does not move: nothing can be done about it.
-  [[nodiscard]] bool is_at_held(const CurvePoint& point) const {
-    const bool at_start = point.at.share == 0 && found_.curve.node(point.at.edge).held;
-    return at_start || (point.at.share == 1 && found_.curve.node(found_.curve.next(point.at.edge)).held);
-  }
-
   /// The greatest share of its bound that anything is away that can be moved.
   [[nodiscard]] double excess() const {
     double greatest = 0;
     for (const CurvePoint& point : found_.points) {
-      if (point.bound > 0 && point.weight > 0 && !is_at_held(point))
+      if (point.bound > 0 && point.weight > 0 && !found_.curve.is_at_held(point.at))
         greatest = std::max(greatest, found_.curve.offset(point.at, point.place).norm() / point.bound);
     }
     for (const PolylineBound& one : between_)
@@ -555,13 +577,37 @@ class CurveFitter {
   }
 
   [[nodiscard]] double rms() const {
-    double squares = 0;
+    const auto all = squares([](const CurvePoint&) { return true; });
+    return all.weights > 0 ? std::sqrt(all.sum / all.weights) : 0;
+  }
+
+  struct Squares {
+    double sum = 0;
     double weights = 0;
+  };
+
+  /// Of the distances of points that count.
+  template <typename Counts>
+  [[nodiscard]] Squares squares(Counts counts) const {
+    Squares result;
     for (const CurvePoint& point : found_.points) {
-      squares += point.weight * found_.curve.offset(point.at, point.place).squaredNorm();
-      weights += point.weight;
+      if (!counts(point)) continue;
+      result.sum += point.weight * found_.curve.offset(point.at, point.place).squaredNorm();
+      result.weights += point.weight;
     }
-    return weights > 0 ? std::sqrt(squares / weights) : 0;
+    return result;
+  }
+
+  /// The root mean square that all points have where those that can be moved have what is asked for, if that is so much
+  /// more that they would have to follow their noise to make up for the others.
+  [[nodiscard]] double rms_to_reach() const {
+    const Squares at_held = squares([&](const CurvePoint& point) { return found_.curve.is_at_held(point.at); });
+    const double weights = weight();
+    const double wanted = task_.rms * task_.rms;
+    const double left = wanted * weights - at_held.sum;
+    const double movable = weights - at_held.weights;
+    if (left >= std::pow(least_share_of_rms, 2) * wanted * movable) return task_.rms;
+    return std::sqrt((wanted * movable + at_held.sum) / weights);
   }
 
   [[nodiscard]] double weight() const {
@@ -590,12 +636,13 @@ class CurveFitter {
       for (CurvePoint& point : found_.points) point.bound = bound_of_rms * task_.rms;
       go();
       for (CurvePoint& point : found_.points) point.bound = 0;
-      if (rms() <= task_.rms) return;
+      if (rms() <= rms_to_reach()) return;
       // As much as the energy is.
       const double of_wave = weight_of_wave();
       data_weight_ = std::max(merit() / (weight() * std::pow(task_.rms, 2)), of_wave);
       least_weight_ = next_to_no_weight * of_wave;
     }
+    const double wanted = rms_to_reach();
     double near = 0;
     double far = 0;
     double nearest = std::numeric_limits<double>::infinity();
@@ -604,10 +651,10 @@ class CurveFitter {
     for (int trial = 0; trial < most_trials_of_weight; ++trial) {
       go();
       const double figure = rms();
-      if (figure <= task_.rms) {
+      if (figure <= wanted) {
         near = data_weight_;
         best = found_;
-        if (figure >= near_rms * task_.rms || (far > 0 && near < 1.02 * far)) break;
+        if (figure >= near_rms * wanted || (far > 0 && near < 1.02 * far)) break;
         // A curve of no energy at all is nearer than it need be.
         if (data_weight_ < least_weight_) {
           best.converged = true;
@@ -661,8 +708,13 @@ class CurveFitter {
   CurveFound found_;
   std::vector<double> weights_;
   std::vector<PolylineBound> between_;
-  std::vector<std::pair<double*, std::size_t>> bounded_;  // bounds of the program, and their rows
-  bool gives_way_ = false;                                ///< whether a bound does
+  struct Bounded {
+    double* bound;
+    std::size_t row;  ///< of the program
+    double along;     ///< how far away along the curve, which no step changes
+  };
+  std::vector<Bounded> bounded_;
+  bool gives_way_ = false;  ///< whether a bound does
   double data_weight_ = 0;
   double least_weight_ = 0;
   double damping_ = 0;

@@ -20,14 +20,6 @@ struct CurvePoint {
   double price = 0;    ///< of what it is beyond, as of rows of a program; 0: it may not be
 };
 
-/// What is least, besides what points add.
-enum class CurveEnergy {
-  /// Σ (change of curvature)² / length, more of it allowed where the curve is bent more: see weights_of_change().
-  variation,
-  /// The equilibrium of springs: (second derivative of curvature) = pull of the points.
-  bending
-};
-
 /// One step of Gauss and Newton: how nodes go across a curve, one way in a plane (K = 1), two in space; or along as
 /// many coordinates as move.
 template <int K>

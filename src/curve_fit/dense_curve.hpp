@@ -103,6 +103,10 @@ class DenseCurve {
     return moving_.cwiseProduct(this->at(at) - point);
   }
   [[nodiscard]] Vector3 direction(const CurvePlace& at) const;
+  /// Whether a place is a node that does not move: nothing brings that nearer to a point.
+  [[nodiscard]] bool is_at_held(const CurvePlace& at) const {
+    return (at.share == 0 && node(at.edge).held) || (at.share == 1 && node(next(at.edge)).held);
+  }
 
   /// Weights of the nodes before an edge, at its ends and after it, of a place on it, and what no node has a part in.
   struct PlaceRow {

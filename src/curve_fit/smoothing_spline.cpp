@@ -365,6 +365,8 @@ class SmoothingSpline {
       const double square = this->square(point, within);
       if (within > 0 && square > std::pow(most_outside * within, 2)) return false;
       outside += square > within * within ? point.weight : 0;
+      // The others would have to follow their noise to make up for it.
+      if (!(within > 0) && curve_.is_at_held(point.at)) continue;
       squares += point.weight * square;
       weights += point.weight;
     }

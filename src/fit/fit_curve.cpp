@@ -34,6 +34,10 @@ constexpr double far_off_way = 2;
 constexpr double most_cut_off = 1.2;
 constexpr double most_spared = 0.7;
 constexpr double share_of_nearer = 0.997;
+// Of a root mean square that is allowed.
+constexpr double well_used = 0.7;
+// What is furthest away may be, of a root mean square.
+constexpr double furthest_of_rms = 3;
 constexpr int most_turns_nearer = 5;
 constexpr int most_turns_of_chords = 4;
 constexpr int most_turns_of_pulling = 8;
@@ -125,6 +129,7 @@ class CurveFit {
     }
     pull_to_rows(*best);
     keep_what_is_fairer(*best);
+    way_beyond_ = best->way_beyond;
     nodes_ = std::move(best->nodes);
     return true;
   }
@@ -179,28 +184,35 @@ class CurveFit {
   }
 
   /// Rows are within any tolerance of themselves: where the curve is not of some, their nodes go to where they are, and
-  /// from there to where their chords are fairest.
+  /// from there to where their chords are fairest. At last all nodes do; chords are within then, too.
   void pull_to_rows(MeasuredNodes& found) {
     const auto within = input_.options().within();
     if (!within || !input_.own_nodes() || !found.nodes.from.empty()) return;
-    bool were_pulled = false;
-    for (int turn = 0; turn < most_turns_of_pulling && found.figure > *within; ++turn) {
-      std::vector<Vector3> places = found.nodes.curve.positions();
-      const std::vector<double> distances = measures_.movable_distances(found.nodes);
+    const auto points_off = [&](const Resampled& nodes) {
+      return measures_.figure(measures_.movable_distances(nodes));
+    };
+    if (points_off(found.nodes) <= *within) return;
+    MeasuredNodes now = found;
+    for (int turn = 1; turn <= most_turns_of_pulling && now.figure > *within; ++turn) {
+      std::vector<Vector3> places = now.nodes.curve.positions();
+      const std::vector<double> distances = measures_.movable_distances(now.nodes);
       for (std::size_t i = 0; i < places.size(); ++i) {
-        if (input_.kept()[i] == 0 || distances[i] <= *within) continue;
+        if (input_.kept()[i] == 0 || input_.constraints().position_fixed(static_cast<Index>(i))) continue;
         const Vector3 row = input_.curve().position(static_cast<Index>(i));
-        places[i] = row + share_of_nearer * *within * (places[i] - row).normalized();
+        const double away = turn < most_turns_of_pulling ? distances[i] : (places[i] - row).norm();
+        if (away > *within) places[i] = row + share_of_nearer * *within * (places[i] - row).normalized();
       }
-      Resampled pulled = found.nodes;
+      Resampled pulled = now.nodes;
       pulled.curve.set_positions(std::move(places));
-      MeasuredNodes now = measures_.measured(std::move(pulled));
-      if (!(now.figure < found.figure)) return;
-      found = std::move(now);
-      found_.converged = false;
-      were_pulled = true;
+      now = measures_.measured(std::move(pulled));
+      // Between rows in their own order, whatever the way's is.
+      if (turn == most_turns_of_pulling) now.figure = points_off(now.nodes);
     }
-    if (were_pulled) (void)draw_chords_in(found, true);
+    if (!(now.figure < found.figure)) return;
+    if (now.figure <= *within) now.way_beyond = 0;
+    found = std::move(now);
+    found_.converged = false;
+    (void)draw_chords_in(found, true);
   }
 
   /// The rows themselves, which are within any tolerance, where the curve that was found is no fairer.
@@ -215,6 +227,7 @@ class CurveFit {
       if (constraints.position_fixed(i) && constraints.position(i) != input_.curve().position(i)) return;
     }
     MeasuredNodes rows = measures_.measured({input_.curve(), constraints, {}});
+    rows.way_beyond = 0;
     // A shape that may not be the fairest is not to vary more than what came.
     const bool varies_less = rows.figures.curvature_variation < found.figures.curvature_variation;
     if (rows.radius_kept == 1 && (found_.converged ? is_fairer(rows.figures, found.figures) : varies_less))
@@ -263,11 +276,17 @@ class CurveFit {
   /// curvature, less variation.
   [[nodiscard]] bool is_better(const Attempt& a, const Attempt& b) const {
     const double tolerance = *input_.options().tolerance();
-    const bool within = a.figure <= tolerance;
-    const double most = far_off_way * std::max(tolerance, std::min(a.way_off, b.way_off));
+    // What is a little beyond a root mean square is drawn nearer afterwards.
+    const double near = (input_.options().rms() ? most_cut_off : 1) * tolerance;
+    const bool within = a.figure <= near;
+    const double furthest = (input_.options().rms() ? furthest_of_rms : 1) * tolerance;
+    const double most = far_off_way * std::max(furthest, std::min(a.way_off, b.way_off));
     if ((a.way_off <= most) != (b.way_off <= most)) return a.way_off <= most;
     if (a.found.converged != b.found.converged) return a.found.converged;
-    if (within != (b.figure <= tolerance)) return within;
+    if (within != (b.figure <= near)) return within;
+    // At tips one may go out to a smaller distance than is asked for, however little points weigh.
+    const double least = input_.options().rms() ? well_used * tolerance : 0;
+    if ((a.figure >= least) != (b.figure >= least)) return a.figure >= least;
     if (a.radius_kept != b.radius_kept) return a.radius_kept > b.radius_kept;
     if (a.figures.inflections != b.figures.inflections) return a.figures.inflections < b.figures.inflections;
     if (a.figures.curvature_extrema != b.figures.curvature_extrema)
@@ -369,7 +388,7 @@ class CurveFit {
     if (measures_.figure(result.distances) > *tolerance) {
       fair.outcome = Outcome::stalled;
       fair.warnings.push_back({WarningCode::outside_tolerance, outside(result, *tolerance)});
-    } else if (goes_beyond(report)) {
+    } else if (way_beyond_ > next_to_nothing_beyond) {
       fair.outcome = Outcome::stalled;
       fair.warnings.push_back(
           {WarningCode::outside_tolerance,
@@ -400,17 +419,12 @@ class CurveFit {
                            : ": edges are too long there, or what is held is near");
   }
 
-  /// Whether the curve could not be held near the polyline of the points, and the shape is far from it, too.
-  [[nodiscard]] bool goes_beyond(const FitReport& report) const {
-    if (!input_.options().within() || !input_.own_nodes()) return false;
-    return found_.beyond > far_off_way && report.shape.greatest > far_off_way * *input_.options().within();
-  }
-
   CurveFitInput input_;
   Context& context_;
   ProgressReporter progress_;
   CurveFound found_;
   CurveMeasures measures_;
+  double way_beyond_ = 0;  ///< of the nodes that were found
   Resampled nodes_{.curve = {}, .constraints = Constraints(0), .from = {}};
 };
 

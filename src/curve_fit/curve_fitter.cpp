@@ -118,13 +118,13 @@ class CurveFitter {
 
   double rms_of_noise() {
     begin_on_way();
-    double rms = 0;
+    LeastRisk found;
     for (int k = 0; k < risk_starts && !found_.points.empty(); ++k) {
-      rms = smooth_out_by_risk(found_.curve, found_.points, task_.noise, K);
+      found = smooth_out_by_risk(found_.curve, found_.points, task_.noise, K, found.smoothing);
       find_places(found_.curve, found_.points);
       take_new_nodes(with_new_nodes(found_.curve, least_spacing()));
     }
-    return rms;
+    return found.rms;
   }
 
   CurveFound start() {

@@ -46,10 +46,17 @@ void smooth_out(DenseCurve& curve, const std::vector<CurvePoint>& points, double
 /// The same for a smoothing length.
 void smooth_out_by(DenseCurve& curve, const std::vector<CurvePoint>& points, double length);
 
+struct LeastRisk {
+  double rms = 0;  ///< what points are off
+  double smoothing = 0;
+};
+
 /// The same as smooth as it takes for the expected distance from where points without noise would lie to be least, by
 /// Mallows' C_p (Stein's unbiased estimate of the risk). noise: their standard deviation in each of so many directions
-/// across. Returns the root mean square of what points are off then.
-double smooth_out_by_risk(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise, int directions);
+/// across. about: the smoothing of a curve that is much the same, near which this one's is then looked for; 0:
+/// anywhere.
+LeastRisk smooth_out_by_risk(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise, int directions,
+                             double about);
 
 /// The same by absolute distances in place of squares, which single points that are off do not draw aside: as smooth as
 /// it can be with half of the points as near as noise of that standard deviation leaves them.

@@ -19,6 +19,8 @@ constexpr double first_smoothing = 1e2;
 constexpr double least_smoothing = 1e-24;
 constexpr double coarse_stride = 1e-2;
 constexpr double fine_stride = 0.3;
+// To either side of the smoothing of a curve that is much the same.
+constexpr int strides_about = 6;
 // Of the points: parameters.
 constexpr double most_freedom = 0.9;
 // How often parameters count for the risk: more than once, as noise may be more than it was estimated to be, and who
@@ -64,7 +66,7 @@ struct LeastSquares {
   LeastSquares(std::size_t size, std::size_t width) : triangle(size, width), right(size, Vector3::Zero()) {}
 
   /// entries · x = value.
-  void add(std::size_t first, const BandTriangle::Row& entries, Vector3 value, double factor) {
+  void add(std::size_t first, std::span<const double> entries, Vector3 value, double factor) {
     value *= factor;
     triangle.add(first, entries, factor, [&](std::size_t column, double cosine, double sine) {
       const Vector3 above = right[column];
@@ -78,6 +80,13 @@ struct LeastSquares {
 };
 
 class SmoothingSpline {
+  struct Row {
+    std::size_t first;
+    BandTriangle::Row entries;
+    Vector3 value;
+    double factor;
+  };
+
  public:
   SmoothingSpline(DenseCurve& curve, const std::vector<CurvePoint>& points) : curve_(curve), points_(points) {
     number();
@@ -100,9 +109,10 @@ class SmoothingSpline {
       change.rest -= first->rest;
       add(change, std::pow(length, 5) / edge);
     }
-    take_rows(fixed_);
+    take_rows();
     length_ = length;
     counts_.assign(points.size(), 1);
+    find_point_rows();
     find_data();
   }
 
@@ -112,17 +122,18 @@ class SmoothingSpline {
     take();
   }
 
-  /// Returns the root mean square of what it leaves.
-  double run_by_risk(double noise, int directions) {
+  LeastRisk run_by_risk(double noise, int directions, double about) {
     double least = std::numeric_limits<double>::infinity();
-    double rms = 0;
+    LeastRisk found;
     std::vector<Vector3> best;
     const auto pulls = [](const CurvePoint& point) { return point.weight > 0; };
     const auto count = static_cast<double>(std::count_if(points_.begin(), points_.end(), pulls));
     const std::vector<double> shares = shares_of_freedom();
     const std::vector<Vector3> along = directions_at_points();
-    double smoothing = first_smoothing / fine_stride;
-    while (smoothing > least_smoothing) {
+    const double far = std::pow(fine_stride, strides_about);
+    const double first = about > 0 ? std::min(about / far, first_smoothing) : first_smoothing;
+    double smoothing = first / fine_stride;
+    while (smoothing > std::max(least_smoothing, about > 0 ? far * found.smoothing : 0)) {
       smoothing *= fine_stride;
       end_if_cancelled();
       const double freedom = this->freedom(shares, smoothing);
@@ -134,12 +145,14 @@ class SmoothingSpline {
       const double risk = square / directions + spread;
       if (!(risk < least) || !is_sane()) continue;
       least = risk;
-      rms = std::sqrt(square);
+      found = {std::sqrt(square), smoothing};
       best = places_;
     }
+    // Less of it may be better.
+    if (found.smoothing == first && first < first_smoothing) return run_by_risk(noise, directions, 0);
     places_ = std::move(best);
     take();
-    return rms;
+    return found;
   }
 
   void run_robustly(double noise) {
@@ -154,13 +167,13 @@ class SmoothingSpline {
       }
       for (int turn = 0; turn < robust_turns; ++turn) {
         for (std::size_t j = 0; j < points_.size(); ++j)
-          counts_[j] = 1 / std::max(std::sqrt(squared_residual(points_[j])) / noise, 1.0);
+          counts_[j] = 1 / std::max(std::sqrt(squared_residual(j)) / noise, 1.0);
         find_data();
         (void)solve(smoothing);
       }
       std::vector<double> distances;
-      for (const CurvePoint& point : points_)
-        distances.push_back(curve_.moves_freely() ? squared_distance(point) : squared_residual(point));
+      for (std::size_t j = 0; j < points_.size(); ++j)
+        distances.push_back(curve_.moves_freely() ? squared_distance(points_[j]) : squared_residual(j));
       const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
       std::nth_element(distances.begin(), middle, distances.end());
       if (std::sqrt(*middle) <= median_of_noise * noise) break;
@@ -219,7 +232,7 @@ class SmoothingSpline {
     for (int turn = 0; turn < most_turns_drawing_in; ++turn) {
       bool outside = false;
       for (std::size_t j = 0; j < points_.size(); ++j) {
-        const double away = curve_.moves_freely() ? squared_distance(points_[j]) : squared_residual(points_[j]);
+        const double away = curve_.moves_freely() ? squared_distance(points_[j]) : squared_residual(j);
         const double beyond = std::sqrt(away) / most;
         if (!(points_[j].weight > 0) || beyond <= 1) continue;
         outside = true;
@@ -250,8 +263,23 @@ class SmoothingSpline {
     data_ = LeastSquares(columns_, width_);
     double weights = 0;
     for (const CurvePoint& point : points_) weights += point.weight;
-    for (std::size_t j = 0; j < points_.size(); ++j) add(row_of(points_[j]), counts_[j] * points_[j].weight / weights);
-    take_rows(data_);
+    for (const std::size_t j : order_) {
+      const double weight = counts_[j] * points_[j].weight / weights;
+      if (const auto row = row_from(point_rows_[j], weight))
+        data_.add(row->first, row->entries, row->value, row->factor);
+    }
+  }
+
+  void find_point_rows() {
+    std::vector<std::int32_t> first(points_.size());
+    order_.resize(points_.size());
+    point_rows_.reserve(points_.size());
+    for (std::size_t j = 0; j < points_.size(); ++j) {
+      order_[j] = j;
+      point_rows_.push_back(row_of(points_[j]));
+      first[j] = first_column(point_rows_.back());
+    }
+    std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return first[a] < first[b]; });
   }
 
   void number() {
@@ -300,32 +328,42 @@ class SmoothingSpline {
     return row;
   }
 
-  void add(const Affine& row, double weight) {
-    Vector3 rest = row.rest;
-    std::int32_t first = std::numeric_limits<std::int32_t>::max();
+  static constexpr std::int32_t no_column = std::numeric_limits<std::int32_t>::max();
+
+  [[nodiscard]] std::int32_t first_column(const Affine& row) const {
+    std::int32_t first = no_column;
+    for (int k = 0; k < row.count; ++k) {
+      const std::int32_t column = column_[row.nodes[static_cast<std::size_t>(k)]];
+      if (column >= 0) first = std::min(first, column);
+    }
+    return first;
+  }
+
+  /// None where it has no unknowns or no weight.
+  [[nodiscard]] std::optional<Row> row_from(const Affine& row, double weight) const {
+    const std::int32_t first = first_column(row);
+    if (first == no_column || !(weight > 0)) return std::nullopt;
+    Row found{static_cast<std::size_t>(first), {}, -row.rest, std::sqrt(weight)};
     for (int k = 0; k < row.count; ++k) {
       const auto n = static_cast<std::size_t>(k);
       const std::int32_t column = column_[row.nodes[n]];
       if (column < 0)
-        rest += row.weights[n] * curve_.place(row.nodes[n]);
+        found.value -= row.weights[n] * curve_.place(row.nodes[n]);
       else
-        first = std::min(first, column);
+        found.entries[static_cast<std::size_t>(column - first)] += row.weights[n];
     }
-    if (first == std::numeric_limits<std::int32_t>::max() || !(weight > 0)) return;
-    BandTriangle::Row entries{};
-    for (int k = 0; k < row.count; ++k) {
-      const auto n = static_cast<std::size_t>(k);
-      const std::int32_t column = column_[row.nodes[n]];
-      if (column >= 0) entries[static_cast<std::size_t>(column - first)] += row.weights[n];
-    }
-    rows_.push_back({static_cast<std::size_t>(first), entries, -rest, std::sqrt(weight)});
+    return found;
+  }
+
+  void add(const Affine& row, double weight) {
+    if (auto found = row_from(row, weight)) rows_.push_back(std::move(*found));
   }
 
   /// In the order of their first unknown.
-  void take_rows(LeastSquares& to) {
+  void take_rows() {
     std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.first < b.first; });
-    for (const Row& row : rows_) to.add(row.first, row.entries, row.value, row.factor);
-    rows_.clear();
+    for (const Row& row : rows_) fixed_.add(row.first, row.entries, row.value, row.factor);
+    rows_ = {};
   }
 
   bool solve(double smoothing) {
@@ -360,9 +398,10 @@ class SmoothingSpline {
     double squares = 0;
     double outside = 0;
     double weights = 0;
-    for (const CurvePoint& point : points_) {
+    for (std::size_t j = 0; j < points_.size(); ++j) {
+      const CurvePoint& point = points_[j];
       if (!(point.weight > 0)) continue;
-      const double square = this->square(point, within);
+      const double square = this->square(j, within);
       if (within > 0 && square > std::pow(most_outside * within, 2)) return false;
       outside += square > within * within ? point.weight : 0;
       // The others would have to follow their noise to make up for it.
@@ -374,8 +413,8 @@ class SmoothingSpline {
   }
 
   /// Of its distance. Where the way comes back, the nearest place may be one of its other half.
-  [[nodiscard]] double square(const CurvePoint& point, double within) const {
-    return within > 0 || !curve_.moves_freely() ? squared_residual(point) : squared_distance(point);
+  [[nodiscard]] double square(std::size_t point, double within) const {
+    return within > 0 || !curve_.moves_freely() ? squared_residual(point) : squared_distance(points_[point]);
   }
 
   /// What a point has of the parameters of the spline with a smoothing of 1, one after the other: they are as dense as
@@ -405,8 +444,9 @@ class SmoothingSpline {
 
   /// How many parameters the spline has in effect, in each coordinate; a point can tell no more than one.
   [[nodiscard]] static double freedom(const std::vector<double>& shares, double smoothing) {
+    const double density = std::pow(smoothing, -1.0 / 6);
     double sum = 0;
-    for (const double share : shares) sum += std::min(1.0, share * std::pow(smoothing, -1.0 / 6));
+    for (const double share : shares) sum += std::min(1.0, share * density);
     return sum;
   }
 
@@ -424,7 +464,7 @@ class SmoothingSpline {
     double weights = 0;
     for (std::size_t j = 0; j < points_.size(); ++j) {
       const CurvePoint& point = points_[j];
-      Vector3 away = residual(point);
+      Vector3 away = residual(j);
       away -= away.dot(along[j]) * along[j];
       squares += point.weight * away.squaredNorm();
       weights += point.weight;
@@ -432,10 +472,10 @@ class SmoothingSpline {
     return squares / weights;
   }
 
-  [[nodiscard]] double squared_residual(const CurvePoint& point) const { return residual(point).squaredNorm(); }
+  [[nodiscard]] double squared_residual(std::size_t point) const { return residual(point).squaredNorm(); }
 
-  [[nodiscard]] Vector3 residual(const CurvePoint& point) const {
-    const Affine row = row_of(point);
+  [[nodiscard]] Vector3 residual(std::size_t point) const {
+    const Affine& row = point_rows_[point];
     Vector3 away = row.rest;
     for (int k = 0; k < row.count; ++k) {
       const auto n = static_cast<std::size_t>(k);
@@ -465,13 +505,9 @@ class SmoothingSpline {
   std::vector<std::int32_t> column_;
   std::size_t columns_ = 0;
   std::size_t width_ = 0;
-  struct Row {
-    std::size_t first;
-    BandTriangle::Row entries;
-    Vector3 value;
-    double factor;
-  };
   std::vector<Row> rows_;  ///< until they are taken
+  std::vector<Affine> point_rows_;
+  std::vector<std::size_t> order_;  ///< of points, by their first unknowns
   LeastSquares fixed_{0, 1};
   LeastSquares data_{0, 1};
   double length_ = 0;
@@ -489,8 +525,9 @@ void smooth_out_by(DenseCurve& curve, const std::vector<CurvePoint>& points, dou
   SmoothingSpline(curve, points).run_by(length);
 }
 
-double smooth_out_by_risk(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise, int directions) {
-  return SmoothingSpline(curve, points).run_by_risk(noise, directions);
+LeastRisk smooth_out_by_risk(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise, int directions,
+                             double about) {
+  return SmoothingSpline(curve, points).run_by_risk(noise, directions, about);
 }
 
 void smooth_out_robustly(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise) {

@@ -129,11 +129,17 @@ Squares squares_to(std::span<const Vector3> points, const Elements& elements, st
   Squares result{std::vector<double>(points.size(), -1), frame.scale()};
   parallel_ranges(team, points.size(), points_per_task, [&](std::size_t begin, std::size_t end) {
     if (context.cancelled()) return;
+    Index last = 0;
     for (std::size_t i = begin; i < end; ++i) {
       if (!from[i].allFinite()) continue;
-      const auto nearest =
-          tree.nearest(from[i], [&](Index k) { return square(from[i], elements[static_cast<std::size_t>(k)], to); });
-      result.squares[i] = nearest.square;
+      const auto square_to = [&](Index k) { return square(from[i], elements[static_cast<std::size_t>(k)], to); };
+      // Points one after the other mostly lie at one element or at the next: little of the tree is left to look at.
+      const Index next = last + 1 < static_cast<Index>(elements.size()) ? last + 1 : last;
+      const double there = square_to(last);
+      const double ahead = square_to(next);
+      const auto nearer = tree.nearest(from[i], square_to, std::min(there, ahead));
+      result.squares[i] = nearer.square;
+      last = nearer.item >= 0 ? nearer.item : ahead < there ? next : last;
     }
   });
   return result;

@@ -1,7 +1,10 @@
 #include "linear/ball_program.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -24,6 +27,12 @@ constexpr double enough_balance = 1e-6;
 // Of half a bound.
 constexpr double first_slack = 0.1;
 constexpr double first_gap = 0.1;
+// Of a bound: rows that are nearer to it have a part in a step, others do not yet.
+constexpr double near_share = 0.9;
+// Of fewer all have a part from the start: that takes little.
+constexpr std::size_t few_bounds = 2000;
+// So many windows one after the other: of their rows those that are furthest out have a part from the start.
+constexpr std::uint32_t windows_together = 8;
 // Of the objective.
 constexpr double hopeless_gap = 1e4;
 // Of the way to where a slack or a multiplier vanishes.
@@ -40,6 +49,7 @@ class InteriorPoint {
   /// What a bounded row has.
   struct Bound {
     std::size_t row;
+    std::size_t first;  ///< block of the row
     double slack = 0;
     double multiplier = 0;
     double slack_step = 0;
@@ -63,7 +73,7 @@ class InteriorPoint {
         objective_triangle_(x_.size(), width_of(program)),
         triangle_(x_.size(), width_of(program)) {
     for (std::size_t r = 0; r < program.rows.size(); ++r) {
-      if (program.rows[r].bound > 0) bounds_.push_back({r});
+      if (program.rows[r].bound > 0) left_out_.push_back(r);
       has_prices_ = has_prices_ || program.rows[r].price > 0;
     }
   }
@@ -114,6 +124,7 @@ class InteriorPoint {
         bound.spare -= share * bound.multiplier_step;
       }
       find_values();
+      take_in_near();
     }
     result.x = x_;
     for (const Value& value : values_) result.distances.push_back(value.norm());
@@ -137,18 +148,82 @@ class InteriorPoint {
 
   void begin() {
     find_values();
+    take_in_first();
     double objective = 0;
     for (std::size_t r = 0; r < values_.size(); ++r) objective += program_.rows[r].weight * values_[r].squaredNorm();
     const double target = first_gap * objective / static_cast<double>(std::max<std::size_t>(bounds_.size(), 1));
     for (Bound& bound : bounds_) {
-      bound.slack = std::max(-excess(bound), first_slack * program_.rows[bound.row].bound / 2);
-      bound.multiplier = target / bound.slack;
+      begin(bound, target);
       if (!has_price(bound)) continue;
       const double price = program_.rows[bound.row].price;
       bound.multiplier = std::min(bound.multiplier, price / 2);
       bound.spare = price - bound.multiplier;
       bound.beyond = std::max(excess(bound) + bound.slack, first_slack * program_.rows[bound.row].bound / 2);
     }
+  }
+
+  /// target: of slack · multiplier.
+  void begin(Bound& bound, double target) const {
+    bound.slack = std::max(-excess(bound), first_slack * program_.rows[bound.row].bound / 2);
+    bound.multiplier = target / bound.slack;
+  }
+
+  /// Those with a part in the program from the start: near their bounds, or furthest out of those about them.
+  void take_in_first() {
+    std::vector<std::uint8_t> taken(values_.size(), 0);
+    std::array<std::size_t, 1U << K> furthest{};
+    std::array<double, 1U << K> shares;
+    shares.fill(-1);
+    std::uint32_t windows = 0;
+    const bool all = has_prices_ || left_out_.size() < few_bounds;
+    const auto take_furthest = [&] {
+      for (std::size_t s = 0; s < shares.size(); ++s) {
+        if (shares[s] >= 0) taken[furthest[s]] = 1;
+        shares[s] = -1;
+      }
+    };
+    std::vector<std::size_t> order = left_out_;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return program_.rows[a].window < program_.rows[b].window; });
+    for (const std::size_t r : order) {
+      const Row& row = program_.rows[r];
+      if (row.window / windows_together != windows) take_furthest();
+      windows = row.window / windows_together;
+      const double share = values_[r].norm() / row.bound;
+      if (share >= near_share || all) taken[r] = 1;
+      std::size_t sector = 0;
+      for (int k = 0; k < K; ++k) sector += values_[r][k] > 0 ? std::size_t{1} << k : 0;
+      if (!(share > shares[sector])) continue;
+      shares[sector] = share;
+      furthest[sector] = r;
+    }
+    take_furthest();
+    std::erase_if(left_out_, [&](std::size_t r) {
+      if (taken[r] != 0) bounds_.push_back({r, first_block(program_.rows[r])});
+      return taken[r] != 0;
+    });
+    std::sort(bounds_.begin(), bounds_.end(), is_before);
+  }
+
+  /// Those that have come near their bounds since.
+  void take_in_near() {
+    if (left_out_.empty()) return;
+    const auto before = static_cast<std::ptrdiff_t>(bounds_.size());
+    const double target = gap() / static_cast<double>(before);
+    std::erase_if(left_out_, [&](std::size_t r) {
+      const Row& row = program_.rows[r];
+      if (values_[r].squaredNorm() < std::pow(near_share * row.bound, 2)) return false;
+      bounds_.push_back({r, first_block(row)});
+      begin(bounds_.back(), target);
+      return true;
+    });
+    std::sort(bounds_.begin() + before, bounds_.end(), is_before);
+    std::inplace_merge(bounds_.begin(), bounds_.begin() + before, bounds_.end(), is_before);
+  }
+
+  /// In the order of their first unknown rows take few rotations each.
+  static bool is_before(const Bound& a, const Bound& b) {
+    return a.first != b.first ? a.first < b.first : a.row < b.row;
   }
 
   [[nodiscard]] bool has_price(const Bound& bound) const { return program_.rows[bound.row].price > 0; }
@@ -239,27 +314,20 @@ class InteriorPoint {
   /// Rows of the objective stay the same from step to step.
   void begin_triangle() {
     double greatest = 0;
-    std::vector<std::size_t> order;
-    for (std::size_t r = 0; r < program_.rows.size(); ++r) {
-      const Row& row = program_.rows[r];
+    // Where rows that begin with each block begin among all, once these are in the order of their first unknown.
+    std::vector<std::size_t> begins(program_.blocks + 2, 0);
+    for (const Row& row : program_.rows) {
       if (!(row.weight > 0)) continue;
       greatest = std::max(greatest, std::sqrt(row.weight) * row.entries.cwiseAbs().maxCoeff());
-      order.push_back(r);
+      ++begins[first_block(row) + 1];
+    }
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    std::vector<std::size_t> order(begins.back());
+    for (std::size_t r = 0; r < program_.rows.size(); ++r) {
+      if (program_.rows[r].weight > 0) order[begins[first_block(program_.rows[r])]++] = r;
     }
     objective_triangle_.clear(least_diagonal * greatest);
-    sort_by_first(order, [](std::size_t r) { return r; });
     for (const std::size_t r : order) add(objective_triangle_, program_.rows[r], std::sqrt(program_.rows[r].weight));
-    bound_order_.resize(bounds_.size());
-    std::iota(bound_order_.begin(), bound_order_.end(), std::size_t{0});
-    sort_by_first(bound_order_, [&](std::size_t k) { return bounds_[k].row; });
-  }
-
-  /// In the order of their first unknown rows take few rotations each.
-  template <typename RowOf>
-  void sort_by_first(std::vector<std::size_t>& order, RowOf row_of) const {
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return first_block(program_.rows[row_of(a)]) < first_block(program_.rows[row_of(b)]);
-    });
   }
 
   [[nodiscard]] std::size_t first_block(const Row& row) const {
@@ -276,11 +344,7 @@ class InteriorPoint {
     for (std::size_t column = 0; column < triangle_.size(); ++column) {
       triangle_.add(column, objective_triangle_.row(column), 1);
       if (column % K != 0) continue;
-      for (; next < bound_order_.size(); ++next) {
-        const Bound& bound = bounds_[bound_order_[next]];
-        if (first_block(program_.rows[bound.row]) * K > column) break;
-        add(bound);
-      }
+      for (; next < bounds_.size() && bounds_[next].first * K <= column; ++next) add(bounds_[next]);
     }
   }
 
@@ -352,7 +416,7 @@ class InteriorPoint {
   std::vector<double> gradient_;
   std::vector<Value> values_;
   std::vector<Bound> bounds_;
-  std::vector<std::size_t> bound_order_;  // by their first unknown
+  std::vector<std::size_t> left_out_;  // rows with bounds that have no part yet
   BandTriangle objective_triangle_;
   BandTriangle triangle_;
   bool has_prices_ = false;

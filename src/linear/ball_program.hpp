@@ -42,7 +42,8 @@ struct BallSolution {
 
 /// By a primal-dual interior-point method with a predictor (Mehrotra 1992; Boyd and Vandenberghe, Convex Optimization,
 /// §11.7), for constraints (|row · x + offset|² − bound²) / (2 bound) ≤ 0, or ≤ what is paid for. x = 0 need not keep
-/// the bounds. At most 40 steps. Cost of one: linear.
+/// the bounds. Of many bounds those without a price have a part once x comes near
+/// them. At most 40 steps. Cost of one: linear.
 template <int K>
 BallSolution solve(const BallProgram<K>& program);
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace vspring {
@@ -19,73 +20,114 @@ class BandTriangle {
   static constexpr std::size_t most_width = 14;
   using Row = std::array<double, most_width>;
 
-  BandTriangle(std::size_t size, std::size_t width) : rows_(size), width_(width) { clear(0); }
+  BandTriangle(std::size_t size, std::size_t width)
+      : size_(size),
+        // Those of curves in the plane and in space, open and closed.
+        width_(width <= 4   ? 4
+               : width <= 7 ? 7
+               : width <= 8 ? 8
+                            : most_width),
+        entries_(size * width_) {}
 
-  [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
   /// diagonal: what there is in each column at the start.
   void clear(double diagonal) {
-    for (Row& row : rows_) {
-      row.fill(0);
-      row[0] = diagonal;
-    }
+    std::fill(entries_.begin(), entries_.end(), 0);
+    for (std::size_t i = 0; i < size_; ++i) entries_[i * width_] = diagonal;
   }
 
   /// A row, times a factor, whose entries begin at column `first`: in the order of these, or it takes as many rotations
   /// as there are columns below. Calls rotate(column, cosine, sine) for each rotation
   /// of a row of the triangle with it: for right-hand sides. Cost: width².
   template <typename Rotate>
-  void add(std::size_t first, Row left, double factor, Rotate rotate) {
-    for (std::size_t k = 0; k < width_; ++k) left[k] *= factor;
-    std::size_t rest = width_;
-    for (std::size_t column = first; column < rows_.size() && rest > 0; ++column) {
-      Row& above = rows_[column];
+  void add(std::size_t first, std::span<const double> row, double factor, Rotate rotate) {
+    for_width([&](auto width) { rotate_in<width>(first, row.data(), factor, rotate); });
+  }
+  void add(std::size_t first, std::span<const double> row, double factor) {
+    add(first, row, factor, [](std::size_t, double, double) {});
+  }
+
+  /// The diagonal and what is right of it.
+  [[nodiscard]] std::span<const double> row(std::size_t column) const {
+    return std::span(entries_).subspan(column * width_, width_);
+  }
+
+  /// R x = right, in place. Value: a number or a vector.
+  template <typename Value>
+  void solve_upper(std::span<Value> right) const {
+    for_width([&](auto width) {
+      for (std::size_t i = size_; i-- > 0;) {
+        const double* entries = &entries_[i * width];
+        const std::size_t count = std::min<std::size_t>(width, size_ - i);
+        for (std::size_t k = 1; k < count; ++k) right[i] -= entries[k] * right[i + k];
+        right[i] *= 1 / entries[0];
+      }
+    });
+  }
+
+  /// Rᵀ R x = right, in place.
+  void solve(std::span<double> right) const {
+    for_width([&](auto width) {
+      for (std::size_t i = 0; i < size_; ++i) {
+        const double* entries = &entries_[i * width];
+        const std::size_t count = std::min<std::size_t>(width, size_ - i);
+        right[i] /= entries[0];
+        for (std::size_t k = 1; k < count; ++k) right[i + k] -= entries[k] * right[i];
+      }
+    });
+    solve_upper(right);
+  }
+
+ private:
+  /// Loops of a length that is known are twice as fast.
+  template <typename Use>
+  void for_width(Use use) const {
+    switch (width_) {
+      case 4:
+        return use(std::integral_constant<std::size_t, 4>());
+      case 7:
+        return use(std::integral_constant<std::size_t, 7>());
+      case 8:
+        return use(std::integral_constant<std::size_t, 8>());
+      default:
+        return use(std::integral_constant<std::size_t, most_width>());
+    }
+  }
+
+  template <std::size_t Width, typename Rotate>
+  void rotate_in(std::size_t first, const double* row, double factor, Rotate& rotate) {
+    std::array<double, Width> left;
+    for (std::size_t k = 0; k < Width; ++k) left[k] = row[k] * factor;
+    std::size_t rest = Width;
+    for (std::size_t column = first; column < size_ && rest > 0; ++column) {
+      double* above = &entries_[column * Width];
       // What is left of a row dwindles along the band, until its square is no number any more.
       if (left[0] * left[0] >= std::numeric_limits<double>::min()) {
         const double length = std::sqrt(above[0] * above[0] + left[0] * left[0]);
         const double cosine = above[0] / length;
         const double sine = left[0] / length;
+        // Nothing stands there yet.
+        const bool ends = above[0] == 0;
         above[0] = length;
-        for (std::size_t k = 1; k < width_; ++k) {
+        for (std::size_t k = 1; k < Width; ++k) {
           const double a = above[k];
           above[k] = cosine * a + sine * left[k];
-          left[k] = cosine * left[k] - sine * a;
+          left[k - 1] = cosine * left[k] - sine * a;
         }
         rotate(column, cosine, sine);
+        if (ends) return;
       } else {
         --rest;
+        for (std::size_t k = 1; k < Width; ++k) left[k - 1] = left[k];
       }
-      for (std::size_t k = 0; k + 1 < width_; ++k) left[k] = left[k + 1];
-      left[width_ - 1] = 0;
-    }
-  }
-  void add(std::size_t first, const Row& row, double factor) {
-    add(first, row, factor, [](std::size_t, double, double) {});
-  }
-
-  [[nodiscard]] const Row& row(std::size_t column) const { return rows_[column]; }
-
-  /// R x = right, in place. Value: a number or a vector.
-  template <typename Value>
-  void solve_upper(std::span<Value> right) const {
-    for (std::size_t i = size(); i-- > 0;) {
-      for (std::size_t k = 1; k < width_ && i + k < size(); ++k) right[i] -= rows_[i][k] * right[i + k];
-      right[i] *= 1 / rows_[i][0];
+      left[Width - 1] = 0;
     }
   }
 
-  /// Rᵀ R x = right, in place.
-  void solve(std::span<double> right) const {
-    for (std::size_t i = 0; i < size(); ++i) {
-      right[i] /= rows_[i][0];
-      for (std::size_t k = 1; k < width_ && i + k < size(); ++k) right[i + k] -= rows_[i][k] * right[i];
-    }
-    solve_upper(right);
-  }
-
- private:
-  std::vector<Row> rows_;  // the diagonal and what is right of it
+  std::size_t size_;
   std::size_t width_;
+  std::vector<double> entries_;  // of each row the diagonal and what is right of it
 };
 
 }  // namespace vspring

@@ -6,6 +6,7 @@
 // threads.
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -74,30 +75,24 @@ class BoxTree {
                                 double below = std::numeric_limits<double>::infinity()) const {
     Nearest best{.square = below};
     if (boxes_.empty()) return best;
-    std::array<std::pair<Place, double>, most_levels> stack;
+    std::array<Waiting, most_levels> stack;
     std::size_t height = 0;
     stack[height++] = {{0, 0, leaves_}, 0.0};
     while (height > 0) {
-      const auto [place, from_box] = stack[--height];
-      if (from_box > best.square) continue;
-      if (place.leaves == 1) {
-        for (const Index item : leaf_items(place.leaf)) {
-          const double distance2 = square(item);
-          if (distance2 < best.square || (distance2 == best.square && item < best.item)) best = {distance2, item};
-        }
-        continue;
-      }
-      const Place left = place.left();
-      const Place right = place.right();
-      const double to_left = tree_[left.node].squaredExteriorDistance(point);
-      const double to_right = tree_[right.node].squaredExteriorDistance(point);
+      auto [place, from_box] = stack[--height];
       // The nearer child is looked at first.
-      if (to_left <= to_right) {
-        stack[height++] = {right, to_right};
-        stack[height++] = {left, to_left};
-      } else {
-        stack[height++] = {left, to_left};
-        stack[height++] = {right, to_right};
+      while (from_box <= best.square && place.leaves > 1) {
+        Waiting near{place.left(), square_outside(tree_[place.left().node], point)};
+        Waiting far{place.right(), square_outside(tree_[place.right().node], point)};
+        if (far.square < near.square) std::swap(near, far);
+        if (far.square <= best.square) stack[height++] = far;
+        place = near.place;
+        from_box = near.square;
+      }
+      if (from_box > best.square) continue;
+      for (const Index item : leaf_items(place.leaf)) {
+        const double distance2 = square(item);
+        if (distance2 < best.square || (distance2 == best.square && item < best.item)) best = {distance2, item};
       }
     }
     return best;
@@ -116,12 +111,28 @@ class BoxTree {
     [[nodiscard]] Place right() const { return {2 * node + 2, leaf + leaves / 2, leaves / 2}; }
   };
 
+  /// A part of the tree that is still to be looked at, and the square of how far its box is.
+  struct Waiting {
+    Place place;
+    double square;
+  };
+
   /// Where part `part` of `parts` (a power of two) begins.
   [[nodiscard]] std::size_t first_item(std::size_t part, std::size_t parts) const {
     // In 64 bits where addresses have 32, too.
     return static_cast<std::size_t>(std::uint64_t{boxes_.size()} * part / parts);
   }
   void split(std::size_t part, std::size_t parts);
+
+  /// Box::squaredExteriorDistance without branches, which no processor foresees.
+  [[nodiscard]] static double square_outside(const Box& box, const Vector3& point) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double outside = std::max(std::max(box.min()[k] - point[k], point[k] - box.max()[k]), 0.0);
+      sum += outside * outside;
+    }
+    return sum;
+  }
 
   std::vector<Box> boxes_;
   std::vector<Index> items_;

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
 
 namespace vspring::ball_program_test {
 namespace {
@@ -39,6 +41,32 @@ TEST(BallProgram, ABoundThatIsWideChangesNothing) {
   EXPECT_TRUE(free.found);
   EXPECT_NEAR(free.x[0], 3, 1e-3);
   EXPECT_NEAR(free.x[1], 4, 1e-3);
+}
+
+TEST(BallProgram, BoundsThatAreFarAwayAtFirstAreKept) {
+  constexpr std::size_t blocks = 4096;
+  constexpr double step = 0.5 / blocks;
+  BallProgram<1> program;
+  program.blocks = blocks;
+  for (std::size_t i = 0; i < blocks; ++i) {
+    BallProgram<1> one = drawn_to<1>(Eigen::Matrix<double, 1, 1>(3), 1);
+    program.windows.push_back({static_cast<std::int32_t>(i), -1, -1, -1});
+    for (auto& row : one.rows) row.window = static_cast<std::uint32_t>(i);
+    one.rows[1].offset[0] = step * static_cast<double>(i);
+    program.rows.insert(program.rows.end(), one.rows.begin(), one.rows.end());
+  }
+  const BallSolution solution = solve(program);
+  EXPECT_TRUE(solution.found);
+  for (std::size_t i = 0; i < blocks; ++i) {
+    EXPECT_NEAR(solution.x[i], 1 - step * static_cast<double>(i), 1e-4);
+    EXPECT_GT(solution.multipliers[2 * i + 1], 0);
+  }
+}
+
+TEST(BallProgram, BoundsAtWhoseMiddleAllBeginsAreKept) {
+  BallProgram<1> program = drawn_to<1>(Eigen::Matrix<double, 1, 1>(3), 1);
+  program.rows.push_back(program.rows[1]);
+  EXPECT_NEAR(solve(program).x[0], 1, 1e-4);
 }
 
 TEST(BallProgram, SaysWhereBoundsLeaveNothing) {

@@ -389,7 +389,7 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   // Springs would draw them in.
   if (has_free_end && !method) (void)check_constraints(curve, constraints);
   const bool has_nodes_of_its_own = options.tolerance() || options.noise() || !options.moves_freely() ||
-                                    options.least_radius > 0 || options.sharp > 0 || !options.fair.corners.empty();
+                                    options.least_radius > 0 || has_corners(options, constraints);
   // Outliers are found before nodes go anywhere.
   if (has_nodes_of_its_own || ((has_free_end || options.outliers > 0) && method))
     return fit_curve(curve, constraints, points, options, context);

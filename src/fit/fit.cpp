@@ -381,6 +381,8 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
               const FitOptions& options, Context& context) {
   options.validate();
   check_points(points);
+  check_corners_kept(options, constraints);
+  if (constraints.corner_count() > 0) return fit_curve(curve, constraints, points, options, context);
   const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
   const bool has_free_end = std::any_of(curve.chains().begin(), curve.chains().end(), [&](const auto& chain) {
     return !chain.closed && !chain.nodes.empty() && constraints.node_count() == curve.node_count() &&
@@ -389,7 +391,7 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
   // Springs would draw them in.
   if (has_free_end && !method) (void)check_constraints(curve, constraints);
   const bool has_nodes_of_its_own = options.tolerance() || options.noise() || !options.moves_freely() ||
-                                    options.least_radius > 0 || has_corners(options, constraints);
+                                    options.least_radius > 0 || options.sharp > 0 || !options.fair.corners.empty();
   // Outliers are found before nodes go anywhere.
   if (has_nodes_of_its_own || ((has_free_end || options.outliers > 0) && method))
     return fit_curve(curve, constraints, points, options, context);

@@ -131,8 +131,11 @@ std::optional<double> FitOptions::noise() const { return figure_of(criterion, &N
 
 std::optional<double> FitOptions::tolerance() const { return within() ? within() : rms(); }
 
-bool has_corners(const FitOptions& options, const Constraints& constraints) {
+void check_corners_kept(const FitOptions& options, const Constraints& constraints) {
   if (constraints.corner_count() > 0) refuse_what_bars("corners", options.fair);
+}
+
+bool has_corners(const FitOptions& options, const Constraints& constraints) {
   return options.sharp > 0 || !options.fair.corners.empty() || constraints.corner_count() > 0;
 }
 

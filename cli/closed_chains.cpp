@@ -56,6 +56,18 @@ std::string note_of_repeats(const PolygonCurve& curve) {
       where);
 }
 
+/// What is said of the last row's directions and not of the first's.
+void hold_directions(Constraints& constraints, Index node, Index of) {
+  if (constraints.tangent_fixed(of)) return;
+  if (constraints.corner(node)) constraints.make_corner(of);
+  for (const NodeSide side : node_sides) {
+    if (constraints.corner(of) && constraints.tangent_fixed(node, side) && !constraints.tangent_fixed(of, side))
+      constraints.fix_tangent(of, constraints.tangent(node, side), side);
+  }
+  if (constraints.tangent_fixed(node) && !constraints.corner(of))
+    constraints.fix_tangent(of, constraints.tangent(node));
+}
+
 }  // namespace
 
 ClosedChains::ClosedChains(PolygonCurve& curve, bool closed) {
@@ -88,9 +100,9 @@ void ClosedChains::hold(Constraints& constraints) const {
     }
     if (constraints.normal_fixed(node) && !constraints.normal_fixed(of))
       constraints.fix_normal(of, constraints.normal(node));
-    if (constraints.tangent_fixed(node) && !constraints.tangent_fixed(of))
-      constraints.fix_tangent(of, constraints.tangent(node));
+    hold_directions(constraints, node, of);
     constraints.free_normal(node);
+    constraints.free_corner(node);
     constraints.free_tangent(node);
   }
 }

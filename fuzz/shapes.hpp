@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <limits>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "vspring/vspring.hpp"
@@ -97,7 +98,7 @@ inline PolygonCurve curve(FuzzedDataProvider& data) {
   return PolygonCurve(std::move(positions), data.ConsumeBool());
 }
 
-/// Some nodes held, at their places or at others, some with directions.
+/// Some nodes held, at their places or at others, some with directions, some of curves corners.
 template <typename Shape>
 Constraints constraints(FuzzedDataProvider& data, const Shape& shape) {
   Constraints result(shape.node_count());
@@ -106,7 +107,7 @@ Constraints constraints(FuzzedDataProvider& data, const Shape& shape) {
   for (int k = 0; k < edits && shape.node_count() > 0; ++k) {
     const auto node = data.ConsumeIntegralInRange<Index>(0, shape.node_count() - 1);
     try {
-      switch (data.ConsumeIntegralInRange(0, 4)) {
+      switch (data.ConsumeIntegralInRange(0, std::is_same_v<Shape, PolygonCurve> ? 6 : 4)) {
         case 0:
           result.fix_position(node, shape.position(node));
           break;
@@ -119,8 +120,14 @@ Constraints constraints(FuzzedDataProvider& data, const Shape& shape) {
         case 3:
           result.free_position(node);
           break;
-        default:
+        case 4:
           result.fix_tangent(node, vector(data));
+          break;
+        case 5:
+          result.fix_tangent(node, vector(data), data.ConsumeBool() ? NodeSide::before : NodeSide::after);
+          break;
+        default:
+          result.make_corner(node);
       }
     } catch (const Error& error) {
       require(error.code() == ErrorCode::unusable_constraint);

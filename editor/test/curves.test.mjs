@@ -96,9 +96,9 @@ test('nodes are inserted on a smooth curve and deleted, and what holds by their 
   assert.throws(() => without(nodes, new Set([3, 4])), /a closed one three/);
   assert.equal(without(nodes, new Set([0, 1, 2])).curve.closed.length, 1, 'a chain goes as a whole');
 
-  const held = placed({ ...initial, rules: [...initial.rules, { nodes: [0, 2, 5], position: [[0, 0, 1], [0, 0, 2], [0, 0, 3]], tangent: [1, 0, 0] }] }, [1], Float64Array.of(7, 8, 9));
+  const held = placed({ ...initial, rules: [...initial.rules, { nodes: [0, 2, 5], position: [[0, 0, 1], [0, 0, 2], [0, 0, 3]], tangent: [1, 0, 0] }, { nodes: [0, 5], tangent_in: [[1, 0], [0, 1]], corner: true }] }, [1], Float64Array.of(7, 8, 9));
   const after = renumbered(renumbered(held, more.now), fewer.now);
-  assert.deepEqual(after.rules, [initial.rules[0], { nodes: [3, 5], position: [[0, 0, 2], [0, 0, 3]], tangent: [1, 0, 0] }]);
+  assert.deepEqual(after.rules, [initial.rules[0], { nodes: [3, 5], position: [[0, 0, 2], [0, 0, 3]], tangent: [1, 0, 0] }, { nodes: [5], tangent_in: [[0, 1]], corner: true }]);
   assert.deepEqual(after.edits, { 2: { position: [7, 8, 9] } });
 
   const region = [{ nodes: [0, 1, 3], position: 'fixed' }];

@@ -41,6 +41,8 @@ test('rules about groups and regions are kept, and counted as not marked', () =>
   assert.equal(constraints.toFile(state), file);
   const held = constraints.heldNodes(state, Uint8Array.of(1, 0));
   assert.deepEqual([[...held.nodes], held.unmarked], [[0, 2], 1]);
+  const corners = [{ nodes: [1], corner: true }, { nodes: [0], tangent_out: [1, 0] }];
+  assert.deepEqual(constraints.withBoundary({ rules: corners, edits: {} }, 'position', false).rules, corners);
   assert.throws(() => constraints.fromFile('{"rule": []}'), /a list "rules"/);
   assert.throws(() => constraints.fromFile('{'), SyntaxError);
 });

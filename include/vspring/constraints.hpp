@@ -12,8 +12,13 @@
 
 namespace vspring {
 
+/// The sides of a node of a curve, in the order of its chain.
+enum class NodeSide : std::uint8_t { before, after };
+
+inline constexpr NodeSide node_sides[] = {NodeSide::before, NodeSide::after};
+
 /// What each node of a shape may do (paper §4.5, direct constraints): its position is fixed or free, its normal given
-/// or computed, in any combination. Nodes of curves may also have a tangent given.
+/// or computed, in any combination. Nodes of curves may also have a tangent given, or be corners.
 class Constraints {
  public:
   /// All positions and normals free.
@@ -37,18 +42,44 @@ class Constraints {
   /// Unit length; meaningful where normal_fixed().
   [[nodiscard]] const Vector3& normal(Index node) const { return normals_.of(at(node)); }
 
-  /// Curves: gives the node a tangent, in the direction in which the curve runs. Any length but zero. Throws
-  /// Error(unusable_constraint) naming the node when it is zero or not finite.
+  /// Curves: gives the node a tangent, in the direction in which the curve runs; it is no corner then. Any length but
+  /// zero. Throws Error(unusable_constraint) naming the node when it is zero or not finite.
   void fix_tangent(Index node, const Vector3& tangent);
+  /// Also those of the sides of a corner, which stays one.
   void free_tangent(Index node);
   [[nodiscard]] bool tangent_fixed(Index node) const { return (flags_[at(node)] & tangent_flag) != 0; }
   /// Unit length; meaningful where tangent_fixed().
   [[nodiscard]] const Vector3& tangent(Index node) const { return tangents_.of(at(node)); }
 
+  /// Curves: the node is a corner, at which direction and curvature may jump, as of FairOptions::corners: in place of
+  /// one tangent, each side may have one. A corner has a chain on both sides.
+  void make_corner(Index node);
+  /// Nor have its sides tangents then.
+  void free_corner(Index node);
+  [[nodiscard]] bool corner(Index node) const { return (flags_[at(node)] & corner_flag) != 0; }
+  [[nodiscard]] Index corner_count() const noexcept { return corner_count_; }
+
+  /// Makes the node a corner that the curve arrives at, or leaves, in this direction. Throws as for both sides.
+  void fix_tangent(Index node, const Vector3& tangent, NodeSide side);
+  void free_tangent(Index node, NodeSide side) { flags_[at(node)] &= static_cast<std::uint8_t>(~flag_of(side)); }
+  /// Its own, or that of both.
+  [[nodiscard]] bool tangent_fixed(Index node, NodeSide side) const {
+    return (flags_[at(node)] & (tangent_flag | flag_of(side))) != 0;
+  }
+  /// Unit length; meaningful where tangent_fixed() on that side.
+  [[nodiscard]] const Vector3& tangent(Index node, NodeSide side) const {
+    return tangent_fixed(node) || side == NodeSide::before ? tangent(node) : tangents_after_.of(at(node));
+  }
+
+  /// All that another one says of its node `of` is said of this node, and nothing else.
+  void hold_as(Index node, const Constraints& other, Index of);
+
  private:
   static constexpr std::uint8_t position_flag = 1;
   static constexpr std::uint8_t normal_flag = 2;
   static constexpr std::uint8_t tangent_flag = 4;
+  static constexpr std::uint8_t corner_flag = 8;
+  static constexpr std::uint8_t flag_of(NodeSide side) { return side == NodeSide::before ? 16 : 32; }
   /// Throws Error(unusable_constraint) for a node number out of range.
   [[nodiscard]] std::size_t at(Index node) const {
     if (node < 0 || node >= node_count()) refuse(node);
@@ -71,7 +102,9 @@ class Constraints {
   std::vector<std::uint8_t> flags_;
   Vectors positions_;
   Vectors normals_;
-  Vectors tangents_;
+  Vectors tangents_;  ///< of both sides, or that before a corner
+  Vectors tangents_after_;
+  Index corner_count_ = 0;
 };
 
 /// Fixes the boundary nodes of the mesh, or the end nodes of the curve, at their present positions. Cost: linear.
@@ -104,6 +137,10 @@ void fix_boundary_tangents(Constraints& constraints, const PolygonCurve& curve);
 [[nodiscard]] std::vector<Vector3> estimate_tangents(const PolygonCurve& curve, std::span<const Index> nodes,
                                                      std::span<const std::uint8_t> usable_node = {});
 
+/// The same of what is on one side of them: of the circles through each node and the next two there.
+[[nodiscard]] std::vector<Vector3> estimate_tangents(const PolygonCurve& curve, std::span<const Index> nodes,
+                                                     NodeSide side);
+
 /// The normals of a curve at some of its nodes: perpendicular to estimate_tangents(), in the plane of a planar curve,
 /// along the principal normal of a space curve. Returns one unit vector per entry of nodes; zero where a node has none.
 /// Cost: linear.
@@ -129,18 +166,18 @@ void restrict_to_region(Constraints& constraints, const PolygonCurve& curve, std
 /// Checks that a surface can be faired under these constraints.
 ///
 /// Throws Error(unusable_constraint), with the reason and ways out, for a component with moving nodes that nothing
-/// holds, and for a boundary loop of which fewer than three nodes are fixed; Error(unusable_shape) where a face of a
-/// moving node has fewer than three nodes or a coordinate is not finite.
+/// holds, for a boundary loop of which fewer than three nodes are fixed, and for corners; Error(unusable_shape) where a
+/// face of a moving node has fewer than three nodes or a coordinate is not finite.
 ///
 /// Returns warnings: nodes that cannot move and are held (edges of more than two faces, faces in several
 /// fans, repeated nodes and faces); a closed surface held by so little that more than one sphere fits; boundary nodes
 /// that are free to be drawn in. Cost: linear.
 std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraints& constraints);
 
-/// The same for a curve. Throws Error(unusable_constraint) for free ends and for closed chains of which nothing is
-/// held; Error(unusable_shape) where a node that would have to move lies where chains meet, in a closed chain of fewer
-/// than three nodes, or at a coordinate that is not finite. Warns of closed chains held by so little that more than one
-/// circle fits. Cost: linear.
+/// The same for a curve. Throws Error(unusable_constraint) for free ends, for closed chains of which nothing is held,
+/// and for corners with a normal, at ends and where chains meet; Error(unusable_shape) where a node that would have to
+/// move lies where chains meet, in a closed chain of fewer than three nodes, or at a coordinate that is not finite.
+/// Warns of closed chains held by so little that more than one circle fits. Cost: linear.
 std::vector<Warning> check_constraints(const PolygonCurve& curve, const Constraints& constraints);
 
 }  // namespace vspring

@@ -86,7 +86,7 @@ struct FairOptions {
   double strength = 1;
   /// Curves: nodes inside of chains at which direction and curvature may jump, as find_corners() finds them. They keep
   /// their places, and each side is faired by itself. Those with a tangent or normal given have one direction all the
-  /// same. In fits they move with their points, by EquilibriumMethod only.
+  /// same. In fits they move with their points, by EquilibriumMethod only. Constraints may name others.
   std::vector<Index> corners = {};
 
   /// Throws Error(invalid_argument) naming the option and its range.

@@ -22,7 +22,7 @@ struct Resampling {
   /// Mean distance between neighbours, in units of the curve, as nearly as the lengths of pieces allow.
   std::optional<double> spacing = std::nullopt;
   ResamplingBy by = ResamplingBy::length;
-  /// Nodes that are kept, and at which the curve's direction jumps.
+  /// Nodes that are kept, and at which the curve's direction jumps, besides the corners of the constraints.
   std::vector<Index> corners = {};
 };
 
@@ -39,7 +39,8 @@ struct Resampled {
 ///
 /// Throws Error(invalid_argument) unless exactly one of nodes and spacing is given and is greater than 0, for more than
 /// 100 million nodes, for fewer nodes than the pieces need, and for a corner that is no node; Error(unusable_shape) for
-/// a chain with a coordinate that is not finite. Cost: linear in the nodes before and after.
+/// a chain with a coordinate that is not finite; as check_constraints() does for corners that cannot be. Cost: linear
+/// in the nodes before and after.
 [[nodiscard]] Resampled resample(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how);
 
 }  // namespace vspring

@@ -37,7 +37,9 @@ struct RuleInput {
 void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_view json, const RuleInput& input = {});
 
 /// The same for a curve. "boundary" are the ends of its chains. Rules may also have "tangent": "fixed"
-/// (estimate_tangents()), "free", [x, y, z] or a list. Vectors may have two numbers instead of three.
+/// (estimate_tangents()), "free", [x, y, z] or a list. Or else "corner": true or false, and "tangent_in" and
+/// "tangent_out", as "tangent" of the sides before and after a node, which is a corner with either. Vectors may have
+/// two numbers instead of three.
 void apply_rules(Constraints& constraints, const PolygonCurve& curve, std::string_view json,
                  const RuleInput& input = {});
 

@@ -64,10 +64,51 @@ void Constraints::free_normal(Index node) { flags_[at(node)] &= static_cast<std:
 void Constraints::fix_tangent(Index node, const Vector3& tangent) {
   const std::size_t i = at(node);
   tangents_.set(i, flags_.size(), unit(node, tangent, "tangent"));
+  free_corner(node);
   flags_[i] |= tangent_flag;
 }
 
-void Constraints::free_tangent(Index node) { flags_[at(node)] &= static_cast<std::uint8_t>(~tangent_flag); }
+void Constraints::free_tangent(Index node) {
+  flags_[at(node)] &= static_cast<std::uint8_t>(~tangent_flag);
+  for (const NodeSide side : node_sides) free_tangent(node, side);
+}
+
+void Constraints::make_corner(Index node) {
+  if (corner(node)) return;
+  free_tangent(node);
+  flags_[at(node)] |= corner_flag;
+  ++corner_count_;
+}
+
+void Constraints::free_corner(Index node) {
+  if (!corner(node)) return;
+  free_tangent(node);
+  flags_[at(node)] &= static_cast<std::uint8_t>(~corner_flag);
+  --corner_count_;
+}
+
+void Constraints::fix_tangent(Index node, const Vector3& tangent, NodeSide side) {
+  const std::size_t i = at(node);
+  const Vector3 given = unit(node, tangent, side == NodeSide::before ? "tangent in" : "tangent out");
+  make_corner(node);
+  (side == NodeSide::before ? tangents_ : tangents_after_).set(i, flags_.size(), given);
+  flags_[i] |= flag_of(side);
+}
+
+void Constraints::hold_as(Index node, const Constraints& other, Index of) {
+  free_position(node);
+  free_normal(node);
+  free_corner(node);
+  free_tangent(node);
+  if (other.position_fixed(of)) fix_position(node, other.position(of));
+  if (other.normal_fixed(of)) fix_normal(node, other.normal(of));
+  if (other.tangent_fixed(of)) fix_tangent(node, other.tangent(of));
+  if (!other.corner(of)) return;
+  make_corner(node);
+  for (const NodeSide side : node_sides) {
+    if (other.tangent_fixed(of, side)) fix_tangent(node, other.tangent(of, side), side);
+  }
+}
 
 namespace {
 

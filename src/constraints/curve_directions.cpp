@@ -49,6 +49,14 @@ class TangentEstimate {
     return forward.empty() ? -one_sided(backward) : one_sided(forward);
   }
 
+  /// Of what is on one side; zero where nothing is.
+  [[nodiscard]] Vector3 tangent(Index node, NodeSide side) const {
+    const bool after = side == NodeSide::after;
+    const auto found = edges(node, after ? 1 : -1);
+    if (found.empty()) return Vector3::Zero();
+    return after ? one_sided(found) : Vector3(-one_sided(found));
+  }
+
   /// Across the plane of the circle through the node and its neighbours; zero where they lie on a line.
   [[nodiscard]] Vector3 binormal(Index node) const {
     const auto forward = edges(node, 1);
@@ -110,6 +118,14 @@ std::vector<Vector3> estimate_tangents(const PolygonCurve& curve, std::span<cons
   return tangents;
 }
 
+std::vector<Vector3> estimate_tangents(const PolygonCurve& curve, std::span<const Index> nodes, NodeSide side) {
+  const TangentEstimate estimate(curve, {});
+  std::vector<Vector3> tangents;
+  tangents.reserve(nodes.size());
+  for (const Index node : nodes) tangents.push_back(estimate.tangent(node, side));
+  return tangents;
+}
+
 std::vector<Vector3> estimate_normals(const PolygonCurve& curve, std::span<const Index> nodes) {
   const TangentEstimate estimate(curve, {});
   const auto plane = plane_normal(curve.positions());
@@ -128,7 +144,9 @@ bool lies_in_a_plane(const PolygonCurve& curve, const Constraints& constraints) 
     const Vector3& place = constraints.position_fixed(i) ? constraints.position(i) : curve.position(i);
     if (!place.allFinite()) continue;
     points.push_back(place);
-    if (constraints.tangent_fixed(i)) points.emplace_back(place + constraints.tangent(i));
+    for (const NodeSide side : node_sides) {
+      if (constraints.tangent_fixed(i, side)) points.emplace_back(place + constraints.tangent(i, side));
+    }
     if (constraints.normal_fixed(i)) points.emplace_back(place + constraints.normal(i));
   }
   return !points.empty() && plane_normal(points).has_value();
@@ -164,7 +182,8 @@ void restrict_to_region(Constraints& constraints, const PolygonCurve& curve, std
   for (Index i = 0; i < curve.node_count(); ++i) {
     const auto n = static_cast<std::size_t>(i);
     if (outside[n] != 0 && !restricted.position_fixed(i)) restricted.fix_position(i, curve.position(i));
-    if (rim[n] != 0 && !restricted.tangent_fixed(i) && !restricted.normal_fixed(i)) rim_nodes.push_back(i);
+    const bool has_directions = restricted.tangent_fixed(i) || restricted.normal_fixed(i) || restricted.corner(i);
+    if (rim[n] != 0 && !has_directions) rim_nodes.push_back(i);
   }
   const auto tangents = estimate_tangents(curve, rim_nodes, outside);
   for (std::size_t k = 0; k < rim_nodes.size(); ++k) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "constraints/holding.hpp"
+#include "constraints/sides.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
@@ -117,15 +118,20 @@ class CurveHolding {
 }  // namespace
 
 std::vector<Warning> check_constraints(const PolygonCurve& curve, const Constraints& constraints) {
-  return check_constraints(curve, constraints, {});
+  check_corners(curve, constraints);
+  if (constraints.corner_count() == 0) return check_sides(curve, constraints);
+  const Sides sides = cut_into_sides(curve, constraints);
+  return check_sides(sides.curve, sides.held);
 }
 
 std::vector<Warning> check_constraints(const PolygonCurve& curve, const Constraints& constraints,
                                        std::span<const std::uint8_t> pulled) {
-  if (constraints.node_count() != curve.node_count())
-    throw Error(ErrorCode::invalid_argument, fmt::format("constraints are for {} nodes, the curve has {}",
-                                                         constraints.node_count(), curve.node_count()));
+  check_corners(curve, constraints);
   return CurveHolding(curve, constraints, pulled).check();
+}
+
+std::vector<Warning> check_sides(const PolygonCurve& sides, const Constraints& held) {
+  return CurveHolding(sides, held, {}).check();
 }
 
 }  // namespace vspring

@@ -313,6 +313,14 @@ class Holding {
 
 }  // namespace
 
+void refuse_corners(const Constraints& of_surface) {
+  for (Index node = 0; node < of_surface.node_count() && of_surface.corner_count() > 0; ++node) {
+    if (of_surface.corner(node))
+      throw Error(ErrorCode::unusable_constraint,
+                  fmt::format("node {} cannot be a corner: it is of a surface, and corners are of curves", node));
+  }
+}
+
 std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraints& constraints) {
   const auto check = [&](const Constraints& held) { return check_constraints(mesh, held, {}); };
   return ImmovableNodesFixed(mesh).run(
@@ -324,6 +332,7 @@ std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraint
   if (constraints.node_count() != mesh.node_count())
     throw Error(ErrorCode::invalid_argument, fmt::format("constraints for {} nodes given with a mesh of {}",
                                                          constraints.node_count(), mesh.node_count()));
+  refuse_corners(constraints);
   Holding holding(mesh, constraints, pulled);
   std::vector<Warning> warnings;
   holding.refuse_defects();

@@ -30,4 +30,10 @@ std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraint
 std::vector<Warning> check_constraints(const PolygonCurve& curve, const Constraints& constraints,
                                        std::span<const std::uint8_t> pulled);
 
+/// The same for a curve that is cut at its corners.
+std::vector<Warning> check_sides(const PolygonCurve& sides, const Constraints& held);
+
+/// Throws Error(unusable_constraint) for constraints of a surface that name corners. Cost: none, where they do not.
+void refuse_corners(const Constraints& of_surface);
+
 }  // namespace vspring

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "constraints/sides.hpp"
 #include "shape/corners.hpp"
 #include "shape/cubic.hpp"
 #include "vspring/error.hpp"
@@ -39,6 +40,9 @@ class Resampler {
         constraints_(constraints),
         by_(how.by),
         is_corner_(marked_corners(how.corners, curve.node_count())) {
+    for (Index node = 0; node < curve.node_count(); ++node) {
+      if (constraints.corner(node)) is_corner_[static_cast<std::size_t>(node)] = 1;
+    }
     for (const auto& chain : curve.chains()) {
       for (const Index node : chain.nodes) {
         if (!place(node).allFinite())
@@ -75,11 +79,7 @@ class Resampler {
     result.constraints = Constraints(static_cast<Index>(positions_.size()));
     for (std::size_t k = 0; k < result.from.size(); ++k) {
       const Index from = result.from[k];
-      const auto node = static_cast<Index>(k);
-      if (from < 0) continue;
-      if (constraints_.position_fixed(from)) result.constraints.fix_position(node, constraints_.position(from));
-      if (constraints_.normal_fixed(from)) result.constraints.fix_normal(node, constraints_.normal(from));
-      if (constraints_.tangent_fixed(from)) result.constraints.fix_tangent(node, constraints_.tangent(from));
+      if (from >= 0) result.constraints.hold_as(static_cast<Index>(k), constraints_, from);
     }
     result.curve = PolygonCurve(std::move(positions_), std::move(chains));
     return result;
@@ -181,7 +181,9 @@ class Resampler {
     std::iota(all.begin(), all.end(), 0);
     std::vector<Vector3> tangents = estimate_tangents(PolygonCurve(std::move(positions), closed), all);
     for (std::size_t k = 0; k < count; ++k) {
-      if (constraints_.tangent_fixed(nodes[k])) tangents[k] = constraints_.tangent(nodes[k]);
+      // A side of a corner begins or ends there.
+      const NodeSide side = k > 0 ? NodeSide::before : NodeSide::after;
+      if (constraints_.tangent_fixed(nodes[k], side)) tangents[k] = constraints_.tangent(nodes[k], side);
     }
     if (closed) tangents.push_back(tangents.front());
     return tangents;
@@ -384,9 +386,7 @@ class Resampler {
 };
 
 void check_resampling(const PolygonCurve& curve, const Constraints& constraints, const Resampling& how) {
-  if (constraints.node_count() != curve.node_count())
-    throw Error(ErrorCode::invalid_argument, fmt::format("constraints for {} nodes, the curve has {}",
-                                                         constraints.node_count(), curve.node_count()));
+  check_corners(curve, constraints);
   if (how.nodes.has_value() == how.spacing.has_value())
     throw Error(ErrorCode::invalid_argument, "resampling needs a number of nodes or a spacing, one of them");
   if (how.nodes && (*how.nodes < 1 || *how.nodes > most_nodes))

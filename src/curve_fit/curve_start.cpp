@@ -128,7 +128,7 @@ class Way {
 
   void add(std::size_t k) {
     const ChainNode& node = chain_[k];
-    const bool fixed = node.held || node.corner || !node.tangent.isZero(0) || turns_[k] != 0;
+    const bool fixed = node.held || node.corner || !node.tangents[1].isZero(0) || turns_[k] != 0;
     joined_with_[k] = k;
     if (!fixed && !stops.empty() && !stops.back().fixed && are_one(node.place, stops.back().place)) {
       join(stops.back(), {node.place, 1, false, k});
@@ -162,11 +162,15 @@ class Way {
 
   void find_corners(const StartScale& scale) {
     std::vector<Vector3> places;
+    std::vector<std::uint8_t> given;
     places.reserve(stops.size());
-    for (const Stop& stop : stops) places.push_back(stop.place);
-    for (const std::size_t k : corners_of_way(places, closed_, scale.sharp, scale.tolerance)) {
+    for (const Stop& stop : stops) {
+      places.push_back(stop.place);
+      given.push_back(chain_[stop.node].corner ? 1 : 0);
+    }
+    for (const std::size_t k : corners_of_way(places, closed_, scale.sharp, scale.tolerance, given)) {
       // A given tangent says how the curve goes there.
-      if (!chain_[stops[k].node].tangent.isZero(0)) continue;
+      if (!chain_[stops[k].node].tangents[1].isZero(0)) continue;
       stops[k].fixed = stops[k].corner = true;
     }
   }
@@ -473,7 +477,7 @@ void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScal
     Node& node = add(way[k], length[k], spacing[k]);
     if (!stops[k].fixed) return;
     const ChainNode& from = chain[stops[k].corner ? found.middle_row(stops[k]) : stops[k].node];
-    node.tangent = from.tangent;
+    node.tangents = from.tangents;
     node.held = from.held;
     node.corner = sharp[k] != 0;
     node.from = from.from;

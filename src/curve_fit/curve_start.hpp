@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -14,12 +15,12 @@ inline constexpr double median_of_noise = 0.6745;
 /// A node of a chain that is to be drawn to points, in the fit's coordinates.
 struct ChainNode {
   Vector3 place = Vector3::Zero();
-  Vector3 tangent = Vector3::Zero();  ///< given; zero: free
+  std::array<Vector3, 2> tangents = {Vector3::Zero(), Vector3::Zero()};  ///< as those of DenseCurve::Node
   bool held = false;
-  bool corner = false;
-  Index from = -1;    ///< its number
-  Index point = -1;   ///< the point that it is; −1: none
-  double weight = 1;  ///< of that
+  bool corner = false;  ///< given; others may be found
+  Index from = -1;      ///< its number
+  Index point = -1;     ///< the point that it is; −1: none
+  double weight = 1;    ///< of that
 };
 
 /// Lengths that a start goes by.

@@ -75,7 +75,7 @@ DenseCurve::CurvatureRow DenseCurve::curvature_row(std::uint32_t node, bool afte
     row.slopes[0] = -row.slopes[1] - row.slopes[2];
     return row;
   }
-  const Vector3& tangent = nodes_[node].tangent;
+  const Vector3& tangent = this->tangent(node, after);
   const std::uint32_t other = after ? next_[node] : before_[node];
   if (tangent.isZero(0) || other == none) return row;
   // Of the circle with that tangent through the other node.
@@ -104,14 +104,13 @@ DenseCurve::Bend DenseCurve::bend(std::uint32_t node, bool after) const {
     const Vector3 along = inverted(f) - inverted(g);
     return {along.normalized(), circle_curvature(f, g)};
   }
-  const Vector3& tangent = nodes_[node].tangent;
+  const Vector3& tangent = this->tangent(node, after);
   if (!tangent.isZero(0)) return {tangent, curvature_row(node, after).curvature};
   // Curvature goes on as it is at the other end of the edge.
   const std::uint32_t other = after ? next_[node] : before_[node];
   const Vector3 edge = (after ? 1 : -1) * (place(other) - here).normalized();
   const std::uint32_t beyond = after ? next_[other] : before_[other];
-  const bool goes_on =
-      beyond != none && !nodes_[other].corner && (is_smooth(other) || !nodes_[other].tangent.isZero(0));
+  const bool goes_on = beyond != none && (is_smooth(other) || !this->tangent(other, !after).isZero(0));
   if (!goes_on) return {edge, Vector3::Zero()};
   const Bend there = bend(other, !after);
   return {-mirrored(there.tangent, edge), mirrored(there.curvature, edge)};
@@ -228,7 +227,7 @@ DenseCurve::PlaceRow DenseCurve::place_row(const CurvePlace& at) const {
   row.weights = {0, (1 - t) * (1 - t) * (1 + 2 * t), t * t * (3 - 2 * t), 0};
   const auto add_slope = [&](double factor, std::uint32_t node, std::uint32_t outer, int here, int other, int beyond,
                              double sense) {
-    const Vector3& given = nodes_[node].tangent;
+    const Vector3& given = tangent(node, sense > 0);
     if (!given.isZero(0)) {
       row.rest += factor * length * given;
     } else if (outer != none) {

@@ -29,12 +29,13 @@ class DenseCurve {
   };
   struct Node {
     Vector3 place = Vector3::Zero();
-    Vector3 tangent = Vector3::Zero();  ///< given, of unit length; zero: free
-    bool held = false;                  ///< in place
-    bool corner = false;                ///< curvature and direction may jump
-    bool dense = true;                  ///< put there by the fit, which may take it away again
-    Index from = -1;                    ///< the node of the file that it is
-    double spacing = 0;                 ///< how far from it the next nodes should be
+    /// Given before and after it, of unit length; zero: free. One and the same, unless it is a corner.
+    std::array<Vector3, 2> tangents = {Vector3::Zero(), Vector3::Zero()};
+    bool held = false;    ///< in place
+    bool corner = false;  ///< curvature and direction may jump
+    bool dense = true;    ///< put there by the fit, which may take it away again
+    Index from = -1;      ///< the node of the file that it is
+    double spacing = 0;   ///< how far from it the next nodes should be
   };
 
   /// straight: the curve is its chords, with no quintics over them. moving: 1 for coordinates that nodes move in, 0 for
@@ -64,17 +65,14 @@ class DenseCurve {
   /// Where it is.
   void hold(std::uint32_t i) { nodes_[i].held = true; }
   void set_spacing(std::uint32_t i, double spacing) { nodes_[i].spacing = spacing; }
-  void set_tangent(std::uint32_t i, const Vector3& tangent) {
-    nodes_[i].tangent = tangent;
-    ++version_;
-  }
+  [[nodiscard]] const Vector3& tangent(std::uint32_t i, bool after) const { return nodes_[i].tangents[after ? 1 : 0]; }
   /// Neighbours along the chain; none at its ends. An edge has the number of the node that it begins at.
   [[nodiscard]] std::uint32_t next(std::uint32_t i) const { return next_[i]; }
   [[nodiscard]] std::uint32_t before(std::uint32_t i) const { return before_[i]; }
   [[nodiscard]] bool is_edge(std::uint32_t i) const { return next_[i] != none; }
   /// Whether curvature goes on through the node: no end, no corner, no tangent given.
   [[nodiscard]] bool is_smooth(std::uint32_t i) const {
-    return next_[i] != none && before_[i] != none && !nodes_[i].corner && nodes_[i].tangent.isZero(0);
+    return next_[i] != none && before_[i] != none && !nodes_[i].corner && tangent(i, true).isZero(0);
   }
   [[nodiscard]] double edge_length(std::uint32_t edge) const { return (place(next_[edge]) - place(edge)).norm(); }
 

@@ -307,7 +307,7 @@ class SmoothingSpline {
       sum.add(node, -2 / (ahead * behind));
       return sum;
     }
-    const Vector3& tangent = curve_.node(node).tangent;
+    const Vector3& tangent = curve_.tangent(node, after);
     const std::uint32_t other = after ? curve_.next(node) : curve_.before(node);
     if (tangent.isZero(0) || other == DenseCurve::none) return std::nullopt;
     const double edge = curve_.edge_length(after ? node : other);

@@ -31,8 +31,11 @@ constexpr double nothing_of_way = 1e-9;
 
 class CornerSearch {
  public:
-  CornerSearch(std::span<const Vector3> way, bool closed, double angle, double tolerance)
-      : way_(way), closed_(closed), angle_(angle), tolerance_(tolerance), is_corner_(way.size(), 0) {
+  CornerSearch(std::span<const Vector3> way, bool closed, double angle, double tolerance,
+               std::span<const std::uint8_t> given)
+      : way_(way), closed_(closed), angle_(angle), tolerance_(tolerance), is_given_(given.begin(), given.end()) {
+    is_given_.resize(way.size(), 0);
+    is_corner_ = is_given_;
     at_.resize(way.size() + 1, 0);
     for (std::size_t k = 0; k < way.size(); ++k)
       at_[k + 1] = at_[k] + (closed || k + 1 < way.size() ? (way[(k + 1) % way.size()] - way[k]).norm() : 0);
@@ -80,7 +83,7 @@ class CornerSearch {
   [[nodiscard]] std::vector<std::size_t> places() const {
     std::vector<std::size_t> corners;
     for (std::size_t k = 0; k < way_.size(); ++k) {
-      if (is_corner_[k] != 0) corners.push_back(k);
+      if (is_corner_[k] != 0 && is_given_[k] == 0) corners.push_back(k);
     }
     return corners;
   }
@@ -192,14 +195,16 @@ class CornerSearch {
   double tolerance_;
   double stretch_ = 0;
   std::vector<double> at_;  ///< along the way; the last one: its length
+  std::vector<std::uint8_t> is_given_;
   std::vector<std::uint8_t> is_corner_;
 };
 
 }  // namespace
 
-std::vector<std::size_t> corners_of_way(std::span<const Vector3> way, bool closed, double angle, double tolerance) {
+std::vector<std::size_t> corners_of_way(std::span<const Vector3> way, bool closed, double angle, double tolerance,
+                                        std::span<const std::uint8_t> given) {
   if (way.size() < 3) return {};
-  return CornerSearch(way, closed, angle, tolerance).find();
+  return CornerSearch(way, closed, angle, tolerance, given).find();
 }
 
 }  // namespace vspring

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constraints/sides.hpp"
+
 namespace vspring {
 
 double diagonal(const Net& net) {
@@ -26,7 +28,7 @@ void count_nodes(std::size_t moving, const Constraints& constraints, FairReport&
   for (Index i = 0; i < constraints.node_count(); ++i) {
     report.fixed_positions += constraints.position_fixed(i) ? 1 : 0;
     report.fixed_normals += constraints.normal_fixed(i) ? 1 : 0;
-    report.fixed_tangents += constraints.tangent_fixed(i) ? 1 : 0;
+    report.fixed_tangents += tangents_given(constraints, i);
   }
 }
 

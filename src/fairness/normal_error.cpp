@@ -77,12 +77,13 @@ std::optional<double> normal_error(const PolygonCurve& curve, const Constraints&
   for (const auto& chain : curve.chains()) {
     for (std::size_t k = 0; k < chain.nodes.size(); ++k) {
       const Index node = chain.nodes[k];
-      if (!constraints.tangent_fixed(node) && !constraints.normal_fixed(node)) continue;
       for (const int step : {1, -1}) {
+        const NodeSide where = step > 0 ? NodeSide::after : NodeSide::before;
+        if (!constraints.tangent_fixed(node, where) && !constraints.normal_fixed(node)) continue;
         const Side side = side_of(curve, chain, k, step, constraints);
         if (side.tangent.isZero(0) || (!side.moves && constraints.position_fixed(node))) continue;
-        if (constraints.tangent_fixed(node)) {
-          const Vector3 given = step * constraints.tangent(node);
+        if (constraints.tangent_fixed(node, where)) {
+          const Vector3 given = step * constraints.tangent(node, where);
           include(greatest, std::atan2(given.cross(side.tangent).norm(), given.dot(side.tangent)));
         } else {
           include(greatest, std::numbers::pi / 2 - angle_between_lines(constraints.normal(node), side.tangent));

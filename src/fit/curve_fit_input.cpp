@@ -10,6 +10,7 @@
 #include "base/degrees.hpp"
 #include "base/threads.hpp"
 #include "constraints/holding.hpp"
+#include "constraints/sides.hpp"
 #include "curve_fit/outliers.hpp"
 #include "points/nearest_nodes.hpp"
 #include "shape/corners.hpp"
@@ -113,7 +114,7 @@ void CurveFitInput::leave_outliers_out() {
       const std::vector<std::uint8_t> spikes = find_spikes(rows, chain.closed, most);
       for (std::size_t k = 0; k < spikes.size(); ++k) {
         const auto node = static_cast<std::size_t>(chain.nodes[k]);
-        if (spikes[k] == 0 || constraints_.position_fixed(chain.nodes[k])) continue;
+        if (spikes[k] == 0 || is_said(chain.nodes[k])) continue;
         kept_[node] = 0;
         --most;
       }
@@ -126,7 +127,7 @@ void CurveFitInput::leave_outliers_out() {
   std::vector<Index> beyond;
   for (const auto& [point, deviation] : deviations) {
     if (!(deviation > outlying)) break;
-    if (own_nodes_ && constraints_.position_fixed(point)) continue;
+    if (own_nodes_ && is_said(point)) continue;
     if (most > 0) {
       kept_[static_cast<std::size_t>(point)] = 0;
       --most;
@@ -163,7 +164,9 @@ void CurveFitInput::make_frame() {
   local.reserve(all.size());
   for (const Vector3& one : all) local.push_back(frame_.to_local(one));
   for (Index i = 0; i < curve_.node_count(); ++i) {
-    if (constraints_.tangent_fixed(i)) local.push_back(local.front() + constraints_.tangent(i));
+    for (const NodeSide side : node_sides) {
+      if (constraints_.tangent_fixed(i, side)) local.push_back(local.front() + constraints_.tangent(i, side));
+    }
   }
   plane_ = plane_normal(local);
   if (!plane_) {
@@ -252,9 +255,10 @@ CurveFitTask CurveFitInput::task() const {
       one.place = frame_.to_local(place(node));
       one.held = held;
       one.from = node;
-      one.corner = is_corner[i] != 0;
-      if (constraints_.tangent_fixed(node)) one.tangent = constraints_.tangent(node);
-      if (constraints_.normal_fixed(node) && plane_ && one.tangent.isZero(0)) one.tangent = tangent_across(chain, node);
+      one.corner = is_corner[i] != 0 || constraints_.corner(node);
+      one.tangents = given_tangents(constraints_, node);
+      if (constraints_.normal_fixed(node) && plane_ && one.tangents[1].isZero(0))
+        one.tangents.fill(tangent_across(chain, node));
       if (own_nodes_ && weight(i) > 0 && kept_[i] != 0) {
         one.point = node;
         one.weight = weight(i);

@@ -58,6 +58,10 @@ class CurveFitInput {
 
  private:
   [[nodiscard]] double weight(std::size_t j) const { return points_.weights.empty() ? 1 : points_.weights[j]; }
+  /// Where the curve goes: no outlier.
+  [[nodiscard]] bool is_said(Index node) const {
+    return constraints_.position_fixed(node) || constraints_.corner(node);
+  }
   void check(const Context& context);
   void count_point(Index node, std::vector<Index>& points_of);
   void make_frame();

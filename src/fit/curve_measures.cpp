@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "constraints/sides.hpp"
 #include "curve_fit/curve_start.hpp"
 #include "curve_fit/polyline_bounds.hpp"
 #include "fit/fit_points.hpp"
@@ -70,7 +71,7 @@ DenseCurve CurveMeasures::chords(const PolygonCurve& shape, const Resampled& nod
       DenseCurve::Node& node = along.emplace_back();
       node.place = input_.to_local(shape.position(i));
       node.held = constraints.position_fixed(i);
-      if (constraints.tangent_fixed(i)) node.tangent = constraints.tangent(i);
+      node.tangents = given_tangents(constraints, i);
       node.corner = corners[static_cast<std::size_t>(i)] != 0;
       node.from = i;
     }

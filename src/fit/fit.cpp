@@ -381,6 +381,8 @@ FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const S
               const FitOptions& options, Context& context) {
   options.validate();
   check_points(points);
+  check_corners_kept(options, constraints);
+  if (constraints.corner_count() > 0) return fit_curve(curve, constraints, points, options, context);
   const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
   const bool has_free_end = std::any_of(curve.chains().begin(), curve.chains().end(), [&](const auto& chain) {
     return !chain.closed && !chain.nodes.empty() && constraints.node_count() == curve.node_count() &&

@@ -13,6 +13,7 @@
 #include "base/cancellation.hpp"
 #include "base/progress.hpp"
 #include "base/stopwatch.hpp"
+#include "constraints/sides.hpp"
 #include "fit/curve_fit_input.hpp"
 #include "fit/curve_measures.hpp"
 #include "fit/fit_points.hpp"
@@ -57,8 +58,9 @@ class CurveFit {
   std::optional<FitResult> plain_fairing() {
     const FitOptions& options = input_.options();
     // What keeps corners holds them where their points are.
-    const bool has_corners = options.sharp > 0 || !options.fair.corners.empty();
-    if (!options.tolerance() || options.outliers > 0 || !options.moves_freely() || has_corners) return std::nullopt;
+    if (!options.tolerance() || options.outliers > 0 || !options.moves_freely() ||
+        has_corners(options, input_.constraints()))
+      return std::nullopt;
     FairResult plain;
     try {
       (void)check_constraints(input_.curve(), input_.constraints());
@@ -222,7 +224,7 @@ class CurveFit {
     if (!input_.own_nodes() || !found.nodes.from.empty() || !options.tolerance()) return;
     if (options.fair.distribution.value_or(Distribution::even) == Distribution::even) return;
     for (Index i = 0; i < input_.curve().node_count(); ++i) {
-      const bool free = !constraints.tangent_fixed(i) && !constraints.normal_fixed(i);
+      const bool free = tangents_given(constraints, i) == 0 && !constraints.normal_fixed(i);
       if (!free || input_.kept()[static_cast<std::size_t>(i)] != input_.counted()[static_cast<std::size_t>(i)]) return;
       if (constraints.position_fixed(i) && constraints.position(i) != input_.curve().position(i)) return;
     }
@@ -249,7 +251,7 @@ class CurveFit {
     for (Index i = 0; i < fair.nodes; ++i) {
       ++(constraints.position_fixed(i) ? fair.fixed_positions : fair.moving_nodes);
       fair.fixed_normals += constraints.normal_fixed(i) ? 1 : 0;
-      fair.fixed_tangents += constraints.tangent_fixed(i) ? 1 : 0;
+      fair.fixed_tangents += tangents_given(constraints, i);
     }
     result.positions = std::move(positions);
     PolygonCurve moved = shape;

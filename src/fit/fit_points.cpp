@@ -31,6 +31,14 @@ std::optional<double> figure_of(const FitCriterion& criterion, double Criterion:
   return std::nullopt;
 }
 
+void refuse_what_bars(const char* what, const FairOptions& fair) {
+  if (fair.method_kind() != Method::equilibrium)
+    throw Error(ErrorCode::invalid_argument, fmt::format("{} can be kept by the method equilibrium only, not by {}",
+                                                         what, name(fair.method_kind())));
+  if (fair.strength < 1)
+    throw Error(ErrorCode::invalid_argument, fmt::format("{} can be kept at full strength only", what));
+}
+
 }  // namespace
 
 void check_points(const ScatteredPoints& points) {
@@ -123,6 +131,14 @@ std::optional<double> FitOptions::noise() const { return figure_of(criterion, &N
 
 std::optional<double> FitOptions::tolerance() const { return within() ? within() : rms(); }
 
+void check_corners_kept(const FitOptions& options, const Constraints& constraints) {
+  if (constraints.corner_count() > 0) refuse_what_bars("corners", options.fair);
+}
+
+bool has_corners(const FitOptions& options, const Constraints& constraints) {
+  return options.sharp > 0 || !options.fair.corners.empty() || constraints.corner_count() > 0;
+}
+
 void FitOptions::validate() const {
   fair.validate();
   const auto refuse = [](const std::string& message) { throw Error(ErrorCode::invalid_argument, message); };
@@ -141,12 +157,8 @@ void FitOptions::validate() const {
     refuse(fmt::format("least radius must be 0 or more, not {}", least_radius));
   if (!(sharp >= 0 && sharp < 180))
     refuse(fmt::format("sharp must be an angle from 0 to less than 180 degrees, not {}", sharp));
-  const bool has_corners = sharp > 0 || !fair.corners.empty();
-  for (const auto& [asked, what] : {std::pair(least_radius > 0, "a least radius"), std::pair(has_corners, "corners")}) {
-    if (asked && fair.method_kind() != Method::equilibrium)
-      refuse(fmt::format("{} can be kept by the method equilibrium only, not by {}", what, name(fair.method_kind())));
-    if (asked && fair.strength < 1) refuse(fmt::format("{} can be kept at full strength only", what));
-  }
+  if (least_radius > 0) refuse_what_bars("a least radius", fair);
+  if (sharp > 0 || !fair.corners.empty()) refuse_what_bars("corners", fair);
   const bool is_amount = tolerance() || noise();
   if (is_amount && fair.method_kind() != Method::equilibrium)
     refuse(fmt::format("points can be fitted to a tolerance by the method equilibrium only, not by {}",

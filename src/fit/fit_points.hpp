@@ -11,6 +11,12 @@ namespace vspring {
 /// Throws Error(invalid_argument) naming a point that fit() does not take.
 void check_points(const ScatteredPoints& points);
 
+/// Throws Error(invalid_argument) where options cannot keep the corners of the constraints.
+void check_corners_kept(const FitOptions& options, const Constraints& constraints);
+
+/// Whether either of them asks for corners.
+bool has_corners(const FitOptions& options, const Constraints& constraints);
+
 /// One entry per point, 0 for the share of them that is furthest away, rounded down; of equals the first ones go.
 std::vector<std::uint8_t> without_furthest(std::span<const double> distances, double share);
 

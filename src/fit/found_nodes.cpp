@@ -115,11 +115,7 @@ Resampled new_nodes(const CurveFitInput& input, const CurveFound& found, const R
   Constraints held(dense.node_count());
   for (std::uint32_t i = 0; i < on.size(); ++i) {
     const Index from = on.node(i).from;
-    const auto node = static_cast<Index>(i);
-    if (from < 0) continue;
-    if (constraints.position_fixed(from)) held.fix_position(node, constraints.position(from));
-    if (constraints.tangent_fixed(from)) held.fix_tangent(node, constraints.tangent(from));
-    if (constraints.normal_fixed(from)) held.fix_normal(node, constraints.normal(from));
+    if (from >= 0) held.hold_as(static_cast<Index>(i), constraints, from);
   }
   for (const Index node : tight_bends(on, how, 1 / input.scale())) held.fix_position(node, dense.position(node));
   Resampling between = how;

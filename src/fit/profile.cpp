@@ -45,7 +45,9 @@ bool Profile::is_needed(const PolygonCurve& curve, const Constraints& constraint
   const double length = along.norm();
   if (!(length > 0)) return false;
   for (Index i = 0; i < curve.node_count(); ++i) {
-    if (constraints.tangent_fixed(i)) ways.emplace_back(length * without(constraints.tangent(i), axis));
+    for (const NodeSide side : node_sides) {
+      if (constraints.tangent_fixed(i, side)) ways.emplace_back(length * without(constraints.tangent(i, side), axis));
+    }
   }
   return std::any_of(ways.begin() + 1, ways.end(),
                      [&](const Vector3& way) { return way.cross(along / length).norm() > aside_of_line * length; });
@@ -91,9 +93,14 @@ Profile::Profile(const PolygonCurve& curve, const Constraints& constraints, cons
 
 /// What is given of directions. way: of the curve there.
 void Profile::hold(Index node, const Vector3& way) {
-  if (constraints_.tangent_fixed(node)) {
-    const Vector3& tangent = constraints_.tangent(node);
-    held_.fix_tangent(node, {without(tangent, axis_).norm(), tangent[axis_], 0});
+  const auto in_profile = [&](const Vector3& tangent) {
+    return Vector3(without(tangent, axis_).norm(), tangent[axis_], 0);
+  };
+  if (constraints_.tangent_fixed(node)) held_.fix_tangent(node, in_profile(constraints_.tangent(node)));
+  if (constraints_.corner(node)) held_.make_corner(node);
+  for (const NodeSide side : node_sides) {
+    if (constraints_.corner(node) && constraints_.tangent_fixed(node, side))
+      held_.fix_tangent(node, in_profile(constraints_.tangent(node, side)), side);
   }
   if (!constraints_.normal_fixed(node)) return;
   const Vector3& normal = constraints_.normal(node);
@@ -138,10 +145,7 @@ void Profile::lift(ResampledFit& made) const {
   Constraints held(made.resampled.curve.node_count());
   for (Index i = 0; i < held.node_count(); ++i) {
     const Index from = made.resampled.from[static_cast<std::size_t>(i)];
-    if (from < 0) continue;
-    if (constraints_.position_fixed(from)) held.fix_position(i, constraints_.position(from));
-    if (constraints_.tangent_fixed(from)) held.fix_tangent(i, constraints_.tangent(from));
-    if (constraints_.normal_fixed(from)) held.fix_normal(i, constraints_.normal(from));
+    if (from >= 0) held.hold_as(i, constraints_, from);
   }
   made.resampled.constraints = std::move(held);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "base/message_text.hpp"
@@ -28,6 +29,7 @@ struct RuledShape {
   std::function<Flags()> non_manifold;
   std::function<Directions(const std::vector<Index>&)> normals;
   std::function<Directions(const std::vector<Index>&)> tangents;  ///< none for surfaces
+  std::function<Directions(const std::vector<Index>&, NodeSide)> side_tangents;
 };
 
 Flags non_manifold_nodes(const PolygonMesh& mesh) {
@@ -116,21 +118,52 @@ class RuleReader {
   void apply(const json& rule) {
     if (!rule.is_object())
       throw fault(fmt::format("{} is no rule; write {{\"nodes\": …, \"position\": …}}", in_one_line(rule.dump())));
-    if (rule.contains("tangent") && !curve()) throw fault("\"tangent\" is for curves; a surface takes \"normal\"");
     if (curve()) {
-      require_keys(rule, {"nodes", "position", "normal", "tangent"});
+      require_keys(rule, {"nodes", "position", "normal", "tangent", "tangent_in", "tangent_out", "corner"});
     } else {
+      for (const char* key : {"tangent", "tangent_in", "tangent_out", "corner"}) {
+        if (rule.contains(key)) throw fault(fmt::format("\"{}\" is for curves; a surface takes \"normal\"", key));
+      }
       require_keys(rule, {"nodes", "position", "normal"});
     }
     if (!rule.contains("nodes")) throw fault("it names no \"nodes\"");
     if (rule.size() < 2)
-      throw fault(curve() ? "it has none of \"position\", \"normal\" and \"tangent\""
+      throw fault(curve() ? "it has none of \"position\", \"normal\" and \"tangent\", and makes no corner"
                           : "it has neither \"position\" nor \"normal\"");
     const std::vector<Index> nodes = select(rule["nodes"]);
     named_ = !rule["nodes"].is_string();
+    if (!nodes.empty()) refuse_contradictions(rule, nodes.front());
     if (rule.contains("position")) apply_positions(nodes, rule["position"]);
     if (rule.contains("normal")) apply_normals(nodes, rule["normal"]);
     if (rule.contains("tangent")) apply_tangents(nodes, rule["tangent"]);
+    if (rule.contains("corner")) apply_corner(nodes, rule["corner"]);
+    for (const NodeSide side : node_sides) {
+      if (rule.contains(key_of(side))) apply_tangents(nodes, rule[key_of(side)], side);
+    }
+  }
+
+  static const char* key_of(NodeSide side) { return side == NodeSide::before ? "tangent_in" : "tangent_out"; }
+
+  /// node: the first of the rule's.
+  void refuse_contradictions(const json& rule, Index node) const {
+    const bool has_sides = rule.contains("tangent_in") || rule.contains("tangent_out");
+    if (rule.contains("tangent") && (has_sides || rule.contains("corner")))
+      throw fault(fmt::format(
+          "node {}: it either goes on in one \"tangent\", or is a corner, with \"tangent_in\" and \"tangent_out\"",
+          node));
+    if (has_sides && rule.contains("corner") && rule["corner"] == false)
+      throw fault(fmt::format("node {}: without a corner it has one \"tangent\" in place of those of its sides", node));
+  }
+
+  void apply_corner(const std::vector<Index>& nodes, const json& value) {
+    if (!value.is_boolean())
+      throw fault(fmt::format("{} is no corner; write true or false", in_one_line(value.dump())));
+    for (const Index i : nodes) {
+      if (value.get<bool>())
+        constraints_.make_corner(i);
+      else
+        constraints_.free_corner(i);
+    }
   }
 
   [[nodiscard]] bool curve() const { return shape_.tangents != nullptr; }
@@ -279,21 +312,31 @@ class RuleReader {
     }
   }
 
-  void apply_tangents(const std::vector<Index>& nodes, const json& value) {
+  /// side: which one's, of corners; none: that of both.
+  void apply_tangents(const std::vector<Index>& nodes, const json& value, std::optional<NodeSide> side = {}) {
     if (value == "free") {
-      for (const Index i : nodes) constraints_.free_tangent(i);
+      for (const Index i : nodes) {
+        if (side)
+          constraints_.free_tangent(i, *side);
+        else
+          constraints_.free_tangent(i);
+      }
       return;
     }
     if (value.is_string() && value != "fixed")
       throw fault(
           fmt::format("{} is no tangent; write \"fixed\", \"free\" or {}", in_one_line(value.dump()), numbers()));
-    const Directions tangents = value.is_string() ? shape_.tangents(nodes) : vectors(value, nodes.size(), "tangent");
+    const auto estimated = [&] { return side ? shape_.side_tangents(nodes, *side) : shape_.tangents(nodes); };
+    const Directions tangents = value.is_string() ? estimated() : vectors(value, nodes.size(), "tangent");
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (tangents[k].isZero(0))
         throw fault(
             fmt::format("node {}: {}", nodes[k],
                         value.is_string() ? "no edge gives it a tangent" : "a tangent of zero has no direction"));
-      constraints_.fix_tangent(nodes[k], tangents[k]);
+      if (side)
+        constraints_.fix_tangent(nodes[k], tangents[k], *side);
+      else
+        constraints_.fix_tangent(nodes[k], tangents[k]);
     }
   }
 
@@ -341,7 +384,8 @@ void apply_rules(Constraints& constraints, const PolygonMesh& mesh, std::string_
                          .boundary = [&] { return boundary_nodes(mesh); },
                          .non_manifold = [&] { return non_manifold_nodes(mesh); },
                          .normals = [&](const std::vector<Index>& nodes) { return estimate_normals(mesh, nodes); },
-                         .tangents = {}};
+                         .tangents = {},
+                         .side_tangents = {}};
   apply(constraints, shape, text, input);
 }
 
@@ -350,7 +394,9 @@ void apply_rules(Constraints& constraints, const PolygonCurve& curve, std::strin
                          .boundary = [&] { return boundary_nodes(curve); },
                          .non_manifold = [&] { return non_manifold_nodes(curve); },
                          .normals = [&](const std::vector<Index>& nodes) { return estimate_normals(curve, nodes); },
-                         .tangents = [&](const std::vector<Index>& nodes) { return estimate_tangents(curve, nodes); }};
+                         .tangents = [&](const std::vector<Index>& nodes) { return estimate_tangents(curve, nodes); },
+                         .side_tangents = [&](const std::vector<Index>& nodes,
+                                              NodeSide side) { return estimate_tangents(curve, nodes, side); }};
   apply(constraints, shape, text, input);
 }
 

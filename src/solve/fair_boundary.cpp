@@ -132,11 +132,7 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
   }
   Constraints held(static_cast<Index>(node_of.size()));
   for (std::size_t k = 0; k < node_of.size(); ++k) {
-    const auto i = static_cast<Index>(k);
-    const Index node = node_of[k];
-    if (task.of_curve.position_fixed(node)) held.fix_position(i, task.of_curve.position(node));
-    if (task.of_curve.normal_fixed(node)) held.fix_normal(i, task.of_curve.normal(node));
-    if (task.of_curve.tangent_fixed(node)) held.fix_tangent(i, task.of_curve.tangent(node));
+    held.hold_as(static_cast<Index>(k), task.of_curve, node_of[k]);
   }
   FitResult curve = fit(PolygonCurve(on_curve.positions, std::move(chains)), held, on_curve, of_curve, context);
   std::vector<Vector3> positions = mesh.positions();

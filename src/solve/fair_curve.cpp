@@ -1,6 +1,5 @@
 // Curves (§4.8).
 
-#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -8,10 +7,11 @@
 #include "base/stopwatch.hpp"
 #include "base/threads.hpp"
 #include "checks/result_check.hpp"
+#include "constraints/holding.hpp"
+#include "constraints/sides.hpp"
 #include "equilibrium/account.hpp"
 #include "equilibrium/equilibrium_method.hpp"
 #include "equilibrium/from_options.hpp"
-#include "shape/corners.hpp"
 #include "solve/papers_method.hpp"
 #include "spring/curve_net.hpp"
 #include "vspring/fair.hpp"
@@ -20,35 +20,13 @@ namespace vspring {
 
 namespace {
 
-/// Each side of a corner as a chain of its own.
 FairResult fair_sides(const PolygonCurve& curve, const Constraints& constraints, const FairOptions& options,
                       Context& context) {
-  if (constraints.node_count() != curve.node_count()) (void)check_constraints(curve, constraints);
-  Constraints held = constraints;
-  std::vector<std::uint8_t> corners = marked_corners(options.corners, curve.node_count());
-  for (const Index node : options.corners) {
-    if (held.tangent_fixed(node) || held.normal_fixed(node))
-      corners[static_cast<std::size_t>(node)] = 0;
-    else if (!held.position_fixed(node))
-      held.fix_position(node, curve.position(node));
-  }
-  FairOptions of_sides = options;
-  of_sides.corners.clear();
-  FairResult result = fair(cut_at_corners(curve, corners), held, of_sides, context);
-  result.report.corners = static_cast<Index>(std::count(corners.begin(), corners.end(), 1));
-  return result;
-}
-
-}  // namespace
-
-FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const FairOptions& options,
-                Context& context) {
-  if (!options.corners.empty()) return fair_sides(curve, constraints, options, context);
   const Stopwatch stopwatch;
   options.validate();
   FairResult result;
   FairReport& report = result.report;
-  report.warnings = check_constraints(curve, constraints);
+  report.warnings = check_sides(curve, constraints);
   report.method = options.method_kind();
 
   ProgressReporter progress(context);
@@ -73,6 +51,20 @@ FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const
   result.positions = scatter_positions(net, curve.positions(), constraints, options.strength);
   measure_moves(net, curve.positions(), result.positions, report);
   report.seconds = stopwatch.seconds();
+  return result;
+}
+
+}  // namespace
+
+FairResult fair(const PolygonCurve& curve, const Constraints& constraints, const FairOptions& options,
+                Context& context) {
+  check_corners(curve, constraints);
+  if (options.corners.empty() && constraints.corner_count() == 0)
+    return fair_sides(curve, constraints, options, context);
+  // Each side of a corner as a chain of its own.
+  const Sides sides = cut_into_sides(curve, constraints, options.corners);
+  FairResult result = fair_sides(sides.curve, sides.held, options, context);
+  result.report.corners = sides.corners;
   return result;
 }
 

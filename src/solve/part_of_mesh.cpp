@@ -15,6 +15,7 @@ Net gather_part(const PolygonMesh& whole, const std::optional<ActiveSubmesh>& pa
 
 std::vector<Warning> check_part(const PolygonMesh& whole, const std::optional<ActiveSubmesh>& part,
                                 const Constraints& constraints, std::span<const std::uint8_t> pulled) {
+  refuse_corners(constraints);
   if (part) {
     std::vector<std::uint8_t> pulled_there;
     for (std::size_t k = 0; k < part->node.size() && !pulled.empty(); ++k)

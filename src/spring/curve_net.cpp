@@ -119,14 +119,19 @@ class Gathering {
     }
   }
 
+  /// Of a corner, at which chains end and begin again, that of its side.
   void take_tangents() {
     Net& net = result_;
     net.tangents.assign(net.node.size(), Vector3::Zero());
-    for (std::size_t i = 0; i < net.node.size(); ++i) {
-      if (!constraints_.tangent_fixed(net.node[i])) continue;
-      net.tangents[i] = constraints_.tangent(net.node[i]);
+    for_each_place([&](std::size_t s, std::size_t k) {
+      const Index node = nodes_[s][k];
+      const NodeSide side = k > 0 ? NodeSide::before : NodeSide::after;
+      const bool inside = net.moving_runs[s].closed || (k > 0 && k + 1 < nodes_[s].size());
+      if (inside ? !constraints_.tangent_fixed(node) : !constraints_.tangent_fixed(node, side)) return;
+      const std::uint32_t i = net.moving_runs[s].nodes[k];
+      net.tangents[i] = constraints_.tangent(node, side);
       net.given[i] |= Net::given_tangent;
-    }
+    });
   }
 
   const PolygonCurve& curve_;

@@ -1,4 +1,5 @@
 """What `vspring curve` does."""
+import cmath
 import json
 import math
 import random
@@ -326,6 +327,67 @@ class Curve(Case):
             points = read(self.folder / "out.csv")
             self.assertIn((40, 0), points)
             self.assertLess(max(min(abs(y), abs(x - 40)) for x, y in points), 1e-3)
+
+    def test_corners_are_given_by_rules(self):
+        def held(*rules):
+            return "--constraints", self.write("held.json", json.dumps({"rules": list(rules)}))
+
+        def directions(corner):
+            """Before and after where it turns most about there, in degrees, of the circles through that and the next two places."""
+            points = [complex(x, y) for x, y in read(self.folder / "out.csv")]
+            if points[0] == points[-1]:
+                points.pop()
+            count = len(points)
+            about = (k for k in range(count) if abs(points[k] - corner) < 2)
+            at = max(about, key=lambda k: abs(cmath.phase((points[(k + 1) % count] - points[k]) / (points[k] - points[k - 1]))))
+            found = []
+            for step in (-1, 1):
+                first, second = (points[(at + n * step) % count] - points[at] for n in (1, 2))
+                way = step * (first / abs(first) ** 2 - second / abs(second) ** 2)
+                found.append(math.degrees(cmath.phase(way)))
+            return found
+
+        report = ("--report", self.folder / "r.json")
+        both = {"nodes": [40], "tangent_in": [1, -0.2], "tangent_out": [0.2, 1]}
+        road = csv([(k, 0) for k in range(41)] + [(40, k) for k in range(1, 31)])
+        for options in ((), ("--resample", "150"), ("--spacing", "0.5")):
+            with self.subTest(options=options):
+                done = self.curve(road, *held(both), *options, *report)
+                self.assertIn("corners          1 kept sharp\n", done.stdout.decode())
+                self.assertEqual(self.read_json("r.json")["fixed_tangents"], 2)
+                self.assertIn((40, 0), read(self.folder / "out.csv"))
+                before, after = directions(40)
+                self.assertAlmostEqual(before, math.degrees(math.atan2(-0.2, 1)), delta=0.3)
+                self.assertAlmostEqual(after, math.degrees(math.atan2(1, 0.2)), delta=0.3)
+        # The other side is free to turn, and has nothing to turn for.
+        self.curve(road, *held({"nodes": [40], "tangent_out": [0.2, 1]}))
+        self.assertAlmostEqual(directions(40)[0], 0, delta=1e-3)
+        self.curve(road, *held({"nodes": [40], "corner": True}), *report)
+        self.assertEqual(self.read_json("r.json")["corners"], 1)
+        self.assertEqual(self.read_json("r.json")["greatest_move"], 0)
+        # Drawn to its rows, it moves with them. The last row is the first again, and says how the curve comes back.
+        noise = random.Random(3)
+        sides = [(k, 0) for k in range(40)] + [(40, k) for k in range(30)] + [(40 - k, 30) for k in range(40)] + [(0, 30 - k) for k in range(30)]
+        rows = [(x + noise.uniform(-0.4, 0.4), y + noise.uniform(-0.4, 0.4)) for x, y in sides]
+        others = {"nodes": [70, 110], "corner": True}
+        ends = ({"nodes": [140], "tangent_in": [0.1, -1]}, {"nodes": [0], "tangent_out": [1, -0.1]})
+        for options in ((), ("--spacing", "0.5")):
+            with self.subTest(options=options):
+                self.curve(csv(rows + rows[:1]), "--closed", "--within", "1", *held(both, others, *ends), *options, *report)
+                self.assertEqual(self.read_json("r.json")["corners"], 4)
+                for corner, angles in ((40, (-11.3, 78.7)), (0, (-84.3, -5.7))):
+                    for angle, expected in zip(directions(corner), angles):
+                        self.assertAlmostEqual(angle, expected, delta=1.5)
+        # What cannot be is named.
+        self.write("in.csv", road)
+        for rule, said in (({"nodes": [0], "corner": True}, "node 0 cannot be a corner: a chain ends there"),
+                           ({"nodes": [40], "corner": True, "normal": [0, 1]}, "node 40 cannot be a corner: its normal"),
+                           ({"nodes": [40], "tangent_in": [0, 0]}, "node 40: a tangent of zero has no direction"),
+                           ({"nodes": [40], "tangent": [1, 0], "tangent_in": [1, 0]}, "rule 1: node 40: ")):
+            with self.subTest(rule=rule):
+                result = run("curve", self.folder / "in.csv", "-o", self.folder / "out.csv", *held(rule))
+                self.assertEqual(result.returncode, 2)
+                self.assertIn(said, result.stderr.decode())
 
     def test_picture(self):
         self.curve(csv(arc(30, noise=0.05)), "--picture", self.folder / "a.svg")

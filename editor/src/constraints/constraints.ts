@@ -12,6 +12,8 @@ export interface Rule {
   position?: unknown;
   normal?: unknown;
   tangent?: unknown;
+  /** "tangent_in", "tangent_out" and "corner" of curves, and what else there may be. */
+  [key: string]: unknown;
 }
 
 export interface Edit {
@@ -102,7 +104,7 @@ export function withBoundary(constraints: Constraints, part: Part, fixed: boolea
       const { [part]: _, ...kept } = rule;
       return kept as Rule;
     })
-    .filter((rule) => parts.some((other) => rule[other] !== undefined));
+    .filter((rule) => Object.keys(rule).length > 1);
   return { ...constraints, rules: fixed ? [{ nodes: 'boundary', [part]: 'fixed' }, ...rest] : rest };
 }
 
@@ -131,7 +133,7 @@ function renumberedRule(rule: Rule, now: Int32Array): Rule | null {
   const nodes = rule.nodes as number[];
   const left = nodes.flatMap((node, k) => (now[node] >= 0 ? [k] : []));
   if (left.length === 0) return null;
-  const parted = parts.filter((part) => Array.isArray(rule[part]) && Array.isArray((rule[part] as unknown[])[0]));
+  const parted = Object.keys(rule).filter((part) => part !== 'nodes' && Array.isArray(rule[part]) && Array.isArray((rule[part] as unknown[])[0]));
   return { ...rule, nodes: left.map((k) => now[nodes[k]]), ...Object.fromEntries(parted.map((part) => [part, left.map((k) => (rule[part] as unknown[])[k])])) };
 }
 

@@ -242,7 +242,7 @@ class Fitting {
       if (options_.rms() && fit_to_rms_by_filters(run_, points, progress)) return;
       if (options_.within() && fit_within_by_filters(run_, points, smooth, progress)) return;
       if (options_.tolerance()) {
-        FitToTolerance(run_).fit(std::move(points), progress, smooth);
+        FitToTolerance(run_).fit(points, progress, smooth);
         return;
       }
     }

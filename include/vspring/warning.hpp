@@ -7,7 +7,8 @@ namespace vspring {
 
 /// What a warning is about.
 enum class WarningCode : std::uint8_t {
-  immovable_nodes,     ///< nodes that cannot move are held: at edges of more than two faces, where several fans meet
+  immovable_nodes,     ///< nodes that cannot move are held: at edges of more than two faces (of four or more with all
+                       ///< nodes of these), where several fans meet
   free_boundary,       ///< boundary nodes are free and are drawn in
   family_of_shapes,    ///< what holds the shape leaves more than one sphere, plane or circle
   other_springs,       ///< edge springs took the place of sphere springs

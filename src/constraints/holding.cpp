@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,6 +29,8 @@ namespace {
 
 constexpr std::size_t faults_named = 3;
 constexpr Index fewest_held_of_a_loop = 3;
+// Of an edge where two solids touch.
+constexpr std::size_t faces_of_two_solids = 4;
 // Below this share of the largest, a pivot of the system for the spheres through the data counts as none.
 constexpr double no_information = 1e-12;
 
@@ -266,9 +269,25 @@ class Holding {
     }
     if (fan.crowded_neighbour >= 0) {
       const auto [low, high] = std::minmax(i, fan.crowded_neighbour);
+      hold_touching_faces(i, fan.crowded_neighbour);
       return add_fault({.kind = Defect::Kind::non_manifold_edge, .node = low, .other = high}, i);
     }
     if (!fan.manifold()) add_fault({.kind = Defect::Kind::non_manifold_node, .node = i}, i);
+  }
+
+  /// Solids that touch at an edge draw back from it on all sides: held alone it would stay as a spike, whose faces turn
+  /// over.
+  void hold_touching_faces(Index i, Index j) {
+    std::vector<Index> nodes;
+    std::size_t faces = 0;
+    for (const Corner corner : incidence_.corners(i)) {
+      const auto face = mesh_.face(corner.face);
+      const auto at = static_cast<std::size_t>(corner.place);
+      if (face[(at + 1) % face.size()] != j && face[(at + face.size() - 1) % face.size()] != j) continue;
+      ++faces;
+      std::copy_if(face.begin(), face.end(), std::back_inserter(nodes), [&](Index k) { return moves(k); });
+    }
+    if (faces >= faces_of_two_solids) immovable_.insert(immovable_.end(), nodes.begin(), nodes.end());
   }
 
   [[nodiscard]] bool same_nodes(Index a, Index b) const {

@@ -11,8 +11,8 @@
 
 namespace vspring {
 
-/// Nodes that would have to move and cannot, as their faces form several fans or more than two meet at an edge: all of
-/// them, by number. See ImmovableNodesFixed.
+/// Nodes that would have to move and cannot, as their faces form several fans or more than two meet at an edge, and
+/// those of all faces at edges of four or more: all of them, once or more often. See ImmovableNodesFixed.
 class ImmovableNodes : public Error {
  public:
   ImmovableNodes(const std::string& message, std::vector<Index> nodes)

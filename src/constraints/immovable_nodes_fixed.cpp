@@ -16,6 +16,8 @@ Constraints ImmovableNodesFixed::held(const Constraints& constraints) const {
 
 void ImmovableNodesFixed::add(const ImmovableNodes& found) {
   nodes_.insert(nodes_.end(), found.nodes().begin(), found.nodes().end());
+  std::sort(nodes_.begin(), nodes_.end());
+  nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
   message_ = found.what();
 }
 

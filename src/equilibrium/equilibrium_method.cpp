@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "base/cancellation.hpp"
-#include "equilibrium/flow_search.hpp"
+#include "equilibrium/pseudo_transient.hpp"
 #include "equilibrium/relaxation.hpp"
 #include "spring/spacing.hpp"
 #include "sweep/sweep.hpp"
@@ -30,6 +30,9 @@ constexpr std::size_t not_too_many = 100'000;
 // Of Newton's steps from a curve that is nearly there.
 constexpr int newton_limit = 20;
 constexpr double greatest_displacement_ratio = 4;
+// Steps along the flow of edge springs: fewer are no use.
+constexpr int fewest_flow_steps = 20;
+constexpr int most_flow_steps = 100;
 
 /// Places of the moving nodes, as precise as a start need be.
 std::vector<Eigen::Vector3f> rounded(const Net& net, std::span<const Vector3> places) {
@@ -326,7 +329,18 @@ class EquilibriumSearch : private Relaxation {
            !net.spheres.on() && !is_underconstrained(net);
   }
 
-  void go_along_flow() { search_along_flow(*this, hierarchy_, model_, input_, call_); }
+  /// From the best shape so far, which stays where that leads nowhere.
+  void go_along_flow() {
+    const double steps_left =
+        (report_.most_work - report_.work) / (work_of_flow_step * static_cast<double>(shape().moving));
+    if (steps_left < fewest_flow_steps) return;
+    const Reached best = reached(last());
+    relax_along_flow(most_flow_steps, FlowStart::anywhere);
+    const Outcome outcome = report_.outcome;
+    if (outcome == Outcome::converged) return;
+    go_back(last(), best);
+    if (outcome == Outcome::cancelled) report_.outcome = outcome;
+  }
 
   /// A level too coarse for the shape to have an equilibrium, or to have the right one, hands up what is no help: then
   /// the start itself may be one. The better of both stays.

@@ -20,13 +20,13 @@
 #include "base/stopwatch.hpp"
 #include "checks/result_check.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
-#include "equilibrium/bending_descent.hpp"
 #include "equilibrium/sweep_method.hpp"
 #include "fit/fit_curve.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/fit_run.hpp"
 #include "fit/fit_to_tolerance.hpp"
 #include "fit/fit_warnings.hpp"
+#include "fit/least_bending_fit.hpp"
 #include "fit/noise_fit.hpp"
 #include "points/point_factors.hpp"
 #include "points/point_ties.hpp"
@@ -242,14 +242,14 @@ class Fitting {
       if (options_.rms() && fit_to_rms_by_filters(run_, points, progress)) return;
       if (options_.within() && fit_within_by_filters(run_, points, smooth, progress)) return;
       if (options_.tolerance()) {
-        FitToTolerance(run_).fit(std::move(points), progress, smooth);
+        FitToTolerance(run_).fit(points, progress, smooth);
         return;
       }
     }
     if constexpr (std::is_same_v<Subject, FitSurface>) {
       run_on_levels(points, progress);
       const bool found = report.outcome == Outcome::converged || report.outcome == Outcome::cancelled;
-      if (!found && may_be_another()) bend_less(std::move(points), progress);
+      if (!found && run_.may_be_another()) bend_less(points, progress);
     } else {
       run_on_levels(std::move(points), progress);
     }
@@ -268,46 +268,19 @@ class Fitting {
     run_.finish(shape.net());
   }
 
-  /// Whether another shape may stand for one that was not found.
-  [[nodiscard]] bool may_be_another() const {
-    const auto* const method = std::get_if<EquilibriumMethod>(&options_.fair.method);
-    return method && method->fallbacks && !method->max_iterations && !options_.fair.as_found;
-  }
-
   /// Where the springs and the points of a surface find no balance: what is bent least near the points.
-  void bend_less(UntiedPoints points, ProgressReporter& progress) {
+  void bend_less(const UntiedPoints& points, ProgressReporter& progress) {
     FairReport& report = run_.result.report.fair;
     Net net = run_.subject.gather(true);
-    const auto model = model_of(net, options_.fair);
-    PointTies ties = tie_points(net, *model, points, smoothing_in(net), run_.team);
-    points = {};
-    const auto nodes = static_cast<double>(net.moving);
-    const double size = diagonal(net);
-    EquilibriumTask task;
-    task.tolerance = std::get<EquilibriumMethod>(options_.fair.method).tolerance * size;
-    task.most_work = report.most_work / nodes;
-    task.renew_ties = [&](double margin) { return ties.renew(run_.team, margin); };
-    task.on_iteration = [&](double expected) {
-      report.history.push_back(expected / size);
-      progress.report("fairing", 0.5, static_cast<int>(report.history.size()), expected / size);
-    };
-    const EquilibriumResult found = descend_bending(net, *model, task, run_.team, run_.context);
-    report.outcome = found.outcome == Outcome::iteration_limit ? Outcome::work_limit : found.outcome;
-    report.iterations += found.iterations;
-    report.work += found.work * nodes;
+    const auto smoothing = smoothing_in(net);
+    LeastBendingFit shape(std::move(net), options_.fair, points, smoothing, run_.team);
+    // As much again.
+    shape.go(run_.context, progress, report, report.most_work);
     report.most_work += report.most_work;
-    report.expected_error = report.residual = found.expected_error / size;
-    report.springs = Springs::sphere;
-    report.fair_by = FairBy::bending;
-    report.levels.push_back({.moving_nodes = static_cast<Index>(net.moving),
-                             .iterations = found.iterations,
-                             .outcome = report.outcome,
-                             .strategy = "less bending"});
-    run_.finish(net);
-    if (found.outcome == Outcome::converged)
-      report.warnings.push_back({WarningCode::other_fairness,
-                                 "springs and points found no balance: this is the nearest shape of least bending"});
-    else if (found.outcome != Outcome::cancelled)
+    run_.finish(shape.net());
+    if (report.outcome == Outcome::converged)
+      warn_of_least_bending(report);
+    else if (report.outcome != Outcome::cancelled)
       report.warnings.push_back(
           {WarningCode::no_equilibrium,
            fmt::format("no equilibrium was found: this is the input, bent less and drawn to the points, {}; noise may "

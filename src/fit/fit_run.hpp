@@ -5,6 +5,7 @@
 #include <numeric>
 #include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/progress.hpp"
@@ -109,6 +110,12 @@ class FitRun {
     return result.positions == positions_as_held(subject.shape().positions(), subject.constraints());
   }
 
+  /// Whether another shape may stand for one that was not found.
+  [[nodiscard]] bool may_be_another() const {
+    const auto* const method = std::get_if<EquilibriumMethod>(&options.fair.method);
+    return method && method->fallbacks && !method->max_iterations && !options.fair.as_found;
+  }
+
   const ScatteredPoints& points;
   const FitOptions& options;
   Context& context;
@@ -141,6 +148,7 @@ class FitRun {
 
   void count_points(const Net& net) {
     FitReport& report = result.report;
+    report.pulling_points = report.pulled_nodes = 0;
     for (std::size_t i = 0; i < net.moving && !net.points.empty(); ++i) {
       const auto count = static_cast<Index>(net.points.of(i).size());
       report.pulling_points += count;

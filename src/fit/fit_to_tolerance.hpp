@@ -13,7 +13,9 @@
 
 #include "equilibrium/account.hpp"
 #include "fit/fit_run.hpp"
+#include "fit/fit_warnings.hpp"
 #include "fit/interior_fit.hpp"
+#include "fit/least_bending_fit.hpp"
 #include "fit/tolerance_fit.hpp"
 #include "points/point_factors.hpp"
 #include "vspring/error.hpp"
@@ -46,75 +48,35 @@ class FitToTolerance {
   }
 
   /// only_smooth: by some edges, instead of to the tolerance.
-  void fit(UntiedPoints points, ProgressReporter& progress, bool only_smooth) {
+  void fit(const UntiedPoints& points, ProgressReporter& progress, bool only_smooth) {
     if (!only_smooth && plain_fairing_is_within(run_.options.fair, points.are_nodes)) return;
     FitReport& report = run_.result.report;
     Context& context = run_.context;
     Net net = run_.gather_start();
-    const double scale = net.frame.scale();
     const double edge = mean_edge(net);
     const auto length = std::make_shared<double>(edge);
-    FairOptions options = run_.options.fair;
-    auto& method = std::get<EquilibriumMethod>(options.method);
-    method.tolerance = std::min(method.tolerance, precision * tolerance_ * scale / diagonal(net));
-    WarmStartedFit shape(std::move(net), options, std::move(points), length, run_.team);
+    const FairOptions options = precise_options(net);
+    WarmStartedFit shape(std::move(net), options, points, length, run_.team);
     // Long lengths bridge what is noise; short ones leave a start that is near its points as it is.
-    const auto nodes = static_cast<double>(shape.net().moving);
-    const double most_work = std::max(least_most_work, most_work_a_node * nodes);
     const auto& lengths = shape.net().target_positions.empty() ? first_lengths : first_lengths_in_place;
     for (const double first : lengths) {
       *length = first * edge;
       shape.find(context, progress, report.fair);
       if (report.fair.outcome == Outcome::converged || context.cancelled()) break;
     }
-    if (!method.max_iterations) report.fair.most_work = most_work;
-    const auto finish_with = [&](double found) {
-      run_.finish(shape.net());
-      report.smoothing_length = found / scale;
-    };
+    const double most_work = std::max(least_most_work, most_work_a_node * static_cast<double>(shape.net().moving));
+    if (!options.max_iterations()) report.fair.most_work = most_work;
     if (only_smooth || context.cancelled()) {
-      finish_with(*length);
+      finish_with(shape.net(), *length);
       return;
     }
-    // Of the last equilibrium that was found.
-    std::optional<double> last_error;
-    if (report.fair.outcome == Outcome::converged) last_error = report.fair.expected_error;
-    ToleranceFitTask task;
-    task.net = &shape.net();
-    task.length = length;
-    task.found = report.fair.outcome == Outcome::converged;
-    task.update = [&](bool or_find) {
-      FairReport one;
-      shape.update(context, progress, one, or_find);
-      report.fair.iterations += one.iterations;
-      report.fair.work += one.work;
-      report.fair.history.insert(report.fair.history.end(), one.history.begin(), one.history.end());
-      report.fair.residual = one.residual;
-      report.fair.expected_error = one.expected_error;
-      report.fair.outcome = one.outcome;
-      if (one.outcome == Outcome::converged && one.expected_error) last_error = one.expected_error;
-      return one.outcome == Outcome::converged;
-    };
-    task.ended = [&] {
-      return context.cancelled() || (report.fair.most_work > 0 && report.fair.work >= report.fair.most_work);
-    };
-    std::vector<Vector3> measured;
-    task.measure = [&] {
-      measured = run_.positions_of(shape.net());
-      std::vector<double> all = run_.subject.distances(measured);
-      for (std::size_t j = 0; j < all.size(); ++j) all[j] = run_.kept[j] != 0 ? all[j] * scale : 0;
-      return all;
-    };
-    task.energy = [&] { return run_.subject.fairness(measured).vspring_energy; };
-    ToleranceFitResult found =
-        run_.options.within() ? fit_within(task, tolerance_ * scale) : smooth(task, tolerance_ * scale);
-    // Tries that led nowhere tell nothing of the shape that is kept.
-    found.settled = found.settled && last_error;
-    if (found.settled) {
-      report.fair.residual = *last_error;
-      report.fair.expected_error = last_error;
+    ToleranceFitResult found = search(
+        shape.net(), length, [&](FairReport& one, bool or_find) { shape.update(context, progress, one, or_find); });
+    finish_with(shape.net(), found.length);
+    if (!found.settled && some_were_lost_ && run_.may_be_another() && !context.cancelled()) {
+      report.fair.most_work = report.fair.work + most_work;
+      found = bend_less(points, lengths.front(), progress).value_or(found);
     }
-    finish_with(found.length);
     conclude(found);
   }
 
@@ -134,6 +96,103 @@ class FitToTolerance {
   // Of a tolerance, to which equilibria are found.
   static constexpr double precision = 1e-3;
 
+  [[nodiscard]] FairOptions precise_options(const Net& net) const {
+    FairOptions options = run_.options.fair;
+    auto& method = std::get<EquilibriumMethod>(options.method);
+    method.tolerance = std::min(method.tolerance, precision * tolerance_ * net.frame.scale() / diagonal(net));
+    return options;
+  }
+
+  void finish_with(const Net& net, double length) {
+    run_.finish(net);
+    run_.result.report.smoothing_length = length / net.frame.scale();
+  }
+
+  /// From the shape of the net. update(report, or_find): as in the task, where it led is in the report.
+  template <typename Update>
+  ToleranceFitResult search(Net& net, const std::shared_ptr<double>& length, const Update& update) {
+    FairReport& fair = run_.result.report.fair;
+    // Of the last equilibrium that was found.
+    std::optional<double> last_error;
+    const auto look = [&] {
+      const bool is_found = fair.outcome == Outcome::converged;
+      if (is_found && fair.expected_error) last_error = fair.expected_error;
+      some_were_lost_ = some_were_lost_ || !is_found;
+      return is_found;
+    };
+    const double scale = net.frame.scale();
+    ToleranceFitTask task;
+    task.net = &net;
+    task.length = length;
+    task.found = look();
+    task.update = [&](bool or_find) {
+      FairReport one;
+      update(one, or_find);
+      account(one);
+      return look();
+    };
+    task.ended = [&] { return run_.context.cancelled() || (fair.most_work > 0 && fair.work >= fair.most_work); };
+    std::vector<Vector3> measured;
+    task.measure = [&] {
+      measured = run_.positions_of(net);
+      std::vector<double> all = run_.subject.distances(measured);
+      for (std::size_t j = 0; j < all.size(); ++j) all[j] = run_.kept[j] != 0 ? all[j] * scale : 0;
+      return all;
+    };
+    task.energy = [&] { return run_.subject.fairness(measured).vspring_energy; };
+    ToleranceFitResult found =
+        run_.options.within() ? fit_within(task, tolerance_ * scale) : smooth(task, tolerance_ * scale);
+    // Tries that led nowhere tell nothing of the shape that is kept.
+    found.settled = found.settled && last_error;
+    if (found.settled) {
+      fair.residual = *last_error;
+      fair.expected_error = last_error;
+    }
+    return found;
+  }
+
+  /// One of many runs.
+  void account(const FairReport& one) {
+    FairReport& fair = run_.result.report.fair;
+    fair.iterations += one.iterations;
+    fair.work += one.work;
+    fair.history.insert(fair.history.end(), one.history.begin(), one.history.end());
+    fair.residual = one.residual;
+    fair.expected_error = one.expected_error;
+    fair.outcome = one.outcome;
+  }
+
+  /// The same with shapes of least bending, where springs and points find no balance, from a length in mean edges. None
+  /// where these do not settle it either; else that is the result.
+  std::optional<ToleranceFitResult> bend_less(const UntiedPoints& points, double first_length,
+                                              ProgressReporter& progress) {
+    FairReport& fair = run_.result.report.fair;
+    const double residual = fair.residual;
+    const std::optional<double> expected_error = fair.expected_error;
+    Net net = run_.subject.gather(true);
+    const auto length = std::make_shared<double>(first_length * mean_edge(net));
+    const FairOptions options = precise_options(net);
+    LeastBendingFit shape(std::move(net), options, points, length, run_.team);
+    const auto update = [&](FairReport& one, bool /*or_find*/) {
+      shape.go(run_.context, progress, one, fair.most_work - fair.work);
+    };
+    FairReport first;
+    update(first, false);
+    account(first);
+    const ToleranceFitResult found = search(shape.net(), length, update);
+    if (!found.settled) {
+      fair.residual = residual;
+      fair.expected_error = expected_error;
+      return std::nullopt;
+    }
+    fair.springs = first.springs;
+    fair.fair_by = first.fair_by;
+    fair.levels.push_back(first.levels.front());
+    finish_with(shape.net(), found.length);
+    warn_of_least_bending(fair);
+    return found;
+  }
+
   /// tolerance: in the coordinates of the net.
   ToleranceFitResult smooth(const ToleranceFitTask& task, double tolerance) const {
     return smooth_within(task, tolerance, [&](const std::vector<double>& all) { return figure_of(all); });
@@ -141,7 +200,7 @@ class FitToTolerance {
 
   /// By the interior-point method, from a smooth shape that leaves it room. Where that finds nothing, by Lawson's
   /// algorithm.
-  ToleranceFitResult fit_within(ToleranceFitTask& task, double tolerance) const {
+  ToleranceFitResult fit_within(ToleranceFitTask task, double tolerance) const {
     Net& net = *task.net;
     const double close_share = task.close_share;
     {
@@ -210,6 +269,7 @@ class FitToTolerance {
 
   FitRun<FitSurface>& run_;
   double tolerance_;
+  bool some_were_lost_ = false;  ///< shapes on the way that were no equilibria
 };
 
 }  // namespace vspring

@@ -29,6 +29,11 @@ void warn_if_far_off(FitReport& report, double noise) {
                    distance / noise)});
 }
 
+void warn_of_least_bending(FairReport& report) {
+  report.warnings.push_back(
+      {WarningCode::other_fairness, "springs and points found no balance: this is the nearest shape of least bending"});
+}
+
 void warn_if_left_behind(FitReport& report, std::span<const Vector3> points) {
   FairReport& fair = report.fair;
   if (fair.outcome != Outcome::converged) return;

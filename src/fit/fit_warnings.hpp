@@ -6,6 +6,9 @@
 
 namespace vspring {
 
+/// Where a surface was bent less instead.
+void warn_of_least_bending(FairReport& report);
+
 // What the distances of points, once they are measured, say against a shape that has converged.
 
 /// noise: that was taken off. A shape that is further from its nodes than that explains is not what was asked for.

@@ -73,7 +73,7 @@ class WarmStartedFit {
       net().positions = start_;
       levels_.tie(hierarchy_->count() - 1);
     }
-    (void)start_from_points();
+    start_from_points();
     run_equilibrium(*hierarchy_, *model_, search_task(options_), {*team_, context, progress, report}, nullptr,
                     net().points.empty() ? nullptr : &levels_);
   }
@@ -85,8 +85,9 @@ class WarmStartedFit {
                   net().points.empty() ? nullptr : &levels_);
   }
 
-  /// From the last shape, where points or what they pull by have changed a little. Where the solver of the equilibrium
-  /// finds nothing there, it goes on from the start if that may be far off (or_find), else by plain iterations.
+  /// Of a surface: from the last shape, where points or what they pull by have changed a little. Where the solver of
+  /// the equilibrium finds nothing there, it goes on from the start if that may be far off (or_find), else by plain
+  /// iterations.
   void update(Context& context, ProgressReporter& progress, FairReport& report, bool or_find) {
     const std::size_t last = hierarchy_->count() - 1;
     levels_.tie(last);
@@ -99,12 +100,6 @@ class WarmStartedFit {
     if (net().points.are_nodes) return;
     net().positions = start;
     levels_.tie(last);
-    if (start_from_points()) {
-      run_equilibrium_from_near(*hierarchy_, hierarchy_->preconditioner(last), *model_, method, call, &levels_);
-      if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
-      net().positions = start;
-      levels_.tie(last);
-    }
     if (or_find) {
       find(context, progress, report);
       if (report.outcome == Outcome::converged || report.outcome == Outcome::cancelled) return;
@@ -123,15 +118,9 @@ class WarmStartedFit {
 
  private:
   /// A start for curves whose nodes keep their place: a smoothing spline, as noise that is as long as edges are leads
-  /// nowhere. False where that does not apply.
-  bool start_from_points() {
-    if (!net().is_curve || net().target_positions.empty() || net().points.empty()) return false;
-    smooth_to_points();
-    levels_.tie(hierarchy_->count() - 1);
-    return true;
-  }
-
-  void smooth_to_points() {
+  /// nowhere.
+  void start_from_points() {
+    if (!net().is_curve || net().target_positions.empty() || net().points.empty()) return;
     update_directions(net(), *model_, *team_);
     model_->prepare(net());
     std::vector<NodeForce> forces(net().moving);
@@ -139,6 +128,7 @@ class WarmStartedFit {
     std::vector<double> pull(net().moving);
     for (std::size_t i = 0; i < pull.size(); ++i) pull[i] = forces[i].stiffness;
     start_smooth(net(), pull);
+    levels_.tie(hierarchy_->count() - 1);
   }
 
   // The last steps of a plain iteration are about k times their distance.

@@ -33,10 +33,11 @@ bool hold_the_same(const Constraints& a, const Constraints& b) {
   return true;
 }
 
-// On the shape itself: what leads somewhere takes up to some 90 steps that bend it less, and springs fewer from there.
-constexpr int iterations_from_near = 100;
+// What leads somewhere takes up to some 90.
+constexpr int most_steps_of_bending = 100;
 
-// On each level, of an even distribution where that of the input leads nowhere: the coarsest may need two starts.
+// On each level, of another distribution where the one that was asked for leads nowhere: the coarsest may need two
+// starts.
 constexpr int iterations_of_a_try = 100;
 // Of the work that is allowed: what that try may take at least, where the flow from other spacing has left none.
 constexpr double work_of_a_try = 0.2;
@@ -191,10 +192,7 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const Eq
   attempts.push_back(go_from_coarse_levels(options.springs, constraints, call));
   if (go_on() && attempts.back().springs == Springs::sphere && options.fair_by == FairBy::curvature)
     attempts.push_back(go_from_coarse_levels(Springs::edge, constraints, call));
-  if (go_on() && !attempts.back().fault.empty()) {
-    Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
-    attempts.push_back(go_from_input(true, relaxation, constraints, call));
-  }
+  if (go_on() && !attempts.back().fault.empty()) attempts.push_back(go_with_spacing_of_input(constraints, call));
   const bool may_be_another = call.method.fallbacks;
   if (may_be_another && go_on() && !options.distribution) attempts.push_back(go_evenly(constraints, call));
   if (may_be_another && go_on()) go_by_less_bending(attempts, constraints, call);
@@ -203,29 +201,24 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const Eq
 
 void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Constraints& constraints,
                                         const EquilibriumCall& call) {
-  const bool is_by_spheres = attempts.front().springs == Springs::sphere;
   hierarchy_.reset();
   make_levels(gather_part(*whole_, part_, constraints, true), constraints, call.options);
   Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
   // As much again.
   call.report.most_work += call.report.work;
-  if (is_by_spheres) attempts.push_back(go_from_input(false, relaxation, constraints, call));
-  if (attempts.back().is_final()) return;
   Net& net = hierarchy_->finest();
-  net.positions = start_places(net, whole_->positions(), constraints);
   const double at_first = BendingEnergy(net).of(net.positions, team_);
   measure_bending(attempts);
   if (const Attempt* const best = bent_least(attempts, at_first))
     std::copy(best->places.begin(), best->places.end(), net.positions.begin());
   Attempt bent_less = bend_less(relaxation, constraints, call);
-  const auto go_on = [&] { return bent_less.outcome != Outcome::cancelled && !attempts.back().is_final(); };
-  if (go_on() && is_by_spheres)
-    attempts.push_back(go_on_by_springs("from less bending", relaxation, constraints, call));
-  if (go_on() && !bent_less.stands()) {
+  if (!bent_less.is_final()) {
     hierarchy_->start_from_membrane(relaxation.last());
     attempts.push_back(bend_less(relaxation, constraints, call));
+    if (attempts.back().is_final()) return;
   }
-  if (!attempts.back().is_final()) attempts.push_back(std::move(bent_less));
+  // Where none is sound, that is nearer to the input.
+  attempts.push_back(std::move(bent_less));
 }
 
 void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints& constraints,
@@ -330,36 +323,24 @@ Attempt SurfaceFairing::go_evenly(const Constraints& constraints, const Equilibr
 Attempt SurfaceFairing::bend_less(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call) {
   use_least_bending(hierarchy_->finest());
   relaxation.set_strategy("less bending");
-  relaxation.bend_less(iterations_from_near);
+  relaxation.bend_less(most_steps_of_bending);
   Attempt result = attempt(constraints, call);
   // One of a family is none to be called the one.
-  if (result.outcome == Outcome::converged && is_underconstrained(hierarchy_->finest()))
+  if (result.outcome == Outcome::converged && is_underconstrained(hierarchy_->finest())) {
     result.outcome = Outcome::stalled;
-  // Other attempts go on from there.
-  keep_places(result);
+    keep_places(result);
+  }
   return result;
 }
 
-Attempt SurfaceFairing::go_from_input(bool keeps_spacing, Relaxation& relaxation, const Constraints& constraints,
-                                      const EquilibriumCall& call) {
+Attempt SurfaceFairing::go_with_spacing_of_input(const Constraints& constraints, const EquilibriumCall& call) {
+  Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
   Net& net = hierarchy_->finest();
   net.positions = start_places(net, whole_->positions(), constraints);
-  if (keeps_spacing) {
-    update_directions(net, *model_, team_);
-    hierarchy_->set_laplacian_weights(model_->present_laplacian_weights(net));
-  } else {
-    const std::vector<Vector3> smooth = rest_positions(net, team_);
-    std::copy_n(smooth.begin(), net.moving, net.positions.begin());
-  }
-  return go_on_by_springs(keeps_spacing ? "from the input, with its spacing" : "from the input without its noise",
-                          relaxation, constraints, call);
-}
-
-Attempt SurfaceFairing::go_on_by_springs(const char* strategy, Relaxation& relaxation, const Constraints& constraints,
-                                         const EquilibriumCall& call) {
-  if (call.options.fair_by == FairBy::curvature) hierarchy_->finest().spheres.differences.clear();
-  relaxation.set_strategy(strategy);
-  relaxation.relax(relaxation.last(), iterations_from_near);
+  update_directions(net, *model_, team_);
+  hierarchy_->set_laplacian_weights(model_->present_laplacian_weights(net));
+  relaxation.set_strategy("from the input, with its spacing");
+  relaxation.relax(relaxation.last(), iterations_of_a_try);
   return attempt(constraints, call);
 }
 

@@ -56,17 +56,12 @@ class SurfaceFairing {
   Attempt go_from_coarse_levels(Springs springs, const Constraints& constraints, const EquilibriumCall& call);
   /// The same with nodes at the mean of their neighbours, from the input.
   Attempt go_evenly(const Constraints& constraints, const EquilibriumCall& call);
-  /// By the springs of hierarchy_, from the start without its noise, or as it is with the spacing that it has.
-  Attempt go_from_input(bool keeps_spacing, Relaxation& relaxation, const Constraints& constraints,
-                        const EquilibriumCall& call);
-  /// By sphere springs from the start without its noise, by steps that bend the best so far less, by springs from there
-  /// and by such steps from a membrane.
+  /// By the springs of hierarchy_, from the start with the spacing that it has.
+  Attempt go_with_spacing_of_input(const Constraints& constraints, const EquilibriumCall& call);
+  /// By steps that bend the best so far less, and by such steps from a membrane.
   void go_by_less_bending(std::vector<Attempt>& attempts, const Constraints& constraints, const EquilibriumCall& call);
   /// From the shape of hierarchy_, by steps that bend it less.
   Attempt bend_less(Relaxation& relaxation, const Constraints& constraints, const EquilibriumCall& call);
-  /// From there to an equilibrium of its springs.
-  Attempt go_on_by_springs(const char* strategy, Relaxation& relaxation, const Constraints& constraints,
-                           const EquilibriumCall& call);
   /// Makes that of the attempts the shape which is the result, or the start.
   void take_best(std::vector<Attempt> attempts, const Constraints& constraints, const EquilibriumCall& call);
   /// On the net of hierarchy_.

@@ -633,7 +633,10 @@ class CurveFitter {
   /// further away: with small weights alone a curve may go anywhere.
   void go_to_rms() {
     if (data_weight_ == 0) {
-      for (CurvePoint& point : found_.points) point.bound = bound_of_rms * task_.rms;
+      for (CurvePoint& point : found_.points) {
+        const double away = found_.curve.offset(point.at, point.place).norm();
+        point.bound = std::max(bound_of_rms * task_.rms, loosened * away);
+      }
       go();
       for (CurvePoint& point : found_.points) point.bound = 0;
       if (rms() <= rms_to_reach()) return;

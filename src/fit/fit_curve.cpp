@@ -44,6 +44,7 @@ constexpr int most_turns_of_chords = 4;
 constexpr int most_turns_of_pulling = 8;
 // Of how far places may be from the polyline.
 constexpr double next_to_nothing_beyond = 1.001;
+constexpr double little_beyond = 1.05;
 
 class CurveFit {
  public:
@@ -390,7 +391,7 @@ class CurveFit {
     if (measures_.figure(result.distances) > *tolerance) {
       fair.outcome = Outcome::stalled;
       fair.warnings.push_back({WarningCode::outside_tolerance, outside(result, *tolerance)});
-    } else if (way_beyond_ > next_to_nothing_beyond) {
+    } else if (way_beyond_ > little_beyond) {
       fair.outcome = Outcome::stalled;
       fair.warnings.push_back(
           {WarningCode::outside_tolerance,

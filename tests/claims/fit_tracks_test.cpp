@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -138,6 +139,82 @@ TEST(FitTracks, RowsThatNoFairCurveGoesAlongAreWithinAllTheSame) {
     EXPECT_LE(*std::max_element(result.distances.begin(), result.distances.end()), 1);
     const PolygonCurve shape(result.positions, true);
     EXPECT_LE(measure_curve(shape).curvature_variation, measure_curve(curve).curvature_variation);
+  }
+}
+
+/// Of all edges, in radians.
+double turning(const std::vector<Vector3>& places) {
+  double sum = 0;
+  for (std::size_t k = 1; k + 1 < places.size(); ++k) {
+    const Vector3 before = places[k] - places[k - 1];
+    const Vector3 after = places[k + 1] - places[k];
+    sum += std::atan2(before.cross(after).norm(), before.dot(after));
+  }
+  return sum;
+}
+
+// Of a track with sharp turns, noise of 1.4 median edges.
+constexpr double turning_rows[][2] = {
+    {0.23, -0.22}, {0.56, -0.32}, {0.6, 0.18},   {0.69, -0.09}, {0.7, 0.24},   {1.44, 0.05},  {1.28, -0.01},
+    {1.7, 0.1},    {1.7, 0.4},    {1.51, 0.06},  {2.18, -0.1},  {1.85, -0.26}, {2.26, -0.29}, {2.85, -0.26},
+    {3.05, 0.18},  {3.01, -0.49}, {3.22, -0.36}, {3.3, -0.24},  {4, -0.07},    {3.81, -0.33}, {3.92, -0.35},
+    {3.88, -0.54}, {3.75, -0.4},  {3.87, -1.06}, {4.24, -1.13}, {4.77, -1.24}, {4.57, -1.27}, {4.12, -1.8},
+    {4.18, -1.5},  {4.2, -1.81},  {4.67, -1.6},  {4.8, -2.06},  {4.84, -2.34}, {4.8, -2.13},  {4.74, -2.48},
+    {5.09, -2.48}, {5.13, -2.44}, {5.18, -2.67}, {4.86, -2.94}, {5.42, -3.1},  {5.59, -3.71}, {5.57, -3.3},
+    {5.48, -3.37}, {5.52, -3.58}, {5.64, -4.05}, {5.64, -3.61}, {5.66, -4.13}, {5.66, -4.81}, {6.32, -4.61},
+    {5.78, -4.47}, {6.12, -4.49}, {6.11, -4.77}, {5.7, -4.63},  {6.33, -4.68}, {6.3, -4.74},  {6.16, -5.33},
+    {6.38, -4.8},  {6.02, -5.29}, {6.36, -5.21}, {6.17, -4.68}, {6.45, -4.62}, {5.7, -4.72},  {6.05, -4.05},
+    {5.09, -4.01}, {5.45, -3.75}, {5.44, -3.58}, {5.34, -3.63}, {4.77, -3.55}, {4.6, -2.72}};
+
+TEST(FitTracks, BetweenPointsThatAreNearEachOtherTheCurveDoesNotGoFar) {
+  std::vector<Vector3> rows;
+  rows.reserve(std::size(turning_rows));
+  for (const auto& row : turning_rows) rows.emplace_back(row[0], row[1], 0);
+  FitOptions options{.criterion = Within{0.6004}};
+  options.fair.distribution = Distribution::keep;
+  const FitResult result = fit(PolygonCurve(rows), held_ends(rows), {.positions = rows}, options);
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_LE(result.report.shape.greatest, 1.01 * 0.6004);
+  EXPECT_LT(measure_curve(PolygonCurve(result.positions)).length, measure_curve(PolygonCurve(rows)).length);
+}
+
+TEST(FitTracks, RowsOutOfOrderAcrossABendAreDrawnInTheirOrder) {
+  Draw draw(3);
+  for (int drawn = 0; drawn < 5; ++drawn) {
+    SCOPED_TRACE(drawn);
+    std::vector<Vector3> rows;
+    for (double at = 0; at < 60; at += draw.uniform(2, 5)) {
+      Vector3 off = draw.in_cube(0.02);
+      off.z() = 0;
+      rows.emplace_back(Vector3(10 * std::cos(at / 10), 10 * std::sin(at / 10), 0) + off);
+    }
+    std::swap(rows[5], rows[7]);
+    FitOptions options{.criterion = Within{0.06}};
+    options.fair.distribution = Distribution::keep;
+    const FitResult result = fit(PolygonCurve(rows), held_ends(rows), {.positions = rows}, options);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    EXPECT_NEAR(turning(result.positions), 6, 1);
+  }
+}
+
+TEST(FitTracks, OutAndBackAsFarAsARootMeanSquareAllowsTheTipDoesNotTakeInNoise) {
+  Draw draw(5);
+  for (int drawn = 0; drawn < 8; ++drawn) {
+    SCOPED_TRACE(drawn);
+    std::vector<Vector3> rows;
+    rows.reserve(119);
+    for (int k = 0; k < 119; ++k) {
+      const double at = 2 * std::min(k, 118 - k);
+      Vector3 off = draw.in_cube(0.104);
+      off.z() = 0;
+      rows.emplace_back(Vector3(at, 8 * std::sin(at / 20), 0) + off);
+    }
+    FitOptions options{.criterion = RootMeanSquare{0.06}};
+    options.fair.distribution = Distribution::keep;
+    const FitResult result = fit(PolygonCurve(rows), held_ends(rows), {.positions = rows}, options);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    EXPECT_GT(result.report.after.all.rms, 0.6 * 0.06);
+    EXPECT_LT(turning(result.positions), 7.5);
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "constraints/sides.hpp"
@@ -16,8 +15,10 @@ namespace vspring {
 namespace {
 
 // Of the tolerance, on long edges.
-constexpr double places_apart = 0.5;
-constexpr int parts_of_edge = 8;
+constexpr double places_apart = 0.1;
+constexpr int parts_of_edge = 16;
+// Of what is measured at these: so far away the curve may be between them.
+constexpr double between_samples = 1.01;
 constexpr double most_places_on_edge = 32;
 // Of the least radius: what chords of an arc show of it.
 constexpr double share_of_radius = 0.99;
@@ -135,7 +136,7 @@ MeasuredNodes CurveMeasures::measured(Resampled nodes) const {
   const PolygonCurve& shape = found.nodes.curve;
   found.figure = figure(movable_distances(found.nodes));
   found.way_off = way_off(shape).greatest;
-  if (const auto within = input_.options().within(); within && found.way_off > *within) {
+  if (const auto within = input_.options().within(); within && between_samples * found.way_off > *within) {
     found.way_beyond = way_beyond(found.nodes);
     found.figure = std::max(found.figure, found.way_beyond * *within);
   }
@@ -166,21 +167,10 @@ Distance CurveMeasures::way_off(const PolygonCurve& moved) const {
 }
 
 std::optional<PolygonCurve> CurveMeasures::way() const {
-  constexpr std::size_t unknown = std::numeric_limits<std::size_t>::max();
-  std::vector<std::size_t> order(input_.kept().size(), unknown);
-  for (std::size_t j = 0; j < found_.points.size(); ++j) order[static_cast<std::size_t>(found_.points[j].number)] = j;
   std::vector<PolygonCurve::Chain> chains = input_.curve().chains();
   for (auto& chain : chains) {
     std::erase_if(chain.nodes, [&](Index i) { return input_.kept()[static_cast<std::size_t>(i)] == 0; });
     if (chain.nodes.size() < 2) return std::nullopt;
-    const auto rank = [&](Index i) { return order[static_cast<std::size_t>(i)]; };
-    // What is no point comes after the one before it.
-    for (std::size_t k = 1; k < chain.nodes.size(); ++k) {
-      std::size_t& own = order[static_cast<std::size_t>(chain.nodes[k])];
-      if (own == unknown) own = rank(chain.nodes[k - 1]);
-    }
-    if (rank(chain.nodes.front()) != unknown)
-      std::stable_sort(chain.nodes.begin(), chain.nodes.end(), [&](Index a, Index b) { return rank(a) < rank(b); });
   }
   return PolygonCurve(input_.curve().positions(), std::move(chains));
 }
@@ -194,7 +184,7 @@ double CurveMeasures::way_beyond(const Resampled& nodes) const {
   std::vector<double> beyond;
   for (const PolylineBound& one : polyline_bounds(chords, points, *input_.options().within() * input_.scale(),
                                                   {.everywhere = true, .parts = parts_of_edge})) {
-    const double share = one.distance(chords.at(one.at)) / one.bound;
+    const double share = between_samples * one.distance(chords.at(one.at)) / one.bound;
     if (!(share > 1)) continue;
     places.push_back(input_.to_input(chords.at(one.at)));
     beyond.push_back(share);
@@ -205,7 +195,7 @@ double CurveMeasures::way_beyond(const Resampled& nodes) const {
   const std::vector<double> distances = point_distances(places, *way, context_);
   double greatest = 0;
   for (std::size_t k = 0; k < places.size(); ++k) {
-    if (distances[k] > *input_.options().within()) greatest = std::max(greatest, beyond[k]);
+    if (between_samples * distances[k] > *input_.options().within()) greatest = std::max(greatest, beyond[k]);
   }
   return greatest;
 }

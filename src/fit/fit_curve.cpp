@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "base/cancellation.hpp"
 #include "base/progress.hpp"
@@ -360,7 +361,9 @@ class CurveFit {
       return;
     }
     fair.outcome = found_.converged ? Outcome::converged : Outcome::work_limit;
-    fair.expected_error = found_.error;
+    // Where steps no longer make it fairer the last one tells nothing of how far it is.
+    const double tolerance_of_places = std::get<EquilibriumMethod>(input_.options().fair.method).tolerance;
+    if (!found_.converged || found_.error <= tolerance_of_places) fair.expected_error = found_.error;
     fair.residual = found_.error;
     fair.levels.push_back({.moving_nodes = static_cast<Index>(found_.curve.size()),
                            .iterations = found_.steps,

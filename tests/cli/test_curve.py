@@ -373,7 +373,7 @@ class Curve(Case):
         ends = ({"nodes": [140], "tangent_in": [0.1, -1]}, {"nodes": [0], "tangent_out": [1, -0.1]})
         for options in ((), ("--spacing", "0.5")):
             with self.subTest(options=options):
-                self.curve(csv(rows + rows[:1]), "--closed", "--within", "1", *held(both, others, *ends), *options, *report)
+                self.curve(csv(rows + rows[:1]), "--closed", "--within", "0.7", *held(both, others, *ends), *options, *report)
                 self.assertEqual(self.read_json("r.json")["corners"], 4)
                 for corner, angles in ((40, (-11.3, 78.7)), (0, (-84.3, -5.7))):
                     for angle, expected in zip(directions(corner), angles):

@@ -511,10 +511,14 @@ void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScal
   const auto edges = static_cast<std::uint32_t>(nodes.size() - (closed ? 0 : 1));
   std::vector<std::size_t> stop_of(chain.size(), 0);
   for (std::size_t k = 0; k + (closed ? 1 : 0) < stops.size(); ++k) stop_of[stops[k].node] = k;
+  // In the order of the way.
+  std::vector<std::pair<std::size_t, std::size_t>> rows;
   for (std::size_t k = 0; k < chain.size(); ++k) {
+    if (chain[k].point >= 0) rows.emplace_back(stop_of[found.first_row(k)], k);
+  }
+  std::sort(rows.begin(), rows.end());
+  for (const auto& [stop, k] : rows) {
     const ChainNode& row = chain[k];
-    if (row.point < 0) continue;
-    const std::size_t stop = stop_of[found.first_row(k)];
     // Not further than the stops beside: the way may come back here.
     double at = length[stop];
     double least = std::numeric_limits<double>::infinity();

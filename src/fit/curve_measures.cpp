@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "constraints/sides.hpp"
@@ -18,7 +19,7 @@ namespace {
 constexpr double places_apart = 0.1;
 constexpr int parts_of_edge = 16;
 // Of what is measured at these: so far away the curve may be between them.
-constexpr double between_samples = 1.01;
+constexpr double between_samples = 1.002;
 constexpr double most_places_on_edge = 32;
 // Of the least radius: what chords of an arc show of it.
 constexpr double share_of_radius = 0.99;
@@ -167,10 +168,21 @@ Distance CurveMeasures::way_off(const PolygonCurve& moved) const {
 }
 
 std::optional<PolygonCurve> CurveMeasures::way() const {
+  constexpr std::size_t unknown = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> order(input_.kept().size(), unknown);
+  for (std::size_t j = 0; j < found_.points.size(); ++j) order[static_cast<std::size_t>(found_.points[j].number)] = j;
   std::vector<PolygonCurve::Chain> chains = input_.curve().chains();
   for (auto& chain : chains) {
     std::erase_if(chain.nodes, [&](Index i) { return input_.kept()[static_cast<std::size_t>(i)] == 0; });
     if (chain.nodes.size() < 2) return std::nullopt;
+    const auto rank = [&](Index i) { return order[static_cast<std::size_t>(i)]; };
+    // What is no point comes after the one before it.
+    for (std::size_t k = 1; k < chain.nodes.size(); ++k) {
+      std::size_t& own = order[static_cast<std::size_t>(chain.nodes[k])];
+      if (own == unknown) own = rank(chain.nodes[k - 1]);
+    }
+    if (rank(chain.nodes.front()) != unknown)
+      std::stable_sort(chain.nodes.begin(), chain.nodes.end(), [&](Index a, Index b) { return rank(a) < rank(b); });
   }
   return PolygonCurve(input_.curve().positions(), std::move(chains));
 }

@@ -67,7 +67,7 @@ class CurveMeasures {
   /// Whether nodes are those of the input, and have moved only as they may.
   [[nodiscard]] bool keep_stations(const PolygonCurve& moved) const;
   [[nodiscard]] double way_beyond(const Resampled& nodes) const;
-  /// The polyline of the points, less what was left out.
+  /// The polyline of the points, in the order of the way that was found, less what was left out.
   [[nodiscard]] std::optional<PolygonCurve> way() const;
 
   const CurveFitInput& input_;

@@ -45,7 +45,7 @@ constexpr int most_turns_of_chords = 4;
 constexpr int most_turns_of_pulling = 8;
 // Of how far places may be from the polyline.
 constexpr double next_to_nothing_beyond = 1.001;
-constexpr double little_beyond = 1.05;
+constexpr double little_beyond = 1.1;
 
 class CurveFit {
  public:

@@ -183,10 +183,12 @@ TEST(FitTracks, RowsOutOfOrderAcrossABendAreDrawnInTheirOrder) {
   for (int drawn = 0; drawn < 5; ++drawn) {
     SCOPED_TRACE(drawn);
     std::vector<Vector3> rows;
-    for (double at = 0; at < 60; at += draw.uniform(2, 5)) {
+    double at = 0;
+    while (at < 60) {
       Vector3 off = draw.in_cube(0.02);
       off.z() = 0;
       rows.emplace_back(Vector3(10 * std::cos(at / 10), 10 * std::sin(at / 10), 0) + off);
+      at += draw.uniform(2, 5);
     }
     std::swap(rows[5], rows[7]);
     FitOptions options{.criterion = Within{0.06}};

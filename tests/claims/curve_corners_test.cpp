@@ -96,6 +96,7 @@ TEST(CurveCorners, BothSidesAreTheEulerSpiralsOfTheirDirections) {
 TEST(CurveCorners, OfArcsAreExact) {
   // Half a circle about the origin, then a quarter about (1, 1).
   std::vector<Vector3> nodes;
+  nodes.reserve(61);
   for (int k = 0; k < 40; ++k) nodes.push_back(heading(std::numbers::pi * (1 - k / 40.0)));
   for (int k = 0; k <= 20; ++k) nodes.emplace_back(Vector3(1, 1, 0) + heading(std::numbers::pi * (-0.5 + k / 40.0)));
   Constraints constraints = held_ends(nodes, heading(std::numbers::pi / 2), heading(std::numbers::pi / 2));

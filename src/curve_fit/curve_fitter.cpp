@@ -53,6 +53,7 @@ constexpr int most_halvings = 6;
 // Of a step, that is taken to keep edges from turning further; damped where it were less.
 constexpr double least_share = 0.15;
 constexpr int most_dampings = 5;
+// Of how far edges turned with less damping: where they still turn by more, damping does not help.
 constexpr double no_less_for_damping = 0.8;
 constexpr double first_damping = 0.01;
 constexpr double more_damping = 8;
@@ -302,7 +303,7 @@ class CurveFitter {
       end_if_cancelled();
       if (step % steps_per_look == 0) {
         // What is far beyond its bounds and comes no nearer stays so.
-        if (excess - 1 > hopeless_share * (excess_at_look - 1)) break;
+        if (excess_at_look > 1 && excess - 1 > hopeless_share * (excess_at_look - 1)) break;
         excess_at_look = excess;
       }
       ++found_.steps;

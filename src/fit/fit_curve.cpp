@@ -38,12 +38,12 @@ constexpr double most_spared = 0.7;
 constexpr double share_of_nearer = 0.997;
 // Of a root mean square that is allowed.
 constexpr double well_used = 0.7;
-// What is furthest away may be, of a root mean square.
+// How far the furthest point of a curve may be, in root mean squares of all.
 constexpr double furthest_of_rms = 3;
 constexpr int most_turns_nearer = 5;
 constexpr int most_turns_of_chords = 4;
 constexpr int most_turns_of_pulling = 8;
-// Of how far places may be from the polyline.
+// Of how far places may be from the polyline: where steps are done, and what is reported as too far.
 constexpr double next_to_nothing_beyond = 1.001;
 constexpr double little_beyond = 1.1;
 
@@ -231,6 +231,7 @@ class CurveFit {
       if (constraints.position_fixed(i) && constraints.position(i) != input_.curve().position(i)) return;
     }
     MeasuredNodes rows = measures_.measured({input_.curve(), constraints, {}});
+    // The polyline is they themselves, in their own order.
     rows.way_beyond = 0;
     // A shape that may not be the fairest is not to vary more than what came.
     const bool varies_less = rows.figures.curvature_variation < found.figures.curvature_variation;

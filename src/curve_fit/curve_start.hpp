@@ -1,34 +1,14 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include "curve_fit/curve_program.hpp"
-#include "curve_fit/dense_curve.hpp"
+#include "curve_fit/way.hpp"
 
 namespace vspring {
 
 /// Half of what noise of a standard deviation of 1 leaves, across, is below this.
 inline constexpr double median_of_noise = 0.6745;
-
-/// A node of a chain that is to be drawn to points, in the fit's coordinates.
-struct ChainNode {
-  Vector3 place = Vector3::Zero();
-  std::array<Vector3, 2> tangents = {Vector3::Zero(), Vector3::Zero()};  ///< as those of DenseCurve::Node
-  bool held = false;
-  bool corner = false;  ///< given; others may be found
-  Index from = -1;      ///< its number
-  Index point = -1;     ///< the point that it is; −1: none
-  double weight = 1;    ///< of that
-};
-
-/// Lengths that a start goes by.
-struct StartScale {
-  double noise = 0;      ///< of points, across
-  double tolerance = 0;  ///< how far a curve may go from the polyline of the points
-  double sharp = 0;      ///< places where the way turns by more than this are corners, in radians; 0: none are
-};
 
 /// A first curve through a chain: equal rows and those closer together than twice the noise are one; a few rows back
 /// and forth are brought into order; nodes come as dense as the bends of that ask for. points: those of the chain's own

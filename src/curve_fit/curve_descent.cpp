@@ -1,0 +1,381 @@
+#include "curve_fit/curve_descent.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "base/cancellation.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of a tolerance, so that what is not linear in a step does not go beyond.
+constexpr double aimed_share = 0.995;
+// Of how far the curve may go, so that it does not go beyond between nodes.
+constexpr double aimed_share_of_way = 0.98;
+// Of that, across the curve, where what is away along it is nearly all.
+constexpr double least_share_across = 0.01;
+// Of what is beyond bounds, that is left after so many steps.
+constexpr int steps_per_look = 10;
+constexpr double hopeless_share = 0.9;
+// Of the energy, in a step: what changes less is there.
+constexpr double settled_energy = 1e-4;
+// Of a bound, in a step.
+constexpr double settled_share = 0.01;
+// Of edges, in a step.
+constexpr double greatest_turn_of_step = 0.5;
+constexpr double greatest_turn_of_settled = 0.2;
+constexpr int most_halvings = 6;
+// Of a step, that is taken to keep edges from turning further; damped where it were less.
+constexpr double least_share = 0.15;
+constexpr int most_dampings = 5;
+// Of how far edges turned with less damping: where they still turn by more, damping does not help.
+constexpr double no_less_for_damping = 0.8;
+constexpr double first_damping = 0.01;
+constexpr double more_damping = 8;
+constexpr double less_damping = 0.1;
+constexpr double least_damping = 1e-4;
+constexpr double shrinking = 0.9;
+// Of the energy, for what is two bounds away.
+constexpr double price_of_bounds = 1e3;
+// Of what a step promises to take off.
+constexpr double least_gain = 0.1;
+// Of the greatest curvature, where that is more than may be: what a step leaves of it, from one try to the next.
+constexpr double curvature_left[] = {0.5, 0.9, 0.98, 1};
+// How far from the polyline places may be: of the root mean square, and of the furthest point at the start.
+constexpr double reach_of_rms = 4;
+constexpr double spare_of_reach = 1.5;
+// Of that: places that are nearer have no bound in a step.
+constexpr double far_share = 0.3;
+
+}  // namespace
+
+template <int K>
+CurveDescent<K>::CurveDescent(const CurveFitTask& task)
+    : task_(task), plane_(task.plane.value_or(Vector3::Zero())), springs_(task.smoothing > 0 || task.weight > 0) {}
+
+template <int K>
+void CurveDescent<K>::begin_grid(int grid) {
+  most_work_ = std::max(most_work_, static_cast<std::size_t>(task_.most_steps) * found.curve.size() / (grid + 1));
+  weights_ = weights_of_change(found.curve, task_.evenly);
+  find_places_between();
+}
+
+template <int K>
+void CurveDescent<K>::go(int most_steps) {
+  find_places(found.curve, found.points);
+  energy_ = merit();
+  excess_ = excess();
+  bent_ = greatest_bend();
+  left_ = std::begin(curvature_left);
+  last_step_ = std::numeric_limits<double>::infinity();
+  const int sides = has_corners() ? 2 : 1;
+  int sides_done = 0;
+  double excess_at_look = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < most_steps && work_ < most_work_; ++step) {
+    end_if_cancelled();
+    if (step % steps_per_look == 0) {
+      // What is far beyond its bounds and comes no nearer stays so.
+      if (excess_at_look > 1 && excess_ - 1 > hopeless_share * (excess_at_look - 1)) break;
+      excess_at_look = excess_;
+    }
+    ++found.steps;
+    work_ += found.curve.size();
+    const std::optional<Step> next = find_step();
+    if (!next) return;
+    const double last_energy = energy_;
+    const double share = take(*next);
+    const bool damped = damping_ > 0;
+    if (share == 0) {
+      if (damped) {
+        damping_ = 0;
+        continue;
+      }
+      found.converged = found_ && bent_ <= 1;
+      ahead_ = !ahead_;
+      if (++sides_done < sides) continue;
+      return;
+    }
+    if (!gives_way_) {
+      // Other pieces of the polyline may be nearer now.
+      find_places_between();
+      excess_ = std::max(1.0, excess());
+    }
+    last_step_ = next->greatest * share;
+    found.error = last_step_;
+    const bool settled = !damped && is_settled(share, last_energy);
+    damping_ = damping_ > least_damping * energy_ ? damping_ * less_damping : 0;
+    ahead_ = !ahead_;
+    if (next->turn > greatest_turn_of_settled || !settled) {
+      sides_done = 0;
+      continue;
+    }
+    found.converged = bent_ <= 1;
+    if (++sides_done == sides) return;
+  }
+  found.converged = false;
+}
+
+/// Where edges would turn too far in it, it is damped. None where nothing moves, or where it would go anywhere.
+template <int K>
+auto CurveDescent<K>::find_step() -> std::optional<Step> {
+  Step step;
+  double last_turn = std::numeric_limits<double>::infinity();
+  for (int trial = 0; trial < most_dampings; ++trial) {
+    std::optional<CurveProgram<K>> program;
+    BallSolution solution;
+    const auto solve = [&](double left, double price) {
+      program.emplace(this->program(left, price));
+      solution = program->solve();
+      found_ = solution.found;
+    };
+    // What was too much for one step is so for the next.
+    for (solve(*left_, 0); !found_ && task_.least_radius > 0 && left_ + 1 != std::end(curvature_left);)
+      solve(*++left_, 0);
+    if (program->blocks() == 0) {
+      found.converged = true;
+      return std::nullopt;
+    }
+    if (!found_) {
+      // What can't be kept, along with all else or at a price.
+      solve(1, price_of_bounds * energy_);
+      if (found_)
+        loosen_bounds(solution);
+      else
+        loosen_bounds();
+      excess_ = excess();
+    }
+    step = measured(*program, solution);
+    if (!std::isfinite(step.greatest)) {
+      found.converged = false;
+      return std::nullopt;
+    }
+    if (step.turn * least_share <= greatest_turn_of_step) break;
+    // Bounds have to be met, however much a step is damped.
+    if (step.turn > no_less_for_damping * last_turn) break;
+    last_turn = step.turn;
+    damping_ = damping_ > 0 ? more_damping * damping_ : first_damping * energy_ / step.squared_turns;
+  }
+  return step;
+}
+
+template <int K>
+auto CurveDescent<K>::measured(const CurveProgram<K>& program, const BallSolution& solution) const -> Step {
+  const DenseCurve& curve = found.curve;
+  Step step;
+  step.moves.assign(curve.size(), Vector3::Zero());
+  program.for_moves(solution, [&](std::uint32_t i, const Vector3& move) { step.moves[i] = move; });
+  for (std::uint32_t i = 0; i < curve.size(); ++i) {
+    if (!step.moves[i].allFinite()) step.greatest = std::numeric_limits<double>::infinity();
+    step.greatest = std::max(step.greatest, step.moves[i].norm());
+    if (!curve.is_edge(i)) continue;
+    const double length = curve.edge_length(i);
+    const double turned = (step.moves[curve.next(i)] - step.moves[i]).norm() / length;
+    step.turn = std::max(step.turn, turned);
+    step.squared_turns += length * turned * turned;
+  }
+  return step;
+}
+
+/// The share of it that was taken: 0 where none is better.
+template <int K>
+double CurveDescent<K>::take(const Step& step) {
+  const DenseCurve before = found.curve;
+  const std::vector<CurvePoint> places = found.points;
+  double share = step.turn > greatest_turn_of_step ? greatest_turn_of_step / step.turn : 1;
+  for (int half = 0; half < most_halvings; ++half, share /= 2) {
+    for (std::uint32_t i = 0; i < before.size(); ++i) found.curve.set_place(i, before.place(i) + share * step.moves[i]);
+    found.points = places;
+    find_places(found.curve, found.points);
+    const double now = merit();
+    const double beyond = std::max(1.0, excess());
+    const double bend = std::max(1.0, greatest_bend());
+    bool better = false;
+    // Bounds come first: a curve that is beyond them may well be fairer.
+    if (excess_ > 1)
+      better = beyond - 1 <= (1 - least_gain * share) * (excess_ - 1) || (beyond <= excess_ && now < energy_);
+    else
+      // Springs have no energy of their own; near their balance steps become smaller from one to the next.
+      better = beyond <= 1 &&
+               (now < energy_ || bend < bent_ || (springs_ && share == 1 && step.greatest <= shrinking * last_step_));
+    if (!better || bend > std::max(1.0, bent_)) continue;
+    energy_ = now;
+    excess_ = beyond;
+    bent_ = bend;
+    return share;
+  }
+  found.curve = before;
+  found.points = places;
+  return 0;
+}
+
+/// After a share of a step that was not damped.
+template <int K>
+bool CurveDescent<K>::is_settled(double share, double last_energy) const {
+  if (excess_ > 1) return false;
+  if (last_step_ < settled_step()) return true;
+  if (springs_ || bent_ > 1) return false;
+  return (share == 1 && last_energy - energy_ <= settled_energy * last_energy) || energy_ <= nothing_left;
+}
+
+template <int K>
+void CurveDescent<K>::find_places_between() {
+  gives_way_ = false;
+  between_.clear();
+  if (task_.in_order && task_.keeps_way)
+    between_ = polyline_bounds(found.curve, found.points, reach(), {.everywhere = task_.way_share < 1});
+  for (PolylineBound& one : between_) one.bound *= task_.way_share;
+}
+
+/// How far from the polyline places may be: where only points pull, a sharp turn would go out to a wide loop.
+template <int K>
+double CurveDescent<K>::reach() const {
+  if (task_.within > 0) return task_.within;
+  if (task_.rms > 0) return reach_of_rms * task_.rms;
+  double reach = reach_of_rms * task_.noise;
+  for (const CurvePoint& point : found.points)
+    reach = std::max(reach, spare_of_reach * found.curve.offset(point.at, point.place).norm());
+  return reach;
+}
+
+template <int K>
+bool CurveDescent<K>::has_corners() const {
+  for (std::uint32_t i = 0; i < found.curve.size(); ++i) {
+    if (found.curve.node(i).corner && !found.curve.node(i).held) return true;
+  }
+  return false;
+}
+
+template <int K>
+CurveProgram<K> CurveDescent<K>::program(double left, double price) {
+  CurveProgram<K> program(found.curve, plane_, ahead_);
+  bounded_.clear();
+  const auto set_bound = [&](CurvePoint& point, double bound, double share) {
+    point.bound = share * bound;
+    if (bound > 0) point.price = price / bound;
+  };
+  if (springs_) {
+    program.add_springs(1);
+  } else {
+    program.add_variation(weights_);
+    program.add_bending(tie_break);
+  }
+  for (CurvePoint& point : found.points) {
+    if (!(point.weight > 0) || found.curve.is_at_held(point.at)) continue;
+    CurvePoint aimed = point;
+    set_bound(aimed, point.bound, aimed_share);
+    const std::size_t row = program.add_point(aimed, data_weight);
+    if (point.bound > 0) bounded_.push_back({&point.bound, row, 0});
+  }
+  for (PolylineBound& one : between_) {
+    const Vector3 place = found.curve.at(one.at);
+    if (!(task_.within > 0) && one.distance(place) < far_share * one.bound) continue;
+    CurvePoint point;
+    point.place = one.nearest(place);
+    point.at = one.at;
+    set_bound(point, one.bound, aimed_share_of_way);
+    // Nodes go across the curve, which may go across the polyline, as at tips.
+    const double along = (place - point.place).dot(found.curve.direction(one.at));
+    const double across = std::sqrt(std::max(0.0, point.bound * point.bound - along * along));
+    point.bound = std::max(across, least_share_across * point.bound);
+    bounded_.push_back({&one.bound, program.add_bound(point), along});
+  }
+  if (damping_ > 0) program.add_damping(damping_);
+  if (task_.least_radius > 0)
+    program.add_greatest_curvature(std::max(aimed_share, left * greatest_bend()) / task_.least_radius);
+  return program;
+}
+
+template <int K>
+double CurveDescent<K>::merit() const {
+  const DenseCurve& curve = found.curve;
+  double sum = springs_ ? bending() : 0;
+  for (std::uint32_t b = 0; b < curve.size() && !springs_; ++b) {
+    if (!curve.is_edge(b)) continue;
+    const auto first = curve.curvature_row(b, true);
+    const auto second = curve.curvature_row(curve.next(b), false);
+    if (first.count == 0 || second.count == 0) continue;
+    const Vector3 along = (curve.place(curve.next(b)) - curve.place(b)).normalized();
+    const Vector3 change = second.curvature - first.curvature;
+    sum += weights_[b] * (change.squaredNorm() - std::pow(change.dot(along), 2));
+  }
+  if (data_weight > 0) {
+    for (const CurvePoint& point : found.points)
+      sum += data_weight * point.weight * curve.offset(point.at, point.place).squaredNorm();
+  }
+  if (has_sides) sum += tie_break * bending();
+  return sum;
+}
+
+template <int K>
+double CurveDescent<K>::bending() const {
+  const DenseCurve& curve = found.curve;
+  double sum = 0;
+  for (std::uint32_t i = 0; i < curve.size(); ++i) {
+    const std::uint32_t before = curve.before(i);
+    if (curve.is_edge(i)) sum += curve.edge_length(i) / 2 * curve.curvature_row(i, true).curvature.squaredNorm();
+    if (before != DenseCurve::none)
+      sum += curve.edge_length(before) / 2 * curve.curvature_row(i, false).curvature.squaredNorm();
+  }
+  return sum;
+}
+
+/// Those that were paid for, to where the step goes.
+template <int K>
+void CurveDescent<K>::loosen_bounds(const BallSolution& solution) {
+  gives_way_ = true;
+  for (const auto& [bound, row, along] : bounded_) {
+    const double away = std::hypot(solution.distances[row], along);
+    if (away > *bound) *bound = loosened * away;
+  }
+}
+
+/// All to where they are.
+template <int K>
+void CurveDescent<K>::loosen_bounds() {
+  gives_way_ = true;
+  for (CurvePoint& point : found.points) {
+    const double away = found.curve.offset(point.at, point.place).norm();
+    if (point.bound > 0) point.bound = std::max(point.bound, loosened * away);
+  }
+  for (PolylineBound& one : between_) one.bound = std::max(one.bound, loosened * one.distance(found.curve.at(one.at)));
+}
+
+/// The greatest share of its bound that anything is away that can be moved.
+template <int K>
+double CurveDescent<K>::excess() const {
+  double greatest = 0;
+  for (const CurvePoint& point : found.points) {
+    if (point.bound > 0 && point.weight > 0 && !found.curve.is_at_held(point.at))
+      greatest = std::max(greatest, found.curve.offset(point.at, point.place).norm() / point.bound);
+  }
+  for (const PolylineBound& one : between_)
+    greatest = std::max(greatest, one.distance(found.curve.at(one.at)) / one.bound);
+  return greatest;
+}
+
+/// The greatest share of what is allowed that curvature has; 0 where all is.
+template <int K>
+double CurveDescent<K>::greatest_bend() const {
+  double greatest = 0;
+  for (std::uint32_t i = 0; i < found.curve.size() && task_.least_radius > 0; ++i)
+    greatest = std::max(greatest, task_.least_radius * found.curve.greatest_curvature(i));
+  return greatest;
+}
+
+template <int K>
+double CurveDescent<K>::settled_step() const {
+  return task_.within > 0 ? std::min(task_.tolerance, settled_share * task_.within) : task_.tolerance;
+}
+
+template <int K>
+double CurveDescent<K>::measured_excess() {
+  if (task_.in_order) between_ = polyline_bounds(found.curve, found.points, reach());
+  return excess();
+}
+
+template class CurveDescent<1>;
+template class CurveDescent<2>;
+
+}  // namespace vspring

@@ -1,0 +1,173 @@
+#include "curve_fit/first_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/threads.hpp"
+#include "shape/box_tree.hpp"
+#include "shape/segment.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of a tolerance, at the start, so that there is room to become fairer.
+constexpr double first_share = 0.95;
+constexpr int starts = 2;
+constexpr int robust_starts = 2;
+constexpr int risk_starts = 4;
+// Of the noise: what is nearer than that tells nothing.
+constexpr double least_deviation = 0.5;
+constexpr double times_noise = 3;
+constexpr double least_spacing_in_tolerances = 0.05;
+// Of the noise beyond so much of an edge.
+constexpr double least_smoothing_of_noise = 4;
+constexpr double edges_of_noise = 0.4;
+// Of the smoothing length, between nodes.
+constexpr double spacing_of_springs = 0.25;
+
+/// How far the curve may go from the polyline of the points, about.
+double reach_of_way(const CurveFitTask& task) { return std::max(task.within, times_noise * task.noise); }
+
+/// A task's curve before any program is solved.
+class FirstCurve {
+ public:
+  explicit FirstCurve(const CurveFitTask& task) : task_(task) {}
+
+  std::vector<std::pair<Index, double>> deviations() {
+    begin_on_way();
+    std::vector<double> distances;
+    for (int k = 0; k < robust_starts; ++k) {
+      smooth_out_robustly(found_.curve, found_.points, task_.noise);
+      find_places(found_.curve, found_.points);
+    }
+    for (const CurvePoint& point : found_.points)
+      distances.push_back(found_.curve.offset(point.at, point.place).norm());
+    std::vector<double> sorted = distances;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    const double deviation = std::max(*middle / median_of_noise, least_deviation * task_.noise);
+    std::vector<std::pair<Index, double>> result;
+    for (std::size_t j = 0; j < distances.size(); ++j)
+      result.emplace_back(found_.points[j].number, distances[j] / deviation);
+    return result;
+  }
+
+  double rms_of_noise() {
+    begin_on_way();
+    LeastRisk found;
+    for (int k = 0; k < risk_starts && !found_.points.empty(); ++k) {
+      found = smooth_out_by_risk(found_.curve, found_.points, task_.noise, task_.plane ? 1 : 2, found.smoothing);
+      find_places(found_.curve, found_.points);
+      take_new_nodes(found_, with_new_nodes(found_.curve, least_spacing(task_)));
+    }
+    return found.rms;
+  }
+
+  CurveFound smoothed() {
+    begin_on_way();
+    if (found_.points.empty()) return std::move(found_);
+    for (int k = 0; k < starts; ++k) {
+      smooth_out_at_first();
+      find_places(found_.curve, found_.points);
+      take_new_nodes(found_, with_new_nodes(found_.curve, least_spacing(task_)));
+    }
+    smooth_out_at_first();
+    find_places(found_.curve, found_.points);
+    return std::move(found_);
+  }
+
+ private:
+  void begin_on_way() {
+    const StartScale scale{task_.noise, reach_of_way(task_), task_.sharp};
+    found_.curve = DenseCurve(false, task_.moving);
+    for (const auto& chain : task_.chains) add_start(chain.nodes, chain.closed, scale, found_.curve, found_.points);
+    find_scattered();
+    set_bounds(task_, found_);
+  }
+
+  void smooth_out_at_first() {
+    if (task_.smoothing > 0 || task_.weight > 0) {
+      set_smoothing();
+      smooth_out_by(found_.curve, found_.points, found_.smoothing);
+      for (std::uint32_t i = 0; i < found_.curve.size(); ++i)
+        found_.curve.set_spacing(i, std::min(found_.curve.node(i).spacing, spacing_of_springs * found_.smoothing));
+    } else {
+      smooth_out(found_.curve, found_.points, first_share * task_.within, first_share * task_.rms);
+    }
+  }
+
+  void set_smoothing() {
+    const double length = length_of(found_.curve);
+    found_.smoothing = task_.smoothing;
+    if (task_.weight > 0) found_.smoothing = length / task_.edges * std::pow(8 * task_.weight, -0.25);
+    // Where noise is longer than edges there is no way through all points.
+    const double noise = task_.noise - edges_of_noise * length / task_.edges;
+    found_.smoothing = std::max(found_.smoothing, least_smoothing_of_noise * noise);
+  }
+
+  void find_scattered() {
+    if (task_.scattered.empty()) return;
+    const DenseCurve& curve = found_.curve;
+    std::vector<std::uint32_t> edges;
+    std::vector<Box> boxes;
+    for (std::uint32_t i = 0; i < curve.size(); ++i) {
+      if (!curve.is_edge(i)) continue;
+      edges.push_back(i);
+      boxes.emplace_back();
+      boxes.back().extend(curve.place(i));
+      boxes.back().extend(curve.place(curve.next(i)));
+    }
+    ThreadTeam team(1);
+    const BoxTree tree(std::move(boxes), team);
+    for (CurvePoint point : task_.scattered) {
+      const auto share = [&](Index k) {
+        const std::uint32_t edge = edges[static_cast<std::size_t>(k)];
+        return nearest_share(point.place, curve.place(edge), curve.place(curve.next(edge)));
+      };
+      const auto nearest = tree.nearest(point.place, [&](Index k) {
+        const std::uint32_t edge = edges[static_cast<std::size_t>(k)];
+        const Vector3& start = curve.place(edge);
+        return (point.place - start - share(k) * (curve.place(curve.next(edge)) - start)).squaredNorm();
+      });
+      point.at = {edges[static_cast<std::size_t>(nearest.item)], share(nearest.item)};
+      found_.points.push_back(point);
+    }
+  }
+
+  const CurveFitTask& task_;
+  CurveFound found_;
+};
+
+}  // namespace
+
+double length_of(const DenseCurve& curve) {
+  double length = 0;
+  for (std::uint32_t i = 0; i < curve.size(); ++i) length += curve.is_edge(i) ? curve.edge_length(i) : 0;
+  return length;
+}
+
+double least_spacing(const CurveFitTask& task) { return least_spacing_in_tolerances * reach_of_way(task); }
+
+void set_bounds(const CurveFitTask& task, CurveFound& found) {
+  for (CurvePoint& point : found.points) {
+    const auto number = static_cast<std::size_t>(point.number);
+    point.bound = task.within - (point.number >= 0 && !task.spare.empty() ? task.spare[number] : 0);
+  }
+}
+
+void take_new_nodes(CurveFound& found, DenseCurve now) {
+  carry_places(found.curve, now, found.points);
+  found.curve = std::move(now);
+}
+
+std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task) {
+  return FirstCurve(task).deviations();
+}
+
+double rms_of_noise(const CurveFitTask& task) { return FirstCurve(task).rms_of_noise(); }
+
+CurveFound start_of(const CurveFitTask& task) { return FirstCurve(task).smoothed(); }
+
+}  // namespace vspring

@@ -1,0 +1,289 @@
+#include "curve_fit/way.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+#include "curve_fit/way_corners.hpp"
+#include "shape/segment.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of the noise: rows that are nearer together tell nothing of the way.
+constexpr double reach_of_rows = 2;
+// Of that, across stations that stay.
+constexpr double reach_across = 3;
+// How far back rows may go and still be out of order, not on their way back: of that, or of rows and median edges about
+// them.
+constexpr double reach_of_folds = 5;
+constexpr std::size_t most_rows_of_fold = 4;
+constexpr double most_edges_of_fold = 10;
+// Of how far back: so far aside rows may be of the way that they are put on.
+constexpr double most_aside_of_fold = 0.4;
+// From one edge to the next, 60°: in an order that has no more rows may lie anywhere.
+constexpr double cosine_of_gentle_bend = 0.5;
+constexpr std::size_t rows_beside_fold = 3;
+constexpr std::size_t rows_about = 8;
+constexpr int most_turns_of_folds = 10;
+
+class WayFinder {
+ public:
+  /// along: for its station().
+  WayFinder(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, const DenseCurve& along)
+      : chain_(chain), closed_(closed), reach_(reach_of_rows * scale.noise), along_(along) {
+    joined_with_.resize(chain.size());
+    find_turns();
+    for (std::size_t k = 0; k < chain.size(); ++k) add(k);
+    join_seam();
+    if (scale.sharp > 0) find_corners(scale);
+    leave_out_next_to_fixed();
+    for (int turn = 0; turn < most_turns_of_folds && undo_folds(); ++turn) {
+    }
+    leave_out_turns_at_ends();
+  }
+
+  Way take() {
+    std::vector<std::size_t> first_rows;
+    first_rows.reserve(chain_.size());
+    for (std::size_t row = 0; row < chain_.size(); ++row) first_rows.push_back(first_row(row));
+    return {std::move(stops_), std::move(first_rows)};
+  }
+
+ private:
+  [[nodiscard]] std::size_t first_row(std::size_t row) const {
+    while (joined_with_[row] != row) row = joined_with_[row];
+    return row;
+  }
+
+  /// Rows where stations that stay go as far as they do before they come back: no other row could take their place.
+  void find_turns() {
+    turns_.assign(chain_.size(), 0);
+    if (along_.moves_freely() || chain_.size() < 2) return;
+    std::vector<double> edges;
+    Vector3 axis = Vector3::Zero();
+    for (std::size_t k = 1; k < chain_.size(); ++k) {
+      const Vector3 away = station(chain_[k].place - chain_.front().place);
+      if (away.norm() > axis.norm()) axis = away;
+      edges.push_back(station(chain_[k].place - chain_[k - 1].place).norm());
+    }
+    axis.normalize();
+    const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+    std::nth_element(edges.begin(), middle, edges.end());
+    const double least = std::max(reach_of_folds * reach_, most_edges_of_fold * *middle);
+    // How far it has come since the last turn, and back since then.
+    std::size_t lowest = 0;
+    std::size_t highest = 0;
+    int way = 0;
+    for (std::size_t k = 0; k < chain_.size() * (closed_ ? 2 : 1); ++k) {
+      const std::size_t row = k % chain_.size();
+      const auto at = [&](std::size_t other) { return axis.dot(chain_[other].place); };
+      if (at(row) > at(highest)) highest = row;
+      if (at(row) < at(lowest)) lowest = row;
+      if (way >= 0 && at(row) < at(highest) - least) {
+        if (way > 0 || closed_) turns_[highest] = 1;
+        way = -1;
+        lowest = row;
+      } else if (way <= 0 && at(row) > at(lowest) + least) {
+        if (way < 0 || closed_) turns_[lowest] = 1;
+        way = 1;
+        highest = row;
+      }
+    }
+  }
+
+  void add(std::size_t k) {
+    const ChainNode& node = chain_[k];
+    const bool fixed = node.held || node.corner || !node.tangents[1].isZero(0) || turns_[k] != 0;
+    joined_with_[k] = k;
+    if (!fixed && !stops_.empty() && !stops_.back().fixed && are_one(node.place, stops_.back().place)) {
+      join(stops_.back(), {node.place, 1, false, k});
+      return;
+    }
+    stops_.push_back({node.place, 1, fixed, k});
+  }
+
+  /// Where stations stay, rows may be noise apart across them.
+  [[nodiscard]] bool are_one(const Vector3& a, const Vector3& b) const {
+    const double most = along_.moves_freely() ? reach_ : reach_across * reach_;
+    return station(b - a).norm() <= reach_ && (b - a).norm() <= most;
+  }
+
+  [[nodiscard]] Vector3 station(const Vector3& v) const { return along_.station(v); }
+
+  void join(Stop& a, const Stop& b) {
+    a.place = (a.rows * a.place + b.rows * b.place) / (a.rows + b.rows);
+    a.rows += b.rows;
+    joined_with_[b.node] = a.node;
+  }
+
+  void join_seam() {
+    while (closed_ && stops_.size() > 3) {
+      const Stop last = stops_.back();
+      if (last.fixed || stops_.front().fixed || !are_one(last.place, stops_.front().place)) return;
+      join(stops_.front(), last);
+      stops_.pop_back();
+    }
+  }
+
+  void find_corners(const StartScale& scale) {
+    std::vector<Vector3> places;
+    std::vector<std::uint8_t> given;
+    places.reserve(stops_.size());
+    for (const Stop& stop : stops_) {
+      places.push_back(stop.place);
+      given.push_back(chain_[stop.node].corner ? 1 : 0);
+    }
+    for (const std::size_t k : corners_of_way(places, closed_, scale.sharp, scale.tolerance, given)) {
+      // A given tangent says how the curve goes there.
+      if (!chain_[stops_[k].node].tangents[1].isZero(0)) continue;
+      stops_[k].fixed = stops_[k].corner = true;
+    }
+  }
+
+  /// Its rows are those of a neighbour then.
+  void erase(std::size_t k) {
+    joined_with_[stops_[k].node] = stops_[k > 0 ? k - 1 : k + 1].node;
+    stops_.erase(stops_.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+
+  /// So that directions there are not those of noise.
+  void leave_out_next_to_fixed() {
+    const std::size_t least = closed_ ? 3 : 2;
+    for (std::size_t k = 0; k < stops_.size() && stops_.size() > least;) {
+      const auto near = [&](std::size_t other) {
+        return stops_[other].fixed && (stops_[other].place - stops_[k].place).norm() <= reach_;
+      };
+      const bool spare =
+          !stops_[k].fixed && ((k > 0 || closed_ ? near((k > 0 ? k : stops_.size()) - 1) : false) ||
+                               (k + 1 < stops_.size() || closed_ ? near((k + 1) % stops_.size()) : false));
+      if (spare)
+        erase(k);
+      else
+        ++k;
+    }
+  }
+
+  [[nodiscard]] bool turns_back(std::size_t k) const {
+    return station(stops_[k].place - stops_[k - 1].place).dot(stops_[k + 1].place - stops_[k].place) < 0;
+  }
+
+  /// Where the way goes back and on again within a few rows, or within what is noise, its places there are put in the
+  /// order of the way from before to after. False where there is no such place.
+  bool undo_folds() {
+    bool found = false;
+    for (std::size_t k = 1; k + 2 < stops_.size(); ++k) {
+      if (!turns_back(k)) continue;
+      std::size_t end = k + 1;
+      while (end + 1 < stops_.size() && end - k <= most_rows_of_fold && !turns_back(end)) ++end;
+      if (end + 1 >= stops_.size() || !turns_back(end)) continue;
+      const double back = station(stops_[end].place - stops_[k].place).norm();
+      const bool is_noise = back <= reach_of_folds * reach_;
+      if (!is_noise && (end - k > most_rows_of_fold || back > most_edges_of_fold * median_edge(k))) continue;
+      found = (is_noise ? join_all(k, end) : put_in_order(k, end, most_aside_of_fold * back)) || found;
+    }
+    return found;
+  }
+
+  bool join_all(std::size_t first, std::size_t last) {
+    for (std::size_t j = first; j <= last; ++j) {
+      if (stops_[j].fixed) return false;
+    }
+    for (std::size_t j = first + 1; j <= last; ++j) join(stops_[first], stops_[j]);
+    const auto begin = stops_.begin() + static_cast<std::ptrdiff_t>(first);
+    stops_.erase(begin + 1, begin + static_cast<std::ptrdiff_t>(last - first) + 1);
+    return true;
+  }
+
+  /// Those of a fold, and what is out of order beside it. False where they lie aside of the way that they would be on.
+  bool put_in_order(std::size_t first, std::size_t last, double most_aside) {
+    const std::size_t begin = first - std::min(first, rows_beside_fold);
+    const std::size_t end = std::min(stops_.size() - 1, last + rows_beside_fold);
+    const Vector3 on = station(stops_[end].place - stops_[begin].place);
+    std::vector<std::size_t> order(end - begin - 1);
+    std::iota(order.begin(), order.end(), begin + 1);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return stops_[a].place.dot(on) < stops_[b].place.dot(on); });
+    std::size_t left = begin + 1;
+    std::size_t right = end - 1;
+    while (left < end && order[left - begin - 1] == left) ++left;
+    while (right > left && order[right - begin - 1] == right) --right;
+    if (left >= right) return false;
+    std::vector<Vector3> places = {stops_[left - 1].place};
+    for (std::size_t j = left; j <= right; ++j) places.push_back(stops_[order[j - begin - 1]].place);
+    places.push_back(stops_[right + 1].place);
+    const bool goes_on = bends_gently(places);
+    const Vector3& from = places.front();
+    const Vector3& to = places.back();
+    for (std::size_t j = left; j <= right; ++j) {
+      const Vector3& place = stops_[j].place;
+      const double away = station(from + nearest_share(place, from, to) * (to - from) - place).norm();
+      const bool is_aside = !goes_on && away > std::max(reach_of_folds * reach_, most_aside);
+      if (stops_[j].fixed || is_aside) return false;
+    }
+    const std::vector<Stop> before(stops_.begin() + static_cast<std::ptrdiff_t>(left),
+                                   stops_.begin() + static_cast<std::ptrdiff_t>(right) + 1);
+    for (std::size_t j = left; j <= right; ++j) stops_[j] = before[order[j - begin - 1] - left];
+    return true;
+  }
+
+  /// As a way in its right order does.
+  [[nodiscard]] bool bends_gently(const std::vector<Vector3>& places) const {
+    for (std::size_t k = 1; k + 1 < places.size(); ++k) {
+      const Vector3 a = station(places[k] - places[k - 1]);
+      const Vector3 b = station(places[k + 1] - places[k]);
+      if (!(a.dot(b) > cosine_of_gentle_bend * a.norm() * b.norm())) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] double median_edge(std::size_t about) const {
+    std::vector<double> edges;
+    const std::size_t begin = about > rows_about ? about - rows_about : 0;
+    for (std::size_t k = begin; k + 1 < std::min(stops_.size(), about + rows_about); ++k)
+      edges.push_back(station(stops_[k + 1].place - stops_[k].place).norm());
+    const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
+    std::nth_element(edges.begin(), middle, edges.end());
+    return *middle;
+  }
+
+  /// At an end there is no way before.
+  void leave_out_turns_at_ends() {
+    const double most = reach_of_folds * reach_;
+    const auto turns = [&](const Stop& end, const Stop& next, const Stop& beyond) {
+      const Vector3 step = station(next.place - end.place);
+      return !next.fixed && step.norm() <= most && step.dot(beyond.place - next.place) < 0 &&
+             station(beyond.place - end.place).norm() < station(beyond.place - next.place).norm();
+    };
+    while (!closed_ && stops_.size() > 3 && turns(stops_[0], stops_[1], stops_[2])) erase(1);
+    while (!closed_ && stops_.size() > 3) {
+      const std::size_t n = stops_.size();
+      if (!turns(stops_[n - 1], stops_[n - 2], stops_[n - 3])) break;
+      erase(n - 2);
+    }
+  }
+
+  const std::vector<ChainNode>& chain_;
+  bool closed_;
+  double reach_;
+  const DenseCurve& along_;
+  std::vector<Stop> stops_;
+  std::vector<std::uint8_t> turns_;
+  std::vector<std::size_t> joined_with_;  // of every row that begins a stop, or is in one
+};
+
+}  // namespace
+
+std::size_t Way::middle_row(const Stop& stop) const {
+  std::size_t end = stop.node + 1;
+  while (end < first_rows.size() && first_rows[end] == stop.node) ++end;
+  return stop.node + (end - stop.node) / 2;
+}
+
+Way find_way(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, const DenseCurve& along) {
+  return WayFinder(chain, closed, scale, along).take();
+}
+
+}  // namespace vspring

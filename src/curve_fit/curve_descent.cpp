@@ -72,6 +72,7 @@ void CurveDescent<K>::go(int most_steps) {
   last_step_ = std::numeric_limits<double>::infinity();
   const int sides = has_corners() ? 2 : 1;
   int sides_done = 0;
+  bool is_undone = false;  // whether damping was, as no step was better with it
   double excess_at_look = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps && work_ < most_work_; ++step) {
     end_if_cancelled();
@@ -88,15 +89,17 @@ void CurveDescent<K>::go(int most_steps) {
     const double share = take(*next);
     const bool damped = damping_ > 0;
     if (share == 0) {
-      if (damped) {
+      if (damped && !is_undone) {
         damping_ = 0;
+        is_undone = true;
         continue;
       }
-      found.converged = found_ && bent_ <= 1;
+      found.converged = found_ && !damped && bent_ <= 1;
       ahead_ = !ahead_;
       if (++sides_done < sides) continue;
       return;
     }
+    is_undone = false;
     if (!gives_way_) {
       // Other pieces of the polyline may be nearer now.
       find_places_between();

@@ -25,7 +25,7 @@ constexpr std::size_t rows_beside = 8;
 struct Spike {
   std::size_t first;  ///< among those that are left
   std::size_t count;
-  double severity;
+  double severity;  ///< by how many edges the way is shorter without them, for each
 };
 
 }  // namespace
@@ -74,12 +74,15 @@ std::vector<std::uint8_t> find_spikes(std::span<const Vector3> rows, bool closed
         const bool is_tip = (!has_before || goes_on(k + count - 1 - rows_of_direction, k + count - 1, k)) &&
                             (!has_after || goes_on(k + n + rows_of_direction, k + n, k + n - 1));
         const double least = (is_tip ? aside_of_tip : aside_of_spike) * *middle;
-        if (aside > least) all.push_back({k, n, aside / std::max(*middle, 1e-300)});
+        if (!(aside > least)) continue;
+        double gain = -(after - before).norm();
+        for (std::size_t j = k - 1; j < k + n; ++j) gain += lengths[j % count];
+        all.push_back({k, n, gain / (static_cast<double>(n) * std::max(*middle, 1e-300))});
       }
     }
     if (all.empty()) break;
     std::stable_sort(all.begin(), all.end(), [](const Spike& a, const Spike& b) { return a.severity > b.severity; });
-    // The worst of each place.
+    // The worst of each place: between two spikes, these and not the rows that are right.
     std::vector<std::uint8_t> taken(count, 0);
     std::vector<std::uint8_t> out(count, 0);
     for (const Spike& spike : all) {

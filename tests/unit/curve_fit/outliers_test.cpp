@@ -39,6 +39,14 @@ TEST(Spikes, AreFoundAloneAndInRunsOfThreeAndAThousandTimesOff) {
   EXPECT_EQ(one[80], 1);
 }
 
+TEST(Spikes, NotTheRowsBetweenTwoOfThem) {
+  std::vector<Vector3> rows = wave(100);
+  rows[40].y() += 60;
+  rows[43].y() += 60;
+  const auto spikes = find_spikes(rows, false, 2);
+  for (std::size_t k = 0; k < rows.size(); ++k) EXPECT_EQ(spikes[k], k == 40 || k == 43 ? 1 : 0) << k;
+}
+
 TEST(Spikes, OfAFewEdgesAreFoundButNotWhereTheWayGoesOnStraight) {
   std::vector<Vector3> rows = wave(100);
   rows[20].y() += 4;

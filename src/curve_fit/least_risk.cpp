@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/cancellation.hpp"
+#include "curve_fit/curve_start.hpp"
+#include "curve_fit/smoothing_spline.hpp"
+
+namespace vspring {
+
+namespace {
+
+constexpr double fine_stride = 0.3;
+// To either side of the smoothing of a curve that is much the same.
+constexpr int strides_about = 6;
+// Of the points: parameters.
+constexpr double most_freedom = 0.9;
+// How often parameters count for the risk: more than once, as noise may be more than it was estimated to be, and who
+// follows it by a little has many bends.
+constexpr double caution = 3;
+
+/// What a point has of the parameters of the spline with a smoothing of 1, one after the other: they are as dense as
+/// (its weight over the length it stands for)^(1/6) / 3 (Silverman 1984).
+std::vector<double> shares_of_freedom(const SmoothingSpline& spline) {
+  const DenseCurve& curve = spline.curve();
+  std::vector<double> begins(curve.size() + 1, 0);
+  for (std::uint32_t i = 0; i < curve.size(); ++i)
+    begins[i + 1] = begins[i] + (curve.is_edge(i) ? curve.edge_length(i) : 0);
+  std::vector<std::pair<double, double>> places;
+  double weights = 0;
+  for (const CurvePoint& point : spline.points()) {
+    if (!(point.weight > 0)) continue;
+    const std::uint32_t edge = point.at.edge;
+    places.emplace_back(begins[edge] + point.at.share * (begins[edge + 1] - begins[edge]), point.weight);
+    weights += point.weight;
+  }
+  std::sort(places.begin(), places.end());
+  std::vector<double> shares;
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    const double from = j > 0 ? places[j - 1].first : 0;
+    const double to = j + 1 < places.size() ? places[j + 1].first : spline.length();
+    const double length = (to - from) / 2 / spline.length();
+    shares.push_back(std::pow(places[j].second / weights, 1.0 / 6) * std::pow(length, 5.0 / 6) / 3);
+  }
+  return shares;
+}
+
+/// How many parameters the spline has in effect, in each coordinate; a point can tell no more than one.
+double freedom(const std::vector<double>& shares, double smoothing) {
+  const double density = std::pow(smoothing, -1.0 / 6);
+  double sum = 0;
+  for (const double share : shares) sum += std::min(1.0, share * density);
+  return sum;
+}
+
+/// Of the curve as it was, at the places of points; zero where coordinates stay.
+std::vector<Vector3> directions_at_points(const SmoothingSpline& spline) {
+  std::vector<Vector3> directions(spline.points().size(), Vector3::Zero());
+  for (std::size_t j = 0; j < directions.size() && spline.curve().moves_freely(); ++j)
+    directions[j] = spline.curve().direction(spline.points()[j].at);
+  return directions;
+}
+
+/// Of points from their places, across the curve.
+double mean_square_across(const SmoothingSpline& spline, const std::vector<Vector3>& along) {
+  double squares = 0;
+  double weights = 0;
+  for (std::size_t j = 0; j < along.size(); ++j) {
+    Vector3 away = spline.residual(j);
+    away -= away.dot(along[j]) * along[j];
+    squares += spline.points()[j].weight * away.squaredNorm();
+    weights += spline.points()[j].weight;
+  }
+  return squares / weights;
+}
+
+}  // namespace
+
+LeastRisk smooth_out_by_risk(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise, int directions,
+                             double about) {
+  SmoothingSpline spline(curve, points);
+  double least = std::numeric_limits<double>::infinity();
+  LeastRisk found;
+  std::vector<Vector3> best;
+  const auto pulls = [](const CurvePoint& point) { return point.weight > 0; };
+  const auto count = static_cast<double>(std::count_if(points.begin(), points.end(), pulls));
+  const std::vector<double> shares = shares_of_freedom(spline);
+  const std::vector<Vector3> along = directions_at_points(spline);
+  const double far = std::pow(fine_stride, strides_about);
+  const double first = about > 0 ? std::min(about / far, first_smoothing) : first_smoothing;
+  double smoothing = first / fine_stride;
+  while (smoothing > std::max(least_smoothing, about > 0 ? far * found.smoothing : 0)) {
+    smoothing *= fine_stride;
+    end_if_cancelled();
+    const double freedom = vspring::freedom(shares, smoothing);
+    const double spread = 2 * caution * noise * noise * freedom / count;
+    // What follows every point tells nothing.
+    if (freedom > most_freedom * count || spread > least) break;
+    if (!spline.solve(smoothing)) continue;
+    const double square = mean_square_across(spline, along);
+    const double risk = square / directions + spread;
+    if (!(risk < least) || !spline.is_sane()) continue;
+    least = risk;
+    found = {std::sqrt(square), smoothing};
+    best = spline.places();
+  }
+  // Less of it may be better.
+  if (found.smoothing == first && first < first_smoothing)
+    return smooth_out_by_risk(curve, points, noise, directions, 0);
+  spline.set_places(std::move(best));
+  spline.take();
+  return found;
+}
+
+}  // namespace vspring

@@ -1,0 +1,140 @@
+#include "fit/finished_nodes.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "constraints/sides.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of the edge before or after.
+constexpr double sparse_share = 0.05;
+constexpr int most_turns_of_chords = 4;
+constexpr int most_turns_of_pulling = 8;
+// Of how far places may be from the polyline.
+constexpr double next_to_nothing_beyond = 1.001;
+
+/// Whether no edge is much shorter than those about it, and none shorter than the tolerance.
+bool are_sparse(const PolygonCurve& curve, double tolerance) {
+  for (const auto& chain : curve.chains()) {
+    const std::size_t count = chain.nodes.size();
+    double before = 0;
+    for (std::size_t k = 0; k + 1 < count + (chain.closed ? 1 : 0); ++k) {
+      const double edge = (curve.position(chain.nodes[(k + 1) % count]) - curve.position(chain.nodes[k])).norm();
+      if (edge < tolerance || edge < sparse_share * before || before < sparse_share * edge * (k > 0 ? 1 : 0))
+        return false;
+      before = edge;
+    }
+  }
+  return true;
+}
+
+bool is_fairer(const CurveFigures& a, const CurveFigures& b) {
+  return a.curvature_variation < b.curvature_variation && a.curvature_extrema <= b.curvature_extrema &&
+         a.inflections <= b.inflections;
+}
+
+}  // namespace
+
+void FinishedNodes::finish(MeasuredNodes& nodes) {
+  for (int turn = 0; turn < most_turns_of_chords && draw_chords_in(nodes, false); ++turn) {
+  }
+  pull_to_rows(nodes);
+  keep_what_is_fairer(nodes);
+}
+
+/// Nodes that are far apart cut off what the curve does between them: where that is more than the tolerance allows
+/// for, they go to where their chords are within it. False where they do not. Elsewhere too, if these are fairer
+/// then, as where a table is coarse.
+bool FinishedNodes::draw_chords_in(MeasuredNodes& before, bool were_pulled) {
+  const auto tolerance = input_.options().tolerance();
+  const bool are_new = !before.nodes.from.empty();
+  // At a station of its own no node is cut off.
+  if (!tolerance || context_.cancelled() || (!are_new && input_.moving() != Vector3::Ones())) return false;
+  if (before.figure <= *tolerance && !were_pulled &&
+      !(input_.options().within() && are_sparse(before.nodes.curve, *tolerance)))
+    return false;
+  const DenseCurve chords = measures_.chords(before.nodes.curve, before.nodes);
+  CurveFitTask task = input_.task();
+  task.nodes = &chords;
+  task.evenly = true;
+  task.scattered = found_.points;
+  // Nodes that are the points keep the way between them.
+  task.keeps_way = are_new;
+  carry_places(found_.curve, chords, task.scattered);
+  const CurveFound drawn = vspring::fit_curve(task, [](double) {});
+  Resampled moved = before.nodes;
+  std::vector<Vector3> places = moved.curve.positions();
+  for (std::uint32_t i = 0; i < drawn.curve.size(); ++i) {
+    const auto& node = drawn.curve.node(i);
+    if (!node.held) places[static_cast<std::size_t>(node.from)] = input_.to_input(node.place);
+  }
+  moved.curve.set_positions(std::move(places));
+  MeasuredNodes after = measures_.measured(std::move(moved));
+  // Points may be near a curve that goes anywhere between them.
+  const bool stays =
+      after.way_off <= far_off_way * std::max(before.way_off, *tolerance) && after.radius_kept >= before.radius_kept;
+  const bool fairer = were_pulled ? after.figures.curvature_variation < before.figures.curvature_variation
+                                  : is_fairer(after.figures, before.figures);
+  const bool better = before.figure > *tolerance
+                          ? after.figure < before.figure
+                          : fairer && after.figure <= *tolerance && drawn.beyond <= next_to_nothing_beyond;
+  if (!better || !stays) return false;
+  if (were_pulled) found_.converged = drawn.converged;
+  before = std::move(after);
+  return true;
+}
+
+/// Rows are within any tolerance of themselves: where the curve is not of some, their nodes go to where they are, and
+/// from there to where their chords are fairest. At last all nodes do; chords are within then, too.
+void FinishedNodes::pull_to_rows(MeasuredNodes& found) {
+  const auto within = input_.options().within();
+  if (!within || !input_.own_nodes() || !found.nodes.from.empty()) return;
+  const auto points_off = [&](const Resampled& nodes) { return measures_.figure(measures_.movable_distances(nodes)); };
+  if (points_off(found.nodes) <= *within) return;
+  MeasuredNodes now = found;
+  for (int turn = 1; turn <= most_turns_of_pulling && now.figure > *within; ++turn) {
+    std::vector<Vector3> places = now.nodes.curve.positions();
+    const std::vector<double> distances = measures_.movable_distances(now.nodes);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (input_.kept()[i] == 0 || input_.constraints().position_fixed(static_cast<Index>(i))) continue;
+      const Vector3 row = input_.curve().position(static_cast<Index>(i));
+      const double away = turn < most_turns_of_pulling ? distances[i] : (places[i] - row).norm();
+      if (away > *within) places[i] = row + share_of_nearer * *within * (places[i] - row).normalized();
+    }
+    Resampled pulled = now.nodes;
+    pulled.curve.set_positions(std::move(places));
+    now = measures_.measured(std::move(pulled));
+    // Between rows in their own order, whatever the way's is.
+    if (turn == most_turns_of_pulling) now.figure = points_off(now.nodes);
+  }
+  if (!(now.figure < found.figure)) return;
+  if (now.figure <= *within) now.way_beyond = 0;
+  found = std::move(now);
+  found_.converged = false;
+  (void)draw_chords_in(found, true);
+}
+
+/// The rows themselves, which are within any tolerance, where the curve that was found is no fairer.
+void FinishedNodes::keep_what_is_fairer(MeasuredNodes& found) const {
+  const Constraints& constraints = input_.constraints();
+  const FitOptions& options = input_.options();
+  if (!input_.own_nodes() || !found.nodes.from.empty() || !options.tolerance()) return;
+  if (options.fair.distribution.value_or(Distribution::even) == Distribution::even) return;
+  for (Index i = 0; i < input_.curve().node_count(); ++i) {
+    const bool free = tangents_given(constraints, i) == 0 && !constraints.normal_fixed(i);
+    if (!free || input_.kept()[static_cast<std::size_t>(i)] != input_.counted()[static_cast<std::size_t>(i)]) return;
+    if (constraints.position_fixed(i) && constraints.position(i) != input_.curve().position(i)) return;
+  }
+  MeasuredNodes rows = measures_.measured({input_.curve(), constraints, {}});
+  // The polyline is they themselves, in their own order.
+  rows.way_beyond = 0;
+  // A shape that may not be the fairest is not to vary more than what came.
+  const bool varies_less = rows.figures.curvature_variation < found.figures.curvature_variation;
+  if (rows.radius_kept == 1 && (found_.converged ? is_fairer(rows.figures, found.figures) : varies_less))
+    found = std::move(rows);
+}
+
+}  // namespace vspring

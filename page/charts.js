@@ -63,8 +63,8 @@ export function addSurfaceCharts(parent, shapes, leading, report) {
 // unit: the length of the input that is 1 in the page. leading: the shape whose curvature is shown whole. pixels: see addChart().
 export function addCurveCharts(parent, shapes, {unit, leading, planar, pixels}, report) {
   const series = shapes.map(({title, chains}, k) => ({name: title, style: styleOf(k, shapes.length),
-    lines: chains.map(({arc, curvatures}) =>
-      arc.map((length, n) => [length * unit, curvatures[n] === null ? null : curvatures[n] / unit])
+    lines: chains.map(({middles, curvatures}) =>
+      middles.map((length, n) => [length * unit, curvatures[n] === null ? null : curvatures[n] / unit])
         .filter((point) => point[1] !== null)).filter((line) => line.length > 0)}));
   const heights = (one) => one.lines.flat().map((point) => point[1]);
   // Others are cut off where the leading one would be flat beside them, unless it is straight.

@@ -17,7 +17,8 @@ function curvatureAt(before, here, after) {
 }
 
 // Chains with points, arc length (going on from chain to chain), curvature vectors and curvature: signed on planar
-// curves, positive to the left as seen in the view. Ends that are open have none.
+// curves, positive to the left as seen in the view. Ends that are open have none. middles: the arc length at which the
+// curve has that curvature, to second order: the mean of the node's and its neighbours'.
 export function chainsOf({positions, runs, closed}, {planar, towards}) {
   let length = 0;
   return closed.map((loop, c) => {
@@ -26,6 +27,7 @@ export function chainsOf({positions, runs, closed}, {planar, towards}) {
       points.push([0, 1, 2].map((i) => positions[3 * runs.nodes[k] + i]));
     const count = points.length;
     const around = (k) => points[(k + count) % count];
+    const begin = length;
     const arc = points.map((point, k) => length += k ? Math.hypot(...minus(point, points[k - 1])) : 0);
     if (loop && count) length += Math.hypot(...minus(points[0], points[count - 1]));
     const vectors = points.map((point, k) => {
@@ -37,6 +39,11 @@ export function chainsOf({positions, runs, closed}, {planar, towards}) {
       if (!planar) return Math.hypot(...vector);
       return dot(cross(minus(around(k + 1), around(k - 1)), vector), towards) < 0 ? -Math.hypot(...vector) : Math.hypot(...vector);
     });
-    return {points, arc, vectors, curvatures, closed: loop};
+    const middles = arc.map((at, k) => {
+      const before = k ? arc[k - 1] : loop ? arc[count - 1] - (length - begin) : at;
+      const after = k + 1 < count ? arc[k + 1] : loop ? length : at;
+      return (before + at + after) / 3;
+    });
+    return {points, arc, middles, vectors, curvatures, closed: loop};
   });
 }

@@ -310,6 +310,28 @@ MUTATIONS = {
     "src/curve_fit/dense_curve.cpp": [
         ("station-of-place", "where coordinates stay, they say where a place is", "v - (1 - share_of_moving) * moving_.cwiseProduct(v)", "v"),
     ],
+    "src/curve_fit/polyline_bounds.cpp": [
+        ("bound-on-long-ways", "between near rows a curve that goes far is bounded", "way(rows[k].at.edge, rows[(k + 1) % count].at.edge) > long_way * reach_",
+         "false"),
+    ],
+    "src/curve_fit/node_places.cpp": [
+        ("places-in-order", "places out of order are exchanged", "sorted[k] - least - from[k]", "values[k] - least - from[k]"),
+    ],
+    "src/curve_fit/outliers.cpp": [
+        ("spikes-by-gain", "of spikes the one without which the way is shortest, for each row", "gain / (static_cast<double>(n) * std::max(*middle, 1e-300))",
+         "static_cast<double>(n) * gain / std::max(*middle, 1e-300)"),
+    ],
+    "src/curve_fit/curve_descent.cpp": [
+        ("bound-across", "a bound across is what is left of it beside what is along", "std::sqrt(std::max(0.0, point.bound * point.bound - along * along))",
+         "point.bound"),
+    ],
+    "src/curve_fit/curve_fitter.cpp": [
+        ("rms-at-held", "points at held nodes do not make the others follow noise", "left >= std::pow(least_share_of_rms, 2) * wanted * movable", "true"),
+    ],
+    "src/fit/fit_curve.cpp": [
+        ("better-is-near-the-way", "of two curves one that balloons is not taken", "(a.way_off <= most) != (b.way_off <= most)", "false"),
+        ("better-uses-rms", "of two curves one that uses what is allowed is taken", "(a.figure >= least) != (b.figure >= least)", "false"),
+    ],
     "src/linear/ball_program.cpp": [
         ("ball-bound", "a bound is on the length of a value", "values_[bound.row].squaredNorm() - most * most", "values_[bound.row].squaredNorm() - most"),
     ],

@@ -20,8 +20,10 @@ namespace {
 
 /// Names of x, y and z that go together.
 using Axes = std::array<std::string_view, 3>;
-constexpr std::array<Axes, 4> known_axes = {{{"x", "y", "z"},
+constexpr std::array<Axes, 6> known_axes = {{{"x", "y", "z"},
                                              {"station", "y", "z"},
+                                             {"east", "north", "up"},
+                                             {"easting", "northing", "elevation"},
                                              {"points:0", "points:1", "points:2"},
                                              {"points_0", "points_1", "points_2"}}};
 

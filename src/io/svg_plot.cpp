@@ -126,6 +126,15 @@ struct Series {
   }
 };
 
+/// Where along a run the curvature of the circle through a node and its neighbours is that of the curve, to second
+/// order: at the mean of the three.
+double middle_of_circle(const Drawing::Run& run, std::size_t k) {
+  const std::size_t last = run.nodes.size() - 1;
+  const double before = k > 0 ? run.arc[k - 1] : run.closed ? run.arc[last] - run.length : run.arc[k];
+  const double after = k < last ? run.arc[k + 1] : run.closed ? run.length : run.arc[k];
+  return (before + run.arc[k] + after) / 3;
+}
+
 /// Runs follow each other.
 Series series_of(const Drawing& drawing, double unit, bool planar) {
   Series series;
@@ -136,7 +145,7 @@ Series series_of(const Drawing& drawing, double unit, bool planar) {
       series.across.add(arc);
       if (!run.closed && (k == 0 || k + 1 == run.nodes.size())) continue;
       const double curvature = (planar ? run.bends[k] : std::abs(run.bends[k])) / unit;
-      line.points.emplace_back(arc, curvature);
+      line.points.emplace_back((run.begin + middle_of_circle(run, k)) * unit, curvature);
       series.up.add(curvature);
     }
   }

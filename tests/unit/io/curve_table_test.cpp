@@ -104,6 +104,8 @@ TEST_F(CurveTable, FindsNamesWithUnits) {
       {"t,Points:0,Points:1,Points:2", {1, 2, 3}},
       {"no,Station [m],y [m],z [m]", {1, 2, 3}},
       {"station,x,y,note", {1, 2}},
+      {"second,east_m,north_m", {1, 2}},
+      {"no,Northing [m],Easting [m],Elevation [m]", {2, 1, 3}},
   };
   for (const auto& [header, columns] : headers) {
     const std::string text = header + "\n0,10,20,30,40\n1,11,21,31,41\n2,12,22,32,42\n3,13,23,33,43\n";

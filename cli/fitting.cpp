@@ -61,7 +61,7 @@ Distribution default_distribution(const FairingArguments& arguments, bool is_cur
 
 bool asks_to_fit(const PullArguments& arguments) {
   const int given = (arguments.weight ? 1 : 0) + (arguments.smoothing_length ? 1 : 0) + (arguments.within ? 1 : 0) +
-                    (arguments.rms ? 1 : 0) + (arguments.noise ? 1 : 0);
+                    (arguments.rms ? 1 : 0) + (arguments.noise ? 1 : 0) + (arguments.voxels ? 1 : 0);
   const std::string all = "--weight, --smoothing-length, --within, --rms and --noise";
   if (given > 1) throw Error(ErrorCode::invalid_argument, "only one of " + all + " can be given");
   if (given == 0 && arguments.outliers > 0) throw Error(ErrorCode::invalid_argument, "--outliers needs one of " + all);
@@ -103,6 +103,11 @@ void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise, bool 
     throw Error(ErrorCode::unusable_shape,
                 arguments.automatic + " auto: this shape has no noise, or too few nodes to tell; give a number");
   arguments.estimate = noise;
+  if (noise.voxel) {
+    arguments.voxels = noise.voxel;
+    arguments.within = arguments.rms = arguments.noise = std::nullopt;
+    return;
+  }
   if (arguments.automatic == "--within") arguments.within = greatest_of_noise(noise);
   const bool takes_it_off = arguments.automatic == "--noise" || (arguments.automatic == "--rms" && is_curve);
   arguments.rms = arguments.automatic == "--rms" && !is_curve ? std::optional(noise.deviation) : std::nullopt;
@@ -128,6 +133,7 @@ FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairin
   if (arguments.within) options.criterion = Within{*arguments.within};
   if (arguments.rms) options.criterion = RootMeanSquare{*arguments.rms};
   if (arguments.noise) options.criterion = Noise{*arguments.noise};
+  if (arguments.voxels) options.criterion = Voxels{*arguments.voxels};
   options.outliers = arguments.outliers;
   options.moving_axes = arguments.moving_axes;
   options.least_radius = arguments.least_radius;
@@ -156,6 +162,8 @@ Json FitAccount::figures() const {
             {"rms", optional(arguments_.rms)},
             {"noise", optional(arguments_.noise)},
             {"noise_leaves", optional(report_.noise_leaves)},
+            {"voxels",
+             arguments_.voxels ? Json{arguments_.voxels->x(), arguments_.voxels->y(), arguments_.voxels->z()} : Json()},
             {"estimated_noise", arguments_.estimate ? Json(arguments_.estimate->deviation) : Json()},
             {"moving", arguments_.moving.empty() ? Json() : Json(arguments_.moving)},
             {"min_radius", arguments_.least_radius > 0 ? Json(arguments_.least_radius) : Json()},
@@ -197,7 +205,10 @@ std::string FitAccount::lines() const {
   const auto line = [&](const char* name, double before, double after) {
     text += fmt::format("{}{:.4g} → {:.4g} units\n", name, before, after);
   };
-  if (arguments_.estimate)
+  if (arguments_.voxels)
+    text += fmt::format("voxels           {:.4g} × {:.4g} × {:.4g} units: steps off, within half of one\n",
+                        arguments_.voxels->x(), arguments_.voxels->y(), arguments_.voxels->z());
+  else if (arguments_.estimate)
     text += fmt::format("noise estimated  {:.4g} units ({:.2g} median edges) in each coordinate\n",
                         arguments_.estimate->deviation, arguments_.estimate->edges);
   if (report_.noise_leaves)

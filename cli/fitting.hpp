@@ -22,6 +22,7 @@ struct PullArguments {
   std::optional<double> within;
   std::optional<double> rms;
   std::optional<double> noise;
+  std::optional<Vector3> voxels;  ///< whose steps are taken off, where an option is "auto"
   double outliers = 0;
   std::vector<std::string> moving = {};                  ///< names of coordinates that move; empty: all
   std::array<bool, 3> moving_axes = {true, true, true};  ///< that these are
@@ -32,8 +33,9 @@ struct PullArguments {
 };
 
 /// Gives the option that is "auto" its value, by the noise of the nodes as they came: --within greatest_of_noise(),
-/// --rms and --noise its standard deviation. Of a curve --rms auto is --noise auto: a root mean square that is a little
-/// too small for the noise has it followed. Throws Error(unusable_shape) where that cannot be told.
+/// --rms and --noise its standard deviation. Of surfaces of voxels their steps are taken off instead. Of a curve --rms
+/// auto is --noise auto: a root mean square that is a little too small for the noise has it followed. Throws
+/// Error(unusable_shape) where that cannot be told.
 void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise, bool is_curve);
 
 /// In the coordinates that move.

@@ -41,8 +41,10 @@ std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape, const 
   // Noise is nobody's measure of fairness, so it is none of those figures.
   const NoiseEstimate noise = noise_of(shape.shape(), {}, context);
   figures.push_back({"noise", "noise", "units",
-                     "as estimated, standard deviation in each coordinate: what --noise auto takes", noise.deviation,
-                     false});
+                     noise.voxel
+                         ? "of steps of voxels, standard deviation in each coordinate: --noise auto takes them off"
+                         : "as estimated, standard deviation in each coordinate: what --noise auto takes",
+                     noise.deviation, false});
   figures.push_back({"within_auto", "within auto", "units", "what --within auto takes for that noise",
                      greatest_of_noise(noise), false});
   figures.push_back({"noise_in_edges", "noise in edges", "", "the same in median edges", noise.edges, false});

@@ -129,7 +129,7 @@ MUTATIONS = {
          "std::max(shares[k], least_mean_value * by)"),
     ],
     "src/equilibrium/surface_hierarchy.cpp": [
-        ("coarse-springs", "coarser levels have nearly the shape of the finest", "  take_springs_of(finest(), fine.net);\n", ""),
+        ("coarse-springs", "coarser levels have nearly the shape of the finest", "take_springs_of(finest(), fine.net)", "void()"),
     ],
     "src/levels/surface_slide.cpp": [
         ("slide-in-faces", "triangles between all nodes of faces cover these", "if (links[k].start()) continue;", "if (links[k].start() || !links[k].spoke()) continue;"),
@@ -164,7 +164,7 @@ MUTATIONS = {
     ],
     "src/equilibrium/equilibrium.cpp": [
         ("expected-error", "expected error from the last corrections", "std::max({step * (1 + left), least_share * slower, rounding})",
-         "0.01 * std::max({step * (1 + left), least_share * expected, rounding})"),
+         "0.01 * std::max({step * (1 + left), least_share * slower, rounding})"),
     ],
     "src/equilibrium/force_derivative.cpp": [
         ("central-difference", "derivative of the forces", "(ahead[k] - displacement(forces_[j][k])) / (2 * step)",
@@ -264,12 +264,12 @@ MUTATIONS = {
         ("gaussian-scale", "the same at every size", "diagonal * diagonal * all.gaussian.greatest", "diagonal * all.gaussian.greatest"),
     ],
     "src/fairness/jet.cpp": [
-        ("jet-factors", "elimination: a row by its first entry", "own[c] / pivot", "own[c]"),
-        ("jet-rows-above", "what the rows above take from one", "above < k; ++above", "above + 1 < k; ++above"),
+        ("jet-factors", "elimination: what the rows above take from one", "rest[c] -= factor * entries[c]", "rest[c] += factor * entries[c]"),
+        ("jet-rows-above", "what the rows above take from one", "above < k", "above + 1 < k"),
     ],
     "src/fairness/extrema.cpp": [
         ("highest-pass", "hills are joined by their highest pass", "a.value != b.value ? a.value > b.value : a.node < b.node", "a.node < b.node"),
-        ("lowest-of-hills", "a hill that is joined stands over the lowest place of both", "lowest = std::min(lowest, low[static_cast<std::size_t>(lower)]);", ""),
+        ("lowest-of-hills", "a hill that is joined stands over the lowest place of both", "std::min(lowest, low[static_cast<std::size_t>(lower)])", "lowest"),
     ],
     "src/fairness/curve_bending.cpp": [
         ("station", "where the curvature of a circle is that of the curve", "(to_before + to_after) / 3", "(to_before + to_after) / 2"),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "vspring/context.hpp"
 #include "vspring/polygon_curve.hpp"
@@ -15,7 +16,14 @@ struct NoiseEstimate {
   double edges = 0;    ///< the same in median edges
   Index nodes = 0;     ///< from how many nodes it was estimated
   int directions = 1;  ///< across the shape: 2 of curves in space, where distances are so many times as large squared
+  /// Surfaces of voxels, where noise is what their steps are: see voxel_size().
+  std::optional<Vector3> voxel = std::nullopt;
 };
+
+/// The size of the voxels along x, y and z, where the faces of a surface are their sides, or what marching cubes make
+/// of a mask (nodes in the middles of edges of the grid); none elsewhere, and of a surface that is one voxel thick or
+/// flat. Coordinates may be rounded to single precision. Cost: n log n.
+[[nodiscard]] std::optional<Vector3> voxel_size(const PolygonMesh& mesh);
 
 /// How far from its shape noise brings the furthest node, in the units of the input: half of all shapes with as many
 /// nodes stay within. At least what 3 nodes of 1,000 are beyond: three standard deviations, or 3.44 in two directions.
@@ -26,7 +34,8 @@ struct NoiseEstimate {
 /// which are taken across the surface; the values that 10, 20 and 30 of 100 nodes stay below are compared with what
 /// pure noise would give, and the least counts (docs/fit.md). What the shape itself bends within that distance counts
 /// as noise, so of coarse shapes and sharp edges some of it does. Nodes with too few around are left out, and those
-/// amid edges shorter than the noise. The same bits for every number of threads. Cost: linear, some 6 µs a node.
+/// amid edges shorter than the noise. Of voxels it is what their steps are, evenly spread over one. The same bits for
+/// every number of threads. Cost: linear, some 6 µs a node.
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context = {});
 
 /// The same of a curve, across it, from seven nodes in a row, or as many more as it takes for them to be four times as

@@ -50,6 +50,8 @@ constexpr std::size_t most_neighbours = 2 * most_faces;
 constexpr double least_pivot = 1e-5;
 constexpr std::size_t places_per_task = 256;
 constexpr double three_deviations = 0.0027;
+// A square over the variance of what is spread evenly over its side.
+constexpr double deviations_of_step = 12;
 // Beyond what any number of nodes leads to.
 constexpr double most_deviations = 10;
 
@@ -230,7 +232,14 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
       if (j > i) edges.push_back((mesh.position(j) - mesh.position(i)).norm());
     });
   }
-  return summary(std::move(found), std::move(edges), least_extent);
+  NoiseEstimate noise = summary(std::move(found), std::move(edges), least_extent);
+  noise.voxel = voxel_size(mesh);
+  if (noise.voxel) {
+    const double deviation = noise.voxel->norm() / std::sqrt(3 * deviations_of_step);
+    noise.edges *= noise.deviation > 0 ? deviation / noise.deviation : 0;
+    noise.deviation = deviation;
+  }
+  return noise;
 }
 
 double greatest_of_noise(const NoiseEstimate& noise) {

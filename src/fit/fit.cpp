@@ -28,6 +28,7 @@
 #include "fit/fit_warnings.hpp"
 #include "fit/least_bending_fit.hpp"
 #include "fit/noise_fit.hpp"
+#include "fit/voxel_fit.hpp"
 #include "points/point_factors.hpp"
 #include "points/point_ties.hpp"
 #include "solve/fair_boundary.hpp"
@@ -334,6 +335,10 @@ FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const Sca
               const FitOptions& options, Context& context) {
   if (!options.moves_freely())
     throw Error(ErrorCode::invalid_argument, "coordinates can be kept on curves only; let all of them move");
+  if (options.voxels()) {
+    options.validate();
+    return fit_voxels(mesh, constraints, points, options, context);
+  }
   const auto fit_held = [&](const Constraints& held) {
     if (!options.fair.fair_boundary) return fit_shape<FitSurface>(mesh, held, points, options, context);
     options.validate();
@@ -353,6 +358,7 @@ FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const Sca
 FitResult fit(const PolygonCurve& curve, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {
   options.validate();
+  if (options.voxels()) throw Error(ErrorCode::invalid_argument, "curves have no voxels; take a smoothing length");
   check_points(points);
   check_corners_kept(options, constraints);
   if (constraints.corner_count() > 0) return fit_curve(curve, constraints, points, options, context);

@@ -128,6 +128,10 @@ std::optional<double> FitOptions::smoothing_length() const { return figure_of(cr
 std::optional<double> FitOptions::within() const { return figure_of(criterion, &Within::distance); }
 std::optional<double> FitOptions::rms() const { return figure_of(criterion, &RootMeanSquare::distance); }
 std::optional<double> FitOptions::noise() const { return figure_of(criterion, &Noise::deviation); }
+std::optional<Vector3> FitOptions::voxels() const {
+  const auto* const given = std::get_if<Voxels>(&criterion);
+  return given != nullptr ? std::optional(given->size) : std::nullopt;
+}
 
 std::optional<double> FitOptions::tolerance() const { return within() ? within() : rms(); }
 
@@ -152,6 +156,10 @@ void FitOptions::validate() const {
   check_length("within", within());
   check_length("rms", rms());
   check_length("noise", noise());
+  for (int axis = 0; voxels() && axis < 3; ++axis) check_length("size of voxels", (*voxels())[axis]);
+  if (voxels() && fair.method_kind() != Method::equilibrium)
+    refuse(fmt::format("steps of voxels are taken off by the method equilibrium only, not by {}",
+                       name(fair.method_kind())));
   if (!(outliers >= 0 && outliers < 1)) refuse(fmt::format("outliers must be from 0 to less than 1, not {}", outliers));
   if (!(least_radius >= 0 && std::isfinite(least_radius)))
     refuse(fmt::format("least radius must be 0 or more, not {}", least_radius));

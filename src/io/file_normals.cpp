@@ -1,7 +1,11 @@
 #include "io/file_normals.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include "base/disjoint_sets.hpp"
 
 namespace vspring {
 namespace {
@@ -41,6 +45,65 @@ class CornerSums {
   std::vector<Vector3> sums_;
 };
 
+bool comes_before(const Vector3& a, const Vector3& b) {
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+/// Of every node a number that those have in common which were at one place and still are.
+std::vector<std::size_t> numbers_of_places(std::span<const Vector3> old_positions, std::span<const Vector3> positions) {
+  std::vector<std::size_t> order(positions.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return old_positions[a] == old_positions[b] ? comes_before(positions[a], positions[b])
+                                                : comes_before(old_positions[a], old_positions[b]);
+  });
+  std::vector<std::size_t> numbers(order.size(), 0);
+  for (std::size_t k = 1; k < order.size(); ++k) {
+    const std::size_t here = order[k];
+    const std::size_t last = order[k - 1];
+    const bool is_one = old_positions[here] == old_positions[last] && positions[here] == positions[last];
+    numbers[here] = is_one ? numbers[last] : k;
+  }
+  return numbers;
+}
+
+/// Normals that were the same at one place stay the same: along seams, and where each corner names one of its own.
+DisjointSets equal_normals(const PolygonMesh& mesh, std::span<const Index> corner_normals,
+                           std::span<const Vector3> before, const std::vector<std::size_t>& places) {
+  // Most places have one normal alone.
+  std::vector<Index> first(places.size(), -1);
+  std::vector<std::uint8_t> has_several(places.size(), 0);
+  const auto place_of = [&](std::size_t corner) { return places[static_cast<std::size_t>(mesh.corners()[corner])]; };
+  for (std::size_t corner = 0; corner < corner_normals.size(); ++corner) {
+    const Index normal = corner_normals[corner];
+    if (normal < 0) continue;
+    Index& one = first[place_of(corner)];
+    if (one >= 0 && one != normal) has_several[place_of(corner)] = 1;
+    one = normal;
+  }
+  struct Corner {
+    std::size_t place;
+    Index normal;
+  };
+  std::vector<Corner> shared;
+  for (std::size_t corner = 0; corner < corner_normals.size(); ++corner) {
+    if (corner_normals[corner] >= 0 && has_several[place_of(corner)] != 0)
+      shared.push_back({place_of(corner), corner_normals[corner]});
+  }
+  const auto value = [&](const Corner& corner) -> const Vector3& {
+    return before[static_cast<std::size_t>(corner.normal)];
+  };
+  std::sort(shared.begin(), shared.end(), [&](const Corner& a, const Corner& b) {
+    return a.place != b.place ? a.place < b.place : comes_before(value(a), value(b));
+  });
+  DisjointSets sets(before.size());
+  for (std::size_t k = 1; k < shared.size(); ++k) {
+    if (shared[k].place == shared[k - 1].place && value(shared[k]) == value(shared[k - 1]))
+      (void)sets.join(static_cast<std::size_t>(shared[k].normal), static_cast<std::size_t>(shared[k - 1].normal));
+  }
+  return sets;
+}
+
 }  // namespace
 
 Vector3 unit_or_zero(const Vector3& vector) {
@@ -77,18 +140,23 @@ NewNormals compute_normals(const PolygonMesh& mesh, std::span<const Index> corne
   }
   if (!any) return result;
 
+  DisjointSets sets = equal_normals(mesh, corner_normals, before, numbers_of_places(old_positions, positions));
+  const auto set_of = [&](std::size_t normal) { return sets.find(normal); };
+  for (std::size_t n = 0; n < before.size(); ++n) result.due[set_of(n)] |= result.due[n];
+  for (std::size_t n = 0; n < before.size(); ++n) result.due[n] = result.due[set_of(n)];
   CornerSums old_sums(old_positions, before.size());
   CornerSums new_sums(positions, before.size());
   each_corner([&](Index f, std::size_t corner, Index normal) {
     if (result.due[normal] == 0 || mesh.face(f).size() < 3) return;
-    old_sums.add(mesh.face(f), corner, normal);
-    new_sums.add(mesh.face(f), corner, normal);
+    const auto set = static_cast<Index>(set_of(static_cast<std::size_t>(normal)));
+    old_sums.add(mesh.face(f), corner, set);
+    new_sums.add(mesh.face(f), corner, set);
   });
   double agreement = 0;
   for (std::size_t n = 0; n < before.size(); ++n) {
     if (result.due[n] == 0) continue;
-    agreement += unit_or_zero(before[n]).dot(old_sums.unit(n));
-    result.normals[n] = new_sums.unit(n);
+    agreement += unit_or_zero(before[n]).dot(old_sums.unit(set_of(n)));
+    result.normals[n] = new_sums.unit(set_of(n));
     result.due[n] = result.normals[n].isZero(0) ? 0 : 1;
   }
   if (agreement < 0) {

@@ -17,10 +17,12 @@ struct NewNormals {
 /// Computes those normals anew that belong to a corner of a face of which a node moved: the sum over the corners of a
 /// normal of the cross product of the corner's two edges, divided by the product of their squared lengths
 /// (N. Max, Weights for computing vertex normals from facet normals, 1999). Normals of single faces, of nodes and of
-/// sharp edges each stay of their kind so. Where most of the file's normals point against its faces, the new ones do.
+/// sharp edges each stay of their kind so; those that were equal at one place, as along a seam, stay equal. Where most
+/// of the file's normals point against its faces, the new ones do.
 ///
 /// corner_normals: the file's normal for each corner of the mesh, −1 for none. before: the file's normals.
-/// positions: one per node. A normal whose corners give no direction is not due. Cost: linear.
+/// positions: one per node. A normal whose corners give no direction is not due. Cost: n log n
+/// for the nodes, else linear.
 NewNormals compute_normals(const PolygonMesh& mesh, std::span<const Index> corner_normals,
                            std::span<const Vector3> before, std::span<const Vector3> old_positions,
                            std::span<const Vector3> positions, std::span<const std::uint8_t> moved);

@@ -78,7 +78,7 @@ TEST_F(CurveTable, TakesTheFirstColumnsOfNumbersWhereNoneAreNamed) {
   EXPECT_TRUE(plain.planar);
   EXPECT_EQ(plain.curve.position(1), Vector3(2, 3, 0));
   EXPECT_TRUE(plain.warnings.empty());
-  const CurveFile headed = read("point,east,north\nP1,0,1\nP2,2,3\n", "csv");
+  const CurveFile headed = read("point,right,up\nP1,0,1\nP2,2,3\n", "csv");
   EXPECT_EQ(headed.curve.position(1), Vector3(2, 3, 0));
   ASSERT_EQ(headed.warnings.size(), 1U);
   EXPECT_NE(headed.warnings[0].find(":1: no columns are named x and y; taken are columns 2 and 3"), std::string::npos);

@@ -166,6 +166,56 @@ TEST_F(ObjFile, ComputesNormalsOfFacesAnewOnEachSideOfASharpEdge) {
   EXPECT_EQ(get("out.obj"), replaced(expected, "vn 0 0.6 0.8", "vn 0 0 1"));
 }
 
+// Two faces that meet in a seam: each has its own nodes there, at the same places, and names normals of its own.
+std::string two_faces(const std::string& left, const std::string& right) {
+  return "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\n"
+         "vn " +
+         left + "\nvn " + left + "\nvn " + left + "\nvn " + left +
+         "\n"
+         "vn " +
+         right + "\nvn " + right + "\nvn " + right + "\nvn " + right +
+         "\n"
+         "f 1//1 2//2 3//3 4//4\nf 5//5 6//6 7//7 8//8\n";
+}
+
+TEST_F(ObjFile, KeepsNormalsEqualThatWereAcrossASeam) {
+  const auto normals_after = [&](const std::string& text) {
+    const SurfaceFile surface = read(text);
+    std::vector<Vector3> positions = surface.mesh.positions();
+    positions[5].z() = positions[6].z() = 1;
+    write_surface(path("out.obj"), surface, positions);
+    return read_surface(path("out.obj")).normals;
+  };
+  const std::vector<Vector3> smooth = normals_after(two_faces("0 0 1", "0 0 1"));
+  const Vector3 mean = Vector3(-1, 0, 1 + 2 * std::sqrt(2)).normalized();
+  for (const std::size_t node : {1U, 2U, 4U, 7U}) EXPECT_LT((smooth[node] - smooth[1]).norm(), 1e-15) << node;
+  EXPECT_GT(smooth[1].dot(mean), 0.9);
+  EXPECT_LT(smooth[1].x(), -0.2);
+  EXPECT_LT((smooth[0] - Vector3(0, 0, 1)).norm(), 1e-15);
+  // A crease stays one.
+  const std::vector<Vector3> sharp = normals_after(two_faces("0 0 1", "0 0.6 0.8"));
+  for (const std::size_t node : {1U, 2U}) {
+    EXPECT_LT((sharp[node] - Vector3(0, 0, 1)).norm(), 1e-15);
+    EXPECT_LT((sharp[node == 1 ? 4 : 7] - Vector3(-1, 0, 1).normalized()).norm(), 1e-15);
+  }
+}
+
+TEST_F(ObjFile, KeepsOneNormalAtANodeWhoseCornersEachNameTheirOwn) {
+  const std::string text =
+      "v 0 0 0\nv 1 0 0\nv 0 1 0\nv -1 0 0\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\nvn 0 0 1\n"
+      "f 1//1 2//2 3//3\nf 1//4 3//5 4//6\n";
+  const std::string after = moved(text, 1, {1, 0, 1});
+  const SurfaceFile read_back = read(after);
+  std::vector<std::string> normals;
+  for (std::size_t at = after.find("vn "); at != std::string::npos; at = after.find("vn ", at + 1))
+    normals.push_back(after.substr(at, after.find('\n', at) - at));
+  ASSERT_EQ(normals.size(), 6U);
+  EXPECT_EQ(normals[0], normals[3]);
+  EXPECT_EQ(normals[2], normals[4]);
+  EXPECT_NE(normals[1], normals[0]);
+  EXPECT_EQ(normals[5], "vn 0 0 1");
+}
+
 TEST_F(ObjFile, KeepsTheSideOfNormalsThatPointInward) {
   std::string inward = replaced(replaced(roof, "vn 0 -0.6 0.8", "vn 0 0.6 -0.8"), "\nvn 0 0.6 0.8", "\nvn 0 -0.6 -0.8");
   const SurfaceFile surface = read(inward);

@@ -1,0 +1,182 @@
+// Steps of a mask: the fairest surface near its nodes, of which each lies anywhere within half a voxel of where it
+// should be.
+
+#include "fit/voxel_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "fit/fit_points.hpp"
+#include "fit/flat_ends.hpp"
+#include "shape/face_geometry.hpp"
+#include "vspring/distance.hpp"
+#include "vspring/error.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of voxels, by the cube root of their volume: shorter lengths leave steps, longer ones take details off.
+constexpr double smoothing_in_voxels = 2;
+constexpr int most_turns = 6;
+// Of half a voxel: what nodes inside flat ends may go, and their weight at first.
+constexpr double share_of_flat = 0.1;
+constexpr double weight_of_flat = 30;
+// What comes back to half a voxel has some volume, too.
+constexpr int turns_of_volume = 4;
+// Of the area: the sum of a closed surface's area vectors.
+constexpr double closed_share = 1e-9;
+
+class VoxelFit {
+ public:
+  VoxelFit(const PolygonMesh& mesh, const Constraints& constraints, Vector3 size)
+      : mesh_(mesh), constraints_(constraints), size_(std::move(size)), flat_(nodes_of_flat_ends(mesh, size_)) {}
+
+  void weigh_flat_ends(std::vector<double>& weights) const {
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] *= flat_[i] != 0 ? weight_of_flat : 1;
+  }
+
+  /// Of half a voxel, in the direction across the shape: how far each node has gone across it.
+  [[nodiscard]] std::vector<double> shares_of_half(const std::vector<Vector3>& positions,
+                                                   const std::vector<Vector3>& normals) const {
+    std::vector<double> shares(positions.size(), 0);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      const double half = this->half(i, normals[i]);
+      if (half > 0) shares[i] = (positions[i] - mesh_.positions()[i]).dot(normals[i]) / half;
+    }
+    return shares;
+  }
+
+  [[nodiscard]] std::vector<Vector3> normals(const std::vector<Vector3>& positions) const {
+    std::vector<Vector3> sums(positions.size(), Vector3::Zero());
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      const Vector3 area = twice_vector_area(mesh_.face(f), positions);
+      for (const Index node : mesh_.face(f)) sums[static_cast<std::size_t>(node)] += area;
+    }
+    for (Vector3& sum : sums) sum = sum.squaredNorm() > 0 ? sum.normalized() : Vector3(Vector3::Zero());
+    return sums;
+  }
+
+  /// Where all moves, the volume is put back; and what went further than half a voxel comes back to that.
+  void finish(std::vector<Vector3>& positions) const {
+    for (int turn = 0; turn < turns_of_volume; ++turn) {
+      const std::vector<Vector3> across = normals(positions);
+      const double offset = offset_for_volume(positions, across);
+      for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += (flat_[i] != 0 ? 0 : offset) * across[i];
+      const std::vector<double> shares = shares_of_half(positions, across);
+      for (std::size_t i = 0; i < positions.size(); ++i) {
+        if (constraints_.position_fixed(static_cast<Index>(i)) || std::abs(shares[i]) <= 1) continue;
+        positions[i] -= (shares[i] - std::copysign(1, shares[i])) * half(i, across[i]) * across[i];
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] double half(std::size_t node, const Vector3& normal) const {
+    return (flat_[node] != 0 ? share_of_flat : 1) * normal.cwiseAbs().dot(size_) / 2;
+  }
+
+  /// Along all normals but those of flat ends, for the volume that was there; 0 where the surface is open or some of it
+  /// is held.
+  [[nodiscard]] double offset_for_volume(const std::vector<Vector3>& positions,
+                                         const std::vector<Vector3>& across) const {
+    double volume = 0;
+    double whole = 0;
+    double area = 0;
+    Vector3 closed = Vector3::Zero();
+    const Vector3& origin = positions.front();
+    const auto cone = [&](std::span<const Index> face, const std::vector<Vector3>& at, const Vector3& area_vector) {
+      Vector3 middle = Vector3::Zero();
+      for (const Index node : face) middle += at[static_cast<std::size_t>(node)] - origin;
+      return middle.dot(area_vector) / (6 * static_cast<double>(face.size()));
+    };
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      const auto face = mesh_.face(f);
+      if (face.empty()) continue;
+      const Vector3 before = twice_vector_area(face, mesh_.positions());
+      const Vector3 now = twice_vector_area(face, positions);
+      closed += now;
+      volume += cone(face, mesh_.positions(), before) - cone(face, positions, now);
+      for (const Index node : face) {
+        if (constraints_.position_fixed(node)) return 0;
+        const double share = across[static_cast<std::size_t>(node)].dot(now) / (2 * static_cast<double>(face.size()));
+        whole += share;
+        area += flat_[static_cast<std::size_t>(node)] != 0 ? 0 : share;
+      }
+    }
+    const bool is_closed = closed.norm() <= closed_share * whole;
+    return is_closed && area > 0 ? volume / area : 0;
+  }
+
+  const PolygonMesh& mesh_;
+  const Constraints& constraints_;
+  Vector3 size_;
+  std::vector<std::uint8_t> flat_;
+};
+
+/// What changes in the report where nodes have moved once more.
+void measure_again(const PolygonMesh& mesh, const Constraints& constraints, FitResult& found, int threads) {
+  Context measuring;
+  measuring.threads = threads;
+  FitReport& report = found.report;
+  PolygonMesh moved = mesh;
+  moved.set_positions(found.positions);
+  found.distances = point_distances(mesh.positions(), moved, measuring);
+  std::vector<std::uint8_t> counted(found.positions.size(), 0);
+  for (const Index node : mesh.corners()) counted[static_cast<std::size_t>(node)] = 1;
+  report.after = summary(found.distances, counted);
+  report.shape = distance(found.positions, mesh, measuring);
+  double squares = 0;
+  report.fair.greatest_move = 0;
+  for (std::size_t i = 0; i < counted.size(); ++i) {
+    if (constraints.position_fixed(static_cast<Index>(i))) continue;
+    const double move = (found.positions[i] - mesh.positions()[i]).norm();
+    report.fair.greatest_move = std::max(report.fair.greatest_move, move);
+    squares += move * move;
+  }
+  report.fair.rms_move = std::sqrt(squares / std::max<double>(1, report.fair.moving_nodes));
+}
+
+}  // namespace
+
+FitResult fit_voxels(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                     const FitOptions& options, Context& context) {
+  const Vector3 size = std::get<Voxels>(options.criterion).size;
+  if (points.positions != mesh.positions())
+    throw Error(ErrorCode::invalid_argument,
+                "steps of voxels can be taken off only where the points are the nodes of the surface; take a smoothing "
+                "length for others");
+  const VoxelFit voxels(mesh, constraints, size);
+  FitOptions smooth = options;
+  smooth.criterion = SmoothingLength{smoothing_in_voxels * std::cbrt(size.prod())};
+  ScatteredPoints weighted = points;
+  if (weighted.weights.empty()) weighted.weights.assign(mesh.positions().size(), 1);
+  voxels.weigh_flat_ends(weighted.weights);
+  FitResult found = fit(mesh, constraints, weighted, smooth, context);
+  for (int turn = 1; turn < most_turns && found.report.fair.outcome == Outcome::converged; ++turn) {
+    // Nodes that are further away count more until they are not, as at edges.
+    const std::vector<double> shares = voxels.shares_of_half(found.positions, voxels.normals(found.positions));
+    bool is_beyond = false;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+      const double share = std::abs(shares[i]);
+      if (share <= 1 || constraints.position_fixed(static_cast<Index>(i))) continue;
+      is_beyond = true;
+      weighted.weights[i] *= std::pow(1 + share, 2);
+    }
+    if (!is_beyond) break;
+    FitResult nearer = fit(mesh, constraints, weighted, smooth, context);
+    if (nearer.report.fair.outcome != Outcome::converged) break;
+    found = std::move(nearer);
+  }
+  if (found.report.fair.outcome != Outcome::converged) return found;
+  voxels.finish(found.positions);
+  measure_again(mesh, constraints, found, context.threads);
+  return found;
+}
+
+}  // namespace vspring

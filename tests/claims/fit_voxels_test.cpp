@@ -1,0 +1,185 @@
+// Surfaces of voxels: their steps are taken off, within half a voxel.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "vspring/error.hpp"
+#include "vspring/fit.hpp"
+#include "vspring/noise.hpp"
+
+namespace vspring::fit_voxels_test {
+namespace {
+
+/// The sides of the voxels of a size whose middles are inside, in a box around the origin.
+PolygonMesh sides(const Vector3& size, const Vector3& box, const std::function<bool(const Vector3&)>& inside) {
+  std::map<std::array<int, 3>, Index> numbers;
+  std::vector<Vector3> places;
+  std::vector<Index> begin = {0};
+  std::vector<Index> corners;
+  const auto node = [&](const std::array<int, 3>& at) {
+    const auto [found, is_new] = numbers.emplace(at, static_cast<Index>(places.size()));
+    if (is_new) places.emplace_back(size.x() * at[0], size.y() * at[1], size.z() * at[2]);
+    return found->second;
+  };
+  const auto is_in = [&](const std::array<int, 3>& at) {
+    return inside(Vector3(size.x() * (at[0] + 0.5), size.y() * (at[1] + 0.5), size.z() * (at[2] + 0.5)));
+  };
+  std::array<int, 3> most{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    most[axis] = static_cast<int>(std::ceil(box[static_cast<int>(axis)] / size[static_cast<int>(axis)]));
+  std::array<int, 3> at{};
+  for (at[0] = -most[0]; at[0] < most[0]; ++at[0]) {
+    for (at[1] = -most[1]; at[1] < most[1]; ++at[1]) {
+      for (at[2] = -most[2]; at[2] < most[2]; ++at[2]) {
+        for (std::size_t axis = 0; axis < 3 && is_in(at); ++axis) {
+          for (const int side : {0, 1}) {
+            std::array<int, 3> beside = at;
+            beside[axis] += side == 1 ? 1 : -1;
+            if (is_in(beside)) continue;
+            std::vector<Index> face;
+            for (const auto& [u, v] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)}) {
+              std::array<int, 3> corner = at;
+              corner[axis] += side;
+              corner[(axis + 1) % 3] += u;
+              corner[(axis + 2) % 3] += v;
+              face.push_back(node(corner));
+            }
+            if (side == 0) std::reverse(face.begin(), face.end());
+            corners.insert(corners.end(), face.begin(), face.end());
+            begin.push_back(static_cast<Index>(corners.size()));
+          }
+        }
+      }
+    }
+  }
+  return {std::move(places), std::move(begin), std::move(corners)};
+}
+
+/// Quads over whole numbers.
+PolygonMesh grid(int cells, const std::function<double(int, int)>& height) {
+  std::vector<Vector3> places;
+  std::vector<Index> begin = {0};
+  std::vector<Index> corners;
+  for (int i = 0; i <= cells; ++i) {
+    for (int j = 0; j <= cells; ++j) places.emplace_back(i, j, height(i, j));
+  }
+  for (int i = 0; i < cells; ++i) {
+    for (int j = 0; j < cells; ++j) {
+      const Index first = i * (cells + 1) + j;
+      for (const Index corner : {first, first + cells + 1, first + cells + 2, first + 1}) corners.push_back(corner);
+      begin.push_back(static_cast<Index>(corners.size()));
+    }
+  }
+  return {std::move(places), std::move(begin), std::move(corners)};
+}
+
+double volume(const PolygonMesh& mesh, const std::vector<Vector3>& at) {
+  double sum = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t k = 2; k < face.size(); ++k)
+      sum += at[static_cast<std::size_t>(face[0])].dot(
+                 at[static_cast<std::size_t>(face[k - 1])].cross(at[static_cast<std::size_t>(face[k])])) /
+             6;
+  }
+  return sum;
+}
+
+double rms(const std::vector<Vector3>& places, const std::function<double(const Vector3&)>& away) {
+  double squares = 0;
+  for (const Vector3& place : places) squares += std::pow(away(place), 2);
+  return std::sqrt(squares / static_cast<double>(places.size()));
+}
+
+FitResult steps_off(const PolygonMesh& mesh, const Vector3& size) {
+  FitOptions options;
+  options.criterion = Voxels{size};
+  return fit(mesh, Constraints(mesh.node_count()), {.positions = mesh.positions()}, options);
+}
+
+TEST(VoxelSize, IsFoundFarAwayAndInSinglePrecision) {
+  const auto ball = [](const Vector3& place) { return place.norm() < 8; };
+  for (const Vector3& size : {Vector3(1, 1, 1), Vector3(0.5, 0.5, 1.5)}) {
+    PolygonMesh mesh = sides(size, Vector3::Constant(10), ball);
+    const auto found = voxel_size(mesh);
+    ASSERT_TRUE(found);
+    EXPECT_LT((*found - size).norm(), 1e-12);
+    // Far away and in single precision.
+    std::vector<Vector3> places = mesh.positions();
+    for (Vector3& place : places) place = (place + Vector3(300, -700, 20)).cast<float>().cast<double>();
+    mesh.set_positions(places);
+    ASSERT_TRUE(voxel_size(mesh));
+    EXPECT_LT((*voxel_size(mesh) - size).norm(), 1e-3);
+    EXPECT_EQ(estimate_noise(mesh).voxel, voxel_size(mesh));
+    // With noise they are no steps.
+    for (std::size_t i = 0; i < places.size(); ++i) places[i].x() += 0.05 * size.x() * std::sin(static_cast<double>(i));
+    mesh.set_positions(places);
+    EXPECT_FALSE(voxel_size(mesh));
+  }
+}
+
+TEST(VoxelSize, IsNoneOfHeightsInWholeNumbersAndOfWhatIsFlat) {
+  EXPECT_FALSE(
+      voxel_size(grid(20, [](int i, int j) { return std::round(3 * std::sin(0.3 * i) + 2 * std::cos(0.4 * j)); })));
+  EXPECT_FALSE(voxel_size(grid(20, [](int, int) { return 0; })));
+}
+
+TEST(FitVoxels, LeavesABallOfItsVolumeWithinHalfAVoxel) {
+  const auto ball = [](const Vector3& place) { return (place - Vector3(0.1, 0.2, 0.3)).norm() < 12; };
+  for (const Vector3& size : {Vector3(1, 1, 1), Vector3(1, 1, 3)}) {
+    const PolygonMesh mesh = sides(size, Vector3::Constant(15), ball);
+    const FitResult result = steps_off(mesh, size);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    EXPECT_NEAR(volume(mesh, result.positions) / volume(mesh, mesh.positions()), 1, 1e-3);
+    const auto away = [](const Vector3& place) { return (place - Vector3(0.1, 0.2, 0.3)).norm() - 12; };
+    EXPECT_LT(rms(result.positions, away), 0.15 * rms(mesh.positions(), away));
+    for (std::size_t i = 0; i < result.positions.size(); ++i) {
+      const Vector3 normal = (result.positions[i] - Vector3(0.1, 0.2, 0.3)).normalized();
+      const double gone = std::abs((result.positions[i] - mesh.positions()[i]).dot(normal));
+      EXPECT_LT(gone, 0.52 * normal.cwiseAbs().dot(size)) << i;
+    }
+    EXPECT_LT(result.report.after.all.greatest, 0.9 * size.maxCoeff());
+    EXPECT_EQ(result.distances.size(), result.positions.size());
+  }
+}
+
+TEST(FitVoxels, LeavesFlatEndsFlat) {
+  const auto box = [](const Vector3& place) {
+    return std::abs(place.x()) < 10 && std::abs(place.y()) < 7 && std::abs(place.z()) < 5;
+  };
+  const PolygonMesh mesh = sides(Vector3(1, 1, 1), Vector3(12, 9, 7), box);
+  const FitResult result = steps_off(mesh, Vector3(1, 1, 1));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_NEAR(volume(mesh, result.positions) / volume(mesh, mesh.positions()), 1, 1e-3);
+  int inside = 0;
+  for (std::size_t i = 0; i < result.positions.size(); ++i) {
+    const Vector3& before = mesh.positions()[i];
+    if (before.z() != 5 || std::abs(before.x()) > 7 || std::abs(before.y()) > 4) continue;
+    ++inside;
+    EXPECT_NEAR(result.positions[i].z(), 5, 0.06);
+  }
+  EXPECT_EQ(inside, 15 * 9);
+}
+
+TEST(FitVoxels, IsRefusedForOtherPointsAndForCurves) {
+  const PolygonMesh mesh = sides(Vector3(1, 1, 1), Vector3::Constant(6), [](const Vector3& p) { return p.norm() < 4; });
+  FitOptions options;
+  options.criterion = Voxels{Vector3(1, 1, 1)};
+  EXPECT_THROW((void)fit(mesh, Constraints(mesh.node_count()), {.positions = {Vector3(0, 0, 0)}}, options), Error);
+  options.criterion = Voxels{Vector3(1, 0, 1)};
+  EXPECT_THROW((void)fit(mesh, Constraints(mesh.node_count()), {.positions = mesh.positions()}, options), Error);
+  options.criterion = Voxels{Vector3(1, 1, 1)};
+  const PolygonCurve curve({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}});
+  EXPECT_THROW((void)fit(curve, Constraints(3), {.positions = curve.positions()}, options), Error);
+}
+
+}  // namespace
+}  // namespace vspring::fit_voxels_test

@@ -177,21 +177,23 @@ const Vector3& position_as_held(const std::vector<Vector3>& positions, const Con
   return constraints.position_fixed(node) ? constraints.position(node) : positions[static_cast<std::size_t>(node)];
 }
 
-/// Adds the faces that were cut, in the coordinates that the net has.
-void add_whole_faces(Net& net, const PolygonMesh& mesh, const Constraints& constraints) {
+/// The faces that were cut, in the coordinates of the net.
+WholeFaces whole_faces(const Net& net, const PolygonMesh& mesh, const Constraints& constraints) {
   std::vector<std::optional<std::uint32_t>> local(static_cast<std::size_t>(mesh.node_count()));
   for (std::size_t i = 0; i < net.node.size(); ++i)
     local[static_cast<std::size_t>(net.node[i])] = static_cast<std::uint32_t>(i);
+  std::vector<std::vector<WholeFaces::Corner>> faces;
   for (Index f = 0; f < mesh.face_count(); ++f) {
+    end_if_cancelled_at(static_cast<std::size_t>(f));
     const auto face = mesh.face(f);
     if (face.size() <= largest_uncut_face) continue;
-    std::vector<WholeFaces::Corner> corners;
+    std::vector<WholeFaces::Corner>& corners = faces.emplace_back();
     corners.reserve(face.size());
     for (const Index node : face)
       corners.push_back({local[static_cast<std::size_t>(node)],
                          net.frame.to_local(position_as_held(mesh.positions(), constraints, node))});
-    net.whole_faces.add(std::move(corners));
   }
+  return WholeFaces(std::move(faces));
 }
 
 }  // namespace
@@ -200,7 +202,7 @@ Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for
   const auto cut = with_large_faces_cut(mesh);
   if (!cut) return gather_net_of(mesh, nullptr, constraints, for_spheres);
   Net net = gather_net_of(cut->mesh, &*cut, constraints, for_spheres);
-  add_whole_faces(net, mesh, constraints);
+  net.whole_faces = whole_faces(net, mesh, constraints);
   return net;
 }
 

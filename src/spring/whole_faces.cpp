@@ -6,18 +6,20 @@
 
 namespace vspring {
 
-void WholeFaces::add(std::vector<Corner> face) {
-  const std::size_t count = face.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto& next = face[(k + 1) % count].node;
-    const auto& previous = face[(k + count - 1) % count].node;
-    if (face[k].node && next && previous)
-      wedges_.push_back({*face[k].node, static_cast<std::uint32_t>(faces_.size()), *next, *previous});
+WholeFaces::WholeFaces(std::vector<std::vector<Corner>> faces)
+    : faces_(std::move(faces)), areas_(faces_.size(), Vector3::Zero()) {
+  for (std::size_t f = 0; f < faces_.size(); ++f) {
+    const auto& face = faces_[f];
+    const std::size_t count = face.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto& next = face[(k + 1) % count].node;
+      const auto& previous = face[(k + count - 1) % count].node;
+      if (face[k].node && next && previous)
+        wedges_.push_back({*face[k].node, static_cast<std::uint32_t>(f), *next, *previous});
+    }
   }
   std::sort(wedges_.begin(), wedges_.end(),
             [](const Wedge& a, const Wedge& b) { return a.node != b.node ? a.node < b.node : a.face < b.face; });
-  faces_.push_back(std::move(face));
-  areas_.emplace_back(Vector3::Zero());
 }
 
 void WholeFaces::measure(std::span<const Vector3> positions) {

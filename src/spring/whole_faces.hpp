@@ -18,8 +18,9 @@ class WholeFaces {
     Vector3 place;                      ///< in the coordinates of the net
   };
 
-  /// The corners of a face in order around it.
-  void add(std::vector<Corner> face);
+  WholeFaces() = default;
+  /// Of each face the corners in order around it.
+  explicit WholeFaces(std::vector<std::vector<Corner>> faces);
 
   [[nodiscard]] bool empty() const noexcept { return faces_.empty(); }
 

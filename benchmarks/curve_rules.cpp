@@ -38,8 +38,14 @@ std::vector<Spacing> spacings() {
           {"a jump to a third", [](std::size_t k, std::size_t edges) { return 2 * k < edges ? 3.0 : 1.0; }}};
 }
 
+struct Choice {
+  std::string name;
+  CurveRules rules;
+  Forces forces = Forces::steady;
+};
+
 /// Largest distance from the clothoid; below 0 where the solver did not converge.
-double error(const Spacing& spacing, std::size_t edges, const CurveRules& rules) {
+double error(const Spacing& spacing, std::size_t edges, const Choice& choice) {
   std::vector<Vector3> positions = {Vector3::Zero()};
   for (std::size_t k = 0; k < edges; ++k)
     positions.emplace_back(positions.back() + Vector3(spacing.length(k, edges), 0, 0));
@@ -53,7 +59,8 @@ double error(const Spacing& spacing, std::size_t edges, const CurveRules& rules)
   constraints.fix_tangent(0, Vector3(std::cos(start), std::sin(start), 0));
   constraints.fix_tangent(curve.node_count() - 1, Vector3(std::cos(end), std::sin(end), 0));
   FairOptions options;
-  options.curve = rules;
+  options.curve = choice.rules;
+  options.forces = choice.forces;
   options.distribution = Distribution::keep;
   options.method = EquilibriumMethod{.tolerance = 1e-9};
   FairResult result = fair(curve, constraints, options);
@@ -80,13 +87,14 @@ double error(const Spacing& spacing, std::size_t edges, const CurveRules& rules)
 }  // namespace
 
 int main() {
-  const std::vector<std::pair<std::string, CurveRules>> rules = {
-      {"chord, 1/ℓ (paper)", CurveRules::paper()},
+  const std::vector<Choice> choices = {
+      {"mean normal of both edges, 1/ℓ (paper)", CurveRules::paper(), Forces::printed},
+      {"chord, 1/ℓ", CurveRules::paper()},
       {"circle, 1/ℓ", {.tangents = CurveTangents::circle, .weights = CurveWeights::inverse}},
       {"circle, 1/ℓ³", {}}};
   fmt::print("| spacing | tangents, weights | 16 edges | 32 | 64 | 128 | order |\n|---|---|---|---|---|---|---|\n");
   for (const Spacing& spacing : spacings()) {
-    for (const auto& [name, choice] : rules) {
+    for (const Choice& choice : choices) {
       std::string row;
       std::vector<double> errors;
       for (const std::size_t edges : {16, 32, 64, 128}) {
@@ -94,7 +102,7 @@ int main() {
         row += errors.back() < 0 ? " none reached |" : fmt::format(" {:.1e} |", errors.back());
       }
       const bool known = errors.front() > 0 && errors.back() > 0;
-      fmt::print("| {} | {} |{} {} |\n", spacing.name, name, row,
+      fmt::print("| {} | {} |{} {} |\n", spacing.name, choice.name, row,
                  known ? fmt::format("{:.2f}", std::log2(errors.front() / errors.back()) / 3) : "");
     }
   }

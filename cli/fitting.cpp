@@ -33,14 +33,20 @@ Json optional(const std::optional<double>& value) { return value ? Json(*value) 
 /// Of those flags that belong to it.
 FairingMethod method_of(const FairingArguments& arguments) {
   const double step_tolerance = arguments.step_tolerance.value_or(SweepMethod().step_tolerance);
+  const SweepOrder order = arguments.paper ? SweepOrder::file : SweepOrder::parallel;
   switch (arguments.method.value_or(arguments.paper ? Method::sweep : Method::equilibrium)) {
     case Method::multigrid:
       return MultigridMethod{.step_tolerance = step_tolerance,
                              .max_iterations = arguments.max_iterations,
                              .levels = arguments.levels,
-                             .pre_smoothing = arguments.pre_smoothing};
+                             .pre_smoothing = arguments.pre_smoothing,
+                             .order = order,
+                             .keep_last = arguments.paper};
     case Method::sweep:
-      return SweepMethod{.step_tolerance = step_tolerance, .max_iterations = arguments.max_iterations};
+      return SweepMethod{.step_tolerance = step_tolerance,
+                         .max_iterations = arguments.max_iterations,
+                         .order = order,
+                         .keep_last = arguments.paper};
     case Method::equilibrium:
       break;
   }
@@ -73,7 +79,9 @@ bool asks_to_fit(const PullArguments& arguments) {
 void settle_options(FairingArguments& arguments, bool is_curve, bool own_nodes_pull) {
   FairOptions& options = arguments.options;
   options.method = method_of(arguments);
-  if (arguments.fair_boundary)
+  if (arguments.fair_boundary && arguments.paper)
+    options.fair_boundary = options.method;
+  else if (arguments.fair_boundary)
     options.fair_boundary =
         EquilibriumMethod{.tolerance = arguments.tolerance, .max_iterations = arguments.max_iterations};
   const Distribution usual = default_distribution(arguments, is_curve, own_nodes_pull);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <variant>
 
 #include "fairing_arguments.hpp"
 #include "picture.hpp"
@@ -38,10 +39,10 @@ constexpr IdleRule idle_rules[] = {
     {"--distribution", [](const RunFacts& run) { return !run.moves_freely; }, "--move says where nodes are"},
     {"--ignore-point-normals", [](const RunFacts& run) { return run.is_curve; }, "it is for surfaces"},
     {"--ignore-point-normals", [](const RunFacts& run) { return !run.points_face; }, "the points have no normals"},
-    // Boundaries that are faired first, and not fitted, go to their equilibrium by every method.
+    // Boundaries that are faired first, and not fitted, go to their equilibrium by every method, but with --paper.
     {"--tolerance",
      [](const RunFacts& run) {
-       return !run.equilibrium_tried && !(run.fair_boundary && run.boundary_moves && !run.own_nodes_pull);
+       return !run.equilibrium_tried && !(run.boundary_to_equilibrium && run.boundary_moves && !run.own_nodes_pull);
      },
      "it is for --method equilibrium"},
     {"--step-tolerance", [](const RunFacts& run) { return run.method == Method::equilibrium; },
@@ -97,6 +98,8 @@ void look_at(RunFacts& facts, const FairingArguments& arguments) {
   facts.springs = arguments.options.springs;
   facts.fix_is_none = arguments.fix == Hold::none;
   facts.fair_boundary = arguments.fair_boundary;
+  const auto& boundary = arguments.options.fair_boundary;
+  facts.boundary_to_equilibrium = boundary && std::holds_alternative<EquilibriumMethod>(*boundary);
   facts.has_picture = !arguments.picture.path.empty();
   facts.picture_is_svg = facts.has_picture && named_svg(arguments.picture.path);
   facts.has_page = !arguments.html.empty();

@@ -28,6 +28,7 @@ struct RunFacts {
   std::size_t levels = 0;
   bool fix_is_none = false;
   bool fair_boundary = false;
+  bool boundary_to_equilibrium = false;  ///< what --fair-boundary makes of it
   bool has_picture = false;
   bool picture_is_svg = false;
   bool has_page = false;

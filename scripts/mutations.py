@@ -35,7 +35,7 @@ MUTATIONS = {
         ("angle-weight", "normals weighted by angles", "return angle * AverageWeight::of(area, first_edge, last_edge);",
          "return AverageWeight::of(area, first_edge, last_edge);"),
         ("angle-of-face", "the angle is that of one face", "first_edge = edge;", ""),
-        ("face-closing", "the last face of a closed link", "if (!links.front().start()) step(closing_edge, true);", ""),
+        ("face-closing", "the last face of a closed link", "if (!links.front().start()) step(links.front().node(), closing_edge, true);", ""),
     ],
     "src/fairness/hubs.cpp": [
         ("hub-arc-rise", "an arc with a chord c rises above it by up to c²/4", "(to_b - to_a).squaredNorm() / 4 + margin_on_sphere", "margin_on_sphere"),
@@ -104,7 +104,14 @@ MUTATIONS = {
     "src/spring/curve_model.cpp": [
         ("tangent-of-given-normal", "§4.8: T across a given N", "tangent - tangent.dot(normal) * normal", "tangent", "Vector3"),
         ("principal-beside-straight", "§4.8: a neighbour without N", "normal.dot(curve_spring(net, i, j))", "0.0"),
+        ("printed-regularisation", "§4.4 of curves: u − (u·N_i) N_i", "way - way.dot(normal) * normal", "way", "Vector3"),
+        ("mean-of-segments", "§4.2 of plane curves: the mean of unit normals", "direction(plane_.cross(*edge), edge->norm())", "plane_.cross(*edge)",
+         "Vector3"),
         ("curve-point-force", "Eq. 9 of curves: across the tangent", "tangent.squaredNorm() * d - d.dot(tangent) * tangent", "d", "Vector3"),
+    ],
+    "src/spring/whole_faces.cpp": [
+        ("whole-face", "§4.2: the normal of an n-gon is that of all of it", "area += previous.cross(next);", "area = previous.cross(next);"),
+        ("whole-face-of-two", "of two faces between the same neighbours one is the n-gon", "!in_sense && wedge->next == last", "wedge->next == last"),
     ],
     "src/spring/surface_model.cpp": [
         ("point-force", "Eq. 9: ((V_j − P_i)·N_i) N_i", "d.dot(net.normals[i]) * net.normals[i]", "d", "Vector3"),
@@ -157,9 +164,11 @@ MUTATIONS = {
         ("normals-once", "Fig. 3: normals anew in every iteration", "update_directions(*net_, *model_, *team_);", ""),
     ],
     "src/sweep/blocks.cpp": [
+        ("file-order", "Fig. 3: i = 1 … n", "net.node[a.begin] < net.node[b.begin]", "a.begin < b.begin"),
         ("blocks-apart", "no two blocks of a group joined by an edge", "if (other < b) taken_by[group_of[other]] = b;", ""),
     ],
     "src/equilibrium/sweep_method.cpp": [
+        ("last-iterate", "Fig. 3 ends with its last iteration", "!(task.keep_last && is_finite)", "true"),
         ("stop", "§4.6: below e", "result.residual < task.step_tolerance", "result.residual < 10 * task.step_tolerance"),
     ],
     "src/equilibrium/equilibrium.cpp": [

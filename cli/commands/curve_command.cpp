@@ -175,9 +175,10 @@ void add_curve_method(CLI::App& command, CurveArguments& arguments, const Fairin
   command
       .add_flag(
           "--paper", arguments.paper,
-          "The paper's own choices throughout, its equations as printed: chord tangents, weights 1/length, along the "
-          "principal normal, which nodes in line with both neighbours have none of; points' displacements in "
-          "full; and the method sweep unless --method says another (default: off)")
+          "The paper's own choices throughout, its equations as printed: weights 1/length; in a plane along the mean "
+          "normal of both edges, in space along the principal normal, which nodes in line with both neighbours have "
+          "none of; points' displacements in full; and the method sweep unless --method says another, node after node "
+          "in the order of the file (on one thread), with the last iteration as the result (default: off)")
       ->excludes(plane)
       ->group(fairing_group);
   add_shaping_options(command, arguments, words);

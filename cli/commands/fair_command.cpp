@@ -114,8 +114,9 @@ void add_surface_method(CLI::App& command, FairArguments& arguments, const Fairi
       .add_flag(
           "--paper", arguments.paper,
           "The paper's own choices throughout, its equations as printed: plain average of normals, nodes at the mean "
-          "of their neighbours, points' displacements in full, and the method sweep unless --method says another "
-          "(default: off)")
+          "of their neighbours, points' displacements in full; and the method sweep unless --method says another, node "
+          "after node in the order of the file (on one thread), with the last iteration as the result, for "
+          "--fair-boundary too (default: off)")
       ->excludes(kind)
       ->group(fairing_group);
   add_shaping_options(command, arguments, words);

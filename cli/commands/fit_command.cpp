@@ -180,9 +180,10 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
   command
       .add_flag(
           "--paper", arguments.paper,
-          "The paper's own choices throughout, its equations as printed: plain average of normals; chord tangents, "
-          "weights 1/length, along the principal normal; nodes at the mean of their neighbours; points' "
-          "displacements in full; the method sweep unless --method says another (default: off)")
+          "The paper's own choices throughout, its equations as printed: plain average of normals, on curves in space "
+          "the principal one; weights 1/length; nodes at the mean of their neighbours; points' displacements in full; "
+          "and the method sweep unless --method says another, node after node in the order of the file (on one "
+          "thread), with the last iteration as the result (default: off)")
       ->group(fairing_group);
   command
       .add_option("--deviation", arguments.deviation,

@@ -44,6 +44,10 @@ struct MultigridMethod {
   std::optional<int> levels = std::nullopt;
   /// Iterations on each level on the way down.
   int pre_smoothing = 5;
+  /// On every level.
+  SweepOrder order = SweepOrder::parallel;
+  /// As in SweepMethod; on every level.
+  bool keep_last = false;
 };
 
 /// The paper's plain iteration (§4.1).
@@ -52,6 +56,10 @@ struct SweepMethod {
   double step_tolerance = 1e-3;
   /// Stop after so many iterations. Empty: 10,000.
   std::optional<int> max_iterations = std::nullopt;
+  SweepOrder order = SweepOrder::parallel;
+  /// Return the shape of the last iteration, as the paper does, also where steps grew again; unless the last one is not
+  /// finite. Else the shape of the smallest steps is returned then, with a warning.
+  bool keep_last = false;
 };
 
 /// How a shape is made fair, in the order of Method.
@@ -76,9 +84,9 @@ struct FairOptions {
   /// sweep is asked for.
   std::optional<Distribution> distribution = std::nullopt;
   /// Surfaces: boundary nodes whose position is free are faired first, as closed curves between the held ones (§4.5),
-  /// and stay there while the surface follows: always to their equilibrium, by these options; in fits by `method`, as
-  /// the surface. Empty: they move with the surface, which draws them in.
-  std::optional<EquilibriumMethod> fair_boundary = std::nullopt;
+  /// and stay there while the surface follows: by this method; in fits by `method`, as the surface. Empty: they move
+  /// with the surface, which draws them in.
+  std::optional<FairingMethod> fair_boundary = std::nullopt;
   /// Return a shape that is worse than the input as it was found, with a warning, and try nothing else: for comparisons
   /// of methods and distributions.
   bool as_found = false;
@@ -193,7 +201,7 @@ struct FairResult {
 /// gives the tangent.
 ///
 /// Surfaces: nodes go to where no node is displaced any more (EquilibriumMethod); see docs/solver.md. With
-/// options.fair_boundary the boundary is faired first, as a curve, always to its equilibrium, under the positions and
+/// options.fair_boundary the boundary is faired first, as a curve, by the method given there, under the positions and
 /// tangents that the constraints give there (normals act on the surface); throws as for a curve.
 ///
 /// Nodes with a fixed position come out exactly at it; isolated nodes stay. The result has the same bits for every

@@ -40,9 +40,17 @@ enum class FairBy {
 enum class Forces {
   steady,  ///< without jumps, and stable for every weight of points
   /// As printed. A neighbour's normal turns round at once at a right angle (Eq. 4). Points move their node by the full
-  /// distance times k (Eq. 9), so weights of 1 and more may oscillate. A node of a planar curve in line with both
-  /// neighbours has no normal and stays (§4.8).
+  /// distance times k (Eq. 9), so weights of 1 and more may oscillate. Where curves have CurveRules::paper(): nodes of
+  /// a planar one have the mean of the normals of their two edges (§4.2); of one in space, those in line with both
+  /// neighbours have no normal, so springs and points leave them where they are (§4.8); and the regularisation is what
+  /// the way to the mean of the neighbours has across the normal, along the binormal too (§4.4).
   printed
+};
+
+/// In which order an iteration of multigrid or sweep moves the nodes, each from the newest places of the others.
+enum class SweepOrder {
+  parallel,  ///< blocks of near nodes side by side, on any number of threads
+  file       ///< as they are numbered, i = 1 … n, as the paper prints it (Fig. 3): on one thread
 };
 
 /// The tangent of a curve at a node (§4.8).

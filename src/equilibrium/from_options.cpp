@@ -7,8 +7,8 @@
 
 namespace vspring {
 
-std::unique_ptr<const Model> model_of(const Net& net, const FairOptions& options) {
-  if (net.is_curve) return curve_model_for(net, options.curve, options.forces);
+std::unique_ptr<const Model> model_of(const Net& net, const FairOptions& options, std::span<const Vector3> points) {
+  if (net.is_curve) return curve_model_for(net, options.curve, options.forces, points);
   return surface_model(options.pseudo_normals, options.forces);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "base/threads.hpp"
 #include "equilibrium/hierarchy.hpp"
@@ -11,7 +12,8 @@ namespace vspring {
 
 // What options ask for, of a surface's net or of a curve's.
 
-std::unique_ptr<const Model> model_of(const Net& net, const FairOptions& options);
+/// points: that draw the shape, in its coordinates.
+std::unique_ptr<const Model> model_of(const Net& net, const FairOptions& options, std::span<const Vector3> points = {});
 /// The one given, or else the default.
 Distribution distribution_of(const Net& net, const FairOptions& options);
 /// Cost: linear.

@@ -79,7 +79,10 @@ class Cycle {
 
   SweepResult iterate(std::size_t level, double step_tolerance, int max_iterations) {
     const Stopwatch stopwatch;
-    SweepTask task{.step_tolerance = step_tolerance, .max_iterations = max_iterations};
+    SweepTask task{.step_tolerance = step_tolerance,
+                   .max_iterations = max_iterations,
+                   .order = method_.order,
+                   .keep_last = method_.keep_last};
     const auto nodes = static_cast<double>(hierarchy_.net(level).moving);
     const double share = nodes / static_cast<double>(hierarchy_.net(hierarchy_.count() - 1).moving);
     task.on_iteration = [&](double residual) {

@@ -29,7 +29,7 @@ double share_done(double first, double now, double last) {
 }  // namespace
 
 SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& task, ThreadTeam& team, Context& context) {
-  Sweep sweep(net, model, team);
+  Sweep sweep(net, model, team, task.order);
   BestIterate best(net, lost_factor, task.renew_ties ? small_step : 0);
   SweepResult result;
   bool at_rest = false;
@@ -54,11 +54,13 @@ SweepResult sweep_until_still(Net& net, const Model& model, const SweepTask& tas
     at_rest = result.residual < task.step_tolerance;
     if (at_rest && fresh) {
       result.outcome = Outcome::converged;
-    } else if (best.lost_for() >= sweep_patience || !std::isfinite(result.residual)) {
+    } else if ((best.lost_for() >= sweep_patience && !task.keep_last) || !std::isfinite(result.residual)) {
       result.outcome = Outcome::stalled;
     }
   }
-  result.lost = best.lost_for() > 0 && (task.step_tolerance > 0 || result.outcome == Outcome::stalled);
+  const bool is_finite = std::isfinite(result.residual);
+  result.lost = best.lost_for() > 0 && (task.step_tolerance > 0 || result.outcome == Outcome::stalled) &&
+                !(task.keep_last && is_finite);
   if (result.lost) result.residual = best.restore();
   return result;
 }
@@ -75,6 +77,8 @@ void run_sweeps(Net& net, const Model& model, const SweepMethod& method, const S
   FairReport& report = call.report;
   SweepTask task{.step_tolerance = method.step_tolerance,
                  .max_iterations = method.max_iterations.value_or(SweepTask().max_iterations),
+                 .order = method.order,
+                 .keep_last = method.keep_last,
                  .renew_ties = std::move(renew_ties)};
   task.on_iteration = [&](double residual) {
     report.history.push_back(residual);

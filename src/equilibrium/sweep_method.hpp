@@ -13,6 +13,8 @@ namespace vspring {
 struct SweepTask {
   double step_tolerance = 1e-3;  ///< e of §4.6; 0 for as many iterations as there may be
   int max_iterations = 10000;
+  SweepOrder order = SweepOrder::parallel;
+  bool keep_last = false;  ///< as in SweepMethod
   /// Called after every iteration with its largest displacement relative to the mean edge length.
   std::function<void(double)> on_iteration = nullptr;
   /// Ties scattered points to the nodes that are nearest by now (§4.5), before every few iterations and before the
@@ -27,7 +29,7 @@ struct SweepResult {
   Outcome outcome = Outcome::iteration_limit;
   int iterations = 0;
   double residual = 0;
-  /// Whether the steps grew again; the shape is then the one with the smallest steps.
+  /// Whether the shape is an earlier one, that with the smallest steps, as these grew again.
   bool lost = false;
 };
 

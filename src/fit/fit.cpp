@@ -145,7 +145,7 @@ class Fitting {
   /// The input with its constraints, the shape that was found, and what is worse about it, in words.
   struct InputAndFound {
     explicit InputAndFound(Fitting& fitting)
-        : input(fitting.run_.gather()), model(model_of(input, fitting.options_.fair)) {
+        : input(fitting.run_.gather()), model(model_of(input, fitting.options_.fair, fitting.run_.points.positions)) {
       auto& run = fitting.run_;
       for (const Vector3& point : run.points.positions) input.points.positions.push_back(input.frame.to_local(point));
       check.emplace(input, *model, run.team);
@@ -291,7 +291,7 @@ class Fitting {
 
   void sweep(UntiedPoints points, const SweepMethod& method, ProgressReporter& progress) {
     Net net = run_.gather_start();
-    const auto model = model_of(net, options_.fair);
+    const auto model = model_of(net, options_.fair, points.positions);
     set_laplacian_weights(net, *model, distribution_of(net, options_.fair), run_.team);
     const auto smoothing = smoothing_in(net);
     PointTies ties = tie_points(net, *model, points, smoothing, run_.team);

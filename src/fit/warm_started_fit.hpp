@@ -57,7 +57,7 @@ class WarmStartedFit {
                  ThreadTeam& team)
       : options_(options),
         team_(&team),
-        model_(model_of(net, options)),
+        model_(model_of(net, options, points.positions)),
         distribution_(distribution_of(net, options)),
         hierarchy_(hierarchy_of(std::move(net), *model_, distribution_, team)),
         ties_(tie_points(hierarchy_->finest(), *model_, points, smoothing, team)),

@@ -83,8 +83,9 @@ std::optional<int> FairOptions::max_iterations() const {
 }
 
 void FairOptions::validate() const {
-  std::visit([](const auto& one) { check(one); }, method);
-  if (fair_boundary) check(*fair_boundary);
+  const auto check_one = [](const auto& one) { check(one); };
+  std::visit(check_one, method);
+  if (fair_boundary) std::visit(check_one, *fair_boundary);
   require(strength >= 0 && strength <= 1, "strength", "from 0 to 1", strength);
 }
 

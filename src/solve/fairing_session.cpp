@@ -13,8 +13,9 @@ namespace {
 FairOptions with_tolerance(FairOptions options, double tolerance) {
   // Whatever the method, as for an equilibrium.
   FairOptions{.method = EquilibriumMethod{.tolerance = tolerance}}.validate();
-  if (auto* const method = std::get_if<EquilibriumMethod>(&options.method)) method->tolerance = tolerance;
-  if (options.fair_boundary) options.fair_boundary->tolerance = tolerance;
+  for (FairingMethod* const one : {&options.method, options.fair_boundary ? &*options.fair_boundary : nullptr}) {
+    if (auto* const method = std::get_if<EquilibriumMethod>(one)) method->tolerance = tolerance;
+  }
   return options;
 }
 

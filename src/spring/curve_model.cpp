@@ -1,4 +1,7 @@
+#include <optional>
+#include <span>
 #include <type_traits>
+#include <vector>
 
 #include "shape/planarity.hpp"
 #include "spring/curve_force.hpp"
@@ -9,6 +12,11 @@
 namespace vspring {
 
 namespace {
+
+/// A given normal takes one direction out of those that the tangent may have.
+Vector3 across_normal(const Vector3& tangent, const Vector3& normal) {
+  return direction(tangent - tangent.dot(normal) * normal, 1);
+}
 
 /// Tangents, and V-Spring in the whole normal plane.
 template <typename Tangent, typename Weight>
@@ -25,10 +33,8 @@ struct CurveRulesOf {
     if (net.tangent_given(i)) return;
     const auto links = net.rings.links(i);
     const Vector3 tangent = Tangent()(net.positions[i], links, net.positions);
-    const Vector3& normal = net.normals[i];
     if (net.normal_given(i)) {
-      // A given normal takes one direction out of those that the tangent may have.
-      net.tangents[i] = direction(tangent - tangent.dot(normal) * normal, 1);
+      net.tangents[i] = across_normal(tangent, net.normals[i]);
       return;
     }
     net.tangents[i] = tangent;
@@ -52,6 +58,18 @@ struct CurveRulesOf {
   }
 };
 
+/// curve_force() with the regularisation as printed (§4.4): of the way to the mean of the neighbours all but its part
+/// along N_i.
+template <typename Weight, typename Spring>
+NodeForce printed_force(const Net& net, std::size_t i, const Spring& spring) {
+  NodeForce force = curve_force<Weight>(net, i, spring);
+  if (!net.target_positions.empty() || !net.weights_of(i).empty()) return force;
+  const Vector3 way = mean_of_neighbours(net, i) - net.positions[i];
+  const Vector3& normal = net.normals[i];
+  force.regularisation = way - way.dot(normal) * normal;
+  return force;
+}
+
 /// The paper's own variant for space curves: V-Spring along the principal normal only (§4.8).
 template <typename Tangent, typename Weight>
 struct PrincipalRulesOf : CurveRulesOf<Tangent, Weight> {
@@ -65,7 +83,7 @@ struct PrincipalRulesOf : CurveRulesOf<Tangent, Weight> {
 
   [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const {
     const Vector3& normal = net.normals[i];
-    return curve_force<Weight>(net, i, [&](std::size_t j) -> Vector3 {
+    const auto spring = [&](std::size_t j) -> Vector3 {
       // A neighbour without a principal normal (an end, a node of a straight run) takes this one's, carried over; as
       // printed, ends alone, of which the paper says nothing.
       const bool is_end = j >= net.computed || net.rings.links(j).size() < 2;
@@ -73,7 +91,8 @@ struct PrincipalRulesOf : CurveRulesOf<Tangent, Weight> {
                                     ? normal.dot(curve_spring(net, i, j))
                                     : spring_difference(net.positions[j] - net.positions[i], normal, net.normals[j]);
       return difference * normal;
-    });
+    };
+    return forces_ == Forces::printed ? printed_force<Weight>(net, i, spring) : curve_force<Weight>(net, i, spring);
   }
 
   /// A node of a straight run, without a principal normal, may be pulled to all sides; as printed, to none.
@@ -85,6 +104,57 @@ struct PrincipalRulesOf : CurveRulesOf<Tangent, Weight> {
 
  private:
   Forces forces_;
+};
+
+/// Curves in a plane as printed: no extension of surfaces (§4.8), so the normal of a node is the mean of the normals of
+/// its two segments in that plane (§4.2), of an end that of its one.
+template <typename Weight>
+class PlanarRulesOf {
+ public:
+  explicit PlanarRulesOf(const Vector3& plane) : plane_(plane) {}
+
+  static void prepare(Net& /*net*/) {}
+
+  void update_direction(Net& net, std::size_t i) const {
+    if (net.tangent_given(i)) {
+      if (!net.normal_given(i)) net.normals[i] = direction(plane_.cross(net.tangents[i]), 1);
+      return;
+    }
+    if (net.normal_given(i)) {
+      const Vector3 chord = ChordTangent()(net.positions[i], net.rings.links(i), net.positions);
+      net.tangents[i] = across_normal(chord, net.normals[i]);
+      return;
+    }
+    net.normals[i] = mean_normal(net, i);
+    net.tangents[i] = direction(net.normals[i].cross(plane_), 1);
+  }
+
+  [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const {
+    const Vector3& normal = net.normals[i];
+    return printed_force<Weight>(net, i, [&](std::size_t j) -> Vector3 {
+      return spring_difference(net.positions[j] - net.positions[i], normal, net.normals[j]) * normal;
+    });
+  }
+
+  [[nodiscard]] Vector3 sprung(const Net& net, std::size_t i, const Vector3& d) const {
+    return d.dot(net.normals[i]) * net.normals[i];
+  }
+
+  void present_laplacian_weights(const Net& net, std::size_t i, std::span<double> shares) const {
+    share_by_length(net, i, net.positions, shares);
+  }
+
+ private:
+  [[nodiscard]] Vector3 mean_normal(const Net& net, std::size_t i) const {
+    const auto links = net.rings.links(i);
+    if (links.empty()) return Vector3::Zero();
+    const CurveEdges edges(net.positions[i], links, net.positions);
+    Vector3 sum = Vector3::Zero();
+    for (const Vector3* edge : {&edges.before, &edges.after}) sum += direction(plane_.cross(*edge), edge->norm());
+    return direction(sum, 2);
+  }
+
+  Vector3 plane_;  ///< its normal
 };
 
 template <typename Tangent, typename Weight>
@@ -99,15 +169,30 @@ std::unique_ptr<const Model> model_with(const CurveRules& rules, Forces forces) 
   return model_along<Tangent, InverseCubeWeight>(rules.normal_plane, forces);
 }
 
-/// Whether everything lies in one plane, so that normals in the plane are all there is. Given directions count as far
-/// as nodes do: a straight start lies in the plane of its end tangents.
-bool is_planar(const Net& net) {
-  std::vector<Vector3> points = net.positions;
+/// The normal of the plane in which everything lies, so that normals in it are all there is. Given directions count as
+/// far as nodes do: a straight start lies in the plane of its end tangents.
+std::optional<Vector3> plane_of(const Net& net) {
+  std::vector<Vector3> places = net.positions;
   for (std::size_t i = 0; i < net.node.size(); ++i) {
-    if (net.tangent_given(i)) points.emplace_back(net.positions[i] + net.tangents[i]);
-    if (net.normal_given(i)) points.emplace_back(net.positions[i] + net.normals[i]);
+    if (net.tangent_given(i)) places.emplace_back(net.positions[i] + net.tangents[i]);
+    if (net.normal_given(i)) places.emplace_back(net.positions[i] + net.normals[i]);
   }
-  return plane_normal(points).has_value();
+  return plane_normal(places);
+}
+
+/// The same of a straight line of nodes and the points beside it.
+std::optional<Vector3> plane_of(const Net& net, std::span<const Vector3> points) {
+  std::vector<Vector3> places = net.positions;
+  for (const Vector3& point : points) places.push_back(net.frame.to_local(point));
+  return plane_normal(places);
+}
+
+std::unique_ptr<const Model> printed_model_in(const Vector3& plane, CurveWeights weights) {
+  if (weights == CurveWeights::inverse)
+    return std::make_unique<ModelOf<PlanarRulesOf<InverseWeight>>>(PlanarRulesOf<InverseWeight>(plane),
+                                                                   Forces::printed);
+  return std::make_unique<ModelOf<PlanarRulesOf<InverseCubeWeight>>>(PlanarRulesOf<InverseCubeWeight>(plane),
+                                                                     Forces::printed);
 }
 
 }  // namespace
@@ -117,8 +202,16 @@ std::unique_ptr<const Model> curve_model(const CurveRules& rules, Forces forces)
   return model_with<CircleTangent>(rules, forces);
 }
 
-std::unique_ptr<const Model> curve_model_for(const Net& net, CurveRules rules, Forces forces) {
-  if (forces == Forces::steady && is_planar(net)) rules.normal_plane = NormalPlane::full;
+std::unique_ptr<const Model> curve_model_for(const Net& net, CurveRules rules, Forces forces,
+                                             std::span<const Vector3> points) {
+  std::optional<Vector3> plane = plane_of(net);
+  if (forces == Forces::steady) {
+    if (plane) rules.normal_plane = NormalPlane::full;
+    return curve_model(rules, forces);
+  }
+  if (!plane) plane = plane_of(net, points);
+  if (plane && rules.normal_plane == NormalPlane::principal && rules.tangents == CurveTangents::chord)
+    return printed_model_in(*plane, rules.weights);
   return curve_model(rules, forces);
 }
 

@@ -6,6 +6,7 @@
 namespace vspring {
 
 void update_directions(Net& net, const Model& model, ThreadTeam& team) {
+  net.whole_faces.measure(net.positions);
   parallel_ranges(team, net.computed, nodes_per_task,
                   [&](std::size_t begin, std::size_t end) { model.update_directions(net, begin, end); });
   if (!net.spheres.on()) return;

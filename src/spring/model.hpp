@@ -48,9 +48,11 @@ class Model {
 [[nodiscard]] std::unique_ptr<const Model> surface_model(PseudoNormals pseudo_normals, Forces forces = Forces::steady);
 [[nodiscard]] std::unique_ptr<const Model> curve_model(const CurveRules& rules, Forces forces = Forces::steady);
 /// For one curve: in a plane, normals in the plane are all there is, and both kinds of normal plane are the same; as
-/// printed, the principal one has nodes without a normal there too.
+/// printed, with chords, each is the mean of those of the segments. points: in the coordinates of the shape; they tell
+/// the plane of a straight line.
 [[nodiscard]] std::unique_ptr<const Model> curve_model_for(const Net& net, CurveRules rules,
-                                                           Forces forces = Forces::steady);
+                                                           Forces forces = Forces::steady,
+                                                           std::span<const Vector3> points = {});
 
 /// Directions of all nodes of the net that have rings.
 void update_directions(Net& net, const Model& model, ThreadTeam& team);

@@ -9,7 +9,7 @@
 
 namespace vspring {
 
-/// A model from rules for one node, which are made from the kind of forces:
+/// A model from rules for one node, which may be made from the kind of forces:
 ///   static void prepare(Net&);
 ///   void update_direction(Net&, std::size_t node) const;  or, for several at once,
 ///   void update_directions(Net&, std::size_t begin, std::size_t end) const;
@@ -20,6 +20,7 @@ template <typename Rules>
 class ModelOf final : public Model {
  public:
   explicit ModelOf(Forces forces) : rules_(forces), forces_(forces) {}
+  ModelOf(const Rules& rules, Forces forces) : rules_(rules), forces_(forces) {}
 
   void prepare(Net& net) const override { Rules::prepare(net); }
 

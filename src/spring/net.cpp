@@ -1,6 +1,7 @@
 #include "spring/net.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -176,11 +177,33 @@ const Vector3& position_as_held(const std::vector<Vector3>& positions, const Con
   return constraints.position_fixed(node) ? constraints.position(node) : positions[static_cast<std::size_t>(node)];
 }
 
+/// The faces that were cut, in the coordinates of the net.
+WholeFaces whole_faces(const Net& net, const PolygonMesh& mesh, const Constraints& constraints) {
+  std::vector<std::optional<std::uint32_t>> local(static_cast<std::size_t>(mesh.node_count()));
+  for (std::size_t i = 0; i < net.node.size(); ++i)
+    local[static_cast<std::size_t>(net.node[i])] = static_cast<std::uint32_t>(i);
+  std::vector<std::vector<WholeFaces::Corner>> faces;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    end_if_cancelled_at(static_cast<std::size_t>(f));
+    const auto face = mesh.face(f);
+    if (face.size() <= largest_uncut_face) continue;
+    std::vector<WholeFaces::Corner>& corners = faces.emplace_back();
+    corners.reserve(face.size());
+    for (const Index node : face)
+      corners.push_back({local[static_cast<std::size_t>(node)],
+                         net.frame.to_local(position_as_held(mesh.positions(), constraints, node))});
+  }
+  return WholeFaces(std::move(faces));
+}
+
 }  // namespace
 
 Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for_spheres) {
-  if (const auto cut = with_large_faces_cut(mesh)) return gather_net_of(cut->mesh, &*cut, constraints, for_spheres);
-  return gather_net_of(mesh, nullptr, constraints, for_spheres);
+  const auto cut = with_large_faces_cut(mesh);
+  if (!cut) return gather_net_of(mesh, nullptr, constraints, for_spheres);
+  Net net = gather_net_of(cut->mesh, &*cut, constraints, for_spheres);
+  net.whole_faces = whole_faces(net, mesh, constraints);
+  return net;
 }
 
 void place_net(Net& net, const std::vector<Vector3>& positions, const Constraints& constraints) {

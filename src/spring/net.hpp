@@ -8,6 +8,7 @@
 #include "spring/rings.hpp"
 #include "spring/sphere_springs.hpp"
 #include "spring/tied_points.hpp"
+#include "spring/whole_faces.hpp"
 #include "vspring/constraints.hpp"
 #include "vspring/polygon_mesh.hpp"
 #include "vspring/types.hpp"
@@ -37,6 +38,7 @@ struct NetProblem {
   std::size_t computed = 0;         ///< nodes 0 … computed − 1 have rings; directions are computed where not given
   std::vector<std::uint8_t> given;  ///< which directions constraints give, for every node
   Rings rings;
+  WholeFaces whole_faces;              ///< those that are cut in the rings
   std::vector<MovingRun> moving_runs;  ///< of curves: the order of nodes
   Frame frame;                         ///< the coordinates
   double tiny = 0;                     ///< see node_force()
@@ -84,7 +86,7 @@ Vector3 mean_of_neighbours(const Net& net, std::size_t node);
 
 /// Gathers the net of a mesh under constraints. The mesh must have passed check_constraints(). Cost: linear in the
 /// mesh, once, and in the moving nodes.
-/// Large faces are cut, see with_large_faces_cut().
+/// Large faces are cut, see with_large_faces_cut(), and kept whole beside.
 /// for_spheres: with rings of all held nodes of the faces around moving ones, also where their normal is given.
 Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for_spheres = false);
 

@@ -46,40 +46,51 @@ struct LinkNormal {
 };
 
 /// A sum over the adjoining faces of their vector areas, each weighted by Weight::of(vector area, first edge, last
-/// edge).
+/// edge). whole(first, last, area): twice the vector area of the face between these neighbours, of which the link has
+/// passed `area`.
 template <typename Weight>
 struct FaceNormal {
   template <typename Positions>
   Vector3 operator()(const Vector3& centre, std::span<const Link> links, const Positions& positions) const {
+    return (*this)(centre, links, positions, [](std::size_t, std::size_t, const Vector3& area) { return area; });
+  }
+
+  template <typename Positions, typename Whole>
+  Vector3 operator()(const Vector3& centre, std::span<const Link> links, const Positions& positions,
+                     const Whole& whole) const {
     if (links.empty()) return Vector3::Zero();
     Vector3 sum = Vector3::Zero();
     double scale = 0;
     Vector3 first_edge = positions[links.front().node()] - centre;
     const Vector3 closing_edge = first_edge;
     Vector3 previous = first_edge;
+    std::size_t first = links.front().node();
     Vector3 area = Vector3::Zero();
-    const auto step = [&](const Vector3& edge, bool face_ends) {
+    const auto step = [&](std::size_t node, const Vector3& edge, bool face_ends) {
       area += previous.cross(edge);
       previous = edge;
       if (!face_ends) return;
+      area = whole(first, node, area);
       const double weight = Weight::of(area, first_edge, edge);
       sum += weight * area;
       scale += weight * std::sqrt(area.dot(area));
       first_edge = edge;
+      first = node;
       area.setZero();
     };
     for (std::size_t k = 1; k < links.size(); ++k) {
       const Vector3 edge = positions[links[k].node()] - centre;
       if (links[k].start()) {
         first_edge = previous = edge;
+        first = links[k].node();
         area.setZero();
       } else {
         // A chain that closes on itself repeats its first node without the mark of a spoke.
         const bool chain_ends = k + 1 == links.size() ? links.front().start() : links[k + 1].start();
-        step(edge, links[k].spoke() || chain_ends);
+        step(links[k].node(), edge, links[k].spoke() || chain_ends);
       }
     }
-    if (!links.front().start()) step(closing_edge, true);
+    if (!links.front().start()) step(links.front().node(), closing_edge, true);
     return direction(sum, scale);
   }
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <type_traits>
 
 #include "spring/model_of.hpp"
 #include "spring/pseudo_normal.hpp"
@@ -20,7 +21,7 @@ struct SurfaceRules {
   static void prepare(Net& /*net*/) {}
 
   void update_directions(Net& net, std::size_t begin, std::size_t end) const {
-    const auto normal = [&](std::size_t i) { return Normal()(net.positions[i], net.rings.links(i), net.positions); };
+    const auto normal = [&](std::size_t i) { return normal_of(net, i); };
     if (!net.spheres.on()) {
       for (std::size_t i = begin; i < end; ++i) {
         if (!net.normal_given(i)) net.normals[i] = normal(i);
@@ -71,6 +72,20 @@ struct SurfaceRules {
   // Of an even share.
   static constexpr double least_share = 0.1;
   static constexpr double tolerated_share = 0.5;
+
+  static Vector3 normal_of(const Net& net, std::size_t i) {
+    const auto links = net.rings.links(i);
+    if constexpr (!std::is_same_v<Normal, LinkNormal>) {
+      if (!net.whole_faces.empty()) {
+        const bool has_two = std::count_if(links.begin(), links.end(), [](Link link) { return link.spoke(); }) == 2;
+        return Normal()(net.positions[i], links, net.positions,
+                        [&](std::size_t first, std::size_t last, const Vector3& area) {
+                          return net.whole_faces.area(i, first, last, has_two).value_or(area);
+                        });
+      }
+    }
+    return Normal()(net.positions[i], links, net.positions);
+  }
 
   /// Whether a face around the node lies upside down.
   template <typename Across>

@@ -48,4 +48,13 @@ std::vector<std::vector<Block>> parallel_order(const Net& net) {
   return groups;
 }
 
+std::vector<Block> file_order(const Net& net) {
+  std::vector<Block> order;
+  order.reserve(net.moving);
+  for (std::size_t i = 0; i < net.moving; ++i) order.push_back({i, i + 1});
+  std::sort(order.begin(), order.end(),
+            [&](const Block& a, const Block& b) { return net.node[a.begin] < net.node[b.begin]; });
+  return order;
+}
+
 }  // namespace vspring

@@ -11,4 +11,7 @@ namespace vspring {
 /// order. Which newest positions a node sees so depends on the net alone.
 std::vector<std::vector<Block>> parallel_order(const Net& net);
 
+/// The order of Fig. 3: the moving nodes by their numbers in the shape, each a block of its own.
+std::vector<Block> file_order(const Net& net);
+
 }  // namespace vspring

@@ -88,7 +88,7 @@ TEST(FairBoundary, TheBoundaryGoesToItsEquilibriumWhateverTheMethodOfTheSurface)
   EXPECT_EQ(report.method, Method::sweep);
   ASSERT_TRUE(report.boundary);
   EXPECT_EQ(report.boundary->method, Method::equilibrium);
-  EXPECT_LE(report.boundary->expected_error.value_or(1), options.fair_boundary->tolerance);
+  EXPECT_LE(report.boundary->expected_error.value_or(1), std::get<EquilibriumMethod>(*options.fair_boundary).tolerance);
 }
 
 TEST(FairBoundary, StrengthGoesThatShareOfTheWholeWay) {

@@ -307,6 +307,15 @@ class Curve(Case):
                 self.curve(csv(helix), "--fix-normals", "boundary", *options)
                 self.assertEqual(len(read(self.folder / "out.csv")), 61)
 
+    def test_paper_bends_a_straight_line_whose_ends_are_tilted(self):
+        line = csv([(k / 4, 0) for k in range(13)])
+        rules = self.write("tilted.json", json.dumps({"rules": [{"nodes": [0], "position": "fixed", "tangent": [1, 0.4]},
+                                                                {"nodes": [12], "position": "fixed", "tangent": [1, -0.4]}]}))
+        self.curve(line, "--paper", "--constraints", rules)
+        heights = [y for _, y in read(self.folder / "out.csv")]
+        self.assertGreater(heights[6], 0.1)
+        self.assertEqual(heights[6], max(heights))
+
     def test_corners_stay_sharp(self):
         noise = random.Random(3)
         sides = [(k, 0) for k in range(40)] + [(40, k) for k in range(30)] + [(40 - k, 30) for k in range(40)] + [(0, 30 - k) for k in range(30)]

@@ -81,7 +81,11 @@ class Fair(Case):
         self.fair("--method", "sweep", "--pseudo-normals", "average")
         average = (self.folder / "out.obj").read_bytes()
         self.fair("--paper")
-        self.assertEqual((self.folder / "out.obj").read_bytes(), average)
+        paper = (self.folder / "out.obj").read_bytes()
+        # Node after node as the file has them.
+        self.assertNotEqual(paper, average)
+        self.fair("--paper", "--threads", "3")
+        self.assertEqual((self.folder / "out.obj").read_bytes(), paper)
 
     def test_region_by_group_box_and_list(self):
         def moved():
@@ -299,6 +303,12 @@ class FairBoundary(Case):
         none = run("fair", before, "-o", self.folder / "no.obj", "--fair-boundary", "--constraints", rules, "--max-iterations", "0",
                    "--report", self.folder / "r.json")
         self.assertEqual(none.returncode, 3, none.stderr.decode())
+        self.assertIsNone(self.read_json("r.json")["boundary"]["expected_error"])
+        # As the paper goes: by as many of its iterations as are allowed.
+        paper = run("fair", before, "-o", self.folder / "no.obj", "--fair-boundary", "--constraints", rules, "--paper",
+                    "--max-iterations", "3", "--report", self.folder / "r.json")
+        self.assertEqual(paper.returncode, 3, paper.stderr.decode())
+        self.assertEqual(self.read_json("r.json")["boundary"]["iterations"], 3)
         self.assertIsNone(self.read_json("r.json")["boundary"]["expected_error"])
         for option in ([], ["--constraints", self.write("none.json", '{"rules": []}')]):
             refused = run("fair", before, "-o", self.folder / "no.obj", "--fair-boundary", *option)

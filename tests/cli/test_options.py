@@ -21,7 +21,8 @@ class Idle(Case):
         super().setUp()
         held = json.dumps({"rules": [{"nodes": [0, 8, 16], "position": "fixed"}]})
         ball = json.dumps({"rules": [{"nodes": [0, 20, 40, 60], "position": "fixed"}]})
-        for name, text in {"grid.obj": grid(8), "ball.obj": support.sphere(5), "arc.csv": ARC, "ring.csv": RING, "helix.xyz": HELIX,
+        rim = json.dumps({"rules": [{"nodes": [0, 8, 72, 80], "position": "fixed"}]})
+        for name, text in {"grid.obj": grid(8), "rim.json": rim, "ball.obj": support.sphere(5), "arc.csv": ARC, "ring.csv": RING, "helix.xyz": HELIX,
                            "held.json": held, "ball.json": ball, "points.xyz": HELIX, "above.xyz": "0.3 0.4 0.3\n0.5 0.5 0.2\n",
                            "facing.xyz": "".join(f"0.{k} 0.5 0.1 0 0 1\n" for k in range(1, 9))}.items():
             self.write(name, text)
@@ -38,6 +39,7 @@ class Idle(Case):
         ring = "curve ring.csv --closed --constraints held.json"
         ball = "fair ball.obj --constraints ball.json"
         fit = "fit grid.obj --points above.xyz --weight 0.1"
+        rim = "fair grid.obj --fair-boundary --constraints rim.json"
         inside = " --region sphere:0.5,0.5,0,0.3"
         # The option, a command where it is idle, one where it is not, and a word of the reason.
         for option, idle, used, word in (
@@ -52,6 +54,7 @@ class Idle(Case):
             ("--tolerance 1e-4", "fair grid.obj --method multigrid", "fair grid.obj", "--method equilibrium"),
             ("--tolerance 1e-4", curve + " --paper", curve + " --paper --method equilibrium", "--method equilibrium"),
             ("--tolerance 1e-4", fit + " --paper", fit, "--method equilibrium"),
+            ("--tolerance 1e-4", rim + " --paper", rim + " --method sweep", "--method equilibrium"),
             ("--springs sphere", "fair grid.obj --method sweep", "fair grid.obj", "--method equilibrium"),
             ("--springs edge", "fair grid.obj --weight 0.1", "fair grid.obj", "without points"),
             ("--fair-by bending", "fair grid.obj --method multigrid", "fair grid.obj", "--method equilibrium"),
@@ -102,7 +105,7 @@ class Idle(Case):
         self.assertEqual(self.read_json("r.json")["warnings"], ["--levels has no effect here: it is for --method multigrid"])
 
     def test_one_option_in_place_of_another(self):
-        rules = self.write("rim.json", json.dumps({"rules": [{"nodes": [0, 8, 72, 80], "position": "fixed"}]}))
+        rules = self.folder / "rim.json"
         path = self.write("flat.obj", grid(8, lambda x, y: 0.1 * x * y))
         done = run("fair", path, "-o", self.folder / "out.obj", "--fair-boundary", "--constraints", rules, "--fix", "boundary",
                    "--method", "sweep", "--tolerance", "1e-3")

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <vector>
 
 #include "support/surfaces.hpp"
 #include "vspring/vspring.hpp"
@@ -29,6 +30,32 @@ TEST(SweepMethod, EndsWithTheBestShapeWhereNodesAreNoLongerFinite) {
     EXPECT_TRUE(result.lost);
     EXPECT_EQ(result.iterations, 21);
     for (const Vector3& position : net.positions) EXPECT_LT(position.cwiseAbs().maxCoeff(), 2);
+  }
+}
+
+TEST(SweepMethod, KeepsTheShapeOfTheLastIterationWhereThatIsAskedFor) {
+  const PolygonMesh plane = generate::plane({.columns = 12, .rows = 12});
+  const PolygonMesh bumpy = generate::add_noise(plane, 0.02, 1);
+  ThreadTeam team(1);
+  const auto model = surface_model(PseudoNormals::link);
+  for (const bool keep_last : {false, true}) {
+    Net net = gather_net(bumpy, support::held_boundary(bumpy));
+    std::vector<Vector3> last;
+    double last_residual = 0;
+    SweepTask task{.step_tolerance = 1e-12, .max_iterations = 22, .keep_last = keep_last};
+    int iterations = 0;
+    task.on_iteration = [&](double residual) {
+      if (++iterations == 20) net.positions[7].x() += 1;
+      last = net.positions;
+      last_residual = residual;
+    };
+    Context context;
+    const SweepResult result = sweep_until_still(net, *model, task, team, context);
+    EXPECT_EQ(result.outcome, Outcome::iteration_limit);
+    EXPECT_EQ(result.iterations, 22);
+    EXPECT_EQ(result.lost, !keep_last);
+    EXPECT_EQ(net.positions == last, keep_last);
+    EXPECT_EQ(result.residual == last_residual, keep_last);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <vector>
 
 #include "spring/curve_net.hpp"
@@ -66,34 +67,51 @@ TEST(PrintedForces, DoInFullWhatPointsAskFor) {
   EXPECT_NEAR(height(Forces::steady), 0.5 * 0.1 / 1.5, 1e-12);
 }
 
-TEST(PrintedForces, LeaveNodesInLineWithTheirNeighboursWhereTheyAre) {
-  const PolygonCurve bent(std::vector<Vector3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 1, 0}, {4, 1, 0}});
-  const auto moved = [&](Forces forces) {
-    Net net = gather_net(bent, held_ends(bent.positions()));
-    ThreadTeam team(1);
-    const auto model = curve_model_for(net, CurveRules::paper(), forces);
-    update_directions(net, *model, team);
-    std::vector<NodeForce> force(net.moving);
-    model->find_forces(net, {0, net.moving}, force);
-    std::vector<double> springs(5, 0);
-    for (std::size_t i = 0; i < net.moving; ++i)
-      springs[static_cast<std::size_t>(net.node[i])] = force[i].spring.norm() / net.frame.scale();
-    return springs;
-  };
-  EXPECT_EQ(moved(Forces::printed)[1], 0);
-  EXPECT_GT(moved(Forces::steady)[1], 0.01);
-  // Node 2 between node 1, which has no normal, and node 3, which faces the other way. Eq. 4 with N = 0 is the part of
-  // the edge along the own normal.
-  const Vector3 tangent = Vector3(2, 1, 0).normalized();
-  const Vector3 own(-tangent.y(), tangent.x(), 0);
-  const Vector3 next = Vector3(2, 1, 0).normalized();
-  const Vector3 other(-next.y(), next.x(), 0);
+/// How far springs push each node, in the paper's own choices for curves.
+std::vector<double> pushed(const PolygonCurve& curve, Forces forces) {
+  Net net = gather_net(curve, held_ends(curve.positions()));
+  ThreadTeam team(1);
+  const auto model = curve_model_for(net, CurveRules::paper(), forces);
+  update_directions(net, *model, team);
+  std::vector<NodeForce> force(net.moving);
+  model->find_forces(net, {0, net.moving}, force);
+  std::vector<double> springs(curve.positions().size(), 0);
+  for (std::size_t i = 0; i < net.moving; ++i)
+    springs[static_cast<std::size_t>(net.node[i])] = force[i].spring.norm() / net.frame.scale();
+  return springs;
+}
+
+/// The first node after a straight run, between node 1, whose normal is given here, and node 3.
+double between(const Vector3& own, const Vector3& first_normal, const Vector3& next_normal) {
   const Vector3 back(-1, 0, 0);
   const Vector3 ahead(1, 1, 0);
-  const double first = back.dot(own);
-  const double second = ahead.dot(own + other) / (1 + own.dot(other));
+  const auto difference = [&](const Vector3& d, const Vector3& other) {
+    const Vector3 turned = other.dot(own) < 0 ? Vector3(-other) : other;
+    return d.dot(own + turned) / (1 + own.dot(turned));
+  };
   const double weight = 1 / ahead.norm();
-  EXPECT_NEAR(moved(Forces::printed)[2], std::abs(first + weight * second) / (1 + weight), 1e-12);
+  return std::abs(difference(back, first_normal) + weight * difference(ahead, next_normal)) / (1 + weight);
+}
+
+TEST(PrintedForces, LeaveNodesOfSpaceCurvesInLineWithTheirNeighboursWhereTheyAre) {
+  const PolygonCurve bent(std::vector<Vector3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 1, 0}, {4, 1, 1}});
+  EXPECT_EQ(pushed(bent, Forces::printed)[1], 0);
+  // Eq. 4 with N = 0 at node 1 is the part of the edge along the own normal.
+  const Vector3 own = Vector3(-1, 2, 0).normalized();
+  const Vector3 next = Vector3(1, 1, 0).cross(Vector3(1, 0, 1)).cross(Vector3(2, 1, 1)).normalized();
+  EXPECT_NEAR(pushed(bent, Forces::printed)[2], between(own, Vector3::Zero(), next), 1e-12);
+  EXPECT_GT(std::abs(pushed(bent, Forces::steady)[2] - pushed(bent, Forces::printed)[2]), 1e-3);
+}
+
+TEST(PrintedForces, GiveNodesOfPlaneCurvesTheMeanNormalOfTheirEdges) {
+  const PolygonCurve bent(std::vector<Vector3>{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 1, 0}, {4, 1, 0}});
+  const Vector3 flat(0, 1, 0);
+  const Vector3 steep = Vector3(-1, 1, 0).normalized();
+  const Vector3 own = (flat + steep).normalized();
+  EXPECT_NEAR(pushed(bent, Forces::printed)[2], between(own, flat, own), 1e-12);
+  // Node 1 has nodes with the normals (0, 1) and (−sin 22.5°, cos 22.5°) at a distance of 1.
+  const Vector3 difference = own + flat;
+  EXPECT_NEAR(pushed(bent, Forces::printed)[1], std::abs(difference.x() / (1 + own.dot(flat))) / 2, 1e-12);
 }
 
 }  // namespace

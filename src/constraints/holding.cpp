@@ -17,6 +17,7 @@
 #include "base/disjoint_sets.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
 #include "shape/boundary.hpp"
+#include "shape/face_geometry.hpp"
 #include "shape/fan.hpp"
 #include "shape/frame.hpp"
 #include "shape/node_graph.hpp"
@@ -144,8 +145,8 @@ class Holding {
                        free_nodes, free_nodes == 1 ? " is" : "s are", first_free, free_nodes == 1 ? "it" : "them")});
   }
 
-  /// Spheres and planes a|x|² + b·x + c = 0 are fair. If the positions and normals that hold a part without boundary
-  /// leave more than one of them, they leave a family of shapes.
+  /// Spheres and planes a|x|² + b·x + c = 0 are fair. If the positions and normals that hold a part without boundary,
+  /// and the faces that it meets, leave more than one of them, they leave a family of shapes.
   void warn_of_families(std::vector<Warning>& warnings) {
     using System = Eigen::Matrix<double, 5, 5>;
     const auto& on_boundary = boundary().nodes();
@@ -193,10 +194,11 @@ class Holding {
         if (on_boundary[static_cast<std::size_t>(j)] != 0) bounded[k] = 1;
         const Vector3 p = frame.to_local(constraints_.position(j));
         add_place(k, p);
-        if (!constraints_.normal_fixed(j)) continue;
+        const Vector3 normal = constraints_.normal_fixed(j) ? constraints_.normal(j) : normal_of_held_faces(j);
+        if (normal.isZero(0)) continue;
         // The gradient 2a p + b is along the normal: nothing of it lies across.
-        const Vector3 across = constraints_.normal(j).unitOrthogonal();
-        for (const Vector3& t : {across, Vector3(constraints_.normal(j).cross(across))}) add(k, 2 * p.dot(t), t, 0);
+        const Vector3 across = normal.unitOrthogonal();
+        for (const Vector3& t : {across, Vector3(normal.cross(across))}) add(k, 2 * p.dot(t), t, 0);
       }
     }
     std::size_t loose = 0;
@@ -216,6 +218,17 @@ class Holding {
   }
 
  private:
+  /// Of what the shape goes on in beyond a held node, about; zero where nothing does.
+  [[nodiscard]] Vector3 normal_of_held_faces(Index node) const {
+    Vector3 sum = Vector3::Zero();
+    for (const auto& corner : incidence_.corners(node)) {
+      const auto face = mesh_.face(corner.face);
+      if (std::all_of(face.begin(), face.end(), [&](Index i) { return constraints_.position_fixed(i); }))
+        sum += twice_vector_area(face, mesh_.positions());
+    }
+    return sum.squaredNorm() > 0 && sum.allFinite() ? sum.normalized() : Vector3(Vector3::Zero());
+  }
+
   static void look(Index step) { end_if_cancelled_at(static_cast<std::size_t>(step)); }
 
   [[nodiscard]] bool is_lost(Index i) const {

@@ -219,7 +219,7 @@ SurfaceFile read_binary(InputFile file) {
   const std::size_t promised = promised_size(file.bytes);
   if (promised == 0) file.refuse("it is too short for STL; choose another file");
   const std::size_t facets = (promised - facets_begin) / facet_size;
-  if (promised != file.bytes.size())
+  if (promised > file.bytes.size())
     file.refuse(fmt::format("{} triangles are promised, which take {} bytes, but it has {}; it is cut off, or not STL",
                             facets, promised, file.bytes.size()));
   if (facets == 0) file.refuse("it has no triangles; choose the file of a surface");
@@ -239,9 +239,15 @@ SurfaceFile read_binary(InputFile file) {
   const std::string_view header(file.bytes.data(), header_size);
   if (header.find_first_not_of(std::string_view("\0 ", 2)) != std::string_view::npos)
     carried.insert("the header's text");
+  const std::size_t behind = file.bytes.size() - promised;
+  if (behind > 0) carried.insert("bytes behind the triangles");
   auto source = std::make_shared<StlSource>();
   source->carried.assign(carried.begin(), carried.end());
-  return list.take(std::move(file), std::move(source));
+  SurfaceFile surface = list.take(std::move(file), std::move(source));
+  if (behind > 0)
+    surface.warnings.push_back(fmt::format("{}: {} bytes come behind the {} triangles; they are kept and not looked at",
+                                           surface.source->file.name, behind, facets));
+  return surface;
 }
 
 bool same_word(std::string_view word, std::string_view wanted) {
@@ -263,13 +269,40 @@ class StlText {
   static constexpr std::size_t bytes_per_facet = 120;
 
   void expect(const char* wanted);
+  /// "endloop" or "end loop", and so on.
+  void expect_end(const std::string& of);
+  /// "color" and what else is in its line.
+  void skip_colours();
   Vector3 vector();
   void read_facet();
 
   TextCursor cursor_;
   Facets facets_;
   std::shared_ptr<StlSource> source_;
+  bool coloured_ = false;
 };
+
+void StlText::expect_end(const std::string& of) {
+  cursor_.skip_space();
+  TextCursor ahead = cursor_;
+  if (!same_word(ahead.word(), "end")) {
+    expect(("end" + of).c_str());
+    return;
+  }
+  cursor_ = ahead;
+  expect(of.c_str());
+}
+
+void StlText::skip_colours() {
+  for (;;) {
+    cursor_.skip_space();
+    TextCursor ahead = cursor_;
+    const std::string_view word = ahead.word();
+    if (!same_word(word, "color") && !same_word(word, "colour")) return;
+    coloured_ = true;
+    cursor_.skip_to_line_end();
+  }
+}
 
 void StlText::expect(const char* wanted) {
   cursor_.skip_space();
@@ -299,8 +332,9 @@ void StlText::read_facet() {
     expect("vertex");
     facets_.add_corner(vector());
   }
-  expect("endloop");
-  expect("endfacet");
+  expect_end("loop");
+  skip_colours();
+  expect_end("facet");
 }
 
 void StlText::read() {
@@ -311,10 +345,10 @@ void StlText::read() {
     named = named || !cursor_.at_line_end();
     cursor_.skip_to_line_end();
     for (;;) {
-      cursor_.skip_space();
+      skip_colours();
       TextCursor ahead = cursor_;
       const std::string_view word = ahead.word();
-      if (same_word(word, "endsolid")) break;
+      if (same_word(word, "endsolid") || same_word(word, "end")) break;
       if (!same_word(word, "facet")) cursor_.refuse_word("'facet' or 'endsolid'");
       cursor_ = ahead;
       read_facet();
@@ -324,6 +358,7 @@ void StlText::read() {
   } while (!cursor_.at_end());
   if (facets_.count() == 0) cursor_.file().refuse("it has no triangles; choose the file of a surface");
   if (named) source_->carried.emplace_back("names of solids");
+  if (coloured_) source_->carried.emplace_back("colours");
   source_->carried.emplace_back("normals of triangles");
 }
 

@@ -104,6 +104,30 @@ TEST(Constraints, WhatLeavesAFamilyOfShapesIsWarnedOf) {
   EXPECT_EQ(warnings(2, 2), 0U);
 }
 
+TEST(Constraints, FacesBeyondARimFixTheSphereThatARegionIsOf) {
+  PolygonMesh ball = generate::genus({.holes = 0, .cells = 6});
+  std::vector<Vector3> places = ball.positions();
+  for (Vector3& place : places) place.normalize();
+  ball.set_positions(places);
+  std::vector<Index> cap;
+  for (Index i = 0; i < ball.node_count(); ++i) {
+    if (ball.position(i).z() > 0.6) cap.push_back(i);
+  }
+  Constraints region(ball.node_count());
+  restrict_to_region(region, ball, cap);
+  EXPECT_TRUE(check_constraints(ball, region).empty());
+  // Nodes of a circle alone, with nothing held beside them, leave the spheres through it.
+  Constraints circle(ball.node_count());
+  Index held = 0;
+  for (Index i = 0; i < ball.node_count(); ++i) {
+    if (std::abs(ball.position(i).z()) > 1e-9) continue;
+    circle.fix_position(i, ball.position(i));
+    ++held;
+  }
+  ASSERT_GT(held, 10);
+  EXPECT_EQ(check_constraints(ball, circle).size(), 1U);
+}
+
 TEST(Constraints, AClosedSurfaceHeldAtOneNodeEndsInOneOfTheFamily) {
   const PolygonMesh block = generate::genus({.holes = 0, .cells = 4});
   Constraints constraints(block.node_count());

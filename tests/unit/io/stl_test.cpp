@@ -94,6 +94,31 @@ TEST_F(StlFile, KeepsTextAsItIsButForMovedNodes) {
   EXPECT_EQ(get("out.stl"), text("0 0 1", "0 2 0"));
 }
 
+TEST_F(StlFile, TakesWordsThatStandApartAndColours) {
+  const auto text = [](const std::string& top) {
+    return "solid part\ncolor 0.5 0.5 0.5\nfacet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\n"
+           "end loop\nend facet\nCOLOR 1 0 0\nfacet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex " +
+           top + "\nendloop\ncolour 3\nendfacet\nend solid part\n";
+  };
+  const SurfaceFile surface = read(text("0 0 1"));
+  EXPECT_EQ(surface.mesh.corners(), (std::vector<Index>{0, 1, 2, 0, 2, 3}));
+  std::vector<Vector3> positions = surface.mesh.positions();
+  positions[3] = {0, 0, 2};
+  write_surface(path("out.stl"), surface, positions);
+  EXPECT_EQ(get("out.stl"), text("0 0 2"));
+}
+
+TEST_F(StlFile, KeepsBytesBehindTheTriangles) {
+  const std::string before = binary("header", tetrahedron(d)) + "made by somebody";
+  const SurfaceFile surface = read(before);
+  EXPECT_EQ(surface.mesh.face_count(), 4);
+  EXPECT_NE(surface.warnings.back().find("16 bytes come behind the 5 triangles"), std::string::npos);
+  std::vector<Vector3> positions = surface.mesh.positions();
+  positions[3] = {0, 0, 2};
+  write_surface(path("out.stl"), surface, positions);
+  EXPECT_EQ(get("out.stl"), binary("header", tetrahedron({0, 0, 2})) + "made by somebody");
+}
+
 TEST_F(StlFile, WeldsAGridOfAnySize) {
   for (const Index side : {1, 7, 60}) {
     std::vector<Facet> facets;

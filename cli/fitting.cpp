@@ -109,7 +109,9 @@ void settle_moving(PullArguments& arguments, const CurveFile& file) {
 void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise, bool is_curve) {
   if (!(noise.deviation > 0))
     throw Error(ErrorCode::unusable_shape,
-                arguments.automatic + " auto: this shape has no noise, or too few nodes to tell; give a number");
+                arguments.automatic +
+                    " auto: this shape has no noise that its numbers show, or too few nodes to tell; give "
+                    "a number, or smooth by a length (--smoothing-length)");
   arguments.estimate = noise;
   if (noise.voxel) {
     arguments.voxels = noise.voxel;

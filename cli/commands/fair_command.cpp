@@ -13,6 +13,7 @@
 #include "fitting.hpp"
 #include "holding.hpp"
 #include "outputs.hpp"
+#include "precision.hpp"
 #include "terminal.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
@@ -61,8 +62,10 @@ int run_fair(FairArguments arguments) {
   const FairedOrFitted done =
       fair_or_fit(mesh, constraints, welding.weights(), arguments, arguments.pull, fairing.context());
   const FairReport& report = done.faired.report;
+  std::vector<std::string> warnings = file.warnings;
   PolygonMesh after = mesh;
   after.set_positions(done.faired.positions);
+  if (is_written_single(arguments.output, file, arguments.format)) round_to_single(after, warnings);
 
   const auto write = [&] {
     return written_without(arguments.output, write_surface(arguments.output, file,
@@ -71,7 +74,7 @@ int run_fair(FairArguments arguments) {
   auto figures = done.figures();
   figures.update(welding.figures());
   return fairing.finish<PolygonMesh>(
-      {mesh, after, constraints, report}, mesh.positions(), welding.with_warnings(file.warnings),
+      {mesh, after, constraints, report}, mesh.positions(), welding.with_warnings(std::move(warnings)),
       {.write = write,
        .picture = {},
        .welding = &welding,

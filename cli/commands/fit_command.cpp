@@ -21,6 +21,7 @@
 #include "framing.hpp"
 #include "holding.hpp"
 #include "outputs.hpp"
+#include "precision.hpp"
 #include "terminal.hpp"
 #include "vspring/vspring.hpp"
 #include "welding.hpp"
@@ -89,6 +90,10 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   closed.follow(result.positions);
   Shape after = shape;
   after.set_positions(result.positions);
+  if constexpr (std::is_same_v<Shape, PolygonMesh>) {
+    if (is_written_single(arguments.output, file, format_as<SurfaceFormat>(arguments.format)))
+      round_to_single(after, warnings);
+  }
   const std::vector<Vector3> nodes = welding.positions(result.positions);
 
   // Where they were not measured as a time limit came they are now, once, unless somebody waits for the end.

@@ -82,4 +82,9 @@ void write_surface(const std::string& path, const PolygonMesh& mesh,
 [[nodiscard]] FileBytes surface_bytes(const std::string& name, const PolygonMesh& mesh,
                                       std::optional<SurfaceFormat> format = std::nullopt);
 
+/// Whether coordinates of nodes that moved are in single precision in what write_surface() writes: in binary STL, and
+/// where the source's own format has them so. Cost: constant.
+[[nodiscard]] bool is_written_single(const std::string& name, const SurfaceFile& surface,
+                                     std::optional<SurfaceFormat> format = std::nullopt);
+
 }  // namespace vspring

@@ -50,6 +50,8 @@ constexpr std::size_t most_neighbours = 2 * most_faces;
 constexpr double least_pivot = 1e-5;
 constexpr std::size_t places_per_task = 256;
 constexpr double three_deviations = 0.0027;
+// Of the greatest coordinate.
+constexpr double last_digits = 16 * std::numeric_limits<double>::epsilon();
 // A square over the variance of what is spread evenly over its side.
 constexpr double deviations_of_step = 12;
 // Beyond what any number of nodes leads to.
@@ -194,6 +196,15 @@ double greater_by_slopes(std::span<const Index> nodes, const std::vector<Vector3
   return std::sqrt(squares / static_cast<double>(nodes.size()));
 }
 
+/// What is less than the last digits of coordinates tell is no noise.
+void forget_rounding(NoiseEstimate& noise, const std::vector<Vector3>& positions) {
+  double greatest = 0;
+  for (const Vector3& position : positions) {
+    if (position.allFinite()) greatest = std::max(greatest, position.cwiseAbs().maxCoeff());
+  }
+  if (noise.deviation < last_digits * greatest) noise.deviation = noise.edges = 0;
+}
+
 }  // namespace
 
 NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
@@ -239,6 +250,7 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
     noise.edges *= noise.deviation > 0 ? deviation / noise.deviation : 0;
     noise.deviation = deviation;
   }
+  forget_rounding(noise, mesh.positions());
   return noise;
 }
 
@@ -279,6 +291,7 @@ NoiseEstimate estimate_noise(const PolygonCurve& curve) {
   }
   NoiseEstimate estimate = summary(std::move(found), std::move(edges), 0);
   estimate.directions = heights;
+  forget_rounding(estimate, curve.positions());
   return estimate;
 }
 

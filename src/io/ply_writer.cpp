@@ -124,6 +124,10 @@ std::string PlySource::with_plain_data(const std::vector<Vector3>& new_positions
   return out;
 }
 
+bool PlySource::has_single_precision() const {
+  return !any_whole(0) && node_element().properties[static_cast<std::size_t>(fields[0])].type == PlyType::float32;
+}
+
 std::string PlySource::rewritten(Rewrite& rewrite) const {
   if (is_plain) return with_plain_data(rewrite.positions);
   const SurfaceFile& surface = rewrite.surface;

@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <cctype>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <set>
@@ -47,6 +48,7 @@ Vector3 facet_normal(const Vector3& a, const Vector3& b, const Vector3& c) {
 class StlSource : public SurfaceSource {
  public:
   [[nodiscard]] std::string rewritten(Rewrite& rewrite) const override;
+  [[nodiscard]] bool has_single_precision() const override { return rows.empty(); }
 
   std::vector<Index> corner_nodes;  ///< three per facet, those that are no faces among them
   std::vector<std::size_t> rows;    ///< text: offset of the first number of each facet's normal
@@ -396,8 +398,13 @@ std::string fresh_stl(const PolygonMesh& mesh, std::span<const Vector3> position
   std::vector<std::uint8_t> used(positions.size(), 0);
   for (const Index node : mesh.corners()) used[node] = 1;
   if (std::find(used.begin(), used.end(), 0) != used.end()) losses.emplace_back("nodes that no face uses");
-  if (std::any_of(positions.begin(), positions.end(), [](const Vector3& position) {
-        return position.allFinite() && position != position.cast<float>().cast<double>();
+  const auto is_single = [](double value) {
+    // g++ 12 takes a cast to float and back for nothing where it vectorises.
+    const volatile float single = static_cast<float>(value);
+    return !std::isfinite(value) || value == single;
+  };
+  if (!std::all_of(positions.begin(), positions.end(), [&](const Vector3& position) {
+        return is_single(position.x()) && is_single(position.y()) && is_single(position.z());
       }))
     losses.emplace_back("precision beyond single");
 

@@ -92,6 +92,12 @@ FileBytes surface_bytes(const std::string& name, const SurfaceFile& surface, con
   return file;
 }
 
+bool is_written_single(const std::string& name, const SurfaceFile& surface, std::optional<SurfaceFormat> format) {
+  const SurfaceFormat target = surface_formats.to_write(name, format, surface.format);
+  if (surface.source && target == surface.format) return surface.source->has_single_precision();
+  return target == SurfaceFormat::stl;
+}
+
 FileBytes surface_bytes(const std::string& name, const PolygonMesh& mesh, std::optional<SurfaceFormat> format) {
   const SurfaceFormat target = surface_formats.to_write(name, format, std::nullopt);
   for (Index node = 0; node < mesh.node_count(); ++node) {

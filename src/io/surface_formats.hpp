@@ -30,6 +30,8 @@ class SurfaceSource {
 
   /// The bytes with other positions, and with normals computed anew where nodes moved. Cost: linear.
   [[nodiscard]] virtual std::string rewritten(Rewrite& rewrite) const = 0;
+  /// Whether coordinates of nodes that move are written so.
+  [[nodiscard]] virtual bool has_single_precision() const { return false; }
 
   InputFile file;
   PolygonMesh mesh;                  ///< as the file gives it

@@ -1,4 +1,5 @@
 """Every command in README.md and docs/ runs, options that they name are options, and links lead somewhere."""
+import itertools
 import json
 import math
 import os
@@ -50,6 +51,21 @@ def soup(cells):
     return text
 
 
+def voxels(radius):
+    """The sides of those whose middles are in a ball."""
+    inside = lambda at: sum((x + 0.5) ** 2 for x in at) < radius ** 2
+    nodes, faces = {}, []
+    for at in itertools.product(range(-radius, radius), repeat=3):
+        for axis, side in itertools.product(range(3), (0, 1)):
+            beside = [x + (k == axis) * (2 * side - 1) for k, x in enumerate(at)]
+            if not inside(at) or inside(beside):
+                continue
+            corners = [tuple(x + (side if k == axis else (u if k == (axis + 1) % 3 else v)) for k, x in enumerate(at))
+                       for u, v in ((0, 0), (1, 0), (1, 1), (0, 1))]
+            faces.append([nodes.setdefault(corner, len(nodes) + 1) for corner in (corners if side else corners[::-1])])
+    return "".join(f"v {x} {y} {z}\n" for x, y, z in nodes) + "".join(f"f {' '.join(map(str, face))}\n" for face in faces)
+
+
 # Files that a reader would have: arguments of `vspring generate`, an example, or a text.
 STAND_INS = {
     "part.ply": "saddle --columns 12 --rows 12 --noise 0.02",
@@ -70,6 +86,7 @@ STAND_INS = {
     "log.csv": lambda: "time,lat,lon\n" + "".join(f"{k},{a!r},{b!r}\n" for k, (a, b) in enumerate(track(60, 3))),
     "cloud.csv": lambda: "".join(sorted(f"{math.sin(7 * k):.3f},{k + 0.01 * math.cos(11 * k):.3f}\n" for k in (j / 40 for j in range(41)))),
     "soup.obj": lambda: soup(8),
+    "mask.obj": lambda: voxels(5),
     "rules.json": lambda: rules(nodes="boundary"),
     "held.json": lambda: rules(nodes=[0, 10, 20, 30]),
 }

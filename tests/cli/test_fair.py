@@ -45,6 +45,22 @@ class Fair(Case):
         self.assertLess(after["vspring_energy"], before["vspring_energy"])
         self.assertLess(after["greatest_turn"], before["greatest_turn"])
 
+    def test_figures_are_of_what_a_file_in_single_precision_holds(self):
+        nodes = [[float(x) for x in line.split()[1:4]] for line in hat().splitlines() if line.startswith("v ")]
+        faces = [[int(corner.split("/")[0]) - 1 for corner in line.split()[1:]] for line in hat().splitlines() if line.startswith("f ")]
+        rows = [f"{x + 3e4!r} {y + 4e5!r} {z!r}" for x, y, z in nodes] + [" ".join(map(str, [len(face), *face])) for face in faces]
+        header = lambda kind: (f"ply\nformat ascii 1.0\nelement vertex {len(nodes)}\n"
+                               + "".join(f"property {kind} {axis}\n" for axis in "xyz")
+                               + f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+        for kind, is_rounded in (("float", True), ("double", False)):
+            path = self.write(f"{kind}.ply", header(kind) + "\n".join(rows) + "\n")
+            done = run("fair", path, "-o", self.folder / "out.ply", "--report", self.folder / "report.json")
+            self.assertEqual(b"the file has single precision, which moves nodes by up to" in done.stderr, is_rounded)
+            run("measure", self.folder / "out.ply", "--report", self.folder / "measured.json")
+            for figure in ("greatest_turn", "rms_turn"):
+                self.assertAlmostEqual(self.read_json("report.json")["fairness"]["after"][figure],
+                                       self.read_json("measured.json")["figures"][figure], 4)
+
     def test_standard_input_and_output(self):
         result = run("fair", "-", "-o", "-", "--quiet", stdin=hat().encode())
         self.assertEqual(result.returncode, 0)

@@ -47,7 +47,7 @@ std::vector<Case> cases() {
       {"a.csv", "0.5;1\n2.5;3\n4,5;6\n", ":3: '4,5' stands where x belongs; write decimal points, not commas"},
       {"a.csv", "0,5;1\n2,5;3\n4.5;6\n", ":3: '4.5' stands where x belongs; write a decimal comma, as other rows do"},
       {"a.csv", "0,5;1\n1.234,5;6\n", ":2: '1.234,5' stands where x belongs; repair the line"},
-      {"a.csv", "no,east,north\n1,0,0\n2,1,0\n3,1,1\n",
+      {"a.csv", "no,right,forward\n1,0,0\n2,1,0\n3,1,1\n",
        ":1: column 1 counts rows and no columns are named x and y, so columns 1, 2, 3 cannot be told apart; name them "
        "x, y "
        "and z, or choose columns, such as 2,3"},

@@ -90,7 +90,7 @@ TEST_F(PointFile, CsvColumnsAreNamedWithUnitsOrChosen) {
     EXPECT_TRUE(chosen.weights.empty());
   }
   // What is no coordinate by its name is not guessed to be one.
-  const ScatteredPoints guessed = read("a.csv", "east,weight,north,up\n1,7,2,3\n4,7,5,6\n");
+  const ScatteredPoints guessed = read("a.csv", "right,weight,forward,height\n1,7,2,3\n4,7,5,6\n");
   EXPECT_EQ(guessed.positions, expected);
   ASSERT_EQ(guessed.warnings.size(), 1U);
   EXPECT_NE(guessed.warnings[0].find("taken are columns 1 and 3 and 4"), std::string::npos);

@@ -1,0 +1,52 @@
+#include "precision.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace vspring::cli {
+
+namespace {
+
+// Of the mean edge: what turns by less than about a degree.
+constexpr double unseen = 0.01;
+
+double mean_edge(const PolygonMesh& mesh) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t k = 0; k < face.size(); ++k, ++count)
+      sum += (mesh.position(face[(k + 1) % face.size()]) - mesh.position(face[k])).norm();
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+}  // namespace
+
+void round_to_single(PolygonMesh& shape, std::vector<std::string>& warnings) {
+  std::vector<Vector3> positions = shape.positions();
+  double greatest = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    Vector3 rounded;
+    for (int k = 0; k < 3; ++k) {
+      // So that it is: g++ 12 takes a cast to float and back for nothing where it vectorises.
+      const volatile float single = static_cast<float>(positions[i][k]);
+      rounded[k] = single;
+    }
+    // What does not fit is refused where it is written.
+    if (!rounded.allFinite()) return;
+    greatest = std::max(greatest, (rounded - positions[i]).norm());
+    positions[i] = rounded;
+  }
+  shape.set_positions(std::move(positions));
+  const double edge = mean_edge(shape);
+  if (!(greatest > unseen * edge)) return;
+  warnings.push_back(
+      fmt::format("the file has single precision, which moves nodes by up to {:.3g} units, {:.2g} of the mean edge; "
+                  "write .obj, or take an offset off all coordinates first",
+                  greatest, greatest / edge));
+}
+
+}  // namespace vspring::cli

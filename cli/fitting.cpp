@@ -51,8 +51,11 @@ FairingMethod method_of(const FairingArguments& arguments) {
       break;
   }
   // The paper's equations are for comparison.
-  return EquilibriumMethod{
-      .tolerance = arguments.tolerance, .max_iterations = arguments.max_iterations, .fallbacks = !arguments.paper};
+  EquilibriumMethod equilibrium;
+  equilibrium.tolerance = arguments.tolerance;
+  equilibrium.max_iterations = arguments.max_iterations;
+  equilibrium.fallbacks = !arguments.paper;
+  return equilibrium;
 }
 
 /// Where nodes go along the shape unless the command says otherwise.

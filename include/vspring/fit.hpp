@@ -61,8 +61,8 @@ struct Noise {
 
 /// Surfaces of voxels of this size along x, y and z, whose own nodes are the points: takes their steps off. The fairest
 /// surface for a smoothing length of two voxels (the cube root of their volume), with more weight on nodes that would
-/// go further than half a voxel across it; so no node does. The volume stays where the surface is closed and all of it
-/// moves. See voxel_size(). Cost: up to six times that of SmoothingLength.
+/// go further than half a voxel across it; so no node does. The volume stays where the surface is closed. See
+/// voxel_size(). Cost: up to six times that of SmoothingLength.
 struct Voxels {
   Vector3 size;
 };

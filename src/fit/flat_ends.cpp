@@ -18,8 +18,8 @@ namespace {
 
 // In half voxels: how far down the surface goes, by how much less or more, and how far aside of the rim it may then be,
 // which is half of that, too.
-constexpr std::int64_t depth = 6;
-constexpr std::int64_t spare = 1;
+constexpr std::int64_t depth_of_end = 6;
+constexpr std::int64_t more_or_less = 1;
 constexpr std::int64_t most_aside = 3;
 constexpr double aside_of_depth = 0.5;
 constexpr double least_share_of_rim = 0.8;
@@ -128,13 +128,14 @@ class FlatEnds {
     const std::size_t u = (axis + 1) % 3;
     const std::size_t v = (axis + 2) % 3;
     const auto aside_along = [&](std::size_t across) {
-      const double most = aside_of_depth * depth * size_[static_cast<int>(axis)] / size_[static_cast<int>(across)];
+      const double most =
+          aside_of_depth * depth_of_end * size_[static_cast<int>(axis)] / size_[static_cast<int>(across)];
       return std::clamp<std::int64_t>(std::llround(most), 1, most_aside);
     };
     const std::int64_t aside_u = aside_along(u);
     const std::int64_t aside_v = aside_along(v);
     Cell at = rim;
-    for (std::int64_t down = depth - spare; down <= depth + spare; ++down) {
+    for (std::int64_t down = depth_of_end - more_or_less; down <= depth_of_end + more_or_less; ++down) {
       at[axis] = rim[axis] - plane.sign * down;
       for (at[u] = rim[u] - aside_u; at[u] <= rim[u] + aside_u; ++at[u]) {
         for (at[v] = rim[v] - aside_v; at[v] <= rim[v] + aside_v; ++at[v]) {

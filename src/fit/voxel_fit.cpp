@@ -4,6 +4,7 @@
 #include "fit/voxel_fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -11,6 +12,8 @@
 #include <variant>
 #include <vector>
 
+#include "constraints/holding.hpp"
+#include "constraints/immovable_nodes_fixed.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/flat_ends.hpp"
 #include "shape/face_geometry.hpp"
@@ -31,11 +34,23 @@ constexpr double weight_of_flat = 30;
 constexpr int turns_of_volume = 4;
 // Of the area: the sum of a closed surface's area vectors.
 constexpr double closed_share = 1e-9;
+// Of the area, that goes along where the volume is put back.
+constexpr double least_share_of_area = 0.05;
+// Of cosines.
+constexpr double unseen = 1e-9;
 
 class VoxelFit {
  public:
   VoxelFit(const PolygonMesh& mesh, const Constraints& constraints, Vector3 size)
-      : mesh_(mesh), constraints_(constraints), size_(std::move(size)), flat_(nodes_of_flat_ends(mesh, size_)) {}
+      : mesh_(mesh), constraints_(constraints), size_(std::move(size)), flat_(nodes_of_flat_ends(mesh, size_)) {
+    stays_ = flat_;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      const auto face = mesh.face(f);
+      if (std::none_of(face.begin(), face.end(), [&](Index node) { return constraints.position_fixed(node); }))
+        continue;
+      for (const Index node : face) stays_[static_cast<std::size_t>(node)] = 1;
+    }
+  }
 
   void weigh_flat_ends(std::vector<double>& weights) const {
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] *= flat_[i] != 0 ? weight_of_flat : 1;
@@ -62,12 +77,12 @@ class VoxelFit {
     return sums;
   }
 
-  /// Where all moves, the volume is put back; and what went further than half a voxel comes back to that.
+  /// Of a closed surface the volume is put back; and what went further than half a voxel comes back to that.
   void finish(std::vector<Vector3>& positions) const {
     for (int turn = 0; turn < turns_of_volume; ++turn) {
       const std::vector<Vector3> across = normals(positions);
       const double offset = offset_for_volume(positions, across);
-      for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += (flat_[i] != 0 ? 0 : offset) * across[i];
+      for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += (stays_[i] != 0 ? 0 : offset) * across[i];
       const std::vector<double> shares = shares_of_half(positions, across);
       for (std::size_t i = 0; i < positions.size(); ++i) {
         if (constraints_.position_fixed(static_cast<Index>(i)) || std::abs(shares[i]) <= 1) continue;
@@ -81,8 +96,7 @@ class VoxelFit {
     return (flat_[node] != 0 ? share_of_flat : 1) * normal.cwiseAbs().dot(size_) / 2;
   }
 
-  /// Along all normals but those of flat ends, for the volume that was there; 0 where the surface is open or some of it
-  /// is held.
+  /// Along normals, for the volume that was there; 0 where the surface is open or nearly all of it stays.
   [[nodiscard]] double offset_for_volume(const std::vector<Vector3>& positions,
                                          const std::vector<Vector3>& across) const {
     double volume = 0;
@@ -103,20 +117,73 @@ class VoxelFit {
       closed += now;
       volume += cone(face, mesh_.positions(), before) - cone(face, positions, now);
       for (const Index node : face) {
-        if (constraints_.position_fixed(node)) return 0;
         const double share = across[static_cast<std::size_t>(node)].dot(now) / (2 * static_cast<double>(face.size()));
         whole += share;
-        area += flat_[static_cast<std::size_t>(node)] != 0 ? 0 : share;
+        area += stays_[static_cast<std::size_t>(node)] != 0 ? 0 : share;
       }
     }
     const bool is_closed = closed.norm() <= closed_share * whole;
-    return is_closed && area > 0 ? volume / area : 0;
+    return is_closed && area > least_share_of_area * whole ? volume / area : 0;
   }
 
   const PolygonMesh& mesh_;
   const Constraints& constraints_;
   Vector3 size_;
   std::vector<std::uint8_t> flat_;
+  std::vector<std::uint8_t> stays_;  // where the volume is put back: those, and what is held with what is next to it
+};
+
+/// Edges between two faces, and which way these looked at first.
+class Turns {
+ public:
+  explicit Turns(const PolygonMesh& mesh) : mesh_(mesh) {
+    std::vector<std::array<Index, 3>> sides;
+    for (Index f = 0; f < mesh.face_count(); ++f) {
+      const auto face = mesh.face(f);
+      for (std::size_t k = 0; k < face.size(); ++k) {
+        const auto [low, high] = std::minmax(face[k], face[(k + 1) % face.size()]);
+        sides.push_back({low, high, f});
+      }
+    }
+    std::sort(sides.begin(), sides.end());
+    for (std::size_t k = 1; k < sides.size(); ++k) {
+      if (sides[k][0] == sides[k - 1][0] && sides[k][1] == sides[k - 1][1])
+        pairs_.push_back({sides[k - 1][2], sides[k][2], 0});
+    }
+    for (Pair& pair : pairs_) pair.cosine = cosine(pair, mesh.positions());
+  }
+
+  /// Where an edge turns by more than a right angle, and did not before, nodes of its faces go back to where they were,
+  /// until none does.
+  void take_back(std::vector<Vector3>& positions) const {
+    for (bool any = true; any;) {
+      any = false;
+      for (const Pair& pair : pairs_) {
+        if (!(cosine(pair, positions) < std::min(pair.cosine, 0.0) - unseen)) continue;
+        for (const Index face : {pair.first, pair.second}) {
+          for (const Index node : mesh_.face(face)) {
+            const auto i = static_cast<std::size_t>(node);
+            any = any || positions[i] != mesh_.positions()[i];
+            positions[i] = mesh_.positions()[i];
+          }
+        }
+      }
+    }
+  }
+
+ private:
+  struct Pair {
+    Index first;
+    Index second;
+    double cosine;
+  };
+
+  [[nodiscard]] double cosine(const Pair& pair, const std::vector<Vector3>& at) const {
+    return unit_normal(mesh_.face(pair.first), at).dot(unit_normal(mesh_.face(pair.second), at));
+  }
+
+  const PolygonMesh& mesh_;
+  std::vector<Pair> pairs_;
 };
 
 /// What changes in the report where nodes have moved once more.
@@ -142,15 +209,23 @@ void measure_again(const PolygonMesh& mesh, const Constraints& constraints, FitR
   report.fair.rms_move = std::sqrt(squares / std::max<double>(1, report.fair.moving_nodes));
 }
 
-}  // namespace
+/// Where parts touch nodes cannot move. Those of the faces around them stay as well, or edges there would turn further.
+Constraints with_rings_held(const PolygonMesh& mesh, const Constraints& given, const Constraints& held) {
+  Constraints result = held;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    const auto is_stuck = [&](Index node) { return held.position_fixed(node) && !given.position_fixed(node); };
+    if (std::none_of(face.begin(), face.end(), is_stuck)) continue;
+    for (const Index node : face) {
+      if (!held.position_fixed(node)) result.fix_position(node, mesh.position(node));
+    }
+  }
+  return result;
+}
 
-FitResult fit_voxels(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
-                     const FitOptions& options, Context& context) {
+FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                         const FitOptions& options, Context& context) {
   const Vector3 size = std::get<Voxels>(options.criterion).size;
-  if (points.positions != mesh.positions())
-    throw Error(ErrorCode::invalid_argument,
-                "steps of voxels can be taken off only where the points are the nodes of the surface; take a smoothing "
-                "length for others");
   const VoxelFit voxels(mesh, constraints, size);
   FitOptions smooth = options;
   smooth.criterion = SmoothingLength{smoothing_in_voxels * std::cbrt(size.prod())};
@@ -175,8 +250,25 @@ FitResult fit_voxels(const PolygonMesh& mesh, const Constraints& constraints, co
   }
   if (found.report.fair.outcome != Outcome::converged) return found;
   voxels.finish(found.positions);
+  Turns(mesh).take_back(found.positions);
   measure_again(mesh, constraints, found, context.threads);
   return found;
+}
+
+}  // namespace
+
+FitResult fit_voxels(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                     const FitOptions& options, Context& context) {
+  if (points.positions != mesh.positions())
+    throw Error(ErrorCode::invalid_argument,
+                "steps of voxels can be taken off only where the points are the nodes of the surface; take a smoothing "
+                "length for others");
+  const auto fit_held = [&](const Constraints& held) {
+    (void)check_constraints(mesh, held, std::vector<std::uint8_t>(mesh.positions().size(), 1));
+    return take_steps_off(mesh, with_rings_held(mesh, constraints, held), points, options, context);
+  };
+  return ImmovableNodesFixed(mesh).run(
+      constraints, fit_held, [](FitResult & fitted) -> auto& { return fitted.report.fair.warnings; });
 }
 
 }  // namespace vspring

@@ -19,10 +19,10 @@ class CurveDescent {
   /// task: has to outlive it.
   explicit CurveDescent(const CurveFitTask& task);
 
-  CurveFound found;
   double data_weight = 0;
-  bool has_sides = false;   ///< between corners, within a tolerance: these bend least
   double nothing_left = 0;  ///< energy of sides that are as good as straight
+  bool has_sides = false;   ///< between corners, within a tolerance: these bend least
+  CurveFound found;
 
   /// To be called when the curve has got new nodes. grid: how often that was before.
   void begin_grid(int grid);
@@ -73,13 +73,10 @@ class CurveDescent {
 
   const CurveFitTask& task_;
   Vector3 plane_;
-  bool springs_;  ///< and no least change of curvature
   std::vector<double> weights_;
   std::vector<PolylineBound> between_;
   std::vector<Bounded> bounded_;
-  bool gives_way_ = false;  ///< whether a bound does
   double damping_ = 0;
-  bool ahead_ = true;     ///< corners go across the edges after them
   std::size_t work_ = 0;  ///< nodes, each for every step
   std::size_t most_work_ = 0;
   // Of the curve as it is.
@@ -88,6 +85,9 @@ class CurveDescent {
   double bent_ = 0;
   double last_step_ = std::numeric_limits<double>::infinity();
   const double* left_ = nullptr;  ///< of what is bent too much, so much may stay in a step
+  bool springs_;                  ///< and no least change of curvature
+  bool gives_way_ = false;        ///< whether a bound does
+  bool ahead_ = true;             ///< corners go across the edges after them
   bool found_ = false;            ///< whether the last program had a solution
 };
 

@@ -200,7 +200,7 @@ std::vector<Vector3> noisy_box(bool in_space = false) {
   return noisy(std::move(rows), none, 0.4, 11, !in_space);
 }
 
-FitOptions drawn(FitCriterion criterion) {
+FitOptions drawn(const FitCriterion& criterion) {
   FitOptions options{.criterion = criterion};
   options.fair.distribution = Distribution::keep;
   return options;

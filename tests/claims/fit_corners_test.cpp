@@ -37,7 +37,7 @@ std::vector<Vector3> with_noise(std::vector<Vector3> rows, double noise) {
   return noisy(std::move(rows), none, noise, 11, true);
 }
 
-FitOptions asked(FitCriterion criterion, double sharp = 40) {
+FitOptions asked(const FitCriterion& criterion, double sharp = 40) {
   FitOptions options{.criterion = criterion};
   options.fair.distribution = Distribution::keep;
   options.sharp = sharp;

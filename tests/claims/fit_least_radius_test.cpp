@@ -40,7 +40,7 @@ std::vector<Vector3> quarter() {
   return rows;
 }
 
-FitOptions asked(FitCriterion criterion, double radius) {
+FitOptions asked(const FitCriterion& criterion, double radius) {
   FitOptions options{.criterion = criterion};
   options.fair.distribution = Distribution::keep;
   options.least_radius = radius;

@@ -45,7 +45,9 @@ std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape, const 
                          ? "of steps of voxels, standard deviation in each coordinate: --noise auto takes them off"
                          : "as estimated, standard deviation in each coordinate: what --noise auto takes",
                      noise.deviation, false});
-  figures.push_back({"within_auto", "within auto", "units", "what --within auto takes for that noise",
+  figures.push_back({"within_auto", "within auto", "units",
+                     noise.voxel ? "how far such noise goes; --within auto takes the steps off"
+                                 : "what --within auto takes for that noise",
                      greatest_of_noise(noise), false});
   figures.push_back({"noise_in_edges", "noise in edges", "", "the same in median edges", noise.edges, false});
   return figures;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace vspring::cli {
 
@@ -25,22 +26,14 @@ double mean_edge(const PolygonMesh& mesh) {
 
 }  // namespace
 
-void round_to_single(PolygonMesh& shape, std::vector<std::string>& warnings) {
-  std::vector<Vector3> positions = shape.positions();
+void take_written(PolygonMesh& shape, std::vector<Vector3> written, std::vector<std::string>& warnings) {
   double greatest = 0;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    Vector3 rounded;
-    for (int k = 0; k < 3; ++k) {
-      // So that it is: g++ 12 takes a cast to float and back for nothing where it vectorises.
-      const volatile float single = static_cast<float>(positions[i][k]);
-      rounded[k] = single;
-    }
-    // What does not fit is refused where it is written.
-    if (!rounded.allFinite()) return;
-    greatest = std::max(greatest, (rounded - positions[i]).norm());
-    positions[i] = rounded;
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    if (written[i] == shape.positions()[i]) continue;
+    if (!written[i].allFinite()) return;
+    greatest = std::max(greatest, (written[i] - shape.positions()[i]).norm());
   }
-  shape.set_positions(std::move(positions));
+  shape.set_positions(std::move(written));
   const double edge = mean_edge(shape);
   if (!(greatest > unseen * edge)) return;
   warnings.push_back(

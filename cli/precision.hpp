@@ -7,8 +7,8 @@
 
 namespace vspring::cli {
 
-/// Gives nodes the positions that a file in single precision holds, so that figures are of these, and warns where they
-/// are more than a hundredth of the mean edge off.
-void round_to_single(PolygonMesh& shape, std::vector<std::string>& warnings);
+/// Gives nodes the positions that are written, so that figures are of these, and warns where they are more than a
+/// hundredth of the mean edge off. What is not finite then is refused where it is written.
+void take_written(PolygonMesh& shape, std::vector<Vector3> written, std::vector<std::string>& warnings);
 
 }  // namespace vspring::cli

@@ -65,7 +65,7 @@ int run_fair(FairArguments arguments) {
   std::vector<std::string> warnings = file.warnings;
   PolygonMesh after = mesh;
   after.set_positions(done.faired.positions);
-  if (is_written_single(arguments.output, file, arguments.format)) round_to_single(after, warnings);
+  take_written(after, written_positions(arguments.output, file, done.faired.positions, arguments.format), warnings);
 
   const auto write = [&] {
     return written_without(arguments.output, write_surface(arguments.output, file,

@@ -91,8 +91,8 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   Shape after = shape;
   after.set_positions(result.positions);
   if constexpr (std::is_same_v<Shape, PolygonMesh>) {
-    if (is_written_single(arguments.output, file, format_as<SurfaceFormat>(arguments.format)))
-      round_to_single(after, warnings);
+    const auto format = format_as<SurfaceFormat>(arguments.format);
+    take_written(after, written_positions(arguments.output, file, result.positions, format), warnings);
   }
   const std::vector<Vector3> nodes = welding.positions(result.positions);
 

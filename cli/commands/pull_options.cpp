@@ -25,7 +25,7 @@ CLI::Option* add_amount(CLI::App& command, const std::string& name, std::optiona
               throw CLI::ValidationError(name, "a number greater than 0, or auto, is needed, not " + given);
             value = number;
           },
-          text + "; auto: by the noise that the nodes seem to have")
+          text + "; auto: by the noise that the nodes seem to have (of voxels, on surfaces: their steps come off)")
       ->type_name("D|auto");
 }
 

@@ -20,9 +20,9 @@ struct NoiseEstimate {
   std::optional<Vector3> voxel = std::nullopt;
 };
 
-/// The size of the voxels along x, y and z, where the faces of a surface are their sides, or what marching cubes make
-/// of a mask (nodes in the middles of edges of the grid); none elsewhere, and of a surface that is one voxel thick or
-/// flat. Coordinates may be rounded to single precision. Cost: n log n.
+/// The size of the voxels along x, y and z, where the faces of a surface are their sides, or what marching cubes or
+/// tetrahedra make of a mask (nodes half way between points of the grid). None elsewhere, of what is flat, and of fewer
+/// than 50 nodes. Coordinates may be rounded to single precision. Cost: n log n.
 [[nodiscard]] std::optional<Vector3> voxel_size(const PolygonMesh& mesh);
 
 /// How far from its shape noise brings the furthest node, in the units of the input: half of all shapes with as many

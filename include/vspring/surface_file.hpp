@@ -82,9 +82,10 @@ void write_surface(const std::string& path, const PolygonMesh& mesh,
 [[nodiscard]] FileBytes surface_bytes(const std::string& name, const PolygonMesh& mesh,
                                       std::optional<SurfaceFormat> format = std::nullopt);
 
-/// Whether coordinates of nodes that moved are in single precision in what write_surface() writes: in binary STL, and
-/// where the source's own format has them so. Cost: constant.
-[[nodiscard]] bool is_written_single(const std::string& name, const SurfaceFile& surface,
-                                     std::optional<SurfaceFormat> format = std::nullopt);
+/// The positions that write_surface() leaves in a file of that name: rounded where that has single precision, as binary
+/// STL and some PLY do, infinite beyond its range; else as they are. Cost: linear.
+[[nodiscard]] std::vector<Vector3> written_positions(const std::string& name, const SurfaceFile& surface,
+                                                     std::vector<Vector3> positions,
+                                                     std::optional<SurfaceFormat> format = std::nullopt);
 
 }  // namespace vspring

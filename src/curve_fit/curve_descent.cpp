@@ -132,18 +132,18 @@ auto CurveDescent<K>::find_step() -> std::optional<Step> {
       program.emplace(this->program(left, price));
       solution = program->solve();
       found_ = solution.found;
+      return found_;
     };
     // What was too much for one step is so for the next.
-    for (solve(*left_, 0); !found_ && task_.least_radius > 0 && left_ + 1 != std::end(curvature_left);)
-      solve(*++left_, 0);
+    bool met = solve(*left_, 0);
+    while (!met && task_.least_radius > 0 && left_ + 1 != std::end(curvature_left)) met = solve(*++left_, 0);
     if (program->blocks() == 0) {
       found.converged = true;
       return std::nullopt;
     }
-    if (!found_) {
+    if (!met) {
       // What can't be kept, along with all else or at a price.
-      solve(1, price_of_bounds * energy_);
-      if (found_)
+      if (solve(1, price_of_bounds * energy_))
         loosen_bounds(solution);
       else
         loosen_bounds();

@@ -203,10 +203,12 @@ std::vector<Node> new_nodes(const DenseCurve& curve, const DenseCurve::Chain& ch
 void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, DenseCurve& curve,
                std::vector<CurvePoint>& points) {
   Way way = find_way(chain, closed, scale, curve);
-  if (way.stops.size() < (closed ? 3U : 2U))
+  if (way.stops.size() < (closed ? 3U : 2U)) {
     add_held(chain, closed, curve);
-  else
-    Start(chain, closed, scale, std::move(way)).add_to(curve, points);
+    return;
+  }
+  Start start(chain, closed, scale, std::move(way));
+  start.add_to(curve, points);
 }
 
 DenseCurve with_new_nodes(const DenseCurve& curve, double least) {

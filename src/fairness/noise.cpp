@@ -196,6 +196,27 @@ double greater_by_slopes(std::span<const Index> nodes, const std::vector<Vector3
   return std::sqrt(squares / static_cast<double>(nodes.size()));
 }
 
+std::vector<double> edges_of(const PolygonMesh& mesh, const NodeGraph& graph) {
+  std::vector<double> edges;
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    end_if_cancelled_at(static_cast<std::size_t>(i));
+    graph.for_each_neighbour(i, [&](Index j) {
+      if (j > i) edges.push_back((mesh.position(j) - mesh.position(i)).norm());
+    });
+  }
+  return edges;
+}
+
+/// Nodes lie anywhere within half a voxel.
+NoiseEstimate noise_of_steps(const Vector3& voxel, std::vector<double> edges, Index nodes) {
+  NoiseEstimate result;
+  result.voxel = voxel;
+  result.nodes = nodes;
+  result.deviation = voxel.norm() / std::sqrt(3 * deviations_of_step);
+  result.edges = result.deviation / at_share(edges, 0.5);
+  return result;
+}
+
 /// What is less than the last digits of coordinates tell is no noise.
 void forget_rounding(NoiseEstimate& noise, const std::vector<Vector3>& positions) {
   double greatest = 0;
@@ -211,6 +232,7 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
   const Incidence incidence(mesh);
   const NodeGraph graph(mesh, incidence);
   const auto nodes = static_cast<std::size_t>(mesh.node_count());
+  if (const auto voxel = voxel_size(mesh)) return noise_of_steps(*voxel, edges_of(mesh, graph), mesh.node_count());
   std::vector<Place> found(nodes);
   ThreadTeam team(context.thread_count());
   const std::vector<Vector3> normals = smooth_normals(mesh, graph, team);
@@ -236,20 +258,7 @@ NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context) {
       found[i].deviation /= greater_by_slopes(around, normals);
     }
   });
-  std::vector<double> edges;
-  for (Index i = 0; i < mesh.node_count(); ++i) {
-    end_if_cancelled_at(static_cast<std::size_t>(i));
-    graph.for_each_neighbour(i, [&](Index j) {
-      if (j > i) edges.push_back((mesh.position(j) - mesh.position(i)).norm());
-    });
-  }
-  NoiseEstimate noise = summary(std::move(found), std::move(edges), least_extent);
-  noise.voxel = voxel_size(mesh);
-  if (noise.voxel) {
-    const double deviation = noise.voxel->norm() / std::sqrt(3 * deviations_of_step);
-    noise.edges *= noise.deviation > 0 ? deviation / noise.deviation : 0;
-    noise.deviation = deviation;
-  }
+  NoiseEstimate noise = summary(std::move(found), edges_of(mesh, graph), least_extent);
   forget_rounding(noise, mesh.positions());
   return noise;
 }

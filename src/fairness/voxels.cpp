@@ -20,6 +20,8 @@ constexpr double rounding = 1e-6;
 constexpr double whole = 0.02;
 // Coordinates that come so much less often than nodes lie on planes.
 constexpr double least_repeats = 4;
+// A box of a few faces is no mask.
+constexpr std::ptrdiff_t least_nodes = 50;
 
 /// What coordinates are whole numbers of, from the least one on, or none.
 std::optional<double> step_of(std::vector<double> values) {
@@ -103,6 +105,7 @@ class VoxelFaces {
 std::optional<Vector3> voxel_size(const PolygonMesh& mesh) {
   std::vector<std::uint8_t> used(static_cast<std::size_t>(mesh.node_count()), 0);
   for (const Index node : mesh.corners()) used[static_cast<std::size_t>(node)] = 1;
+  if (std::count(used.begin(), used.end(), 1) < least_nodes) return std::nullopt;
   Vector3 step;
   Vector3 low;
   for (int axis = 0; axis < 3; ++axis) {

@@ -4,19 +4,23 @@
 #include "fit/voxel_fit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "base/threads.hpp"
+#include "checks/new_crossings.hpp"
 #include "constraints/holding.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/flat_ends.hpp"
+#include "shape/edges.hpp"
 #include "shape/face_geometry.hpp"
+#include "shape/incidence.hpp"
 #include "vspring/distance.hpp"
 #include "vspring/error.hpp"
 
@@ -137,20 +141,15 @@ class VoxelFit {
 class Turns {
  public:
   explicit Turns(const PolygonMesh& mesh) : mesh_(mesh) {
-    std::vector<std::array<Index, 3>> sides;
-    for (Index f = 0; f < mesh.face_count(); ++f) {
-      const auto face = mesh.face(f);
-      for (std::size_t k = 0; k < face.size(); ++k) {
-        const auto [low, high] = std::minmax(face[k], face[(k + 1) % face.size()]);
-        sides.push_back({low, high, f});
-      }
+    const Incidence incidence(mesh);
+    EdgeFinder edges(mesh, incidence);
+    for (Index node = 0; node < mesh.node_count(); ++node) {
+      edges.at_node(node, [&](Index neighbour, std::span<const EdgeUse> uses) {
+        if (neighbour < node || uses.size() != 2) return;
+        pairs_.push_back({uses[0].face, uses[1].face, 0});
+        pairs_.back().cosine = cosine(pairs_.back(), mesh.positions());
+      });
     }
-    std::sort(sides.begin(), sides.end());
-    for (std::size_t k = 1; k < sides.size(); ++k) {
-      if (sides[k][0] == sides[k - 1][0] && sides[k][1] == sides[k - 1][1])
-        pairs_.push_back({sides[k - 1][2], sides[k][2], 0});
-    }
-    for (Pair& pair : pairs_) pair.cosine = cosine(pair, mesh.positions());
   }
 
   /// Where an edge turns by more than a right angle, and did not before, nodes of its faces go back to where they were,
@@ -209,20 +208,6 @@ void measure_again(const PolygonMesh& mesh, const Constraints& constraints, FitR
   report.fair.rms_move = std::sqrt(squares / std::max<double>(1, report.fair.moving_nodes));
 }
 
-/// Where parts touch nodes cannot move. Those of the faces around them stay as well, or edges there would turn further.
-Constraints with_rings_held(const PolygonMesh& mesh, const Constraints& given, const Constraints& held) {
-  Constraints result = held;
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    const auto is_stuck = [&](Index node) { return held.position_fixed(node) && !given.position_fixed(node); };
-    if (std::none_of(face.begin(), face.end(), is_stuck)) continue;
-    for (const Index node : face) {
-      if (!held.position_fixed(node)) result.fix_position(node, mesh.position(node));
-    }
-  }
-  return result;
-}
-
 FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                          const FitOptions& options, Context& context) {
   const Vector3 size = std::get<Voxels>(options.criterion).size;
@@ -249,9 +234,21 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
     found = std::move(nearer);
   }
   if (found.report.fair.outcome != Outcome::converged) return found;
-  voxels.finish(found.positions);
-  Turns(mesh).take_back(found.positions);
-  measure_again(mesh, constraints, found, context.threads);
+  std::vector<Vector3> finished = found.positions;
+  voxels.finish(finished);
+  Turns(mesh).take_back(finished);
+  // What was found has been looked at by fit(); this has not.
+  ThreadTeam team(context.thread_count());
+  const std::string crossings = new_crossings(mesh, finished, context, team);
+  if (crossings.empty()) {
+    found.positions = std::move(finished);
+    measure_again(mesh, constraints, found, context.threads);
+  } else {
+    found.report.fair.outcome = Outcome::stalled;
+    found.report.fair.warnings.push_back(
+        {WarningCode::outside_tolerance,
+         "nodes may be further away than half a voxel: brought back to that, " + crossings + "; hold more there"});
+  }
   return found;
 }
 
@@ -265,7 +262,7 @@ FitResult fit_voxels(const PolygonMesh& mesh, const Constraints& constraints, co
                 "length for others");
   const auto fit_held = [&](const Constraints& held) {
     (void)check_constraints(mesh, held, std::vector<std::uint8_t>(mesh.positions().size(), 1));
-    return take_steps_off(mesh, with_rings_held(mesh, constraints, held), points, options, context);
+    return take_steps_off(mesh, held, points, options, context);
   };
   return ImmovableNodesFixed(mesh).run(
       constraints, fit_held, [](FitResult & fitted) -> auto& { return fitted.report.fair.warnings; });

@@ -42,6 +42,13 @@ void append_bytes(std::string& bytes, Number number, bool swapped = little_swapp
   bytes.append(room.data(), room.size());
 }
 
+/// What is left of a value in single precision, infinite beyond its range.
+inline double as_single(double value) {
+  // So that it is rounded: g++ 12 takes a cast to float and back for nothing where it vectorises.
+  const volatile float single = static_cast<float>(value);
+  return single;
+}
+
 /// A coordinate of a node in single precision. Throws Error(invalid_argument) for one that is beyond its range.
 inline float single(double value, std::size_t node) {
   const auto narrow = static_cast<float>(value);

@@ -3,9 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <utility>
+#include <vector>
 
 #include "base/disjoint_sets.hpp"
+#include "shape/near_nodes.hpp"
 
 namespace vspring {
 namespace {
@@ -49,57 +51,65 @@ bool comes_before(const Vector3& a, const Vector3& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/// Of every node a number that those have in common which were at one place and still are.
-std::vector<std::size_t> numbers_of_places(std::span<const Vector3> old_positions, std::span<const Vector3> positions) {
-  std::vector<std::size_t> order(positions.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return old_positions[a] == old_positions[b] ? comes_before(positions[a], positions[b])
-                                                : comes_before(old_positions[a], old_positions[b]);
-  });
-  std::vector<std::size_t> numbers(order.size(), 0);
-  for (std::size_t k = 1; k < order.size(); ++k) {
-    const std::size_t here = order[k];
-    const std::size_t last = order[k - 1];
-    const bool is_one = old_positions[here] == old_positions[last] && positions[here] == positions[last];
-    numbers[here] = is_one ? numbers[last] : k;
+/// Of every node the first one that was at its place. Those that are not finite are alone.
+std::vector<Index> first_at_place(const PolygonMesh& mesh, std::span<const Vector3> positions) {
+  std::vector<std::uint8_t> used(positions.size(), 0);
+  for (const Index node : mesh.corners()) used[static_cast<std::size_t>(node)] = 1;
+  std::vector<Index> nodes;
+  Eigen::AlignedBox<double, 3> box;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (used[i] == 0 || !positions[i].allFinite()) continue;
+    nodes.push_back(static_cast<Index>(i));
+    box.extend(positions[i]);
   }
-  return numbers;
+  return near_nodes(positions, std::move(nodes), box, 0).first;
 }
 
-/// Normals that were the same at one place stay the same: along seams, and where each corner names one of its own.
+/// Normals that were the same at one place stay the same, where that stays one: along seams, and where each corner
+/// names one of its own.
 DisjointSets equal_normals(const PolygonMesh& mesh, std::span<const Index> corner_normals,
-                           std::span<const Vector3> before, const std::vector<std::size_t>& places) {
-  // Most places have one normal alone.
-  std::vector<Index> first(places.size(), -1);
-  std::vector<std::uint8_t> has_several(places.size(), 0);
-  const auto place_of = [&](std::size_t corner) { return places[static_cast<std::size_t>(mesh.corners()[corner])]; };
-  for (std::size_t corner = 0; corner < corner_normals.size(); ++corner) {
-    const Index normal = corner_normals[corner];
-    if (normal < 0) continue;
-    Index& one = first[place_of(corner)];
-    if (one >= 0 && one != normal) has_several[place_of(corner)] = 1;
-    one = normal;
-  }
+                           std::span<const Vector3> before, std::span<const Vector3> old_positions,
+                           std::span<const Vector3> positions) {
+  const std::vector<Index> places = first_at_place(mesh, old_positions);
   struct Corner {
-    std::size_t place;
+    Index place;
+    Index node;
     Index normal;
   };
-  std::vector<Corner> shared;
-  for (std::size_t corner = 0; corner < corner_normals.size(); ++corner) {
-    if (corner_normals[corner] >= 0 && has_several[place_of(corner)] != 0)
-      shared.push_back({place_of(corner), corner_normals[corner]});
+  std::vector<Corner> corners;
+  for (std::size_t k = 0; k < corner_normals.size(); ++k) {
+    const Index node = mesh.corners()[k];
+    const Index normal = corner_normals[k];
+    if (normal >= 0 && before[static_cast<std::size_t>(normal)].allFinite())
+      corners.push_back({places[static_cast<std::size_t>(node)], node, normal});
   }
+  // Most places have one normal alone.
+  std::vector<Index> first(positions.size(), -1);
+  std::vector<std::uint8_t> has_several(positions.size(), 0);
+  for (const Corner& corner : corners) {
+    Index& one = first[static_cast<std::size_t>(corner.place)];
+    if (one >= 0 && one != corner.normal) has_several[static_cast<std::size_t>(corner.place)] = 1;
+    one = corner.normal;
+  }
+  std::erase_if(corners,
+                [&](const Corner& corner) { return has_several[static_cast<std::size_t>(corner.place)] == 0; });
   const auto value = [&](const Corner& corner) -> const Vector3& {
     return before[static_cast<std::size_t>(corner.normal)];
   };
-  std::sort(shared.begin(), shared.end(), [&](const Corner& a, const Corner& b) {
-    return a.place != b.place ? a.place < b.place : comes_before(value(a), value(b));
+  const auto goes_to = [&](const Corner& corner) -> const Vector3& {
+    return positions[static_cast<std::size_t>(corner.node)];
+  };
+  std::erase_if(corners, [&](const Corner& corner) { return !goes_to(corner).allFinite(); });
+  std::sort(corners.begin(), corners.end(), [&](const Corner& a, const Corner& b) {
+    if (a.place != b.place) return a.place < b.place;
+    return value(a) != value(b) ? comes_before(value(a), value(b)) : comes_before(goes_to(a), goes_to(b));
   });
   DisjointSets sets(before.size());
-  for (std::size_t k = 1; k < shared.size(); ++k) {
-    if (shared[k].place == shared[k - 1].place && value(shared[k]) == value(shared[k - 1]))
-      (void)sets.join(static_cast<std::size_t>(shared[k].normal), static_cast<std::size_t>(shared[k - 1].normal));
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    const Corner& here = corners[k];
+    const Corner& last = corners[k - 1];
+    if (here.place == last.place && value(here) == value(last) && goes_to(here) == goes_to(last))
+      (void)sets.join(static_cast<std::size_t>(here.normal), static_cast<std::size_t>(last.normal));
   }
   return sets;
 }
@@ -140,7 +150,7 @@ NewNormals compute_normals(const PolygonMesh& mesh, std::span<const Index> corne
   }
   if (!any) return result;
 
-  DisjointSets sets = equal_normals(mesh, corner_normals, before, numbers_of_places(old_positions, positions));
+  DisjointSets sets = equal_normals(mesh, corner_normals, before, old_positions, positions);
   const auto set_of = [&](std::size_t normal) { return sets.find(normal); };
   for (std::size_t n = 0; n < before.size(); ++n) result.due[set_of(n)] |= result.due[n];
   for (std::size_t n = 0; n < before.size(); ++n) result.due[n] = result.due[set_of(n)];

@@ -21,8 +21,7 @@ struct NewNormals {
 /// of the file's normals point against its faces, the new ones do.
 ///
 /// corner_normals: the file's normal for each corner of the mesh, −1 for none. before: the file's normals.
-/// positions: one per node. A normal whose corners give no direction is not due. Cost: n log n
-/// for the nodes, else linear.
+/// positions: one per node. A normal whose corners give no direction is not due. Cost: n log n.
 NewNormals compute_normals(const PolygonMesh& mesh, std::span<const Index> corner_normals,
                            std::span<const Vector3> before, std::span<const Vector3> old_positions,
                            std::span<const Vector3> positions, std::span<const std::uint8_t> moved);

@@ -398,11 +398,7 @@ std::string fresh_stl(const PolygonMesh& mesh, std::span<const Vector3> position
   std::vector<std::uint8_t> used(positions.size(), 0);
   for (const Index node : mesh.corners()) used[node] = 1;
   if (std::find(used.begin(), used.end(), 0) != used.end()) losses.emplace_back("nodes that no face uses");
-  const auto is_single = [](double value) {
-    // g++ 12 takes a cast to float and back for nothing where it vectorises.
-    const volatile float single = static_cast<float>(value);
-    return !std::isfinite(value) || value == single;
-  };
+  const auto is_single = [](double value) { return !std::isfinite(value) || value == as_single(value); };
   if (!std::all_of(positions.begin(), positions.end(), [&](const Vector3& position) {
         return is_single(position.x()) && is_single(position.y()) && is_single(position.z());
       }))

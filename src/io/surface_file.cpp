@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "io/binary_numbers.hpp"
 #include "io/file_normals.hpp"
 #include "io/formats.hpp"
 #include "io/rewriter.hpp"
@@ -92,10 +93,16 @@ FileBytes surface_bytes(const std::string& name, const SurfaceFile& surface, con
   return file;
 }
 
-bool is_written_single(const std::string& name, const SurfaceFile& surface, std::optional<SurfaceFormat> format) {
+std::vector<Vector3> written_positions(const std::string& name, const SurfaceFile& surface,
+                                       std::vector<Vector3> positions, std::optional<SurfaceFormat> format) {
   const SurfaceFormat target = surface_formats.to_write(name, format, surface.format);
-  if (surface.source && target == surface.format) return surface.source->has_single_precision();
-  return target == SurfaceFormat::stl;
+  const bool is_single = surface.source && target == surface.format ? surface.source->has_single_precision()
+                                                                    : target == SurfaceFormat::stl;
+  if (!is_single) return positions;
+  for (Vector3& position : positions) {
+    for (double& coordinate : position) coordinate = as_single(coordinate);
+  }
+  return positions;
 }
 
 FileBytes surface_bytes(const std::string& name, const PolygonMesh& mesh, std::optional<SurfaceFormat> format) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "vspring/error.hpp"
+#include "vspring/figures.hpp"
 #include "vspring/fit.hpp"
 #include "vspring/noise.hpp"
 
@@ -179,6 +180,50 @@ TEST(FitVoxels, LeavesFlatEndsFlat) {
     EXPECT_NEAR(result.positions[i].z(), 5, 0.06);
   }
   EXPECT_EQ(inside, 15 * 9);
+}
+
+TEST(FitVoxels, ComesNearerToABoxThatIsTilted) {
+  const double cosine = std::cos(0.35);
+  const double sine = std::sin(0.35);
+  const auto away = [&](const Vector3& place) {
+    const Vector3 turned(cosine * place.x() + sine * place.z(), place.y(), cosine * place.z() - sine * place.x());
+    const Vector3 beyond = turned.cwiseAbs() - Vector3(10, 7, 5);
+    return beyond.cwiseMax(0).norm() + std::min(beyond.maxCoeff(), 0.0);
+  };
+  const PolygonMesh mesh =
+      sides(Vector3(1, 1, 1), Vector3(13, 9, 10), [&](const Vector3& place) { return away(place) < 0; });
+  const FitResult result = steps_off(mesh, Vector3(1, 1, 1));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_NEAR(volume(mesh, result.positions) / volume(mesh, mesh.positions()), 1, 1e-3);
+  EXPECT_LT(rms(result.positions, away), 0.7 * rms(mesh.positions(), away));
+}
+
+TEST(FitVoxels, HoldsPartsWhereTheyTouchAndTurnsNoEdgeFurther) {
+  // Two boxes with one edge in common, along z.
+  const auto boxes = [](const Vector3& place) {
+    const bool first = place.x() < 0 && place.y() < 0 && place.minCoeff() > -8;
+    const bool second = place.x() > 0 && place.y() > 0 && place.maxCoeff() < 8;
+    return std::abs(place.z()) < 5 && (first || second);
+  };
+  const PolygonMesh mesh = sides(Vector3(1, 1, 1), Vector3(9, 9, 9), boxes);
+  const FitResult result = steps_off(mesh, Vector3(1, 1, 1));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  ASSERT_FALSE(result.report.fair.warnings.empty());
+  EXPECT_EQ(result.report.fair.warnings[0].code, WarningCode::immovable_nodes);
+  double moved = 0;
+  for (std::size_t i = 0; i < result.positions.size(); ++i) {
+    const Vector3& before = mesh.positions()[i];
+    if (before.head<2>().cwiseAbs().maxCoeff() <= 1 && std::abs(before.z()) < 5)
+      EXPECT_EQ(result.positions[i], before) << i;
+    moved = std::max(moved, (result.positions[i] - before).norm());
+  }
+  EXPECT_GT(moved, 0.01);
+  const auto turn = [&](const std::vector<Vector3>& at) {
+    PolygonMesh shape = mesh;
+    shape.set_positions(at);
+    return measure_surface(shape).greatest_turn;
+  };
+  EXPECT_LE(turn(result.positions), turn(mesh.positions()) + 1e-6);
 }
 
 TEST(FitVoxels, IsRefusedForOtherPointsAndForCurves) {

@@ -21,15 +21,40 @@ double turn_at(const Vector3& a, const Vector3& b, const Vector3& c) {
   return std::atan2(before.cross(behind).norm(), before.dot(behind)) * 180 / std::numbers::pi;
 }
 
-/// The node beside the ends of a chain at which it turns sharply, as at one corner of a blunt trailing edge whose other
-/// corner the ends are; −1 where there is none.
+/// The node beside the ends of a chain at which it turns sharply, and inside of it nowhere nearly so, as at one corner
+/// of a blunt trailing edge whose other corner the ends are; −1 where there is none.
 Index blunt_corner(const PolygonCurve& curve, const PolygonCurve::Chain& chain) {
   constexpr double least_turn = 45;
+  constexpr double times_others = 5;
   const auto place = [&](std::size_t k) { return curve.position(chain.nodes[k]); };
   const std::size_t last = chain.nodes.size() - 1;
-  if (turn_at(place(last - 2), place(last - 1), place(last)) > least_turn) return chain.nodes[last - 1];
-  if (turn_at(place(0), place(1), place(2)) > least_turn) return chain.nodes[1];
+  std::vector<double> turns;
+  for (std::size_t k = 1; k < last; ++k) turns.push_back(turn_at(place(k - 1), place(k), place(k + 1)));
+  const double behind = turns.back();
+  const double ahead = turns.front();
+  const auto middle = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 2);
+  std::nth_element(turns.begin(), middle, turns.end());
+  const double least = std::max(least_turn, times_others * *middle);
+  if (behind > least) return chain.nodes[last - 1];
+  if (ahead > least) return chain.nodes[1];
   return -1;
+}
+
+/// Whether a chain comes back to where it began as a smooth ring does, by its way a little before and after.
+bool ends_smoothly(const PolygonCurve& curve, const PolygonCurve::Chain& chain) {
+  constexpr double greatest_turn = 90;
+  constexpr double share_of_way = 0.02;
+  const std::size_t count = chain.nodes.size();
+  const auto place = [&](std::size_t k) { return curve.position(chain.nodes[k]); };
+  double length = 0;
+  for (std::size_t k = 1; k < count; ++k) length += (place(k) - place(k - 1)).stableNorm();
+  std::size_t behind = count - 1;
+  std::size_t ahead = 0;
+  for (double way = 0; behind > 1 && way < share_of_way * length; --behind)
+    way += (place(behind) - place(behind - 1)).stableNorm();
+  for (double way = 0; ahead + 2 < count && way < share_of_way * length; ++ahead)
+    way += (place(ahead + 1) - place(ahead)).stableNorm();
+  return turn_at(place(behind), place(0), place(ahead)) < greatest_turn;
 }
 
 std::string note_of_repeats(const PolygonCurve& curve) {
@@ -50,9 +75,11 @@ std::string note_of_repeats(const PolygonCurve& curve) {
         "{}, and node {} beside them is a corner, as of a blunt trailing edge, which is rounded off: to keep it, leave "
         "the row out that closes the curve, or part the sides by empty rows\n",
         where, corner);
+  if (!ends_smoothly(curve, *first))
+    return fmt::format("{}, and the curve stays open there, with its corner; --closed would round that off\n", where);
   return fmt::format(
-      "{}, and the curve stays open there: with a corner, as at the trailing edge of an aerofoil, that is right; "
-      "--closed makes the two one node of a smooth closed curve\n",
+      "{}, and the curve stays open there; --closed makes the two one node of a smooth closed curve, which rules or a "
+      "tolerance then have to hold\n",
       where);
 }
 

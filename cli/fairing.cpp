@@ -1,6 +1,5 @@
 #include "fairing.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -18,14 +17,6 @@ namespace {
 
 // Nodes of a shape that is measured though somebody waits for the end.
 constexpr Index most_when_interrupted = 200'000;
-
-double diagonal_of(const std::vector<Vector3>& positions) {
-  Eigen::AlignedBox<double, 3> box;
-  for (const Vector3& position : positions) {
-    if (position.allFinite()) box.extend(position);
-  }
-  return box.isEmpty() ? 0 : box.diagonal().norm();
-}
 
 /// For each option that had no effect.
 template <typename Shape>
@@ -74,8 +65,7 @@ void Fairing::measure(std::array<ShownShape<Shape>, 2>& shapes, const Constraint
 }
 
 template <typename Shape>
-int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& input, std::vector<std::string> warnings,
-                    const Made& made) {
+int Fairing::finish(const Faired<Shape>& faired, std::vector<std::string> warnings, const Made& made) {
   bar_.clear();
   FairReport report = faired.report;
   time_limit_.end(report);
@@ -127,14 +117,14 @@ int Fairing::finish(const Faired<Shape>& faired, const std::vector<Vector3>& inp
   if (!missing.empty()) warnings.push_back(not_written(missing));
   errors_.warn(warnings);
   if (!arguments_->quiet &&
-      !messages_.write(summary(report, fairness, diagonal_of(input), arguments_->options, messages_) + made.lines))
+      !messages_.write(
+          summary(report, fairness, size_of_moving(faired.before, faired.constraints), arguments_->options, messages_) +
+          made.lines))
     throw Error(ErrorCode::unusable_file, "standard output: takes no more; the shape is written nonetheless");
   return context_.cancelled() ? exit_interrupted : exit_status(report.outcome);
 }
 
-template int Fairing::finish(const Faired<PolygonMesh>&, const std::vector<Vector3>&, std::vector<std::string>,
-                             const Made&);
-template int Fairing::finish(const Faired<PolygonCurve>&, const std::vector<Vector3>&, std::vector<std::string>,
-                             const Made&);
+template int Fairing::finish(const Faired<PolygonMesh>&, std::vector<std::string>, const Made&);
+template int Fairing::finish(const Faired<PolygonCurve>&, std::vector<std::string>, const Made&);
 
 }  // namespace vspring::cli

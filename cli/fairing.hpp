@@ -59,12 +59,11 @@ class Fairing {
     RunFacts facts = {};
   };
 
-  /// Writes the files, says what happened, and returns the exit status. input: the nodes that were read. A run that was
-  /// interrupted gets no page, no picture and no scalars, and its report only the figures of measure(), of a very large
-  /// shape none: they would take long.
+  /// Writes the files, says what happened, and returns the exit status. A run that was interrupted gets no page, no
+  /// picture and no scalars, and its report only the figures of measure(), of a very large shape none: they would take
+  /// long.
   template <typename Shape>
-  int finish(const Faired<Shape>& faired, const std::vector<Vector3>& input, std::vector<std::string> warnings,
-             const Made& made);
+  int finish(const Faired<Shape>& faired, std::vector<std::string> warnings, const Made& made);
 
  private:
   /// Gives both shapes their figures, as one bar shows it; of no use once cancelled.

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string_view>
 
 namespace vspring::cli {
@@ -32,7 +34,44 @@ std::string spaces(std::size_t width, std::string_view text) {
 std::string to_left(std::string_view text, std::size_t width) { return std::string(text) + spaces(width, text); }
 std::string to_right(std::string_view text, std::size_t width) { return spaces(width, text) + std::string(text); }
 
+/// Of runs of nodes that are neighbours, those in which one moves.
+class MovingBox {
+ public:
+  MovingBox(const std::vector<Vector3>& positions, const Constraints& constraints)
+      : positions_(positions), constraints_(constraints) {}
+
+  void extend(std::span<const Index> nodes) {
+    if (std::all_of(nodes.begin(), nodes.end(), [&](Index node) { return constraints_.position_fixed(node); })) return;
+    for (const Index node : nodes) {
+      const Vector3& position = positions_[static_cast<std::size_t>(node)];
+      if (position.allFinite()) box_.extend(position);
+    }
+  }
+  [[nodiscard]] double diagonal() const { return box_.isEmpty() ? 0 : box_.sizes().stableNorm(); }
+
+ private:
+  const std::vector<Vector3>& positions_;
+  const Constraints& constraints_;
+  Eigen::AlignedBox<double, 3> box_;
+};
+
 }  // namespace
+
+double size_of_moving(const PolygonMesh& mesh, const Constraints& constraints) {
+  MovingBox box(mesh.positions(), constraints);
+  for (Index f = 0; f < mesh.face_count(); ++f) box.extend(mesh.face(f));
+  return box.diagonal();
+}
+
+double size_of_moving(const PolygonCurve& curve, const Constraints& constraints) {
+  MovingBox box(curve.positions(), constraints);
+  for (const auto& chain : curve.chains()) {
+    const std::size_t count = chain.nodes.size();
+    for (std::size_t k = 0; k + (chain.closed ? 0 : 1) < count; ++k)
+      box.extend(std::array{chain.nodes[k], chain.nodes[(k + 1) % count]});
+  }
+  return box.diagonal();
+}
 
 std::vector<Figure> figures_of(const MeasuredShape<PolygonMesh>& mesh, const Constraints* constraints, bool shown,
                                const Context& context) {

@@ -65,6 +65,10 @@ struct ShownShape : FigureColumn {
 [[nodiscard]] std::array<std::vector<Figure>, 2> figures_of(const PolygonMesh& before, const PolygonMesh& after,
                                                             const Constraints* constraints, const Context& context);
 
+/// The diagonal of the box around the nodes that move and their neighbours: the "size" of what is faired.
+[[nodiscard]] double size_of_moving(const PolygonMesh& mesh, const Constraints& constraints);
+[[nodiscard]] double size_of_moving(const PolygonCurve& curve, const Constraints& constraints);
+
 /// Values by their keys, and by the same keys name, unit and definition of each.
 [[nodiscard]] nlohmann::ordered_json values_of(const std::vector<Figure>& figures);
 [[nodiscard]] nlohmann::ordered_json definitions_of(const std::vector<Figure>& figures);

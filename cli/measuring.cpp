@@ -40,14 +40,16 @@ std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape, const 
   std::vector<Figure> figures = figures_of(shape, fits ? &*held : nullptr, shown, context);
   // Noise is nobody's measure of fairness, so it is none of those figures.
   const NoiseEstimate noise = noise_of(shape.shape(), {}, context);
-  figures.push_back({"noise", "noise", "units",
-                     noise.voxel
-                         ? "of steps of voxels, standard deviation in each coordinate: --noise auto takes them off"
-                         : "as estimated, standard deviation in each coordinate: what --noise auto takes",
-                     noise.deviation, false});
+  figures.push_back(
+      {"noise", "noise", "units",
+       noise.voxel           ? "of steps of voxels, standard deviation in each coordinate: --noise auto takes them off"
+       : noise.deviation > 0 ? "as estimated, standard deviation in each coordinate: what --noise auto takes"
+                             : "none that the numbers show, or too few nodes to tell: auto needs some",
+       noise.deviation, false});
   figures.push_back({"within_auto", "within auto", "units",
-                     noise.voxel ? "how far such noise goes; --within auto takes the steps off"
-                                 : "what --within auto takes for that noise",
+                     noise.voxel           ? "how far such noise goes; --within auto takes the steps off"
+                     : noise.deviation > 0 ? "what --within auto takes for that noise"
+                                           : "none, for the same reason",
                      greatest_of_noise(noise), false});
   figures.push_back({"noise_in_edges", "noise in edges", "", "the same in median edges", noise.edges, false});
   return figures;

@@ -130,7 +130,7 @@ nlohmann::ordered_json to_json(const BeforeAndAfter& fairness) {
   return {{"before", to_json(fairness.before)}, {"after", to_json(fairness.after)}};
 }
 
-std::string summary(const FairReport& report, const std::optional<BeforeAndAfter>& fairness, double diagonal,
+std::string summary(const FairReport& report, const std::optional<BeforeAndAfter>& fairness, double size,
                     const FairOptions& options, const Terminal& terminal) {
   std::string text = outcome_line(report, options, terminal);
   if (report.iterations > 0) text += fmt::format(" after {} iterations", report.iterations);
@@ -140,7 +140,7 @@ std::string summary(const FairReport& report, const std::optional<BeforeAndAfter
                 ? fmt::format(", expected error {:.1g} % of the size", 100 * *report.expected_error)
                 : ", far from an equilibrium";
   text += "\n";
-  const double share = diagonal > 0 ? 100 / diagonal : 0;
+  const double share = size > 0 ? 100 / size : 0;
   text +=
       fmt::format("{} of {} nodes moved, by up to {:.4g} ({:.2g} % of the size), root mean square {:.4g} ({:.2g} %)\n",
                   report.moving_nodes, report.nodes, report.greatest_move, report.greatest_move * share,

@@ -39,9 +39,9 @@ struct BeforeAndAfter {
 [[nodiscard]] nlohmann::ordered_json to_json(const FairReport& report);
 [[nodiscard]] nlohmann::ordered_json to_json(const BeforeAndAfter& fairness);
 
-/// What a person wants to know of a run, some lines. diagonal: of the box around the shape, for moves relative to it.
+/// What a person wants to know of a run, some lines. size: of what moves, for moves relative to it.
 /// options: that it was given. fairness: none where nobody has looked.
-[[nodiscard]] std::string summary(const FairReport& report, const std::optional<BeforeAndAfter>& fairness,
-                                  double diagonal, const FairOptions& options, const Terminal& terminal);
+[[nodiscard]] std::string summary(const FairReport& report, const std::optional<BeforeAndAfter>& fairness, double size,
+                                  const FairOptions& options, const Terminal& terminal);
 
 }  // namespace vspring::cli

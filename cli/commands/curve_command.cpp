@@ -108,7 +108,7 @@ int run_curve(CurveArguments arguments) {
   figures.update(figures_of(file.plane));
   if (reordered) figures["reordered_nodes"] = *reordered;
   return fairing.finish<PolygonCurve>(
-      {file.curve, after, constraints, done.faired.report}, before.positions(), file.warnings,
+      {file.curve, after, constraints, done.faired.report}, file.warnings,
       {.write = write,
        .picture = draw,
        .figures = std::move(figures),

@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <Eigen/Geometry>
 #include <map>
 #include <memory>
 #include <optional>
@@ -31,13 +30,12 @@ struct FairArguments : FairingArguments {
 constexpr double far = 0.05;
 
 /// Whoever gives a scan, a head or a part as it is may not expect that all between its boundaries goes.
-std::string note_of_lost_features(const FairArguments& arguments, const PolygonMesh& mesh, const FairReport& report) {
+std::string note_of_lost_features(const FairArguments& arguments, const PolygonMesh& mesh,
+                                  const Constraints& constraints, const FairReport& report) {
   if (!arguments.rules.empty() || !arguments.region.empty() || arguments.fix_directions != Hold::none ||
       asks_to_fit(arguments.pull))
     return {};
-  Eigen::AlignedBox<double, 3> box;
-  for (const Vector3& position : mesh.positions()) box.extend(position);
-  if (!(report.rms_move > far * box.diagonal().norm())) return {};
+  if (!(report.rms_move > far * size_of_moving(mesh, constraints))) return {};
   return "note: only the boundary is held, so all that was between became fair; to take nothing but noise off, give "
          "--noise auto; to stay near, --within; to mend a part, --region\n";
 }
@@ -74,12 +72,12 @@ int run_fair(FairArguments arguments) {
   auto figures = done.figures();
   figures.update(welding.figures());
   return fairing.finish<PolygonMesh>(
-      {mesh, after, constraints, report}, mesh.positions(), welding.with_warnings(std::move(warnings)),
+      {mesh, after, constraints, report}, welding.with_warnings(std::move(warnings)),
       {.write = write,
        .picture = {},
        .welding = &welding,
        .figures = std::move(figures),
-       .lines = welding.lines() + done.lines() + note_of_lost_features(arguments, mesh, report),
+       .lines = welding.lines() + done.lines() + note_of_lost_features(arguments, mesh, constraints, report),
        .facts = {.own_nodes_pull = done.account.has_value()}});
 }
 

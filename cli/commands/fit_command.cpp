@@ -119,7 +119,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   auto figures = account.figures();
   figures.update(welding.figures());
   figures.update(figures_of(plane));
-  return fairing.finish<Shape>({shape, after, constraints, result.report.fair}, shape.positions(),
+  return fairing.finish<Shape>({shape, after, constraints, result.report.fair},
                                welding.with_warnings(std::move(warnings)),
                                {.write = write_shape,
                                 .picture = [&] { return picture_of_fit(file, after, cloud.positions()); },

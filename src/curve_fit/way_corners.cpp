@@ -32,8 +32,13 @@ constexpr double nothing_of_way = 1e-9;
 class CornerSearch {
  public:
   CornerSearch(std::span<const Vector3> way, bool closed, double angle, double tolerance,
-               std::span<const std::uint8_t> given)
-      : way_(way), closed_(closed), angle_(angle), tolerance_(tolerance), is_given_(given.begin(), given.end()) {
+               std::span<const std::uint8_t> given, int least_edges)
+      : way_(way),
+        closed_(closed),
+        angle_(angle),
+        tolerance_(tolerance),
+        least_edges_(least_edges),
+        is_given_(given.begin(), given.end()) {
     is_given_.resize(way.size(), 0);
     is_corner_ = is_given_;
     at_.resize(way.size() + 1, 0);
@@ -110,18 +115,20 @@ class CornerSearch {
     double after = 0;
   };
 
-  /// No longer than that on either side, unless that is less than an edge.
+  /// No longer than that on either side, unless that is fewer edges than there have to be.
   [[nodiscard]] Window window(std::size_t about, double most) const {
     Window found{{way_[about]}, {0}};
     const std::size_t count = way_.size();
     for (const bool ahead : {false, true}) {
       double& length = ahead ? found.after : found.before;
+      int edges = 0;
       for (std::size_t k = about; closed_ || (ahead ? k + 1 < count : k > 0);) {
         const std::size_t next = ahead ? (k + 1) % count : (k + count - 1) % count;
         const std::size_t edge = ahead ? k : next;
         const double longer = length + at_[edge + 1] - at_[edge];
-        if (next == about || (length > 0 && longer > most)) break;
+        if (next == about || ((length > 0 && longer > most) && edges >= least_edges_)) break;
         length = longer;
+        ++edges;
         found.places.push_back(way_[next]);
         found.at.push_back(ahead ? length : -length);
         k = next;
@@ -193,6 +200,7 @@ class CornerSearch {
   bool closed_;
   double angle_;
   double tolerance_;
+  int least_edges_;
   double stretch_ = 0;
   std::vector<double> at_;  ///< along the way; the last one: its length
   std::vector<std::uint8_t> is_given_;
@@ -202,9 +210,9 @@ class CornerSearch {
 }  // namespace
 
 std::vector<std::size_t> corners_of_way(std::span<const Vector3> way, bool closed, double angle, double tolerance,
-                                        std::span<const std::uint8_t> given) {
+                                        std::span<const std::uint8_t> given, int least_edges) {
   if (way.size() < 3) return {};
-  return CornerSearch(way, closed, angle, tolerance, given).find();
+  return CornerSearch(way, closed, angle, tolerance, given, least_edges).find();
 }
 
 }  // namespace vspring

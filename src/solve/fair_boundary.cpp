@@ -4,15 +4,23 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "constraints/holding.hpp"
+#include "curve_fit/way_corners.hpp"
 #include "vspring/error.hpp"
 #include "vspring/topology.hpp"
 
 namespace vspring {
 
 namespace {
+
+// Of a boundary that is fitted: corners turn by more than this, on stretches of so many edges at least, and so many
+// times the noise tell nothing.
+constexpr double least_turn_of_corner = std::numbers::pi / 3;
+constexpr int least_edges_to_corner = 2;
+constexpr double times_noise = 3;
 
 struct BoundaryTask {
   PolygonCurve curve;
@@ -69,6 +77,25 @@ void account_for_moves(const PolygonMesh& mesh, const Constraints& constraints, 
   report.rms_move = report.greatest_move * std::sqrt(squares / static_cast<double>(moves.size()));
 }
 
+/// How far from where they belong nodes may be, by what is to be taken off; 0 where that is not known.
+double reach_of_noise(const FitOptions& options) {
+  if (options.within()) return *options.within();
+  return times_noise * options.noise().value_or(options.rms().value_or(0));
+}
+
+/// Corners of loops whose nodes are not held in a direction stay corners: they are more than noise.
+void keep_corners(const std::vector<PolygonCurve::Chain>& loops, const std::vector<Vector3>& positions, double reach,
+                  Constraints& constraints) {
+  for (const auto& loop : loops) {
+    std::vector<Vector3> way;
+    for (const Index node : loop.nodes) way.push_back(positions[static_cast<std::size_t>(node)]);
+    for (const std::size_t k :
+         corners_of_way(way, loop.closed, least_turn_of_corner, reach, {}, least_edges_to_corner)) {
+      if (!constraints.tangent_fixed(loop.nodes[k])) constraints.make_corner(loop.nodes[k]);
+    }
+  }
+}
+
 /// Says of the surface what is to be said of its boundary.
 void join(FairReport boundary, FairReport& report) {
   if (report.outcome == Outcome::converged) report.outcome = boundary.outcome;
@@ -114,10 +141,9 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
   (void)check_constraints(mesh, task.of_surface, std::vector<std::uint8_t>(mesh.positions().size(), 1));
 
   FitOptions of_curve = options;
-  if (options.noise()) {
-    // Across a curve in space noise has two directions.
-    of_curve.criterion = RootMeanSquare{std::sqrt(2.0) * *options.noise()};
-  }
+  // Across a curve in space noise has two directions.
+  if (const auto noise = options.rms() ? options.rms() : options.noise())
+    of_curve.criterion = RootMeanSquare{std::sqrt(2.0) * *noise};
   // The nodes of the boundary alone: they are the points.
   std::vector<Index> node_of;
   std::vector<PolygonCurve::Chain> chains = task.curve.chains();
@@ -134,6 +160,7 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
   for (std::size_t k = 0; k < node_of.size(); ++k) {
     held.hold_as(static_cast<Index>(k), task.of_curve, node_of[k]);
   }
+  if (const double reach = reach_of_noise(options); reach > 0) keep_corners(chains, on_curve.positions, reach, held);
   FitResult curve = fit(PolygonCurve(on_curve.positions, std::move(chains)), held, on_curve, of_curve, context);
   std::vector<Vector3> positions = mesh.positions();
   for (std::size_t k = 0; k < node_of.size(); ++k) positions[static_cast<std::size_t>(node_of[k])] = curve.positions[k];

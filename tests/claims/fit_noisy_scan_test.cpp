@@ -331,6 +331,37 @@ TEST(FitNoisyScan, ARimIsFittedFirstWhereThatIsAskedFor) {
   EXPECT_LT(distance(result.positions, cap).rms, 0.5 * distance(noisy.positions(), cap).rms);
 }
 
+TEST(FitNoisyScan, ARimThatIsFittedFirstKeepsItsCorners) {
+  constexpr Index edges = 20;
+  const PolygonMesh tile = generate::plane({.columns = edges, .rows = edges});
+  const PolygonMesh noisy = generate::add_noise(tile, 0.1 / edges, 3, true);
+  const double deviation = deviation_in_ball(0.1 / edges);
+  for (const FitCriterion& criterion :
+       {FitCriterion(Noise{deviation}), FitCriterion(Within{3 * deviation}), FitCriterion(RootMeanSquare{deviation})}) {
+    FitOptions options = without_noise(deviation);
+    options.criterion = criterion;
+    options.fair.fair_boundary.emplace();
+    const FitResult result = fit_to_itself(noisy, options);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    const std::vector<std::uint8_t> on_rim = boundary_nodes(tile);
+    double before = 0;
+    double after = 0;
+    for (std::size_t i = 0; i < on_rim.size(); ++i) {
+      if (on_rim[i] == 0) continue;
+      before += (noisy.positions()[i] - tile.positions()[i]).squaredNorm();
+      after += (result.positions[i] - tile.positions()[i]).squaredNorm();
+    }
+    EXPECT_LT(std::sqrt(after / before), 0.8) << criterion.index();
+    double furthest = 0;
+    for (std::size_t i = 0; i < on_rim.size(); ++i) {
+      const Vector3& place = tile.positions()[i];
+      if ((place.x() == 0 || place.x() == 1) && (place.y() == 0 || place.y() == 1))
+        furthest = std::max(furthest, (result.positions[i] - place).norm());
+    }
+    EXPECT_LT(furthest, 2 * deviation) << criterion.index();
+  }
+}
+
 TEST(FitNoisyScan, RefusesWhatHasNoNodesOfItsOwn) {
   const PolygonMesh torus = exact();
   ScatteredPoints others{.positions = torus.positions()};

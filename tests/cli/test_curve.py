@@ -201,6 +201,16 @@ class Curve(Case):
         result = self.curve(csv(points + points[:1]), "--closed", "--constraints", self.write("fixed.json", json.dumps(rules)), status=2)
         self.assertIn("nodes 0 and 24 are one", self.assert_one_line(result))
 
+    def test_what_a_curve_that_ends_where_it_begins_is_taken_for(self):
+        draw = random.Random(4)
+        ring = [(5e5 + 300 * math.cos(k * math.pi / 100) + draw.gauss(0, 2), 4e6 + 200 * math.sin(k * math.pi / 100) + draw.gauss(0, 2))
+                for k in range(200)]
+        said = self.curve(csv(ring + ring[:1]), "--within", "6").stdout.decode()
+        self.assertIn("note: node 200 is where node 0 is, and the curve stays open there; --closed makes the two one node", said)
+        leaf = [(abs(1 - k / 30), (0.3 if k < 30 else -0.3) * math.sin(math.pi * abs(1 - k / 30))) for k in range(60)]
+        said = self.curve(csv(leaf + leaf[:1]), "--within", "0.01").stdout.decode()
+        self.assertIn("note: node 60 is where node 0 is, and the curve stays open there, with its corner; --closed would round", said)
+
     def test_a_blunt_trailing_edge_keeps_its_corners(self):
         side = [(k / 20, 0.01 * k / 20 + 0.3 * math.sqrt(k / 20) * (1 - k / 20)) for k in range(21)]
         outline = [(x, y) for x, y in side[::-1]] + [(x, -y) for x, y in side[1:]]

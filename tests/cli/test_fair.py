@@ -45,6 +45,11 @@ class Fair(Case):
         self.assertLess(after["vspring_energy"], before["vspring_energy"])
         self.assertLess(after["greatest_turn"], before["greatest_turn"])
 
+    def test_shares_of_the_size_are_of_what_moves(self):
+        share = lambda text: self.fair(text=text).stdout.decode().split("by up to ")[1].split("(")[1].split(" % of the size")[0]
+        self.assertEqual(share(hat() + "v 1e5 1e5 1e5\n"), share(hat()))
+        self.assertEqual(share(hat() + "v 1e5 0 0\nv 1e5 1 0\nv 1e5 0 1\nf -3 -2 -1\n"), share(hat()))
+
     def test_figures_are_of_what_a_file_in_single_precision_holds(self):
         nodes = [[float(x) for x in line.split()[1:4]] for line in hat().splitlines() if line.startswith("v ")]
         faces = [[int(corner.split("/")[0]) - 1 for corner in line.split()[1:]] for line in hat().splitlines() if line.startswith("f ")]

@@ -29,6 +29,12 @@ class Measure(Case):
         self.assertEqual(len({len(line) - len(line.split("  ")[-1].lstrip()) for line in lines}), 1, lines)
         self.assertNotIn("\x1b", "".join(lines))
 
+    def test_says_where_there_is_no_noise_that_auto_takes(self):
+        for text, is_there in (("".join(f"{k},{2 * k}\n" for k in range(20)), False), (circle(), True)):
+            lines = self.measure(self.write("in.csv", text)).stdout.decode()
+            self.assertEqual("what --noise auto takes" in lines, is_there)
+            self.assertEqual("none that the numbers show" in lines, not is_there)
+
     def test_a_surface_for_scripts(self):
         report = self.report(self.write("in.obj", hat()))
         self.assertEqual((report["kind"], report["nodes"], report["faces"]), ("surface", 49, 48))

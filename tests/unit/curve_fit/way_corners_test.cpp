@@ -71,5 +71,15 @@ TEST(WayCorners, MayBeEveryPlace) {
   EXPECT_EQ(corners_of_way(square, false, angle, 0.1), (Places{1, 2}));
 }
 
+TEST(WayCorners, NeedStretchesOfSoManyEdges) {
+  std::vector<Vector3> ring;
+  for (int k = 0; k < 6; ++k)
+    ring.emplace_back(10 * std::cos(k * std::numbers::pi / 3), 10 * std::sin(k * std::numbers::pi / 3), 0);
+  EXPECT_EQ(corners_of_way(ring, true, 1, 0.1).size(), 6U);
+  EXPECT_EQ(corners_of_way(ring, true, 1, 0.1, {}, 2), Places{});
+  const std::vector<Vector3> square = way_of({10, 10, 10, 7.5}, std::numbers::pi / 2, 2.5);
+  EXPECT_EQ(corners_of_way(square, true, angle, 0.1, {}, 2), (Places{0, 4, 8, 12}));
+}
+
 }  // namespace
 }  // namespace vspring::way_corners_test

@@ -15,7 +15,7 @@ class FairingSession {
  public:
   /// threads: how many work on every call, whatever its context says; 0: as many as the machine has. Throws
   /// Error(invalid_argument) for options out of range.
-  explicit FairingSession(PolygonMesh mesh, const FairOptions& options = {}, int threads = 0);
+  explicit FairingSession(const PolygonMesh& mesh, const FairOptions& options = {}, int threads = 0);
   /// The same for a curve, with the threads of each context.
   explicit FairingSession(PolygonCurve curve, const FairOptions& options = {});
   ~FairingSession();

@@ -20,6 +20,7 @@
 #include "base/stopwatch.hpp"
 #include "checks/result_check.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
+#include "constraints/slivers.hpp"
 #include "equilibrium/sweep_method.hpp"
 #include "fit/fit_curve.hpp"
 #include "fit/fit_points.hpp"
@@ -331,8 +332,10 @@ FitResult fit_shape(const typename Subject::Shape& shape, const Constraints& con
 
 }  // namespace
 
-FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+FitResult fit(const PolygonMesh& given, const Constraints& constraints, const ScatteredPoints& points,
               const FitOptions& options, Context& context) {
+  const bool to_equilibrium = std::holds_alternative<EquilibriumMethod>(options.fair.method);
+  const PolygonMesh mesh = to_equilibrium ? Slivers(given).left_out(constraints) : given;
   if (!options.moves_freely())
     throw Error(ErrorCode::invalid_argument, "coordinates can be kept on curves only; let all of them move");
   if (options.voxels()) {

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "constraints/immovable_nodes_fixed.hpp"
+#include "constraints/slivers.hpp"
 #include "solve/surface_fairing.hpp"
 
 namespace vspring {
@@ -35,38 +36,58 @@ class FairingSession::Session {
 
 class FairingSession::SurfaceSession final : public Session {
  public:
-  SurfaceSession(PolygonMesh mesh, const FairOptions& options, int threads)
-      : mesh_(std::move(mesh)), options_(options), fairing_(mesh_, options_, threads), immovable_(mesh_) {}
+  SurfaceSession(const PolygonMesh& mesh, const FairOptions& options, int threads)
+      : slivers_(mesh), threads_(threads), mesh_(mesh), options_(options) {
+    start();
+  }
 
   FairResult fair(const Constraints& constraints, Context& context) override {
     if (options_.fair_boundary) return vspring::fair(mesh_, constraints, options_, context);
+    leave_slivers_out(constraints);
     return with_immovable_held(constraints,
-                               [&](const Constraints& held) { return fairing_.fair_again(held, context); });
+                               [&](const Constraints& held) { return fairing_->fair_again(held, context); });
   }
 
   FairResult update(const Constraints& constraints, double tolerance, Context& context) override {
     const FairOptions options = with_tolerance(options_, tolerance);
     if (options.fair_boundary) return vspring::fair(mesh_, constraints, options, context);
+    leave_slivers_out(constraints);
     return with_immovable_held(constraints,
-                               [&](const Constraints& held) { return fairing_.fair_again(held, context, tolerance); });
+                               [&](const Constraints& held) { return fairing_->fair_again(held, context, tolerance); });
   }
 
   std::optional<std::vector<Vector3>> predict(const Constraints& constraints, double tolerance) override {
     if (with_tolerance(options_, tolerance).fair_boundary) return std::nullopt;
-    return immovable_.use(constraints, [&](const Constraints& held) { return fairing_.predict(held, tolerance); });
+    return immovable_->use(constraints, [&](const Constraints& held) { return fairing_->predict(held, tolerance); });
   }
 
  private:
+  void start() {
+    immovable_.emplace(mesh_);
+    fairing_.emplace(mesh_, options_, threads_);
+  }
+
+  /// Where other ones are held than before, all begins anew.
+  void leave_slivers_out(const Constraints& constraints) {
+    if (!std::holds_alternative<EquilibriumMethod>(options_.method)) return;
+    PolygonMesh without = slivers_.left_out(constraints);
+    if (without.has_same_faces(mesh_)) return;
+    mesh_ = std::move(without);
+    start();
+  }
+
   template <typename Fair>
   FairResult with_immovable_held(const Constraints& constraints, const Fair& fair) {
-    return immovable_.run(
+    return immovable_->run(
         constraints, fair, [](FairResult & result) -> auto& { return result.report.warnings; });
   }
 
+  Slivers slivers_;
+  int threads_;
   PolygonMesh mesh_;
   FairOptions options_;
-  SurfaceFairing fairing_;
-  ImmovableNodesFixed immovable_;
+  std::optional<ImmovableNodesFixed> immovable_;
+  std::optional<SurfaceFairing> fairing_;
 };
 
 class FairingSession::CurveSession final : public Session {
@@ -89,11 +110,11 @@ class FairingSession::CurveSession final : public Session {
   FairOptions options_;
 };
 
-FairingSession::FairingSession(PolygonMesh mesh, const FairOptions& options, int threads) {
+FairingSession::FairingSession(const PolygonMesh& mesh, const FairOptions& options, int threads) {
   options.validate();
   Context context;
   context.threads = threads;
-  session_ = std::make_unique<SurfaceSession>(std::move(mesh), options, context.thread_count());
+  session_ = std::make_unique<SurfaceSession>(mesh, options, context.thread_count());
 }
 
 FairingSession::FairingSession(PolygonCurve curve, const FairOptions& options) {

@@ -73,6 +73,7 @@ TEST(WayCorners, MayBeEveryPlace) {
 
 TEST(WayCorners, NeedStretchesOfSoManyEdges) {
   std::vector<Vector3> ring;
+  ring.reserve(6);
   for (int k = 0; k < 6; ++k)
     ring.emplace_back(10 * std::cos(k * std::numbers::pi / 3), 10 * std::sin(k * std::numbers::pi / 3), 0);
   EXPECT_EQ(corners_of_way(ring, true, 1, 0.1).size(), 6U);

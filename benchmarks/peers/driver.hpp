@@ -50,6 +50,20 @@ inline std::vector<std::uint8_t> two_outer_rings(const PolygonMesh& mesh) {
   return rings;
 }
 
+/// Neighbours along edges, each as often as a face has it beside the node.
+inline std::vector<std::vector<Index>> neighbours_of(const PolygonMesh& mesh) {
+  std::vector<std::vector<Index>> neighbours(static_cast<std::size_t>(mesh.node_count()));
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const auto face = mesh.face(f);
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      auto& around = neighbours[static_cast<std::size_t>(face[k])];
+      around.push_back(face[(k + 1) % face.size()]);
+      around.push_back(face[(k + face.size() - 1) % face.size()]);
+    }
+  }
+  return neighbours;
+}
+
 /// Fairs a mesh by one program.
 /// program(mesh, threads, variant, cost): returns the new positions, and in cost what its call took.
 template <typename Program>

@@ -4,13 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <utility>
 #include <vector>
 
+#include "support/masks.hpp"
 #include "vspring/error.hpp"
 #include "vspring/figures.hpp"
 #include "vspring/fit.hpp"
@@ -19,50 +18,7 @@
 namespace vspring::fit_voxels_test {
 namespace {
 
-/// The sides of the voxels of a size whose middles are inside, in a box around the origin.
-PolygonMesh sides(const Vector3& size, const Vector3& box, const std::function<bool(const Vector3&)>& inside) {
-  std::map<std::array<int, 3>, Index> numbers;
-  std::vector<Vector3> places;
-  std::vector<Index> begin = {0};
-  std::vector<Index> corners;
-  const auto node = [&](const std::array<int, 3>& at) {
-    const auto [found, is_new] = numbers.emplace(at, static_cast<Index>(places.size()));
-    if (is_new) places.emplace_back(size.x() * at[0], size.y() * at[1], size.z() * at[2]);
-    return found->second;
-  };
-  const auto is_in = [&](const std::array<int, 3>& at) {
-    return inside(Vector3(size.x() * (at[0] + 0.5), size.y() * (at[1] + 0.5), size.z() * (at[2] + 0.5)));
-  };
-  std::array<int, 3> most{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    most[axis] = static_cast<int>(std::ceil(box[static_cast<int>(axis)] / size[static_cast<int>(axis)]));
-  std::array<int, 3> at{};
-  for (at[0] = -most[0]; at[0] < most[0]; ++at[0]) {
-    for (at[1] = -most[1]; at[1] < most[1]; ++at[1]) {
-      for (at[2] = -most[2]; at[2] < most[2]; ++at[2]) {
-        for (std::size_t axis = 0; axis < 3 && is_in(at); ++axis) {
-          for (const int side : {0, 1}) {
-            std::array<int, 3> beside = at;
-            beside[axis] += side == 1 ? 1 : -1;
-            if (is_in(beside)) continue;
-            std::vector<Index> face;
-            for (const auto& [u, v] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)}) {
-              std::array<int, 3> corner = at;
-              corner[axis] += side;
-              corner[(axis + 1) % 3] += u;
-              corner[(axis + 2) % 3] += v;
-              face.push_back(node(corner));
-            }
-            if (side == 0) std::reverse(face.begin(), face.end());
-            corners.insert(corners.end(), face.begin(), face.end());
-            begin.push_back(static_cast<Index>(corners.size()));
-          }
-        }
-      }
-    }
-  }
-  return {std::move(places), std::move(begin), std::move(corners)};
-}
+using support::sides_of_voxels;
 
 /// Quads over whole numbers.
 PolygonMesh grid(int cells, const std::function<double(int, int)>& height) {
@@ -121,7 +77,7 @@ FitResult steps_off(const PolygonMesh& mesh, const Vector3& size) {
 TEST(VoxelSize, IsFoundFarAwayAndInSinglePrecision) {
   const auto ball = [](const Vector3& place) { return place.norm() < 8; };
   for (const Vector3& size : {Vector3(1, 1, 1), Vector3(0.5, 0.5, 1.5)}) {
-    PolygonMesh mesh = sides(size, Vector3::Constant(10), ball);
+    PolygonMesh mesh = sides_of_voxels(size, Vector3::Constant(10), ball);
     const auto found = voxel_size(mesh);
     ASSERT_TRUE(found);
     EXPECT_LT((*found - size).norm(), 1e-12);
@@ -148,7 +104,7 @@ TEST(VoxelSize, IsNoneOfHeightsInWholeNumbersAndOfWhatIsFlat) {
 TEST(FitVoxels, LeavesABallOfItsVolumeWithinHalfAVoxel) {
   const auto ball = [](const Vector3& place) { return (place - Vector3(0.1, 0.2, 0.3)).norm() < 12; };
   for (const Vector3& size : {Vector3(1, 1, 1), Vector3(1, 1, 3)}) {
-    const PolygonMesh mesh = sides(size, Vector3::Constant(15), ball);
+    const PolygonMesh mesh = sides_of_voxels(size, Vector3::Constant(15), ball);
     const FitResult result = steps_off(mesh, size);
     EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
     EXPECT_NEAR(volume(mesh, result.positions) / volume(mesh, mesh.positions()), 1, 1e-3);
@@ -168,7 +124,7 @@ TEST(FitVoxels, LeavesFlatEndsFlat) {
   const auto box = [](const Vector3& place) {
     return std::abs(place.x()) < 10 && std::abs(place.y()) < 7 && std::abs(place.z()) < 5;
   };
-  const PolygonMesh mesh = sides(Vector3(1, 1, 1), Vector3(12, 9, 7), box);
+  const PolygonMesh mesh = sides_of_voxels(Vector3(1, 1, 1), Vector3(12, 9, 7), box);
   const FitResult result = steps_off(mesh, Vector3(1, 1, 1));
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   EXPECT_NEAR(volume(mesh, result.positions) / volume(mesh, mesh.positions()), 1, 1e-3);
@@ -191,7 +147,7 @@ TEST(FitVoxels, ComesNearerToABoxThatIsTilted) {
     return beyond.cwiseMax(0).norm() + std::min(beyond.maxCoeff(), 0.0);
   };
   const PolygonMesh mesh =
-      sides(Vector3(1, 1, 1), Vector3(13, 9, 10), [&](const Vector3& place) { return away(place) < 0; });
+      sides_of_voxels(Vector3(1, 1, 1), Vector3(13, 9, 10), [&](const Vector3& place) { return away(place) < 0; });
   const FitResult result = steps_off(mesh, Vector3(1, 1, 1));
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   EXPECT_NEAR(volume(mesh, result.positions) / volume(mesh, mesh.positions()), 1, 1e-3);
@@ -205,7 +161,7 @@ TEST(FitVoxels, HoldsPartsWhereTheyTouchAndTurnsNoEdgeFurther) {
     const bool second = place.x() > 0 && place.y() > 0 && place.maxCoeff() < 8;
     return std::abs(place.z()) < 5 && (first || second);
   };
-  const PolygonMesh mesh = sides(Vector3(1, 1, 1), Vector3(9, 9, 9), boxes);
+  const PolygonMesh mesh = sides_of_voxels(Vector3(1, 1, 1), Vector3(9, 9, 9), boxes);
   const FitResult result = steps_off(mesh, Vector3(1, 1, 1));
   EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
   ASSERT_FALSE(result.report.fair.warnings.empty());
@@ -227,7 +183,8 @@ TEST(FitVoxels, HoldsPartsWhereTheyTouchAndTurnsNoEdgeFurther) {
 }
 
 TEST(FitVoxels, IsRefusedForOtherPointsAndForCurves) {
-  const PolygonMesh mesh = sides(Vector3(1, 1, 1), Vector3::Constant(6), [](const Vector3& p) { return p.norm() < 4; });
+  const PolygonMesh mesh =
+      sides_of_voxels(Vector3(1, 1, 1), Vector3::Constant(6), [](const Vector3& p) { return p.norm() < 4; });
   FitOptions options;
   options.criterion = Voxels{Vector3(1, 1, 1)};
   EXPECT_THROW((void)fit(mesh, Constraints(mesh.node_count()), {.positions = {Vector3(0, 0, 0)}}, options), Error);

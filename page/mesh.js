@@ -4,7 +4,8 @@ import {cross, dot, minus} from './vectors.js';
 
 const at = (positions, node) => [positions[3 * node], positions[3 * node + 1], positions[3 * node + 2]];
 
-// Edges with the first two faces at each. against: 1 where both faces run along the edge the same way.
+// Edges with the first two faces at each. against: 1 where both faces run along the edge the same way; 0 where more than
+// two meet, as there is no telling which of them belong together.
 export function edgesOf({begin, nodes}, nodeCount) {
   const first = new Int32Array(nodeCount).fill(-1);  // lists of the edges at their lower node
   const next = new Int32Array(nodes.length);
@@ -12,6 +13,7 @@ export function edgesOf({begin, nodes}, nodeCount) {
   const faces = new Int32Array(2 * nodes.length).fill(-1);
   const against = new Uint8Array(nodes.length);
   const upward = new Uint8Array(nodes.length);
+  const crowded = new Uint8Array(nodes.length);  // 1 at edges of more than two faces
   let count = 0;
   for (let f = 0; f + 1 < begin.length; ++f) {
     for (let c = begin[f]; c < begin[f + 1]; ++c) {
@@ -32,10 +34,14 @@ export function edgesOf({begin, nodes}, nodeCount) {
       } else if (faces[2 * edge + 1] < 0) {
         faces[2 * edge + 1] = f;
         against[edge] = upward[edge] === (a < b ? 1 : 0) ? 1 : 0;
+      } else {
+        crowded[edge] = 1;
+        against[edge] = 0;
       }
     }
   }
-  return {count, ends: ends.slice(0, 2 * count), faces: faces.slice(0, 2 * count), against: against.slice(0, count)};
+  return {count, ends: ends.slice(0, 2 * count), faces: faces.slice(0, 2 * count), against: against.slice(0, count),
+    crowded: crowded.slice(0, count)};
 }
 
 // Twice the vector area of a face.
@@ -77,10 +83,10 @@ export function trianglesOf(runs, positions) {
 }
 
 // 1 for faces to be turned round so that neighbours agree, as far as the surface has two sides.
-function sensesOf(faceCount, {count, faces, against}) {
+function sensesOf(faceCount, {count, faces, against, crowded}) {
   const links = Array.from({length: faceCount}, () => []);
   for (let e = 0; e < count; ++e) {
-    if (faces[2 * e + 1] < 0) continue;
+    if (faces[2 * e + 1] < 0 || crowded[e]) continue;
     links[faces[2 * e]].push(faces[2 * e + 1], against[e]);
     links[faces[2 * e + 1]].push(faces[2 * e], against[e]);
   }

@@ -61,7 +61,8 @@ struct Noise {
 
 /// Surfaces of voxels of this size along x, y and z, whose own nodes are the points: takes their steps off. The fairest
 /// surface for a smoothing length of two voxels (the cube root of their volume), with more weight on nodes that would
-/// go further than half a voxel across it; so no node does. The volume stays where the surface is closed. See
+/// go further than half a voxel across it; so no node does. The volume stays where the surface is closed. Nodes keep
+/// their distribution unless another is given. See
 /// voxel_size(). Cost: up to six times that of SmoothingLength.
 struct Voxels {
   Vector3 size;
@@ -178,6 +179,10 @@ struct FitResult {
 /// Constraints hold as in fair(). If no point has weight, the result is that of fair(), bit for bit. A closed shape may
 /// be held by points alone, though its nodes can then slide (docs/fit.md); boundaries and ends must be held all the
 /// same. Nodes without points are fair between those that have some.
+///
+/// Surfaces: where more than two faces meet at edges, or several fans at a node, nodes are held, and each sheet goes by
+/// its own faces. With EquilibriumMethod and points that are the surface's own nodes, lines of such edges are fitted
+/// first, as curves, and what is near goes along with them.
 ///
 /// EquilibriumMethod goes to where springs and points balance at every node and ties do not change any more. Where
 /// ties would go to and fro, a point changes only to a node that is nearer by a margin. The other methods

@@ -354,9 +354,12 @@ void refuse_corners(const Constraints& of_surface) {
 }
 
 std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraints& constraints) {
-  const auto check = [&](const Constraints& held) { return check_constraints(mesh, held, {}); };
-  return ImmovableNodesFixed(mesh).run(
-      constraints, check, [](std::vector<Warning> & warnings) -> auto& { return warnings; });
+  ImmovableNodesFixed immovable(mesh);
+  std::vector<Warning> warnings = immovable.run(constraints, [](const PolygonMesh& sheets, const Constraints& held) {
+    return check_constraints(sheets, held, {});
+  });
+  immovable.warn(constraints, warnings);
+  return warnings;
 }
 
 std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraints& constraints,

@@ -3,30 +3,45 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
 
 namespace vspring {
 
 Constraints ImmovableNodesFixed::held(const Constraints& constraints) const {
-  Constraints held = constraints;
+  if (constraints.node_count() != mesh_.node_count()) return constraints;
+  Constraints held(cut_->mesh.node_count());
+  for (Index node = 0; node < mesh_.node_count(); ++node) held.hold_as(node, constraints, node);
   for (const Index node : nodes_) {
-    if (!held.position_fixed(node)) held.fix_position(node, mesh_->position(node));
+    if (!held.position_fixed(node)) held.fix_position(node, places_[static_cast<std::size_t>(node)]);
   }
+  for (std::size_t k = 0; k < cut_->origin.size(); ++k)
+    held.hold_as(mesh_.node_count() + static_cast<Index>(k), held, cut_->origin[k]);
   return held;
 }
 
-void ImmovableNodesFixed::add(const ImmovableNodes& found) {
-  nodes_.insert(nodes_.end(), found.nodes().begin(), found.nodes().end());
+void ImmovableNodesFixed::add(const ImmovableNodes& found, const Constraints& constraints) {
+  if (places_.empty()) places_ = find_places_ ? find_places_(constraints) : mesh_.positions();
+  for (const Index node : found.nodes()) {
+    const Index added = node - mesh_.node_count();
+    nodes_.push_back(added < 0 ? node : cut_->origin[static_cast<std::size_t>(added)]);
+  }
+  const std::size_t known = nodes_.size() - found.nodes().size();
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
+  // Held already, and still found to move.
+  if (nodes_.size() == known) throw Error(found.code(), found.what());
+  cut_ = into_sheets(mesh_, nodes_);
   message_ = found.what();
 }
 
-std::string ImmovableNodesFixed::warning(const Constraints& constraints) const {
-  const auto count =
-      std::count_if(nodes_.begin(), nodes_.end(), [&](Index node) { return !constraints.position_fixed(node); });
-  if (count == 0) return {};
-  return fmt::format("{} node{} cannot move and {} held: {}", count, count == 1 ? "" : "s", count == 1 ? "is" : "are",
-                     message_);
+void ImmovableNodesFixed::warn(const Constraints& constraints, std::vector<Warning>& warnings) const {
+  const auto count = std::count_if(nodes_.begin(), nodes_.end(), [&](Index node) {
+    return !constraints.position_fixed(node) && places_[static_cast<std::size_t>(node)] == mesh_.position(node);
+  });
+  if (count == 0) return;
+  warnings.insert(warnings.begin(), {WarningCode::immovable_nodes,
+                                     fmt::format("{} node{} cannot move and {} held: {}", count, count == 1 ? "" : "s",
+                                                 count == 1 ? "is" : "are", message_)});
 }
 
 }  // namespace vspring

@@ -19,10 +19,10 @@
 #include "base/cancellation.hpp"
 #include "base/stopwatch.hpp"
 #include "checks/result_check.hpp"
-#include "constraints/immovable_nodes_fixed.hpp"
 #include "constraints/slivers.hpp"
 #include "equilibrium/sweep_method.hpp"
 #include "fit/fit_curve.hpp"
+#include "fit/fit_lines.hpp"
 #include "fit/fit_points.hpp"
 #include "fit/fit_run.hpp"
 #include "fit/fit_to_tolerance.hpp"
@@ -32,7 +32,6 @@
 #include "fit/voxel_fit.hpp"
 #include "points/point_factors.hpp"
 #include "points/point_ties.hpp"
-#include "solve/fair_boundary.hpp"
 #include "vspring/figures.hpp"
 
 namespace vspring {
@@ -342,14 +341,14 @@ FitResult fit(const PolygonMesh& given, const Constraints& constraints, const Sc
     options.validate();
     return fit_voxels(mesh, constraints, points, options, context);
   }
-  const auto fit_held = [&](const Constraints& held) {
-    if (!options.fair.fair_boundary) return fit_shape<FitSurface>(mesh, held, points, options, context);
-    options.validate();
-    check_points(points);
-    return fit_boundary_first(mesh, held, points, options, context);
-  };
-  return ImmovableNodesFixed(mesh).run(
-      constraints, fit_held, [](FitResult & fitted) -> auto& { return fitted.report.fair.warnings; });
+  return fit_sheets(mesh, constraints, points, options, context,
+                    [&](const PolygonMesh& sheets, const Constraints& held, const ScatteredPoints& of_sheets) {
+                      if (!options.fair.fair_boundary)
+                        return fit_shape<FitSurface>(sheets, held, of_sheets, options, context);
+                      options.validate();
+                      check_points(of_sheets);
+                      return fit_boundary_first(sheets, held, of_sheets, options, context);
+                    });
 }
 
 FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,

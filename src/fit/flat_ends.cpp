@@ -24,6 +24,8 @@ constexpr std::int64_t most_aside = 3;
 constexpr double aside_of_depth = 0.5;
 constexpr double least_share_of_rim = 0.8;
 constexpr std::size_t least_inside = 12;
+// Of faces that look some way.
+constexpr double least_cosine = 0.7;
 
 using Cell = std::array<std::int64_t, 3>;
 
@@ -44,9 +46,10 @@ class FlatEnds {
         cell[static_cast<std::size_t>(axis)] =
             std::llround(2 * (position[axis] - mesh.positions()[0][axis]) / size[axis]);
     }
-    sorted_ = cells_;
-    std::sort(sorted_.begin(), sorted_.end());
     for (Index f = 0; f < mesh.face_count(); ++f) planes_.push_back(plane_of(f));
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int sign : {-1, 1}) walls_.push_back(cells_not_looking(axis, -sign));
+    }
   }
 
   [[nodiscard]] std::vector<std::uint8_t> find() {
@@ -122,7 +125,24 @@ class FlatEnds {
     return around;
   }
 
-  /// Whether the surface is near the line from a node inwards, three voxels below.
+  /// Of nodes none of whose faces looks that way, in order.
+  [[nodiscard]] std::vector<Cell> cells_not_looking(int axis, int sign) const {
+    std::vector<std::uint8_t> looks(cells_.size(), 0);
+    for (Index f = 0; f < mesh_.face_count(); ++f) {
+      const Vector3 area = twice_vector_area(mesh_.face(f), mesh_.positions());
+      if (!(sign * area[axis] > least_cosine * area.norm())) continue;
+      for (const Index node : mesh_.face(f)) looks[static_cast<std::size_t>(node)] = 1;
+    }
+    std::vector<Cell> cells;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      if (looks[i] == 0) cells.push_back(cells_[i]);
+    }
+    std::sort(cells.begin(), cells.end());
+    return cells;
+  }
+
+  /// Whether the surface is near the line from a node inwards, three voxels below, and that is not the other side of
+  /// something thin.
   [[nodiscard]] bool goes_down(const Cell& rim, const Plane& plane) const {
     const auto axis = static_cast<std::size_t>(plane.axis);
     const std::size_t u = (axis + 1) % 3;
@@ -134,12 +154,13 @@ class FlatEnds {
     };
     const std::int64_t aside_u = aside_along(u);
     const std::int64_t aside_v = aside_along(v);
+    const std::vector<Cell>& walls = walls_[2 * axis + (plane.sign > 0 ? 1 : 0)];
     Cell at = rim;
     for (std::int64_t down = depth_of_end - more_or_less; down <= depth_of_end + more_or_less; ++down) {
       at[axis] = rim[axis] - plane.sign * down;
       for (at[u] = rim[u] - aside_u; at[u] <= rim[u] + aside_u; ++at[u]) {
         for (at[v] = rim[v] - aside_v; at[v] <= rim[v] + aside_v; ++at[v]) {
-          if (std::binary_search(sorted_.begin(), sorted_.end(), at)) return true;
+          if (std::binary_search(walls.begin(), walls.end(), at)) return true;
         }
       }
     }
@@ -149,8 +170,8 @@ class FlatEnds {
   const PolygonMesh& mesh_;
   Incidence incidence_;
   Vector3 size_;
-  std::vector<Cell> cells_;  // in half voxels
-  std::vector<Cell> sorted_;
+  std::vector<Cell> cells_;               // in half voxels
+  std::vector<std::vector<Cell>> walls_;  // by axis and sign of a plane: of nodes that do not look the other way
   std::vector<std::optional<Plane>> planes_;
 };
 

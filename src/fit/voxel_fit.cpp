@@ -15,9 +15,9 @@
 #include "base/threads.hpp"
 #include "checks/new_crossings.hpp"
 #include "constraints/holding.hpp"
-#include "constraints/immovable_nodes_fixed.hpp"
-#include "fit/fit_points.hpp"
+#include "fit/fit_lines.hpp"
 #include "fit/flat_ends.hpp"
+#include "fit/measure_again.hpp"
 #include "shape/edges.hpp"
 #include "shape/face_geometry.hpp"
 #include "shape/incidence.hpp"
@@ -45,8 +45,12 @@ constexpr double unseen = 1e-9;
 
 class VoxelFit {
  public:
-  VoxelFit(const PolygonMesh& mesh, const Constraints& constraints, Vector3 size)
-      : mesh_(mesh), constraints_(constraints), size_(std::move(size)), flat_(nodes_of_flat_ends(mesh, size_)) {
+  VoxelFit(const PolygonMesh& mesh, const Constraints& constraints, Vector3 size, bool of_sides)
+      : mesh_(mesh),
+        constraints_(constraints),
+        size_(std::move(size)),
+        of_sides_(of_sides),
+        flat_(nodes_of_flat_ends(mesh, size_)) {
     stays_ = flat_;
     for (Index f = 0; f < mesh.face_count(); ++f) {
       const auto face = mesh.face(f);
@@ -96,8 +100,11 @@ class VoxelFit {
   }
 
  private:
+  /// As far as a plane may be from a corner of the voxels that it goes between; from the middle of an edge between two
+  /// middles of voxels, where marching cubes have their nodes.
   [[nodiscard]] double half(std::size_t node, const Vector3& normal) const {
-    return (flat_[node] != 0 ? share_of_flat : 1) * normal.cwiseAbs().dot(size_) / 2;
+    const Vector3 halves = normal.cwiseAbs().cwiseProduct(size_) / 2;
+    return (flat_[node] != 0 ? share_of_flat : 1) * (of_sides_ ? halves.sum() : halves.maxCoeff());
   }
 
   /// Along normals, for the volume that was there; 0 where the surface is open or nearly all of it stays.
@@ -133,6 +140,7 @@ class VoxelFit {
   const PolygonMesh& mesh_;
   const Constraints& constraints_;
   Vector3 size_;
+  bool of_sides_;  // of voxels, rather than what marching cubes make of them
   std::vector<std::uint8_t> flat_;
   std::vector<std::uint8_t> stays_;  // where the volume is put back: those, and what is held with what is next to it
 };
@@ -185,35 +193,23 @@ class Turns {
   std::vector<Pair> pairs_;
 };
 
-/// What changes in the report where nodes have moved once more.
-void measure_again(const PolygonMesh& mesh, const Constraints& constraints, FitResult& found, int threads) {
-  Context measuring;
-  measuring.threads = threads;
-  FitReport& report = found.report;
-  PolygonMesh moved = mesh;
-  moved.set_positions(found.positions);
-  found.distances = point_distances(mesh.positions(), moved, measuring);
-  std::vector<std::uint8_t> counted(found.positions.size(), 0);
-  for (const Index node : mesh.corners()) counted[static_cast<std::size_t>(node)] = 1;
-  report.after = summary(found.distances, counted);
-  report.shape = distance(found.positions, mesh, measuring);
-  double squares = 0;
-  report.fair.greatest_move = 0;
-  for (std::size_t i = 0; i < counted.size(); ++i) {
-    if (constraints.position_fixed(static_cast<Index>(i))) continue;
-    const double move = (found.positions[i] - mesh.positions()[i]).norm();
-    report.fair.greatest_move = std::max(report.fair.greatest_move, move);
-    squares += move * move;
+/// Whether all faces are across an axis, as the sides of voxels are.
+bool are_sides(const PolygonMesh& mesh) {
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const Vector3 area = twice_vector_area(mesh.face(f), mesh.positions()).cwiseAbs();
+    if (!(area.maxCoeff() >= (1 - unseen) * area.sum())) return false;
   }
-  report.fair.rms_move = std::sqrt(squares / std::max<double>(1, report.fair.moving_nodes));
+  return true;
 }
 
 FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
-                         const FitOptions& options, Context& context) {
+                         const FitOptions& options, bool of_sides, Context& context) {
   const Vector3 size = std::get<Voxels>(options.criterion).size;
-  const VoxelFit voxels(mesh, constraints, size);
+  const VoxelFit voxels(mesh, constraints, size, of_sides);
   FitOptions smooth = options;
   smooth.criterion = SmoothingLength{smoothing_in_voxels * std::cbrt(size.prod())};
+  // What is within half a voxel is near.
+  if (!smooth.fair.distribution) smooth.fair.distribution = Distribution::keep;
   ScatteredPoints weighted = points;
   if (weighted.weights.empty()) weighted.weights.assign(mesh.positions().size(), 1);
   voxels.weigh_flat_ends(weighted.weights);
@@ -260,12 +256,12 @@ FitResult fit_voxels(const PolygonMesh& mesh, const Constraints& constraints, co
     throw Error(ErrorCode::invalid_argument,
                 "steps of voxels can be taken off only where the points are the nodes of the surface; take a smoothing "
                 "length for others");
-  const auto fit_held = [&](const Constraints& held) {
-    (void)check_constraints(mesh, held, std::vector<std::uint8_t>(mesh.positions().size(), 1));
-    return take_steps_off(mesh, held, points, options, context);
-  };
-  return ImmovableNodesFixed(mesh).run(
-      constraints, fit_held, [](FitResult & fitted) -> auto& { return fitted.report.fair.warnings; });
+  const bool of_sides = are_sides(mesh);
+  return fit_sheets(mesh, constraints, points, options, context,
+                    [&](const PolygonMesh& sheets, const Constraints& held, const ScatteredPoints& of_sheets) {
+                      (void)check_constraints(sheets, held, std::vector<std::uint8_t>(sheets.positions().size(), 1));
+                      return take_steps_off(sheets, held, of_sheets, options, of_sides, context);
+                    });
 }
 
 }  // namespace vspring

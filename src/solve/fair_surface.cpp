@@ -16,12 +16,13 @@ FairResult fair(const PolygonMesh& given, const Constraints& constraints, const 
   // The paper's methods take faces as they are.
   const bool to_equilibrium = std::holds_alternative<EquilibriumMethod>(options.method);
   const PolygonMesh mesh = to_equilibrium ? Slivers(given).left_out(constraints) : given;
-  const auto fair_held = [&](const Constraints& held) {
-    return options.fair_boundary ? fair_boundary_first(mesh, held, options, context)
-                                 : SurfaceFairing(mesh, options, context.thread_count()).fair_once(held, context);
+  const auto fair_held = [&](const PolygonMesh& sheets, const Constraints& held) {
+    return options.fair_boundary ? fair_boundary_first(sheets, held, options, context)
+                                 : SurfaceFairing(sheets, options, context.thread_count()).fair_once(held, context);
   };
-  FairResult result = ImmovableNodesFixed(mesh).run(
-      constraints, fair_held, [](FairResult & faired) -> auto& { return faired.report.warnings; });
+  ImmovableNodesFixed immovable(mesh);
+  FairResult result = immovable.run(constraints, fair_held);
+  immovable.join_sheets(constraints, result.positions, result.report);
   result.report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

@@ -37,56 +37,62 @@ class FairingSession::Session {
 class FairingSession::SurfaceSession final : public Session {
  public:
   SurfaceSession(const PolygonMesh& mesh, const FairOptions& options, int threads)
-      : slivers_(mesh), threads_(threads), mesh_(mesh), options_(options) {
-    start();
+      : slivers_(mesh), threads_(threads), mesh_(mesh), options_(options), immovable_(mesh), sheets_(mesh) {
+    fairing_.emplace(sheets_, options_, threads_);
   }
 
   FairResult fair(const Constraints& constraints, Context& context) override {
     if (options_.fair_boundary) return vspring::fair(mesh_, constraints, options_, context);
-    leave_slivers_out(constraints);
-    return with_immovable_held(constraints,
-                               [&](const Constraints& held) { return fairing_->fair_again(held, context); });
+    return run(constraints, [&](const Constraints& held) { return fairing_->fair_again(held, context); });
   }
 
   FairResult update(const Constraints& constraints, double tolerance, Context& context) override {
     const FairOptions options = with_tolerance(options_, tolerance);
     if (options.fair_boundary) return vspring::fair(mesh_, constraints, options, context);
-    leave_slivers_out(constraints);
-    return with_immovable_held(constraints,
-                               [&](const Constraints& held) { return fairing_->fair_again(held, context, tolerance); });
+    return run(constraints, [&](const Constraints& held) { return fairing_->fair_again(held, context, tolerance); });
   }
 
   std::optional<std::vector<Vector3>> predict(const Constraints& constraints, double tolerance) override {
     if (with_tolerance(options_, tolerance).fair_boundary) return std::nullopt;
-    return immovable_->use(constraints, [&](const Constraints& held) { return fairing_->predict(held, tolerance); });
+    auto positions = immovable_.use(
+        constraints, [&](const PolygonMesh&, const Constraints& held) { return fairing_->predict(held, tolerance); });
+    if (positions) positions->resize(mesh_.positions().size());
+    return positions;
   }
 
  private:
-  void start() {
-    immovable_.emplace(mesh_);
-    fairing_.emplace(mesh_, options_, threads_);
+  template <typename Fair>
+  FairResult run(const Constraints& constraints, const Fair& fair) {
+    leave_slivers_out(constraints);
+    FairResult result = immovable_.run(constraints, [&](const PolygonMesh& sheets, const Constraints& held) {
+      start(sheets);
+      return fair(held);
+    });
+    immovable_.join_sheets(constraints, result.positions, result.report);
+    return result;
   }
 
-  /// Where other ones are held than before, all begins anew.
+  /// On another mesh than before all begins anew.
+  void start(const PolygonMesh& sheets) {
+    if (sheets.has_same_faces(sheets_)) return;
+    sheets_ = sheets;
+    fairing_.emplace(sheets_, options_, threads_);
+  }
+
   void leave_slivers_out(const Constraints& constraints) {
     if (!std::holds_alternative<EquilibriumMethod>(options_.method)) return;
     PolygonMesh without = slivers_.left_out(constraints);
     if (without.has_same_faces(mesh_)) return;
     mesh_ = std::move(without);
-    start();
-  }
-
-  template <typename Fair>
-  FairResult with_immovable_held(const Constraints& constraints, const Fair& fair) {
-    return immovable_->run(
-        constraints, fair, [](FairResult & result) -> auto& { return result.report.warnings; });
+    immovable_ = ImmovableNodesFixed(mesh_);
   }
 
   Slivers slivers_;
   int threads_;
   PolygonMesh mesh_;
   FairOptions options_;
-  std::optional<ImmovableNodesFixed> immovable_;
+  ImmovableNodesFixed immovable_;
+  PolygonMesh sheets_;  ///< what is faired
   std::optional<SurfaceFairing> fairing_;
 };
 

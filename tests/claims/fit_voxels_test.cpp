@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "vspring/figures.hpp"
 #include "vspring/fit.hpp"
 #include "vspring/noise.hpp"
+#include "vspring/topology.hpp"
 
 namespace vspring::fit_voxels_test {
 namespace {
@@ -180,6 +182,57 @@ TEST(FitVoxels, HoldsPartsWhereTheyTouchAndTurnsNoEdgeFurther) {
     return measure_surface(shape).greatest_turn;
   };
   EXPECT_LE(turn(result.positions), turn(mesh.positions()) + 1e-6);
+}
+
+TEST(FitVoxels, LinesWhereThreeMaterialsMeetAreCurvesOfTheirOwn) {
+  // A ball of two materials.
+  const Vector3 across = Vector3(std::sin(0.35), 0, std::cos(0.35));
+  const auto from_ball = [](const Vector3& place) { return place.norm() - 10; };
+  const auto from_plane = [&](const Vector3& place) { return across.dot(place) - 1.3; };
+  const PolygonMesh mesh =
+      support::sides_of_materials(Vector3(1, 1, 1), Vector3::Constant(12), [&](const Vector3& place) {
+        return from_ball(place) > 0 ? 0 : from_plane(place) > 0 ? 1 : 2;
+      });
+  std::vector<std::uint8_t> on_line(mesh.positions().size(), 0);
+  for (const Defect& defect : check(mesh)) {
+    if (defect.kind != Defect::Kind::non_manifold_edge) continue;
+    on_line[static_cast<std::size_t>(defect.node)] = on_line[static_cast<std::size_t>(defect.other)] = 1;
+  }
+  const FitResult result = steps_off(mesh, Vector3(1, 1, 1));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.fair.moving_nodes, mesh.node_count()) << "lines move, too";
+  EXPECT_EQ(result.positions.size(), mesh.positions().size());
+  EXPECT_EQ(result.distances.size(), mesh.positions().size());
+  const auto off = [&](const std::vector<Vector3>& places) {
+    std::array<double, 3> squares{};
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const double ball = std::pow(from_ball(places[i]), 2);
+      const double plane = std::pow(from_plane(places[i]), 2);
+      if (on_line[i] != 0)
+        squares[0] += ball + plane;
+      else if (std::abs(from_ball(mesh.positions()[i])) < 1.2)
+        squares[1] += ball;
+      else
+        squares[2] += plane;
+    }
+    return squares;
+  };
+  const auto before = off(mesh.positions());
+  const auto after = off(result.positions);
+  EXPECT_LT(std::sqrt(after[0] / before[0]), 0.5) << "the line";
+  EXPECT_LT(std::sqrt(after[1] / before[1]), 0.3) << "the ball";
+  EXPECT_LT(std::sqrt(after[2] / before[2]), 0.4) << "the plane between";
+}
+
+TEST(FitVoxels, ThinWallsHaveNoFlatEnds) {
+  // A tube four voxels thick: what is three voxels below its upmost terrace is its other side.
+  const auto from_ring = [](const Vector3& place) {
+    return std::hypot(std::hypot(place.x(), place.y()) - 14, place.z()) - 6;
+  };
+  const Vector3 size(1, 1, 3);
+  const PolygonMesh mesh =
+      support::sides_of_voxels(size, Vector3(22, 22, 9), [&](const Vector3& place) { return from_ring(place) < 0; });
+  EXPECT_LT(rms(steps_off(mesh, size).positions, from_ring), 0.3 * rms(mesh.positions(), from_ring));
 }
 
 TEST(FitVoxels, IsRefusedForOtherPointsAndForCurves) {

@@ -14,9 +14,10 @@
 
 namespace vspring::support {
 
-/// The sides of the voxels of a size whose middles are inside, in a box around the origin of twice the size given.
-inline PolygonMesh sides_of_voxels(const Vector3& size, const Vector3& box,
-                                   const std::function<bool(const Vector3&)>& inside) {
+/// The sides that voxels of different materials have in common, in a box around the origin of twice the size given:
+/// each once, looking from the greater number of a material to the lesser. material: of the middle of a voxel.
+inline PolygonMesh sides_of_materials(const Vector3& size, const Vector3& box,
+                                      const std::function<int(const Vector3&)>& material) {
   std::map<std::array<int, 3>, Index> numbers;
   std::vector<Vector3> places;
   std::vector<Index> begin = {0};
@@ -26,8 +27,8 @@ inline PolygonMesh sides_of_voxels(const Vector3& size, const Vector3& box,
     if (is_new) places.emplace_back(size.x() * at[0], size.y() * at[1], size.z() * at[2]);
     return found->second;
   };
-  const auto is_in = [&](const std::array<int, 3>& at) {
-    return inside(Vector3(size.x() * (at[0] + 0.5), size.y() * (at[1] + 0.5), size.z() * (at[2] + 0.5)));
+  const auto material_of = [&](const std::array<int, 3>& at) {
+    return material(Vector3(size.x() * (at[0] + 0.5), size.y() * (at[1] + 0.5), size.z() * (at[2] + 0.5)));
   };
   std::array<int, 3> most{};
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -36,11 +37,11 @@ inline PolygonMesh sides_of_voxels(const Vector3& size, const Vector3& box,
   for (at[0] = -most[0]; at[0] < most[0]; ++at[0]) {
     for (at[1] = -most[1]; at[1] < most[1]; ++at[1]) {
       for (at[2] = -most[2]; at[2] < most[2]; ++at[2]) {
-        for (std::size_t axis = 0; axis < 3 && is_in(at); ++axis) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
           for (const int side : {0, 1}) {
             std::array<int, 3> beside = at;
             beside[axis] += side == 1 ? 1 : -1;
-            if (is_in(beside)) continue;
+            if (material_of(at) <= material_of(beside)) continue;
             std::vector<Index> face;
             for (const auto& [u, v] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)}) {
               std::array<int, 3> corner = at;
@@ -58,6 +59,12 @@ inline PolygonMesh sides_of_voxels(const Vector3& size, const Vector3& box,
     }
   }
   return {std::move(places), std::move(begin), std::move(corners)};
+}
+
+/// The sides of the voxels whose middles are inside.
+inline PolygonMesh sides_of_voxels(const Vector3& size, const Vector3& box,
+                                   const std::function<bool(const Vector3&)>& inside) {
+  return sides_of_materials(size, box, [&](const Vector3& middle) { return inside(middle) ? 1 : 0; });
 }
 
 }  // namespace vspring::support

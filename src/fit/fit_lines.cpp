@@ -1,0 +1,207 @@
+#include "fit/fit_lines.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "constraints/holding.hpp"
+#include "constraints/immovable_nodes_fixed.hpp"
+#include "curve_fit/way_corners.hpp"
+#include "fit/measure_again.hpp"
+#include "shape/incidence.hpp"
+#include "shape/junctions.hpp"
+#include "shape/node_graph.hpp"
+#include "solve/lines_of_surface.hpp"
+#include "vspring/error.hpp"
+#include "vspring/topology.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Corners of loops turn by more than this, on stretches of so many edges at least, and so many
+// times the noise tell nothing.
+constexpr double least_turn_of_corner = std::numbers::pi / 3;
+constexpr int least_edges_to_corner = 2;
+constexpr double times_noise = 3;
+// Rings of neighbours that go along with lines, each about as the mean of its neighbours after so many turns.
+constexpr int rings_along = 4;
+constexpr int turns_along = 20;
+
+/// Half the diagonal.
+double reach_of_voxels(const Vector3& size) { return size.norm() / 2; }
+
+/// How far from where they belong nodes may be, by what is to be taken off; 0 where that is not known.
+double reach_of_noise(const FitOptions& options) {
+  if (options.within()) return *options.within();
+  if (options.voxels()) return reach_of_voxels(*options.voxels());
+  return times_noise * options.noise().value_or(options.rms().value_or(0));
+}
+
+/// Corners of loops whose nodes are not held in a direction stay corners: they are more than noise.
+void keep_corners(const std::vector<PolygonCurve::Chain>& loops, const std::vector<Vector3>& positions, double reach,
+                  Constraints& constraints) {
+  for (const auto& loop : loops) {
+    std::vector<Vector3> way;
+    for (const Index node : loop.nodes) way.push_back(positions[static_cast<std::size_t>(node)]);
+    for (const std::size_t k :
+         corners_of_way(way, loop.closed, least_turn_of_corner, reach, {}, least_edges_to_corner)) {
+      if (!constraints.tangent_fixed(loop.nodes[k])) constraints.make_corner(loop.nodes[k]);
+    }
+  }
+}
+
+/// What lines go by where the surface goes by that.
+FitCriterion criterion_of_lines(const FitOptions& options) {
+  // A node of voxels may be as far from where it should be as their corners are from their middles.
+  if (options.voxels()) return Within{reach_of_voxels(*options.voxels())};
+  // Across a curve in space noise has two directions.
+  if (const auto noise = options.rms() ? options.rms() : options.noise())
+    return RootMeanSquare{std::sqrt(2.0) * *noise};
+  return options.criterion;
+}
+
+/// Fits lines to their own nodes; has the surface hold them there.
+FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const ScatteredPoints& points,
+                    const FitOptions& options, Context& context) {
+  FitOptions of_curve = options;
+  of_curve.fair.fair_boundary.reset();
+  of_curve.criterion = criterion_of_lines(options);
+  // The nodes of the lines alone: they are the points.
+  std::vector<Index> node_of;
+  std::vector<Index> number(mesh.positions().size(), -1);
+  std::vector<PolygonCurve::Chain> chains = lines.curve.chains();
+  ScatteredPoints on_lines;
+  for (auto& chain : chains) {
+    for (Index& node : chain.nodes) {
+      const auto i = static_cast<std::size_t>(node);
+      if (number[i] < 0) {
+        number[i] = static_cast<Index>(node_of.size());
+        node_of.push_back(node);
+        on_lines.positions.push_back(mesh.position(node));
+        if (!points.weights.empty()) on_lines.weights.push_back(points.weights[i]);
+      }
+      node = number[i];
+    }
+  }
+  Constraints held(static_cast<Index>(node_of.size()));
+  for (std::size_t k = 0; k < node_of.size(); ++k) held.hold_as(static_cast<Index>(k), lines.of_curve, node_of[k]);
+  if (const double reach = reach_of_noise(options); reach > 0) keep_corners(chains, on_lines.positions, reach, held);
+  FitResult curve = fit(PolygonCurve(on_lines.positions, std::move(chains)), held, on_lines, of_curve, context);
+  std::vector<Vector3> positions = mesh.positions();
+  for (std::size_t k = 0; k < node_of.size(); ++k) positions[static_cast<std::size_t>(node_of[k])] = curve.positions[k];
+  lines.hold(positions);
+  curve.positions = std::move(positions);
+  return curve;
+}
+
+/// Positions of all nodes where lines are held as a fit has left them: what is near goes along, so that it does not end
+/// on the other side of them.
+std::vector<Vector3> with_lines(const PolygonMesh& mesh, const LinesOfSurface& lines) {
+  const Incidence incidence(mesh);
+  const NodeGraph graph(mesh, incidence);
+  const std::size_t count = mesh.positions().size();
+  std::vector<Vector3> moves(count, Vector3::Zero());
+  std::vector<std::uint8_t> is_near(count, 0);
+  std::vector<Index> near = lines.free;
+  for (const Index i : near) {
+    moves[static_cast<std::size_t>(i)] = lines.of_surface.position(i) - mesh.position(i);
+    is_near[static_cast<std::size_t>(i)] = 1;
+  }
+  std::size_t ring = 0;
+  for (int k = 0; k < rings_along; ++k) {
+    for (const std::size_t end = near.size(); ring < end; ++ring) {
+      graph.for_each_neighbour(near[ring], [&](Index j) {
+        if (std::exchange(is_near[static_cast<std::size_t>(j)], 1) == 0 && !lines.of_surface.position_fixed(j))
+          near.push_back(j);
+      });
+    }
+  }
+  // Each the mean of its neighbours, about.
+  for (int turn = 0; turn < turns_along; ++turn) {
+    for (std::size_t k = lines.free.size(); k < near.size(); ++k) {
+      Vector3 sum = Vector3::Zero();
+      int neighbours = 0;
+      graph.for_each_neighbour(near[k], [&](Index j) {
+        sum += moves[static_cast<std::size_t>(j)];
+        ++neighbours;
+      });
+      moves[static_cast<std::size_t>(near[k])] = sum / neighbours;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) moves[i] += mesh.positions()[i];
+  return moves;
+}
+
+}  // namespace
+
+FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                             FitOptions options, Context& context) {
+  if (points.positions != mesh.positions())
+    throw Error(ErrorCode::invalid_argument,
+                "the boundary can be fitted first only where the points are the nodes of the shape; else fair it "
+                "before, and hold it");
+  LinesOfSurface boundary(mesh, constraints, boundary_curve(mesh));
+  options.fair.fair_boundary.reset();
+  if (boundary.free.empty()) return fit(mesh, constraints, points, options, context);
+  boundary.hold(mesh.positions());
+  (void)check_constraints(mesh, boundary.of_surface, std::vector<std::uint8_t>(mesh.positions().size(), 1));
+
+  FitResult curve = fit_lines(mesh, boundary, points, options, context);
+  FitResult result = fit(mesh, boundary.of_surface, points, options, context);
+  FairReport& report = result.report.fair;
+  join(curve.report.fair, report);
+  report.boundary = std::make_shared<const FairReport>(std::move(curve.report.fair));
+  account_for_moves(mesh, constraints, 1, result.positions, report);
+  return result;
+}
+
+FitResult fit_sheets(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                     const FitOptions& options, Context& context, const FitOfSheets& fit) {
+  const bool pull_at_home = points.positions == mesh.positions();
+  std::optional<FairReport> of_lines;
+  std::vector<Vector3> start = mesh.positions();
+  const auto places = [&](const Constraints& held) {
+    if (!pull_at_home || !std::holds_alternative<EquilibriumMethod>(options.fair.method)) return start;
+    LinesOfSurface lines(mesh, held, junction_lines(mesh));
+    if (lines.free.empty()) return start;
+    FitResult curve = fit_lines(mesh, lines, points, options, context);
+    const Outcome outcome = curve.report.fair.outcome;
+    if (outcome == Outcome::worse_than_input || outcome == Outcome::cancelled) return start;
+    of_lines = std::move(curve.report.fair);
+    start = with_lines(mesh, lines);
+    return curve.positions;
+  };
+  const auto fit_cut = [&](PolygonMesh sheets, const Constraints& held) {
+    const std::size_t count = sheets.positions().size();
+    if (!pull_at_home || count == mesh.positions().size()) return fit(sheets, held, points);
+    ScatteredPoints more = points;
+    more.positions = start;
+    for (std::size_t i = start.size(); i < count; ++i) more.positions.push_back(held.position(static_cast<Index>(i)));
+    sheets.set_positions(more.positions);
+    if (more.weights.empty()) more.weights.assign(points.positions.size(), 1);
+    more.weights.resize(count, 0);
+    if (!more.normals.empty()) more.normals.resize(count, Vector3::Zero());
+    FitResult result = fit(sheets, held, more);
+    if (!result.distances.empty()) result.distances.resize(points.positions.size());
+    result.report.points = static_cast<Index>(points.positions.size());
+    return result;
+  };
+  ImmovableNodesFixed immovable(mesh, places);
+  FitResult result = immovable.run(constraints, fit_cut);
+  immovable.join_sheets(constraints, result.positions, result.report.fair);
+  if (of_lines) {
+    join(*of_lines, result.report.fair);
+    account_for_moves(mesh, constraints, 1, result.positions, result.report.fair);
+    if (!result.distances.empty()) measure_again(mesh, constraints, result, context.threads);
+  }
+  return result;
+}
+
+}  // namespace vspring

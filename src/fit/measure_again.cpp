@@ -1,0 +1,36 @@
+#include "fit/measure_again.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fit/fit_points.hpp"
+#include "vspring/distance.hpp"
+
+namespace vspring {
+
+void measure_again(const PolygonMesh& mesh, const Constraints& constraints, FitResult& found, int threads) {
+  Context measuring;
+  measuring.threads = threads;
+  FitReport& report = found.report;
+  PolygonMesh moved = mesh;
+  moved.set_positions(found.positions);
+  found.distances = point_distances(mesh.positions(), moved, measuring);
+  std::vector<std::uint8_t> counted(found.positions.size(), 0);
+  for (const Index node : mesh.corners()) counted[static_cast<std::size_t>(node)] = 1;
+  report.after = summary(found.distances, counted);
+  report.shape = distance(found.positions, mesh, measuring);
+  double squares = 0;
+  report.fair.greatest_move = 0;
+  for (std::size_t i = 0; i < counted.size(); ++i) {
+    if (constraints.position_fixed(static_cast<Index>(i))) continue;
+    const double move = (found.positions[i] - mesh.positions()[i]).norm();
+    report.fair.greatest_move = std::max(report.fair.greatest_move, move);
+    squares += move * move;
+  }
+  report.fair.rms_move = std::sqrt(squares / std::max<double>(1, report.fair.moving_nodes));
+}
+
+}  // namespace vspring

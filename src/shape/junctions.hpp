@@ -1,0 +1,12 @@
+#pragma once
+
+#include "vspring/polygon_curve.hpp"
+#include "vspring/polygon_mesh.hpp"
+
+namespace vspring {
+
+/// The lines along which more than two faces meet, as chains of the mesh's nodes from one place where such lines meet
+/// or end to the next, or closed. Cost: n log n.
+PolygonCurve junction_lines(const PolygonMesh& mesh);
+
+}  // namespace vspring

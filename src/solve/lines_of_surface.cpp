@@ -1,0 +1,63 @@
+#include "solve/lines_of_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace vspring {
+
+LinesOfSurface::LinesOfSurface(const PolygonMesh& mesh, const Constraints& constraints, PolygonCurve lines)
+    : curve(std::move(lines)), of_curve(mesh.node_count()), of_surface(constraints) {
+  std::vector<int> passed(mesh.positions().size(), 0);
+  for (const auto& chain : curve.chains()) {
+    for (const Index node : chain.nodes) ++passed[static_cast<std::size_t>(node)];
+    if (chain.closed || chain.nodes.empty()) continue;
+    for (const Index end : {chain.nodes.front(), chain.nodes.back()}) passed[static_cast<std::size_t>(end)] += 2;
+  }
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    const int times = passed[static_cast<std::size_t>(i)];
+    if (times == 0) continue;
+    if (times > 1 && !constraints.position_fixed(i)) {
+      of_curve.fix_position(i, mesh.position(i));
+      of_surface.fix_position(i, mesh.position(i));
+      continue;
+    }
+    if (constraints.position_fixed(i)) of_curve.fix_position(i, constraints.position(i));
+    if (constraints.tangent_fixed(i)) of_curve.fix_tangent(i, constraints.tangent(i));
+    if (!constraints.position_fixed(i)) free.push_back(i);
+  }
+}
+
+void LinesOfSurface::hold(const std::vector<Vector3>& positions) {
+  for (const Index i : free) of_surface.fix_position(i, positions[static_cast<std::size_t>(i)]);
+}
+
+/// Goes the share `strength` of the way from the input, and tells of that way.
+void account_for_moves(const PolygonMesh& mesh, const Constraints& constraints, double strength,
+                       std::vector<Vector3>& positions, FairReport& report) {
+  std::vector<double> moves;
+  report.fixed_positions = 0;
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    Vector3& position = positions[static_cast<std::size_t>(i)];
+    if (constraints.position_fixed(i)) ++report.fixed_positions;
+    if (constraints.position_fixed(i) || position == mesh.position(i)) continue;
+    const Vector3 move = strength * (position - mesh.position(i));
+    if (strength < 1) position = mesh.position(i) + move;
+    moves.push_back(move.stableNorm());
+  }
+  report.moving_nodes = static_cast<Index>(moves.size());
+  report.greatest_move = moves.empty() ? 0 : *std::max_element(moves.begin(), moves.end());
+  report.rms_move = 0;
+  if (!(report.greatest_move > 0)) return;
+  double squares = 0;
+  for (const double move : moves) squares += move / report.greatest_move * (move / report.greatest_move);
+  report.rms_move = report.greatest_move * std::sqrt(squares / static_cast<double>(moves.size()));
+}
+
+void join(const FairReport& lines, FairReport& report) {
+  if (report.outcome == Outcome::converged) report.outcome = lines.outcome;
+  report.warnings.insert(report.warnings.begin(), lines.warnings.begin(), lines.warnings.end());
+}
+
+}  // namespace vspring

@@ -181,8 +181,8 @@ struct FitResult {
 /// same. Nodes without points are fair between those that have some.
 ///
 /// Surfaces: where more than two faces meet at edges, or several fans at a node, nodes are held, and each sheet goes by
-/// its own faces. With EquilibriumMethod and points that are the surface's own nodes, lines of such edges are fitted
-/// first, as curves, and what is near goes along with them.
+/// its own faces. With EquilibriumMethod and points that are the surface's own nodes, lines of edges of three faces are
+/// fitted first, as curves, and what is near goes along with them.
 ///
 /// EquilibriumMethod goes to where springs and points balance at every node and ties do not change any more. Where
 /// ties would go to and fro, a point changes only to a node that is nearer by a margin. The other methods

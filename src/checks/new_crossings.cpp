@@ -60,57 +60,6 @@ PolygonMesh part_of(const PolygonMesh& mesh, const std::vector<Index>& faces, co
   return {positions, std::move(face_begin), std::move(corners)};
 }
 
-/// Whether two faces cross however they are cut into fans of triangles: those that are not flat may be any of these.
-bool cross_anyway(const PolygonMesh& mesh, Index a, Index b, const Context& context, ThreadTeam& team) {
-  const auto first = mesh.face(a);
-  const auto second = mesh.face(b);
-  if (first.size() == 3 && second.size() == 3) return true;
-  std::vector<Vector3> positions;
-  for (const auto face : {first, second}) {
-    for (const Index node : face) positions.push_back(mesh.position(node));
-  }
-  const auto starts = [](std::size_t size) { return size == 3 ? 1 : size; };
-  for (std::size_t s = 0; s < starts(first.size()); ++s) {
-    for (std::size_t t = 0; t < starts(second.size()); ++t) {
-      std::vector<Index> corners;
-      const auto add_fan = [&](std::size_t size, std::size_t start, std::size_t before) {
-        for (std::size_t k = 1; k + 1 < size; ++k) {
-          for (const std::size_t place : {start, start + k, start + k + 1})
-            corners.push_back(static_cast<Index>(before + place % size));
-        }
-      };
-      add_fan(first.size(), s, 0);
-      add_fan(second.size(), t, first.size());
-      std::vector<Index> face_begin;
-      for (std::size_t k = 0; k <= corners.size(); k += 3) face_begin.push_back(static_cast<Index>(k));
-      const PolygonMesh both(positions, std::move(face_begin), std::move(corners));
-      const auto of_first = static_cast<Index>(first.size() - 2);
-      const auto pairs = self_intersections(both, context, team);
-      if (std::none_of(pairs.begin(), pairs.end(), [&](const std::pair<Index, Index>& pair) {
-            return (pair.first < of_first) != (pair.second < of_first);
-          }))
-        return false;
-    }
-  }
-  return true;
-}
-
-/// Pairs of faces that cross, less those that have an edge in common, or two nodes at the same places: they fold there,
-/// as quads do whose nodes a line has drawn nearly straight.
-std::vector<std::pair<Index, Index>> crossings_apart(const PolygonMesh& mesh, const Context& context,
-                                                     ThreadTeam& team) {
-  auto pairs = self_intersections(mesh, context, team);
-  std::erase_if(pairs, [&](const std::pair<Index, Index>& pair) {
-    const auto other = mesh.face(pair.second);
-    const auto first = mesh.face(pair.first);
-    const auto shared = std::count_if(first.begin(), first.end(), [&](Index a) {
-      return std::any_of(other.begin(), other.end(), [&](Index b) { return mesh.position(a) == mesh.position(b); });
-    });
-    return shared > 1 || !cross_anyway(mesh, pair.first, pair.second, context, team);
-  });
-  return pairs;
-}
-
 }  // namespace
 
 std::string new_crossings(const PolygonMesh& mesh, const std::vector<Vector3>& positions, const Context& context,
@@ -120,10 +69,10 @@ std::string new_crossings(const PolygonMesh& mesh, const std::vector<Vector3>& p
     end_if_cancelled();
     const std::vector<Index> numbers = faces_around_what_moved(mesh, positions, team);
     PolygonMesh part = part_of(mesh, numbers, positions);
-    const auto now = crossings_apart(part, context, team);
+    const auto now = self_intersections(part, context, team);
     if (now.empty() || context.cancelled()) return {};
     part.set_positions(mesh.positions());
-    const std::size_t before = crossings_apart(part, context, team).size();
+    const std::size_t before = self_intersections(part, context, team).size();
     if (now.size() <= before || context.cancelled()) return {};
     const auto number = [&](Index face) { return numbers[static_cast<std::size_t>(face)]; };
     return fmt::format("{} pairs of faces cross each other ({} and {}, for one), {} did before", now.size(),

@@ -6,6 +6,9 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "fairness/crossing_triangles.hpp"
 #include "fairness/height_field.hpp"
@@ -200,12 +203,69 @@ Pairs crossings(const PolygonMesh& mesh, std::size_t most, const Context& contex
   return CrossingSearch<Pairs>(triangles, most, context, team).find();
 }
 
+/// Two faces alone, nodes at one place as one.
+class TwoFaces {
+ public:
+  TwoFaces(const PolygonMesh& mesh, const std::pair<Index, Index>& faces) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      for (const Index node : mesh.face(k == 0 ? faces.first : faces.second)) {
+        const auto found = std::find(positions_.begin(), positions_.end(), mesh.position(node));
+        if (k == 1 && found != positions_.end()) ++shared_;
+        faces_[k].push_back(static_cast<Index>(found - positions_.begin()));
+        if (found == positions_.end()) positions_.push_back(mesh.position(node));
+      }
+    }
+  }
+
+  /// They fold there.
+  [[nodiscard]] bool share_an_edge() const { return shared_ > 1; }
+
+  /// Whether they cross from whichever nodes they are cut into fans: those that are not flat may be any of these.
+  [[nodiscard]] bool cross_anyway() const {
+    for (std::size_t s = 0; s < ways_to_cut(faces_[0]); ++s) {
+      for (std::size_t t = 0; t < ways_to_cut(faces_[1]); ++t) {
+        if (!cross({s, t})) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  static std::size_t ways_to_cut(const std::vector<Index>& face) { return face.size() == 3 ? 1 : face.size(); }
+
+  [[nodiscard]] bool cross(const std::array<std::size_t, 2>& from) const {
+    MeshBuilder builder;
+    for (const Vector3& position : positions_) builder.add_node(position);
+    for (std::size_t n = 0; n < 2; ++n) {
+      const std::vector<Index>& face = faces_[n];
+      const auto node = [&](std::size_t k) { return face[(from[n] + k) % face.size()]; };
+      for (std::size_t k = 1; k + 1 < face.size(); ++k) builder.add_face({node(0), node(k), node(k + 1)});
+    }
+    const CrossingTriangles cut(builder.take());
+    const std::span<const Triangle> all = cut.triangles();
+    const auto first = all.first(faces_[0].size() - 2);
+    const auto second = all.subspan(faces_[0].size() - 2);
+    return std::any_of(first.begin(), first.end(), [&](const Triangle& a) {
+      return std::any_of(second.begin(), second.end(), [&](const Triangle& b) { return cut.cross(a, b); });
+    });
+  }
+
+  std::vector<Vector3> positions_;
+  std::array<std::vector<Index>, 2> faces_;
+  int shared_ = 0;
+};
+
 /// As the public function, but that it ends early once `most` or more pairs of triangles cross.
 std::vector<std::pair<Index, Index>> face_pairs(const PolygonMesh& mesh, std::size_t most, const Context& context,
                                                 ThreadTeam& team) {
   auto pairs = crossings<FacePairs>(mesh, most, context, team).list;
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::erase_if(pairs, [&](const std::pair<Index, Index>& pair) {
+    if (mesh.face(pair.first).size() == 3 && mesh.face(pair.second).size() == 3) return false;
+    const TwoFaces faces(mesh, pair);
+    return faces.share_an_edge() || !faces.cross_anyway();
+  });
   return pairs;
 }
 

@@ -10,10 +10,13 @@
 #include <variant>
 #include <vector>
 
+#include "base/threads.hpp"
+#include "checks/new_crossings.hpp"
 #include "constraints/holding.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
 #include "curve_fit/way_corners.hpp"
 #include "fit/measure_again.hpp"
+#include "fit/turned_edges.hpp"
 #include "shape/incidence.hpp"
 #include "shape/junctions.hpp"
 #include "shape/node_graph.hpp"
@@ -101,24 +104,23 @@ FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const Scatte
   return curve;
 }
 
-/// Positions of all nodes where lines are held as a fit has left them: what is near goes along, so that it does not end
-/// on the other side of them.
-std::vector<Vector3> with_lines(const PolygonMesh& mesh, const LinesOfSurface& lines) {
+/// Positions of all nodes on lines as a fit has left them: what is near goes along, so that it does not end on the
+/// other side of a line.
+std::vector<Vector3> with_lines(const PolygonMesh& mesh, const Constraints& constraints, const LinesOfSurface& lines) {
   const Incidence incidence(mesh);
   const NodeGraph graph(mesh, incidence);
-  const std::size_t count = mesh.positions().size();
-  std::vector<Vector3> moves(count, Vector3::Zero());
-  std::vector<std::uint8_t> is_near(count, 0);
+  std::vector<Vector3> moves(mesh.positions().size(), Vector3::Zero());
+  std::vector<std::uint8_t> is_near(moves.size(), 0);
   std::vector<Index> near = lines.free;
   for (const Index i : near) {
     moves[static_cast<std::size_t>(i)] = lines.of_surface.position(i) - mesh.position(i);
     is_near[static_cast<std::size_t>(i)] = 1;
   }
-  std::size_t ring = 0;
-  for (int k = 0; k < rings_along; ++k) {
-    for (const std::size_t end = near.size(); ring < end; ++ring) {
-      graph.for_each_neighbour(near[ring], [&](Index j) {
-        if (std::exchange(is_near[static_cast<std::size_t>(j)], 1) == 0 && !lines.of_surface.position_fixed(j))
+  std::size_t done = 0;
+  for (int ring = 0; ring < rings_along; ++ring) {
+    for (const std::size_t end = near.size(); done < end; ++done) {
+      graph.for_each_neighbour(near[done], [&](Index j) {
+        if (std::exchange(is_near[static_cast<std::size_t>(j)], 1) == 0 && !constraints.position_fixed(j))
           near.push_back(j);
       });
     }
@@ -135,7 +137,7 @@ std::vector<Vector3> with_lines(const PolygonMesh& mesh, const LinesOfSurface& l
       moves[static_cast<std::size_t>(near[k])] = sum / neighbours;
     }
   }
-  for (std::size_t i = 0; i < count; ++i) moves[i] += mesh.positions()[i];
+  for (std::size_t i = 0; i < moves.size(); ++i) moves[i] += mesh.positions()[i];
   return moves;
 }
 
@@ -162,46 +164,91 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
   return result;
 }
 
-FitResult fit_sheets(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
-                     const FitOptions& options, Context& context, const FitOfSheets& fit) {
-  const bool pull_at_home = points.positions == mesh.positions();
-  std::optional<FairReport> of_lines;
-  std::vector<Vector3> start = mesh.positions();
-  const auto places = [&](const Constraints& held) {
-    if (!pull_at_home || !std::holds_alternative<EquilibriumMethod>(options.fair.method)) return start;
-    LinesOfSurface lines(mesh, held, junction_lines(mesh));
-    if (lines.free.empty()) return start;
-    FitResult curve = fit_lines(mesh, lines, points, options, context);
+namespace {
+
+/// Fits the sheets of a surface that is cut where they meet.
+class SheetFit {
+ public:
+  SheetFit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+           const FitOptions& options, Context& context, const FitOfSheets& fit)
+      : mesh_(mesh), constraints_(constraints), points_(points), options_(options), context_(context), fit_(fit) {}
+
+  FitResult run() {
+    FitResult result = fit_on_lines(true);
+    if (!of_lines_ || result.report.fair.outcome == Outcome::cancelled) return result;
+    // Looked at by fit() beside a start on new lines, and not beside the mesh.
+    if (is_worse(result)) return fit_on_lines(false);
+    FairReport& report = result.report.fair;
+    join(*of_lines_, report);
+    account_for_moves(mesh_, constraints_, 1, result.positions, report);
+    if (!result.distances.empty()) measure_again(mesh_, constraints_, result, context_.threads);
+    return result;
+  }
+
+ private:
+  FitResult fit_on_lines(bool fits_lines) {
+    start_ = mesh_.positions();
+    ImmovableNodesFixed immovable(
+        mesh_, [&](const Constraints& held) { return fits_lines ? places(held) : mesh_.positions(); });
+    FitResult result = immovable.run(
+        constraints_, [&](const PolygonMesh& sheets, const Constraints& held) { return fit(sheets, held); });
+    immovable.join_sheets(constraints_, result.positions, result.report.fair);
+    return result;
+  }
+
+  [[nodiscard]] bool is_worse(const FitResult& result) const {
+    ThreadTeam team(context_.thread_count());
+    return result.report.fair.outcome == Outcome::worse_than_input ||
+           !TurnedEdges(mesh_).faces(result.positions).empty() ||
+           !new_crossings(mesh_, result.positions, context_, team).empty();
+  }
+
+  [[nodiscard]] bool pull_at_home() const { return points_.positions == mesh_.positions(); }
+
+  /// Where nodes that cannot move are held; makes the start.
+  std::vector<Vector3> places(const Constraints& held) {
+    if (!pull_at_home() || !std::holds_alternative<EquilibriumMethod>(options_.fair.method)) return start_;
+    LinesOfSurface lines(mesh_, held, junction_lines(mesh_));
+    if (lines.free.empty()) return start_;
+    FitResult curve = fit_lines(mesh_, lines, points_, options_, context_);
     const Outcome outcome = curve.report.fair.outcome;
-    if (outcome == Outcome::worse_than_input || outcome == Outcome::cancelled) return start;
-    of_lines = std::move(curve.report.fair);
-    start = with_lines(mesh, lines);
-    return curve.positions;
-  };
-  const auto fit_cut = [&](PolygonMesh sheets, const Constraints& held) {
+    if (outcome == Outcome::worse_than_input || outcome == Outcome::cancelled) return start_;
+    of_lines_ = std::move(curve.report.fair);
+    start_ = with_lines(mesh_, held, lines);
+    return start_;
+  }
+
+  FitResult fit(PolygonMesh sheets, const Constraints& held) const {
     const std::size_t count = sheets.positions().size();
-    if (!pull_at_home || count == mesh.positions().size()) return fit(sheets, held, points);
-    ScatteredPoints more = points;
-    more.positions = start;
-    for (std::size_t i = start.size(); i < count; ++i) more.positions.push_back(held.position(static_cast<Index>(i)));
+    if (!pull_at_home() || count == mesh_.positions().size()) return fit_(sheets, held, points_);
+    ScatteredPoints more = points_;
+    more.positions = start_;
+    for (std::size_t i = start_.size(); i < count; ++i) more.positions.push_back(held.position(static_cast<Index>(i)));
     sheets.set_positions(more.positions);
-    if (more.weights.empty()) more.weights.assign(points.positions.size(), 1);
+    if (more.weights.empty()) more.weights.assign(points_.positions.size(), 1);
     more.weights.resize(count, 0);
     if (!more.normals.empty()) more.normals.resize(count, Vector3::Zero());
-    FitResult result = fit(sheets, held, more);
-    if (!result.distances.empty()) result.distances.resize(points.positions.size());
-    result.report.points = static_cast<Index>(points.positions.size());
+    FitResult result = fit_(sheets, held, more);
+    if (!result.distances.empty()) result.distances.resize(points_.positions.size());
+    result.report.points = static_cast<Index>(points_.positions.size());
     return result;
-  };
-  ImmovableNodesFixed immovable(mesh, places);
-  FitResult result = immovable.run(constraints, fit_cut);
-  immovable.join_sheets(constraints, result.positions, result.report.fair);
-  if (of_lines) {
-    join(*of_lines, result.report.fair);
-    account_for_moves(mesh, constraints, 1, result.positions, result.report.fair);
-    if (!result.distances.empty()) measure_again(mesh, constraints, result, context.threads);
   }
-  return result;
+
+  const PolygonMesh& mesh_;
+  const Constraints& constraints_;
+  const ScatteredPoints& points_;
+  const FitOptions& options_;
+  Context& context_;
+  const FitOfSheets& fit_;
+  std::optional<FairReport> of_lines_;  ///< where they have been fitted
+  std::vector<Vector3> start_;
+};
+
+}  // namespace
+
+FitResult fit_sheets(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                     const FitOptions& options, Context& context, const FitOfSheets& fit) {
+  return SheetFit(mesh, constraints, points, options, context, fit).run();
 }
 
 }  // namespace vspring

@@ -15,7 +15,7 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
 /// given has more nodes then, which are held, and points without weight.
 using FitOfSheets = std::function<FitResult(const PolygonMesh&, const Constraints&, const ScatteredPoints&)>;
 
-/// Lines along which more than two faces meet, as between three materials, are curves of their own. In an equilibrium
+/// Lines along which three faces meet, as between three materials, are curves of their own. In an equilibrium
 /// fit of a surface to its own nodes they are fitted first, else they stay; the sheets hold them.
 FitResult fit_sheets(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                      const FitOptions& options, Context& context, const FitOfSheets& fit);

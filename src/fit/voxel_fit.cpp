@@ -18,6 +18,7 @@
 #include "fit/fit_lines.hpp"
 #include "fit/flat_ends.hpp"
 #include "fit/measure_again.hpp"
+#include "fit/turned_edges.hpp"
 #include "shape/edges.hpp"
 #include "shape/face_geometry.hpp"
 #include "shape/incidence.hpp"
@@ -145,54 +146,6 @@ class VoxelFit {
   std::vector<std::uint8_t> stays_;  // where the volume is put back: those, and what is held with what is next to it
 };
 
-/// Edges between two faces, and which way these looked at first.
-class Turns {
- public:
-  explicit Turns(const PolygonMesh& mesh) : mesh_(mesh) {
-    const Incidence incidence(mesh);
-    EdgeFinder edges(mesh, incidence);
-    for (Index node = 0; node < mesh.node_count(); ++node) {
-      edges.at_node(node, [&](Index neighbour, std::span<const EdgeUse> uses) {
-        if (neighbour < node || uses.size() != 2) return;
-        pairs_.push_back({uses[0].face, uses[1].face, 0});
-        pairs_.back().cosine = cosine(pairs_.back(), mesh.positions());
-      });
-    }
-  }
-
-  /// Where an edge turns by more than a right angle, and did not before, nodes of its faces go back to where they were,
-  /// until none does.
-  void take_back(std::vector<Vector3>& positions) const {
-    for (bool any = true; any;) {
-      any = false;
-      for (const Pair& pair : pairs_) {
-        if (!(cosine(pair, positions) < std::min(pair.cosine, 0.0) - unseen)) continue;
-        for (const Index face : {pair.first, pair.second}) {
-          for (const Index node : mesh_.face(face)) {
-            const auto i = static_cast<std::size_t>(node);
-            any = any || positions[i] != mesh_.positions()[i];
-            positions[i] = mesh_.positions()[i];
-          }
-        }
-      }
-    }
-  }
-
- private:
-  struct Pair {
-    Index first;
-    Index second;
-    double cosine;
-  };
-
-  [[nodiscard]] double cosine(const Pair& pair, const std::vector<Vector3>& at) const {
-    return unit_normal(mesh_.face(pair.first), at).dot(unit_normal(mesh_.face(pair.second), at));
-  }
-
-  const PolygonMesh& mesh_;
-  std::vector<Pair> pairs_;
-};
-
 /// Whether all faces are across an axis, as the sides of voxels are.
 bool are_sides(const PolygonMesh& mesh) {
   for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -229,10 +182,20 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
     if (nearer.report.fair.outcome != Outcome::converged) break;
     found = std::move(nearer);
   }
+  if (found.report.fair.outcome == Outcome::worse_than_input) {
+    // What is worse may be mended below.
+    smooth.fair.as_found = true;
+    found = fit(mesh, constraints, weighted, smooth, context);
+    if (found.report.fair.outcome == Outcome::worse_than_input) {
+      found.report.fair.outcome = Outcome::converged;
+      std::erase_if(found.report.fair.warnings,
+                    [](const Warning& warning) { return warning.code == WarningCode::worse_than_input; });
+    }
+  }
   if (found.report.fair.outcome != Outcome::converged) return found;
   std::vector<Vector3> finished = found.positions;
   voxels.finish(finished);
-  Turns(mesh).take_back(finished);
+  TurnedEdges(mesh).take_back(finished);
   // What was found has been looked at by fit(); this has not.
   ThreadTeam team(context.thread_count());
   const std::string crossings = new_crossings(mesh, finished, context, team);

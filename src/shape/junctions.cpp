@@ -21,7 +21,7 @@ class LineFinder {
     EdgeFinder edges(mesh, incidence);
     for (Index node = 0; node < mesh.node_count(); ++node) {
       edges.at_node(node, [&](Index neighbour, std::span<const EdgeUse> uses) {
-        if (uses.size() > 2) left_[node].push_back(neighbour);
+        if (uses.size() == 3) left_[node].push_back(neighbour);
       });
     }
     for (const auto& [node, neighbours] : left_) {

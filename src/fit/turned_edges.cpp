@@ -1,0 +1,64 @@
+#include "fit/turned_edges.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+#include "shape/edges.hpp"
+#include "shape/face_geometry.hpp"
+#include "shape/incidence.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Of cosines.
+constexpr double unseen_turn = 1e-9;
+
+}  // namespace
+
+TurnedEdges::TurnedEdges(const PolygonMesh& mesh) : mesh_(mesh) {
+  const Incidence incidence(mesh);
+  EdgeFinder edges(mesh, incidence);
+  for (Index node = 0; node < mesh.node_count(); ++node) {
+    edges.at_node(node, [&](Index neighbour, std::span<const EdgeUse> uses) {
+      if (neighbour < node || uses.size() != 2) return;
+      pairs_.push_back({uses[0].face, uses[1].face, 0});
+      pairs_.back().cosine = cosine(pairs_.back(), mesh.positions());
+    });
+  }
+}
+
+std::vector<Index> TurnedEdges::faces(const std::vector<Vector3>& positions) const {
+  std::vector<Index> turned;
+  for (const Pair& pair : pairs_) {
+    if (is_turned(pair, positions)) turned.insert(turned.end(), {pair.first, pair.second});
+  }
+  return turned;
+}
+
+void TurnedEdges::take_back(std::vector<Vector3>& positions) const {
+  for (bool any = true; any;) {
+    any = false;
+    for (const Pair& pair : pairs_) {
+      if (!is_turned(pair, positions)) continue;
+      for (const Index face : {pair.first, pair.second}) {
+        for (const Index node : mesh_.face(face)) {
+          const auto i = static_cast<std::size_t>(node);
+          any = any || positions[i] != mesh_.positions()[i];
+          positions[i] = mesh_.positions()[i];
+        }
+      }
+    }
+  }
+}
+
+double TurnedEdges::cosine(const Pair& pair, const std::vector<Vector3>& at) const {
+  return unit_normal(mesh_.face(pair.first), at).dot(unit_normal(mesh_.face(pair.second), at));
+}
+
+bool TurnedEdges::is_turned(const Pair& pair, const std::vector<Vector3>& at) const {
+  return cosine(pair, at) < std::min(pair.cosine, 0.0) - unseen_turn;
+}
+
+}  // namespace vspring

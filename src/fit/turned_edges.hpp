@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "vspring/polygon_mesh.hpp"
+
+namespace vspring {
+
+/// The edges between two faces of a mesh, and which way these look in it.
+class TurnedEdges {
+ public:
+  /// The mesh must outlive it. Cost: n log n.
+  explicit TurnedEdges(const PolygonMesh& mesh);
+
+  /// The faces at edges that turn by more than a right angle, with nodes at `positions`, and further than in the mesh.
+  [[nodiscard]] std::vector<Index> faces(const std::vector<Vector3>& positions) const;
+  /// Nodes of such faces go back to where they are in the mesh, until there are none.
+  void take_back(std::vector<Vector3>& positions) const;
+
+ private:
+  struct Pair {
+    Index first;
+    Index second;
+    double cosine;
+  };
+
+  [[nodiscard]] double cosine(const Pair& pair, const std::vector<Vector3>& at) const;
+  [[nodiscard]] bool is_turned(const Pair& pair, const std::vector<Vector3>& at) const;
+
+  const PolygonMesh& mesh_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace vspring

@@ -46,10 +46,16 @@ inline NoiseEstimate noise_of(const PolygonCurve& curve, const PullArguments& pu
   return estimate_noise(curve, pull.moving_axes);
 }
 
+/// rounding: of the nodes, in each coordinate, which is noise that neighbours share, so that it may not be seen.
 template <typename Shape>
-void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context& context) {
-  if (!arguments.automatic.empty())
-    settle_by_noise(arguments, noise_of(shape, arguments, context), std::is_same_v<Shape, PolygonCurve>);
+void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context& context, double rounding = 0) {
+  if (arguments.automatic.empty()) return;
+  NoiseEstimate noise = noise_of(shape, arguments, context);
+  if (!noise.voxel && noise.deviation > 0 && noise.deviation < rounding) {
+    noise.edges *= rounding / noise.deviation;
+    noise.deviation = rounding;
+  }
+  settle_by_noise(arguments, noise, std::is_same_v<Shape, PolygonCurve>);
 }
 
 /// Finds the coordinates that are to move in a file that was read. Throws Error(invalid_argument) where it has none of

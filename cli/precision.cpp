@@ -12,6 +12,8 @@ namespace {
 
 // Of the mean edge: what turns by less than about a degree.
 constexpr double unseen = 0.01;
+// What turns by more than some degrees.
+constexpr double coarse = 0.05;
 
 double mean_edge(const PolygonMesh& mesh) {
   double sum = 0;
@@ -25,6 +27,17 @@ double mean_edge(const PolygonMesh& mesh) {
 }
 
 }  // namespace
+
+std::string warning_of_rounding(const PolygonMesh& shape, double rounding) {
+  const double edge = mean_edge(shape);
+  if (!(rounding > coarse * edge)) return {};
+  return fmt::format(
+      "the file has single precision, which so far from the origin has rounded nodes by {:.3g} units (standard "
+      "deviation in each coordinate), {:.2g} of the mean edge: the shape is no better than that; take an offset off "
+      "all "
+      "coordinates before they are written so",
+      rounding, rounding / edge);
+}
 
 void take_written(PolygonMesh& shape, std::vector<Vector3> written, std::vector<std::string>& warnings) {
   double greatest = 0;

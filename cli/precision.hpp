@@ -11,4 +11,8 @@ namespace vspring::cli {
 /// hundredth of the mean edge off. What is not finite then is refused where it is written.
 void take_written(PolygonMesh& shape, std::vector<Vector3> written, std::vector<std::string>& warnings);
 
+/// A line where positions that were read are rounded by a good part of the edges: a shape that came so. rounding: their
+/// standard deviation in each coordinate. Empty where not.
+[[nodiscard]] std::string warning_of_rounding(const PolygonMesh& shape, double rounding);
+
 }  // namespace vspring::cli

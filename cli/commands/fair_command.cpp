@@ -53,7 +53,8 @@ int run_fair(FairArguments arguments) {
         input_name(arguments.input) + ": no face in it; lines are faired by vspring curve, points have no shape");
   const Welding welding(file, arguments);
   const PolygonMesh& mesh = welding.shape(file);
-  settle_by_noise(arguments.pull, mesh, fairing.context());
+  const double rounding = rounding_of(file);
+  settle_by_noise(arguments.pull, mesh, fairing.context(), rounding);
   const Constraints constraints = make_constraints(arguments, mesh, welding.rules(file));
   fairing.input_is_read();
 
@@ -61,6 +62,7 @@ int run_fair(FairArguments arguments) {
       fair_or_fit(mesh, constraints, welding.weights(), arguments, arguments.pull, fairing.context());
   const FairReport& report = done.faired.report;
   std::vector<std::string> warnings = file.warnings;
+  if (std::string text = warning_of_rounding(mesh, rounding); !text.empty()) warnings.push_back(std::move(text));
   PolygonMesh after = mesh;
   after.set_positions(done.faired.positions);
   take_written(after, written_positions(arguments.output, file, done.faired.positions, arguments.format), warnings);

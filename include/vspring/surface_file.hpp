@@ -82,6 +82,10 @@ void write_surface(const std::string& path, const PolygonMesh& mesh,
 [[nodiscard]] FileBytes surface_bytes(const std::string& name, const PolygonMesh& mesh,
                                       std::optional<SurfaceFormat> format = std::nullopt);
 
+/// The standard deviation, in each coordinate, of what was rounded off positions so far from the origin, in units of
+/// the file, where that has single precision; else 0. Cost: linear.
+[[nodiscard]] double rounding_of(const SurfaceFile& surface);
+
 /// The positions that write_surface() leaves in a file of that name: rounded where that has single precision, as binary
 /// STL and some PLY do, infinite beyond its range; else as they are. Cost: linear.
 [[nodiscard]] std::vector<Vector3> written_positions(const std::string& name, const SurfaceFile& surface,

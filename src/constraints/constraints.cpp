@@ -100,13 +100,14 @@ void Constraints::hold_as(Index node, const Constraints& other, Index of) {
   free_normal(node);
   free_corner(node);
   free_tangent(node);
-  if (other.position_fixed(of)) fix_position(node, other.position(of));
-  if (other.normal_fixed(of)) fix_normal(node, other.normal(of));
-  if (other.tangent_fixed(of)) fix_tangent(node, other.tangent(of));
+  // Copies, as both may be one.
+  if (other.position_fixed(of)) fix_position(node, Vector3(other.position(of)));
+  if (other.normal_fixed(of)) fix_normal(node, Vector3(other.normal(of)));
+  if (other.tangent_fixed(of)) fix_tangent(node, Vector3(other.tangent(of)));
   if (!other.corner(of)) return;
   make_corner(node);
   for (const NodeSide side : node_sides) {
-    if (other.tangent_fixed(of, side)) fix_tangent(node, other.tangent(of, side), side);
+    if (other.tangent_fixed(of, side)) fix_tangent(node, Vector3(other.tangent(of, side)), side);
   }
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "io/binary_numbers.hpp"
 #include "io/file_normals.hpp"
@@ -91,6 +93,25 @@ FileBytes surface_bytes(const std::string& name, const SurfaceFile& surface, con
     file.bytes = converted(target, rewrite, file.losses);
   }
   return file;
+}
+
+double rounding_of(const SurfaceFile& surface) {
+  if (!surface.source || !surface.source->has_single_precision()) return 0;
+  Vector3 greatest = Vector3::Zero();
+  for (const Vector3& position : surface.mesh.positions()) {
+    // Words of text may have more digits.
+    for (const double coordinate : position) {
+      if (coordinate != as_single(coordinate)) return 0;
+    }
+    greatest = greatest.cwiseMax(position.cwiseAbs());
+  }
+  double squares = 0;
+  for (const double coordinate : greatest) {
+    if (!(coordinate > 0) || !std::isfinite(coordinate)) continue;
+    squares += std::pow(std::ldexp(1.0, std::ilogb(coordinate) + 1 - std::numeric_limits<float>::digits), 2);
+  }
+  // Evenly spread between two numbers, a step apart.
+  return std::sqrt(squares / 3 / 12);
 }
 
 std::vector<Vector3> written_positions(const std::string& name, const SurfaceFile& surface,

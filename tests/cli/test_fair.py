@@ -2,7 +2,9 @@
 import json
 import math
 import os
+import random
 import signal
+import struct
 import subprocess
 import time
 
@@ -65,6 +67,24 @@ class Fair(Case):
             for figure in ("greatest_turn", "rms_turn"):
                 self.assertAlmostEqual(self.read_json("report.json")["fairness"]["after"][figure],
                                        self.read_json("measured.json")["figures"][figure], 4)
+
+    def test_rounding_of_what_came_is_told_and_taken_off(self):
+        draw = random.Random(3)
+        single = lambda x: struct.unpack("f", struct.pack("f", x))[0]
+        count = 20
+        nodes = [(5e6 + 0.3 * i, 4e6 + 0.3 * j, math.sin(i / 5) + draw.gauss(0, 0.02)) for j in range(count) for i in range(count)]
+        faces = [(i, i + 1, i + 1 + count, i + count) for i in range(count * (count - 1)) if (i + 1) % count]
+        header = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(nodes)}\nproperty float x\nproperty float y\nproperty float z\n"
+                  f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n").encode()
+        path = self.folder / "far.ply"
+        path.write_bytes(header + b"".join(struct.pack("<3f", *node) for node in nodes) + b"".join(struct.pack("<B4i", 4, *face) for face in faces))
+        done = run("fair", path, "-o", self.folder / "out.obj", "--format", "obj", "--noise", "auto", "--report", self.folder / "report.json")
+        self.assertIn(b"rounded nodes by 0.093", done.stderr)
+        self.assertAlmostEqual(self.read_json("report.json")["points"]["estimated_noise"], math.sqrt((0.5 ** 2 + 0.25 ** 2) / 36), 3)
+        near = self.folder / "near.ply"
+        near.write_bytes(header + b"".join(struct.pack("<3f", single(x - 5e6), single(y - 4e6), z) for x, y, z in nodes)
+                         + b"".join(struct.pack("<B4i", 4, *face) for face in faces))
+        self.assertNotIn(b"rounded", run("fair", near, "-o", self.folder / "out.ply", "--noise", "auto").stderr)
 
     def test_standard_input_and_output(self):
         result = run("fair", "-", "-o", "-", "--quiet", stdin=hat().encode())

@@ -109,6 +109,13 @@ void settle_moving(PullArguments& arguments, const CurveFile& file) {
   if (file.planar && arguments.moving_axes[0] && arguments.moving_axes[1]) arguments.moving_axes[2] = true;
 }
 
+NoiseEstimate at_least_rounding(NoiseEstimate noise, double rounding) {
+  if (noise.voxel || !(noise.deviation > 0) || noise.deviation >= rounding) return noise;
+  noise.edges *= rounding / noise.deviation;
+  noise.deviation = rounding;
+  return noise;
+}
+
 void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise, bool is_curve) {
   if (!(noise.deviation > 0))
     throw Error(ErrorCode::unusable_shape,

@@ -46,16 +46,14 @@ inline NoiseEstimate noise_of(const PolygonCurve& curve, const PullArguments& pu
   return estimate_noise(curve, pull.moving_axes);
 }
 
-/// rounding: of the nodes, in each coordinate, which is noise that neighbours share, so that it may not be seen.
+/// At least rounding_of() the nodes, which is noise that neighbours share, so that it may not be seen.
+NoiseEstimate at_least_rounding(NoiseEstimate noise, double rounding);
+
 template <typename Shape>
 void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context& context, double rounding = 0) {
-  if (arguments.automatic.empty()) return;
-  NoiseEstimate noise = noise_of(shape, arguments, context);
-  if (!noise.voxel && noise.deviation > 0 && noise.deviation < rounding) {
-    noise.edges *= rounding / noise.deviation;
-    noise.deviation = rounding;
-  }
-  settle_by_noise(arguments, noise, std::is_same_v<Shape, PolygonCurve>);
+  if (!arguments.automatic.empty())
+    settle_by_noise(arguments, at_least_rounding(noise_of(shape, arguments, context), rounding),
+                    std::is_same_v<Shape, PolygonCurve>);
 }
 
 /// Finds the coordinates that are to move in a file that was read. Throws Error(invalid_argument) where it has none of

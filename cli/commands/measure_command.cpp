@@ -137,7 +137,9 @@ int measure_files(const MeasureArguments& arguments, std::vector<File> read) {
   std::vector<ShownShape<Shape>> shapes;
   for (std::size_t k = 0; k < files.size(); ++k) {
     ShownShape<Shape>& shape = shapes.emplace_back(ShownShape<Shape>{{names[k], {}}, MeasuredShape(files[k].shape())});
-    shape.figures = figures_with_noise(shape.measured, held, arguments.shows_shapes(), context);
+    double rounding = 0;
+    if constexpr (std::is_same_v<File, SurfaceFile>) rounding = rounding_of(files[k].file);
+    shape.figures = figures_with_noise(shape.measured, held, rounding, arguments.shows_shapes(), context);
   }
   std::optional<Apart> apart;
   if (files.size() > 1) apart = distances_between(files[0].shape(), files[1].shape(), context);

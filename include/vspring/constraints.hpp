@@ -71,7 +71,9 @@ class Constraints {
     return tangent_fixed(node) || side == NodeSide::before ? tangent(node) : tangents_after_.of(at(node));
   }
 
-  /// All that another one says of its node `of` is said of this node, and nothing else.
+  /// Nodes behind the others, all free.
+  void add_nodes(Index count);
+  /// All that another one, or this one, says of its node `of` is said of this node, and nothing else.
   void hold_as(Index node, const Constraints& other, Index of);
 
  private:

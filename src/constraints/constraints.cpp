@@ -23,21 +23,23 @@ Vector3 unit(Index node, const Vector3& vector, const char* what) {
 
 Constraints::Constraints(Index node_count) : flags_(static_cast<std::size_t>(node_count), 0) {}
 
+void Constraints::add_nodes(Index count) { flags_.resize(flags_.size() + static_cast<std::size_t>(count), 0); }
+
 const Vector3& Constraints::Vectors::of(std::size_t node) const {
   static const Vector3 none = Vector3::Zero();
-  return place_.empty() ? none : values_[place_[node]];
+  return node < place_.size() ? values_[place_[node]] : none;
 }
 
 void Constraints::Vectors::set(std::size_t node, std::size_t node_count, const Vector3& value) {
-  if (place_.empty()) {
-    place_.assign(node_count, 0);
-    values_.emplace_back(Vector3::Zero());
-  }
+  // It may be one of these.
+  const Vector3 copy = value;
+  if (values_.empty()) values_.emplace_back(Vector3::Zero());
+  place_.resize(node_count, 0);
   if (place_[node] == 0) {
     place_[node] = static_cast<std::uint32_t>(values_.size());
     values_.emplace_back();
   }
-  values_[place_[node]] = value;
+  values_[place_[node]] = copy;
 }
 
 void Constraints::refuse(Index node) const {
@@ -100,14 +102,13 @@ void Constraints::hold_as(Index node, const Constraints& other, Index of) {
   free_normal(node);
   free_corner(node);
   free_tangent(node);
-  // Copies, as both may be one.
-  if (other.position_fixed(of)) fix_position(node, Vector3(other.position(of)));
-  if (other.normal_fixed(of)) fix_normal(node, Vector3(other.normal(of)));
-  if (other.tangent_fixed(of)) fix_tangent(node, Vector3(other.tangent(of)));
+  if (other.position_fixed(of)) fix_position(node, other.position(of));
+  if (other.normal_fixed(of)) fix_normal(node, other.normal(of));
+  if (other.tangent_fixed(of)) fix_tangent(node, other.tangent(of));
   if (!other.corner(of)) return;
   make_corner(node);
   for (const NodeSide side : node_sides) {
-    if (other.tangent_fixed(of, side)) fix_tangent(node, Vector3(other.tangent(of, side)), side);
+    if (other.tangent_fixed(of, side)) fix_tangent(node, other.tangent(of, side), side);
   }
 }
 

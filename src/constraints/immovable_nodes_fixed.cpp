@@ -9,11 +9,11 @@ namespace vspring {
 
 Constraints ImmovableNodesFixed::held(const Constraints& constraints) const {
   if (constraints.node_count() != mesh_.node_count()) return constraints;
-  Constraints held(cut_->mesh.node_count());
-  for (Index node = 0; node < mesh_.node_count(); ++node) held.hold_as(node, constraints, node);
+  Constraints held = constraints;
   for (const Index node : nodes_) {
     if (!held.position_fixed(node)) held.fix_position(node, places_[static_cast<std::size_t>(node)]);
   }
+  held.add_nodes(static_cast<Index>(cut_->origin.size()));
   for (std::size_t k = 0; k < cut_->origin.size(); ++k)
     held.hold_as(mesh_.node_count() + static_cast<Index>(k), held, cut_->origin[k]);
   return held;

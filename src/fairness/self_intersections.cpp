@@ -207,20 +207,29 @@ Pairs crossings(const PolygonMesh& mesh, std::size_t most, const Context& contex
 class TwoFaces {
  public:
   TwoFaces(const PolygonMesh& mesh, const std::pair<Index, Index>& faces) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      for (const Index node : mesh.face(k == 0 ? faces.first : faces.second)) {
+    for (std::size_t n = 0; n < 2; ++n) {
+      for (const Index node : mesh.face(n == 0 ? faces.first : faces.second)) {
         const auto found = std::find(positions_.begin(), positions_.end(), mesh.position(node));
-        if (k == 1 && found != positions_.end()) ++shared_;
-        faces_[k].push_back(static_cast<Index>(found - positions_.begin()));
+        faces_[n].push_back(static_cast<Index>(found - positions_.begin()));
         if (found == positions_.end()) positions_.push_back(mesh.position(node));
       }
     }
   }
 
   /// They fold there.
-  [[nodiscard]] bool share_an_edge() const { return shared_ > 1; }
+  [[nodiscard]] bool share_an_edge() const {
+    const auto& [first, second] = faces_;
+    for (std::size_t k = 0; k < first.size(); ++k) {
+      for (std::size_t l = 0; l < second.size(); ++l) {
+        const std::pair one(first[k], first[(k + 1) % first.size()]);
+        const std::pair other(second[l], second[(l + 1) % second.size()]);
+        if (one == other || one == std::pair(other.second, other.first)) return true;
+      }
+    }
+    return false;
+  }
 
-  /// Whether they cross from whichever nodes they are cut into fans: those that are not flat may be any of these.
+  /// Whether they cross by whichever diagonal quads among them are cut: those that are not flat may be either.
   [[nodiscard]] bool cross_anyway() const {
     for (std::size_t s = 0; s < ways_to_cut(faces_[0]); ++s) {
       for (std::size_t t = 0; t < ways_to_cut(faces_[1]); ++t) {
@@ -231,28 +240,28 @@ class TwoFaces {
   }
 
  private:
-  static std::size_t ways_to_cut(const std::vector<Index>& face) { return face.size() == 3 ? 1 : face.size(); }
+  static std::size_t ways_to_cut(const std::vector<Index>& face) { return face.size() == 4 ? 2 : 1; }
 
-  [[nodiscard]] bool cross(const std::array<std::size_t, 2>& from) const {
+  [[nodiscard]] bool cross(const std::array<std::size_t, 2>& ways) const {
     MeshBuilder builder;
     for (const Vector3& position : positions_) builder.add_node(position);
-    for (std::size_t n = 0; n < 2; ++n) {
-      const std::vector<Index>& face = faces_[n];
-      const auto node = [&](std::size_t k) { return face[(from[n] + k) % face.size()]; };
-      for (std::size_t k = 1; k + 1 < face.size(); ++k) builder.add_face({node(0), node(k), node(k + 1)});
-    }
+    const auto add = [&](const std::vector<Index>& face, std::size_t way) {
+      if (face.size() != 4) return builder.add_face(face);
+      for (const std::size_t k : {way, way + 2}) builder.add_face({face[k], face[(k + 1) % 4], face[(k + 2) % 4]});
+    };
+    add(faces_[0], ways[0]);
+    add(faces_[1], ways[1]);
+    const Index second = faces_[0].size() == 4 ? 2 : 1;
     const CrossingTriangles cut(builder.take());
-    const std::span<const Triangle> all = cut.triangles();
-    const auto first = all.first(faces_[0].size() - 2);
-    const auto second = all.subspan(faces_[0].size() - 2);
-    return std::any_of(first.begin(), first.end(), [&](const Triangle& a) {
-      return std::any_of(second.begin(), second.end(), [&](const Triangle& b) { return cut.cross(a, b); });
+    const auto& all = cut.triangles();
+    return std::any_of(all.begin(), all.end(), [&](const Triangle& a) {
+      return a.face < second && std::any_of(all.begin(), all.end(),
+                                            [&](const Triangle& b) { return b.face >= second && cut.cross(a, b); });
     });
   }
 
   std::vector<Vector3> positions_;
   std::array<std::vector<Index>, 2> faces_;
-  int shared_ = 0;
 };
 
 /// As the public function, but that it ends early once `most` or more pairs of triangles cross.

@@ -32,10 +32,8 @@ std::string warning_of_rounding(const PolygonMesh& shape, double rounding) {
   const double edge = mean_edge(shape);
   if (!(rounding > coarse * edge)) return {};
   return fmt::format(
-      "the file has single precision, which so far from the origin has rounded nodes by {:.3g} units (standard "
-      "deviation in each coordinate), {:.2g} of the mean edge: the shape is no better than that; take an offset off "
-      "all "
-      "coordinates before they are written so",
+      "single precision has rounded nodes by {:.3g} units so far from the origin (standard deviation in each "
+      "coordinate), {:.2g} of the mean edge, and the shape is no better; take an offset off before writing it so",
       rounding, rounding / edge);
 }
 

@@ -31,15 +31,15 @@ const Vector3& Constraints::Vectors::of(std::size_t node) const {
 }
 
 void Constraints::Vectors::set(std::size_t node, std::size_t node_count, const Vector3& value) {
-  // It may be one of these.
-  const Vector3 copy = value;
   if (values_.empty()) values_.emplace_back(Vector3::Zero());
   place_.resize(node_count, 0);
-  if (place_[node] == 0) {
-    place_[node] = static_cast<std::uint32_t>(values_.size());
-    values_.emplace_back();
+  if (place_[node] != 0) {
+    values_[place_[node]] = value;
+    return;
   }
-  values_[place_[node]] = copy;
+  place_[node] = static_cast<std::uint32_t>(values_.size());
+  // It may be one of these.
+  values_.push_back(value);
 }
 
 void Constraints::refuse(Index node) const {

@@ -64,13 +64,57 @@ class TriangleReach {
   double unsure_ = 0;
 };
 
+/// Whether two faces have an edge in common, or with ends at the same places as where sheets meet. They fold there.
+bool share_an_edge(const PolygonMesh& mesh, Index a, Index b) {
+  const auto first = mesh.face(a);
+  const auto second = mesh.face(b);
+  const auto is_at = [&](Index one, Index other) { return mesh.position(one) == mesh.position(other); };
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    for (std::size_t l = 0; l < second.size(); ++l) {
+      if (!is_at(first[k], second[l])) continue;
+      const Index next = first[(k + 1) % first.size()];
+      if (is_at(next, second[(l + 1) % second.size()]) || is_at(next, second[(l + second.size() - 1) % second.size()]))
+        return true;
+    }
+  }
+  return false;
+}
+
+/// The triangles of a face: of a quad by either diagonal.
+class Cuts {
+ public:
+  Cuts(const PolygonMesh& mesh, const std::vector<Triangle>& triangles, Index face) {
+    const auto nodes = mesh.face(face);
+    is_quad_ = nodes.size() == 4;
+    if (!is_quad_) {
+      const auto begin = std::lower_bound(triangles.begin(), triangles.end(), face,
+                                          [](const Triangle& triangle, Index f) { return triangle.face < f; });
+      given_ = std::span(begin, nodes.size() - 2);
+      return;
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+      of_quad_[k % 2][k / 2] = {{nodes[k], nodes[(k + 1) % 4], nodes[(k + 2) % 4]}, face};
+  }
+
+  [[nodiscard]] std::size_t count() const { return is_quad_ ? 2 : 1; }
+  [[nodiscard]] std::span<const Triangle> operator[](std::size_t k) const {
+    return is_quad_ ? std::span<const Triangle>(of_quad_[k]) : given_;
+  }
+
+ private:
+  bool is_quad_;
+  std::array<std::array<Triangle, 2>, 2> of_quad_{};
+  std::span<const Triangle> given_;
+};
+
 /// Looks for triangles that cross. Around a node all boxes of triangles lie in each other. So those at one hub are told
 /// apart by where they are seen from it, and those at different hubs, or at one and at none, by their planes.
 template <typename Pairs>
 class CrossingSearch {
  public:
-  CrossingSearch(const CrossingTriangles& triangles, std::size_t most, const Context& context, ThreadTeam& team)
-      : triangles_(triangles), most_(most), context_(context), team_(team) {}
+  CrossingSearch(const PolygonMesh& mesh, const CrossingTriangles& triangles, std::size_t most, const Context& context,
+                 ThreadTeam& team)
+      : mesh_(mesh), triangles_(triangles), most_(most), context_(context), team_(team) {}
 
   /// The pairs of their faces, each as often as it has triangles that cross. Ends early once it has `most` or more.
   Pairs find() {
@@ -101,7 +145,26 @@ class CrossingSearch {
   }
 
   void test(const Triangle& a, const Triangle& b, Pairs& pairs) const {
-    if (a.face != b.face && triangles_.cross(a, b)) pairs.add(a.face, b.face);
+    if (a.face != b.face && triangles_.cross(a, b) && faces_cross(a.face, b.face)) pairs.add(a.face, b.face);
+  }
+
+  /// Of faces with triangles that do: by all diagonals of quads, as those that are not flat may be either.
+  [[nodiscard]] bool faces_cross(Index a, Index b) const {
+    if (mesh_.face(a).size() == 3 && mesh_.face(b).size() == 3) return true;
+    if (share_an_edge(mesh_, a, b)) return false;
+    const Cuts first(mesh_, triangles_.triangles(), a);
+    const Cuts second(mesh_, triangles_.triangles(), b);
+    for (std::size_t s = 0; s < first.count(); ++s) {
+      for (std::size_t t = 0; t < second.count(); ++t) {
+        const auto others = second[t];
+        if (std::none_of(first[s].begin(), first[s].end(), [&](const Triangle& one) {
+              return std::any_of(others.begin(), others.end(),
+                                 [&](const Triangle& other) { return triangles_.cross(one, other); });
+            }))
+          return false;
+      }
+    }
+    return true;
   }
 
   [[nodiscard]] bool is_done() const { return context_.cancelled() || found_.load() >= most_; }
@@ -186,6 +249,7 @@ class CrossingSearch {
                              });
   }
 
+  const PolygonMesh& mesh_;
   const CrossingTriangles& triangles_;
   std::size_t most_;
   const Context& context_;
@@ -200,69 +264,8 @@ template <typename Pairs>
 Pairs crossings(const PolygonMesh& mesh, std::size_t most, const Context& context, ThreadTeam& team) {
   const CrossingTriangles triangles(mesh);
   if (is_height_field(triangles.triangles(), triangles.positions(), team)) return {};
-  return CrossingSearch<Pairs>(triangles, most, context, team).find();
+  return CrossingSearch<Pairs>(mesh, triangles, most, context, team).find();
 }
-
-/// Two faces alone, nodes at one place as one.
-class TwoFaces {
- public:
-  TwoFaces(const PolygonMesh& mesh, const std::pair<Index, Index>& faces) {
-    for (std::size_t n = 0; n < 2; ++n) {
-      for (const Index node : mesh.face(n == 0 ? faces.first : faces.second)) {
-        const auto found = std::find(positions_.begin(), positions_.end(), mesh.position(node));
-        faces_[n].push_back(static_cast<Index>(found - positions_.begin()));
-        if (found == positions_.end()) positions_.push_back(mesh.position(node));
-      }
-    }
-  }
-
-  /// They fold there.
-  [[nodiscard]] bool share_an_edge() const {
-    const auto& [first, second] = faces_;
-    for (std::size_t k = 0; k < first.size(); ++k) {
-      for (std::size_t l = 0; l < second.size(); ++l) {
-        const std::pair one(first[k], first[(k + 1) % first.size()]);
-        const std::pair other(second[l], second[(l + 1) % second.size()]);
-        if (one == other || one == std::pair(other.second, other.first)) return true;
-      }
-    }
-    return false;
-  }
-
-  /// Whether they cross by whichever diagonal quads among them are cut: those that are not flat may be either.
-  [[nodiscard]] bool cross_anyway() const {
-    for (std::size_t s = 0; s < ways_to_cut(faces_[0]); ++s) {
-      for (std::size_t t = 0; t < ways_to_cut(faces_[1]); ++t) {
-        if (!cross({s, t})) return false;
-      }
-    }
-    return true;
-  }
-
- private:
-  static std::size_t ways_to_cut(const std::vector<Index>& face) { return face.size() == 4 ? 2 : 1; }
-
-  [[nodiscard]] bool cross(const std::array<std::size_t, 2>& ways) const {
-    MeshBuilder builder;
-    for (const Vector3& position : positions_) builder.add_node(position);
-    const auto add = [&](const std::vector<Index>& face, std::size_t way) {
-      if (face.size() != 4) return builder.add_face(face);
-      for (const std::size_t k : {way, way + 2}) builder.add_face({face[k], face[(k + 1) % 4], face[(k + 2) % 4]});
-    };
-    add(faces_[0], ways[0]);
-    add(faces_[1], ways[1]);
-    const Index second = faces_[0].size() == 4 ? 2 : 1;
-    const CrossingTriangles cut(builder.take());
-    const auto& all = cut.triangles();
-    return std::any_of(all.begin(), all.end(), [&](const Triangle& a) {
-      return a.face < second && std::any_of(all.begin(), all.end(),
-                                            [&](const Triangle& b) { return b.face >= second && cut.cross(a, b); });
-    });
-  }
-
-  std::vector<Vector3> positions_;
-  std::array<std::vector<Index>, 2> faces_;
-};
 
 /// As the public function, but that it ends early once `most` or more pairs of triangles cross.
 std::vector<std::pair<Index, Index>> face_pairs(const PolygonMesh& mesh, std::size_t most, const Context& context,
@@ -270,11 +273,6 @@ std::vector<std::pair<Index, Index>> face_pairs(const PolygonMesh& mesh, std::si
   auto pairs = crossings<FacePairs>(mesh, most, context, team).list;
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  std::erase_if(pairs, [&](const std::pair<Index, Index>& pair) {
-    if (mesh.face(pair.first).size() == 3 && mesh.face(pair.second).size() == 3) return false;
-    const TwoFaces faces(mesh, pair);
-    return faces.share_an_edge() || !faces.cross_anyway();
-  });
   return pairs;
 }
 

@@ -199,7 +199,7 @@ class SheetFit {
   [[nodiscard]] bool is_worse(const FitResult& result) const {
     ThreadTeam team(context_.thread_count());
     return result.report.fair.outcome == Outcome::worse_than_input ||
-           !TurnedEdges(mesh_).faces(result.positions).empty() ||
+           !TurnedEdges(mesh_).faces(result.positions).empty() || loses_area(mesh_, result.positions) ||
            !new_crossings(mesh_, result.positions, context_, team).empty();
   }
 

@@ -15,6 +15,9 @@ namespace {
 // Of cosines.
 constexpr double unseen_turn = 1e-9;
 
+// Of the area of a face: next to nothing.
+constexpr double no_area = 1e-6;
+
 }  // namespace
 
 TurnedEdges::TurnedEdges(const PolygonMesh& mesh) : mesh_(mesh) {
@@ -59,6 +62,14 @@ double TurnedEdges::cosine(const Pair& pair, const std::vector<Vector3>& at) con
 
 bool TurnedEdges::is_turned(const Pair& pair, const std::vector<Vector3>& at) const {
   return cosine(pair, at) < std::min(pair.cosine, 0.0) - unseen_turn;
+}
+
+bool loses_area(const PolygonMesh& mesh, const std::vector<Vector3>& positions) {
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const double before = twice_vector_area(mesh.face(f), mesh.positions()).norm();
+    if (before > 0 && !(twice_vector_area(mesh.face(f), positions).norm() > no_area * before)) return true;
+  }
+  return false;
 }
 
 }  // namespace vspring

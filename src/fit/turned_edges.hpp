@@ -31,4 +31,7 @@ class TurnedEdges {
   std::vector<Pair> pairs_;
 };
 
+/// Whether a face that has an area in the mesh has next to none with nodes at `positions`. Cost: linear.
+bool loses_area(const PolygonMesh& mesh, const std::vector<Vector3>& positions);
+
 }  // namespace vspring

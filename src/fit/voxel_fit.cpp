@@ -42,8 +42,6 @@ constexpr int turns_of_volume = 4;
 constexpr double closed_share = 1e-9;
 // Of the area, that goes along where the volume is put back.
 constexpr double least_share_of_area = 0.05;
-// Of the area of a face.
-constexpr double no_area = 1e-6;
 // Of cosines.
 constexpr double unseen = 1e-9;
 
@@ -158,15 +156,10 @@ bool are_sides(const PolygonMesh& mesh) {
   return true;
 }
 
-/// Whether all nodes are within a voxel of where they were, and faces that had an area have one. With edges that turn
-/// no further, and faces that do not cross, that is all that a fit to the nodes of a surface is looked at for.
+/// Whether all nodes are within a voxel of where they were.
 bool is_near(const PolygonMesh& mesh, const std::vector<Vector3>& positions, const Vector3& size) {
   for (std::size_t i = 0; i < positions.size(); ++i) {
     if (!((positions[i] - mesh.positions()[i]).norm() <= size.norm())) return false;
-  }
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const auto area = [&](const std::vector<Vector3>& at) { return twice_vector_area(mesh.face(f), at).norm(); };
-    if (!(area(positions) > no_area * area(mesh.positions())) && area(mesh.positions()) > 0) return false;
   }
   return true;
 }
@@ -217,7 +210,7 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
   // What was found has been looked at by fit(); this has not.
   ThreadTeam team(context.thread_count());
   const std::string crossings = new_crossings(mesh, finished, context, team);
-  if (crossings.empty() && (!input || is_near(mesh, finished, size))) {
+  if (crossings.empty() && (!input || (is_near(mesh, finished, size) && !loses_area(mesh, finished)))) {
     found.positions = std::move(finished);
     measure_again(mesh, constraints, found, context.threads);
   } else if (input) {

@@ -33,7 +33,6 @@ void LinesOfSurface::hold(const std::vector<Vector3>& positions) {
   for (const Index i : free) of_surface.fix_position(i, positions[static_cast<std::size_t>(i)]);
 }
 
-/// Goes the share `strength` of the way from the input, and tells of that way.
 void account_for_moves(const PolygonMesh& mesh, const Constraints& constraints, double strength,
                        std::vector<Vector3>& positions, FairReport& report) {
   std::vector<double> moves;

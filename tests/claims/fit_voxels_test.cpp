@@ -15,6 +15,7 @@
 #include "vspring/figures.hpp"
 #include "vspring/fit.hpp"
 #include "vspring/noise.hpp"
+#include "vspring/self_intersections.hpp"
 #include "vspring/topology.hpp"
 
 namespace vspring::fit_voxels_test {
@@ -222,6 +223,27 @@ TEST(FitVoxels, LinesWhereThreeMaterialsMeetAreCurvesOfTheirOwn) {
   EXPECT_LT(std::sqrt(after[0] / before[0]), 0.5) << "the line";
   EXPECT_LT(std::sqrt(after[1] / before[1]), 0.3) << "the ball";
   EXPECT_LT(std::sqrt(after[2] / before[2]), 0.4) << "the plane between";
+}
+
+TEST(FitVoxels, LinesStayWhereEdgesBesideThemWouldTurnOver) {
+  // A ball of one material in a ball of another, which comes out at one side.
+  const Vector3 inner(-2.62 * 0.8, 0.442 * 0.8, -1.3 * 0.8);
+  const PolygonMesh mesh =
+      support::sides_of_materials(Vector3(1, 1, 1), Vector3::Constant(12), [&](const Vector3& place) {
+        if (place.norm() > 6.937) return 0;
+        return (place - inner).squaredNorm() < 6.937 * 6.937 / 3 ? 1 : 2;
+      });
+  const FitResult result = steps_off(mesh, Vector3(1, 1, 1));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  ASSERT_FALSE(result.report.fair.warnings.empty());
+  EXPECT_EQ(result.report.fair.warnings[0].code, WarningCode::immovable_nodes);
+  for (const Warning& warning : result.report.fair.warnings) EXPECT_NE(warning.code, WarningCode::worse_than_input);
+  PolygonMesh shape = mesh;
+  shape.set_positions(result.positions);
+  EXPECT_LE(measure_surface(shape).greatest_turn, 90 + 1e-6);
+  EXPECT_TRUE(self_intersections(shape).empty());
+  const auto outside = [](const Vector3& place) { return place.norm() > 6 ? place.norm() - 6.937 : 0; };
+  EXPECT_LT(rms(result.positions, outside), 0.7 * rms(mesh.positions(), outside));
 }
 
 TEST(FitVoxels, ThinWallsHaveNoFlatEnds) {

@@ -79,7 +79,7 @@ class Fair(Case):
         path = self.folder / "far.ply"
         path.write_bytes(header + b"".join(struct.pack("<3f", *node) for node in nodes) + b"".join(struct.pack("<B4i", 4, *face) for face in faces))
         done = run("fair", path, "-o", self.folder / "out.obj", "--format", "obj", "--noise", "auto", "--report", self.folder / "report.json")
-        self.assertIn(b"rounded nodes by 0.093", done.stderr)
+        self.assertIn(b"single precision has rounded nodes by 0.093", done.stderr)
         self.assertAlmostEqual(self.read_json("report.json")["points"]["estimated_noise"], math.sqrt((0.5 ** 2 + 0.25 ** 2) / 36), 3)
         near = self.folder / "near.ply"
         near.write_bytes(header + b"".join(struct.pack("<3f", single(x - 5e6), single(y - 4e6), z) for x, y, z in nodes)

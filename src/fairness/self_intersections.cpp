@@ -89,7 +89,7 @@ class Cuts {
     if (!is_quad_) {
       const auto begin = std::lower_bound(triangles.begin(), triangles.end(), face,
                                           [](const Triangle& triangle, Index f) { return triangle.face < f; });
-      given_ = std::span(begin, nodes.size() - 2);
+      given_ = std::span(triangles).subspan(static_cast<std::size_t>(begin - triangles.begin()), nodes.size() - 2);
       return;
     }
     for (std::size_t k = 0; k < 4; ++k)

@@ -17,8 +17,10 @@ namespace {
 
 // No edge may turn or stretch by more than about this in one step: the equations are near to linear up to there.
 constexpr double greatest_turn = 0.3;
-// Iterations that do not get nearer, with steps of full length, before rounding is taken to have the last word.
+// Iterations in which the expected error falls by less than this share of what it was: rounding has the last word, or
+// steps that are cut short go round in circles.
 constexpr int patience = 12;
+constexpr double least_gain = 0.3;
 // Of an accelerated step, what the next one will be at most where they are on their way.
 constexpr double greatest_rate = 0.5;
 // Of the error by corrections alone, where the accelerated step says that there is less.
@@ -80,6 +82,7 @@ class Solver {
     double rate_before = 0;
     double last_step = 0;
     int without_gain = 0;
+    double at_last_gain = std::numeric_limits<double>::infinity();
     int lost = 0;
     const double shape_size = diagonal(net_);
     const int most_lost = net_.moving < few_nodes ? lost_patience_of_few : lost_patience;
@@ -97,6 +100,7 @@ class Solver {
       rate_before = 0;
       last_step = 0;
       without_gain = 0;
+      at_last_gain = std::numeric_limits<double>::infinity();
       return true;
     };
     bool limited = false;
@@ -118,7 +122,9 @@ class Solver {
       // is when it is looked at without its history.
       const double rate = std::clamp(before > 0 ? size / before : 0, 0.5, 0.75);
       expected_ = size / (1 - rate);
-      without_gain = expected_ < 0.7 * best.residual() ? 0 : without_gain + 1;
+      const bool gains = expected_ < (1 - least_gain) * at_last_gain;
+      without_gain = gains ? 0 : without_gain + 1;
+      if (gains) at_last_gain = expected_;
       best.look(expected_);
       if (task.on_iteration) task.on_iteration(expected_);
       const double turn = turns_.turn(correction_, size);
@@ -143,7 +149,6 @@ class Solver {
       }
       limited = take_step(turn, step);
       last_step = limited ? 0 : step;
-      if (limited) without_gain = 0;
       lost = expected_ > shape_size ? lost + 1 : 0;
       before = limited ? 0 : size;
       rate_before = limited ? 0 : rate;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "vspring/error.hpp"
+#include "vspring/topology.hpp"
 
 namespace vspring::cli {
 
@@ -38,6 +39,7 @@ Welding::Welding(const SurfaceFile& file, const FairingArguments& arguments) {
   else if (file.format == SurfaceFormat::stl)
     weld_by_itself(file);
   look_for_seams(file, arguments);
+  look_for_faces_without_area(shape(file));
 }
 
 Welding::Welding(const CurveFile& /*file*/, const FairingArguments& arguments) {
@@ -108,6 +110,15 @@ void Welding::look_for_seams(const SurfaceFile& file, const FairingArguments& ar
                     "open there; {}",
                     nodes, seams.near_nodes.front(), where, way_out));
   }
+}
+
+void Welding::look_for_faces_without_area(const PolygonMesh& mesh) {
+  const std::vector<Index> faces = faces_without_area(mesh);
+  if (faces.empty()) return;
+  const bool is_one = faces.size() == 1;
+  warnings_.push_back(fmt::format("{} face{} no area, face {} first: {} no normal, and do{} not count", faces.size(),
+                                  is_one ? " has" : "s have", faces.front(), is_one ? "it has" : "they have",
+                                  is_one ? "es" : ""));
 }
 
 RuleInput Welding::rules(const SurfaceFile& file) const {

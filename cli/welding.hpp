@@ -44,7 +44,7 @@ class Welding {
   void write_scalars(const std::string& path, const PolygonMesh& shape, std::vector<NodeScalar> scalars) const;
   static void write_scalars(const std::string& path, const PolygonCurve& shape, const std::vector<NodeScalar>& scalars);
 
-  /// With what a person should know: what is welded, and what may have to be.
+  /// With what a person should know: what is welded, what may have to be, and which faces do not count.
   [[nodiscard]] std::vector<std::string> with_warnings(std::vector<std::string> warnings) const;
   /// What a report says of it: nothing where nothing was to be welded.
   [[nodiscard]] nlohmann::ordered_json figures() const;
@@ -55,6 +55,7 @@ class Welding {
   void weld_file(const SurfaceFile& file, double tolerance);
   void weld_by_itself(const SurfaceFile& file);
   void look_for_seams(const SurfaceFile& file, const FairingArguments& arguments);
+  void look_for_faces_without_area(const PolygonMesh& mesh);
 
   double tolerance_ = 0;  ///< a share of the diagonal
   std::optional<Welded> welded_;

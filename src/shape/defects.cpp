@@ -35,9 +35,10 @@ void find_duplicates(const PolygonMesh& mesh, std::vector<Defect>& defects) {
   }
 }
 
-/// In coordinates of the face's own, so that neither its size nor its distance from the others makes squares overflow
-/// or vanish.
+/// Looked at again in coordinates of the face's own, so that neither its size nor its distance from the others makes
+/// squares overflow or vanish.
 bool has_area(const PolygonMesh& mesh, std::span<const Index> face) {
+  if (!unit_normal(face, mesh.positions()).isZero(0)) return true;
   Eigen::AlignedBox<double, 3> box;
   for (const Index node : face) box.extend(mesh.position(node));
   const Frame frame(box);
@@ -48,6 +49,12 @@ bool has_area(const PolygonMesh& mesh, std::span<const Index> face) {
     positions.push_back(frame.to_local(mesh.position(node)));
   }
   return !unit_normal(places, positions).isZero(0);
+}
+
+/// Of a face of three or more nodes.
+bool is_without_area(const PolygonMesh& mesh, std::span<const Index> face) {
+  return std::all_of(face.begin(), face.end(), [&](Index i) { return mesh.position(i).allFinite(); }) &&
+         !has_area(mesh, face);
 }
 
 void find_face_defects(const PolygonMesh& mesh, std::vector<Defect>& defects) {
@@ -62,8 +69,7 @@ void find_face_defects(const PolygonMesh& mesh, std::vector<Defect>& defects) {
     const auto repeated = std::adjacent_find(nodes.begin(), nodes.end());
     if (repeated != nodes.end()) {
       defects.push_back({.kind = Defect::Kind::repeated_node, .node = *repeated, .face = f});
-    } else if (std::all_of(face.begin(), face.end(), [&](Index i) { return mesh.position(i).allFinite(); }) &&
-               !has_area(mesh, face)) {
+    } else if (is_without_area(mesh, face)) {
       defects.push_back({.kind = Defect::Kind::zero_area_face, .face = f});
     }
   }
@@ -127,6 +133,14 @@ std::vector<Defect> check(const PolygonMesh& mesh) {
   find_node_defects(mesh, defects);
   std::stable_sort(defects.begin(), defects.end(), [](const Defect& a, const Defect& b) { return a.kind < b.kind; });
   return defects;
+}
+
+std::vector<Index> faces_without_area(const PolygonMesh& mesh) {
+  std::vector<Index> faces;
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    if (mesh.face(f).size() >= 3 && is_without_area(mesh, mesh.face(f))) faces.push_back(f);
+  }
+  return faces;
 }
 
 }  // namespace vspring

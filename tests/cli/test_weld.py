@@ -189,6 +189,12 @@ class Weld(Case):
         self.assertIn("cannot all be one", self.assert_one_line(result))
         self.assertNotIn("no.obj", self.files())
 
+    def test_faces_without_area_are_named_once(self):
+        path = self.write("in.obj", grid(SIZE) + "f 12 13 12\nf 40 41 41\n")
+        for command in (("fair", path, "-o", self.folder / "out.obj"), ("measure", path)):
+            warnings = [line for line in run(*command).stderr.decode().splitlines() if "area" in line]
+            self.assertEqual(warnings, [f"warning: 2 faces have no area, face {2 * SIZE * SIZE} first: they have no normal, and do not count"])
+
     def test_rules_and_regions_name_nodes_of_the_file(self):
         text, twin = seam()
         a, b = list(twin.items())[4]

@@ -49,6 +49,7 @@ TEST(Defects, CollinearFacesAreFoundAtEverySize) {
     const auto defects = check(scaled(line, scale));
     ASSERT_EQ(defects.size(), 1U) << scale;
     EXPECT_EQ(defects[0].kind, Kind::zero_area_face);
+    EXPECT_EQ(faces_without_area(scaled(line, scale)), std::vector<Index>{0});
   }
 }
 

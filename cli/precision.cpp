@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
+
+#include "vspring/error.hpp"
 
 namespace vspring::cli {
 
@@ -35,6 +38,19 @@ std::string warning_of_rounding(const PolygonMesh& shape, double rounding) {
       "single precision has rounded nodes by {:.3g} units so far from the origin (standard deviation in each "
       "coordinate), {:.2g} of the mean edge, and the shape is no better; take an offset off before writing it so",
       rounding, rounding / edge);
+}
+
+void refuse_auto_of_rounded(const std::string& option, const PolygonMesh& shape, double rounding) {
+  // Of what is rounded to multiples of a number, the deviation is that over the square root of 12.
+  const double multiples = std::sqrt(12.0) * rounding;
+  const double edge = mean_edge(shape);
+  if (option.empty() || !(multiples > edge)) return;
+  throw Error(
+      ErrorCode::unusable_shape,
+      fmt::format("{} auto: single precision has rounded nodes to multiples of about {:.3g} units so far from the "
+                  "origin, and the mean edge is {:.3g}: the shape is lost; take an offset off before writing "
+                  "it, or write it in double precision",
+                  option, multiples, edge));
 }
 
 void take_written(PolygonMesh& shape, std::vector<Vector3> written, std::vector<std::string>& warnings) {

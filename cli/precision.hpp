@@ -15,4 +15,8 @@ void take_written(PolygonMesh& shape, std::vector<Vector3> written, std::vector<
 /// standard deviation in each coordinate. Empty where not.
 [[nodiscard]] std::string warning_of_rounding(const PolygonMesh& shape, double rounding);
 
+/// Throws Error(unusable_shape) where positions are rounded to multiples of more than the mean edge, so that noise is
+/// not all that is to be taken off. option: that asks for it, empty for none.
+void refuse_auto_of_rounded(const std::string& option, const PolygonMesh& shape, double rounding);
+
 }  // namespace vspring::cli

@@ -54,6 +54,7 @@ int run_fair(FairArguments arguments) {
   const Welding welding(file, arguments);
   const PolygonMesh& mesh = welding.shape(file);
   const double rounding = rounding_of(file);
+  refuse_auto_of_rounded(arguments.pull.automatic, mesh, rounding);
   settle_by_noise(arguments.pull, mesh, fairing.context(), rounding);
   const Constraints constraints = make_constraints(arguments, mesh, welding.rules(file));
   fairing.input_is_read();

@@ -85,6 +85,14 @@ class Fair(Case):
         near.write_bytes(header + b"".join(struct.pack("<3f", single(x - 5e6), single(y - 4e6), z) for x, y, z in nodes)
                          + b"".join(struct.pack("<B4i", 4, *face) for face in faces))
         self.assertNotIn(b"rounded", run("fair", near, "-o", self.folder / "out.ply", "--noise", "auto").stderr)
+        lost = self.folder / "lost.ply"
+        lost.write_bytes(header + b"".join(struct.pack("<3f", x + 3e7, y + 3e7, z) for x, y, z in nodes)
+                         + b"".join(struct.pack("<B4i", 4, *face) for face in faces))
+        for option in ("--noise", "--within", "--rms"):
+            done = run("fair", lost, "-o", self.folder / "lost-out.ply", option, "auto")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(f"{option} auto: single precision has rounded nodes to multiples of about", self.assert_one_line(done))
+            self.assertFalse((self.folder / "lost-out.ply").exists())
 
     def test_standard_input_and_output(self):
         result = run("fair", "-", "-o", "-", "--quiet", stdin=hat().encode())

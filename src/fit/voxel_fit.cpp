@@ -38,6 +38,10 @@ constexpr double share_of_flat = 0.1;
 constexpr double weight_of_flat = 30;
 // What comes back to half a voxel has some volume, too.
 constexpr int turns_of_volume = 4;
+// Where the rest can't take all of it, flat ends take some hundredths of a voxel.
+constexpr int turns_with_flat_ends = 2;
+// Nodes whose edges would turn too far have some volume, too; where they go back, others may have to.
+constexpr int most_rounds_of_volume = 4;
 // Of the area: the sum of a closed surface's area vectors.
 constexpr double closed_share = 1e-9;
 // Of the area, that goes along where the volume is put back.
@@ -52,8 +56,8 @@ class VoxelFit {
         constraints_(constraints),
         size_(std::move(size)),
         of_sides_(of_sides),
-        flat_(nodes_of_flat_ends(mesh, size_)) {
-    stays_ = flat_;
+        flat_(nodes_of_flat_ends(mesh, size_)),
+        stays_(mesh.positions().size(), 0) {
     for (Index f = 0; f < mesh.face_count(); ++f) {
       const auto face = mesh.face(f);
       if (std::none_of(face.begin(), face.end(), [&](Index node) { return constraints.position_fixed(node); }))
@@ -87,12 +91,28 @@ class VoxelFit {
     return sums;
   }
 
-  /// Of a closed surface the volume is put back; and what went further than half a voxel comes back to that.
-  void finish(std::vector<Vector3>& positions) const {
-    for (int turn = 0; turn < turns_of_volume; ++turn) {
+  /// Of a closed surface the volume is put back; what went further than half a voxel comes back to that, and what
+  /// turned edges over to where it was.
+  void finish(std::vector<Vector3>& positions) {
+    const TurnedEdges turned(mesh_);
+    for (int round = 0; round < most_rounds_of_volume; ++round) {
+      put_volume_back(positions);
+      const std::vector<Vector3> before = positions;
+      turned.take_back(positions);
+      if (positions == before) return;
+      for (std::size_t i = 0; i < positions.size(); ++i) {
+        if (positions[i] != before[i]) stays_[i] = 1;
+      }
+    }
+  }
+
+ private:
+  void put_volume_back(std::vector<Vector3>& positions) const {
+    for (int turn = 0; turn < turns_of_volume + turns_with_flat_ends; ++turn) {
       const std::vector<Vector3> across = normals(positions);
-      const double offset = offset_for_volume(positions, across);
-      for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += (stays_[i] != 0 ? 0 : offset) * across[i];
+      const auto goes = [&](std::size_t i) { return stays_[i] == 0 && (flat_[i] == 0 || turn >= turns_of_volume); };
+      const double offset = offset_for_volume(positions, across, goes);
+      for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += (goes(i) ? offset : 0) * across[i];
       const std::vector<double> shares = shares_of_half(positions, across);
       for (std::size_t i = 0; i < positions.size(); ++i) {
         if (constraints_.position_fixed(static_cast<Index>(i)) || std::abs(shares[i]) <= 1) continue;
@@ -101,7 +121,6 @@ class VoxelFit {
     }
   }
 
- private:
   /// As far as a plane may be from a corner of the voxels that it goes between; from the middle of an edge between two
   /// middles of voxels, where marching cubes have their nodes.
   [[nodiscard]] double half(std::size_t node, const Vector3& normal) const {
@@ -109,9 +128,11 @@ class VoxelFit {
     return (flat_[node] != 0 ? share_of_flat : 1) * (of_sides_ ? halves.sum() : halves.maxCoeff());
   }
 
-  /// Along normals, for the volume that was there; 0 where the surface is open or nearly all of it stays.
-  [[nodiscard]] double offset_for_volume(const std::vector<Vector3>& positions,
-                                         const std::vector<Vector3>& across) const {
+  /// Of nodes that go, along normals, for the volume that was there; 0 where the surface is open or nearly all of it
+  /// stays.
+  template <typename Goes>
+  [[nodiscard]] double offset_for_volume(const std::vector<Vector3>& positions, const std::vector<Vector3>& across,
+                                         const Goes& goes) const {
     double volume = 0;
     double whole = 0;
     double area = 0;
@@ -132,7 +153,7 @@ class VoxelFit {
       for (const Index node : face) {
         const double share = across[static_cast<std::size_t>(node)].dot(now) / (2 * static_cast<double>(face.size()));
         whole += share;
-        area += stays_[static_cast<std::size_t>(node)] != 0 ? 0 : share;
+        area += goes(static_cast<std::size_t>(node)) ? share : 0;
       }
     }
     const bool is_closed = closed.norm() <= closed_share * whole;
@@ -144,7 +165,7 @@ class VoxelFit {
   Vector3 size_;
   bool of_sides_;  // of voxels, rather than what marching cubes make of them
   std::vector<std::uint8_t> flat_;
-  std::vector<std::uint8_t> stays_;  // where the volume is put back: those, and what is held with what is next to it
+  std::vector<std::uint8_t> stays_;  // where the volume is put back: what is held, next to that, or went back
 };
 
 /// Whether all faces are across an axis, as the sides of voxels are.
@@ -167,7 +188,7 @@ bool is_near(const PolygonMesh& mesh, const std::vector<Vector3>& positions, con
 FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                          const FitOptions& options, bool of_sides, Context& context) {
   const Vector3 size = std::get<Voxels>(options.criterion).size;
-  const VoxelFit voxels(mesh, constraints, size, of_sides);
+  VoxelFit voxels(mesh, constraints, size, of_sides);
   FitOptions smooth = options;
   smooth.criterion = SmoothingLength{smoothing_in_voxels * std::cbrt(size.prod())};
   // What is within half a voxel is near.
@@ -206,7 +227,6 @@ FitResult take_steps_off(const PolygonMesh& mesh, const Constraints& constraints
   if (found.report.fair.outcome != Outcome::converged) return found;
   std::vector<Vector3> finished = found.positions;
   voxels.finish(finished);
-  TurnedEdges(mesh).take_back(finished);
   // What was found has been looked at by fit(); this has not.
   ThreadTeam team(context.thread_count());
   const std::string crossings = new_crossings(mesh, finished, context, team);

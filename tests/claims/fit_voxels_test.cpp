@@ -141,6 +141,21 @@ TEST(FitVoxels, LeavesFlatEndsFlat) {
   EXPECT_EQ(inside, 15 * 9);
 }
 
+TEST(FitVoxels, KeepsTheVolumeOfBoxesWhoseCornersStay) {
+  for (const double height : {1.0, 1.83, 2.58}) {
+    const Vector3 half(8.2, 5.7, 4.1);
+    const auto box = [&](const Vector3& place) {
+      const Vector3 share = (place - Vector3(0.3, 0.8, 0.2)).cwiseAbs().cwiseQuotient(half);
+      return share.maxCoeff() < 1;
+    };
+    const Vector3 size(1, 1, height);
+    const PolygonMesh mesh = sides_of_voxels(size, Vector3::Constant(12), box);
+    const FitResult result = steps_off(mesh, size);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    EXPECT_NEAR(volume(mesh, result.positions) / volume(mesh, mesh.positions()), 1, 2e-4) << height;
+  }
+}
+
 TEST(FitVoxels, ComesNearerToABoxThatIsTilted) {
   const double cosine = std::cos(0.35);
   const double sine = std::sin(0.35);

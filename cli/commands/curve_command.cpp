@@ -27,6 +27,9 @@ namespace vspring::cli {
 
 namespace {
 
+// So that rounding leaves none outside.
+constexpr double spare_of_tolerance = 1.001;
+
 struct CurveArguments : FairingArguments {
   std::optional<CurveFormat> format;
   ColumnChoice columns;
@@ -36,31 +39,60 @@ struct CurveArguments : FairingArguments {
   PullArguments pull;
 };
 
+/// A curve that was drawn, and what held it.
+struct Drawn {
+  PolygonCurve input;  ///< with its new nodes, where there are any
+  Constraints constraints;
+  FairedOrFitted done;
+};
+
+bool resamples(const CurveArguments& arguments) { return arguments.resampling.nodes || arguments.resampling.spacing; }
+
 /// New nodes between those that are held, in place of the file's, drawn to these where that is asked for, and faired.
-FairedOrFitted resample_and_fair(const CurveArguments& arguments, CurveFile& file, Constraints& constraints,
-                                 Context& context) {
-  std::optional<FitResult> fitted;
-  Resampled resampled = [&] {
-    if (!asks_to_fit(arguments.pull)) return resample(file.curve, constraints, arguments.resampling);
-    ResampledFit made = fit_resampled(file.curve, constraints, arguments.resampling,
+Drawn resample_and_fair(const PolygonCurve& curve, const Constraints& constraints, const CurveArguments& arguments,
+                        Context& context) {
+  if (asks_to_fit(arguments.pull)) {
+    ResampledFit made = fit_resampled(curve, constraints, arguments.resampling,
                                       fit_options(arguments.pull, arguments.options), context);
-    fitted = std::move(made.fit);
-    return std::move(made.resampled);
-  }();
+    FairedOrFitted done = account_for(std::move(made.fit), made.resampled.curve, arguments, arguments.pull, context);
+    return {std::move(made.resampled.curve), std::move(made.resampled.constraints), std::move(done)};
+  }
+  Resampled resampled = resample(curve, constraints, arguments.resampling);
   FairOptions options = arguments.options;
   options.corners.clear();
   for (std::size_t k = 0; k < resampled.from.size(); ++k) {
     if (std::ranges::find(arguments.options.corners, resampled.from[k]) != arguments.options.corners.end())
       options.corners.push_back(static_cast<Index>(k));
   }
-  file.curve = std::move(resampled.curve);
-  constraints = std::move(resampled.constraints);
-  // What the file carried belongs to nodes that are no longer there.
-  file.source = nullptr;
-  file.groups.clear();
-  file.row_order.clear();
-  if (fitted) return account_for(std::move(*fitted), file.curve, arguments, arguments.pull, context);
-  return {fair(file.curve, constraints, options, context), std::nullopt};
+  FairResult faired = fair(resampled.curve, resampled.constraints, options, context);
+  return {std::move(resampled.curve), std::move(resampled.constraints), {std::move(faired), std::nullopt}};
+}
+
+/// Fairs a curve, or draws it to its own nodes.
+Drawn draw_once(const PolygonCurve& curve, const Constraints& constraints, const CurveArguments& arguments,
+                Context& context) {
+  if (resamples(arguments)) return resample_and_fair(curve, constraints, arguments, context);
+  return {curve, constraints, fair_or_fit(curve, constraints, {}, arguments, arguments.pull, context)};
+}
+
+/// The same. A tolerance that noise gave is as large as rows behind held ends need: these ends have noise, too. Says so
+/// in `warnings`, and changes the tolerance.
+Drawn draw(const PolygonCurve& curve, const Constraints& constraints, CurveArguments& arguments,
+           std::vector<std::string>& warnings, Context& context) {
+  Drawn drawn = draw_once(curve, constraints, arguments, context);
+  if (arguments.pull.automatic != "--within" || context.cancelled()) return drawn;
+  const double needed = drawn.done.account->greatest();
+  if (!(needed > *arguments.pull.within)) return drawn;
+  CurveArguments wider = arguments;
+  wider.pull.within = spare_of_tolerance * needed;
+  Drawn again = draw_once(curve, constraints, wider, context);
+  if (again.done.faired.report.outcome != Outcome::converged) return drawn;
+  warnings.push_back(fmt::format(
+      "no curve is within {:.3g}, as the noise says: some row is nearest to what is held, and {:.3g} away; auto allows "
+      "for that; --fix none lets ends go along with their rows",
+      *arguments.pull.within, needed));
+  arguments.pull.within = wider.pull.within;
+  return again;
 }
 
 /// reordered: how many nodes were put elsewhere, where an order was asked for.
@@ -90,11 +122,18 @@ int run_curve(CurveArguments arguments) {
   // Noise has no say in where corners are; points are looked at by what draws a curve to them.
   if (arguments.pull.sharp > 0 && !asks_to_fit(arguments.pull))
     arguments.options.corners = arguments.resampling.corners = find_corners(before, arguments.pull.sharp);
-  const bool resamples = arguments.resampling.nodes || arguments.resampling.spacing;
-  FairedOrFitted done = resamples ? resample_and_fair(arguments, file, constraints, fairing.context())
-                                  : fair_or_fit(before, constraints, {}, arguments, arguments.pull, fairing.context());
-  std::vector<Vector3>& positions = done.faired.positions;
-  if (!resamples) closed.follow(positions);
+  Drawn drawn = draw(before, constraints, arguments, file.warnings, fairing.context());
+  std::vector<Vector3>& positions = drawn.done.faired.positions;
+  const bool has_new_nodes = resamples(arguments);
+  if (has_new_nodes) {
+    file.curve = std::move(drawn.input);
+    // What the file carried belongs to nodes that are no longer there.
+    file.source = nullptr;
+    file.groups.clear();
+    file.row_order.clear();
+  } else {
+    closed.follow(positions);
+  }
   PolygonCurve after = file.curve;
   after.set_positions(positions);
 
@@ -104,16 +143,17 @@ int run_curve(CurveArguments arguments) {
   const auto draw = [&] {
     return draw_curve(file, positions, {.before = &before, .points = {}, .part = moved_part(before, after)});
   };
-  nlohmann::ordered_json figures = done.figures();
+  nlohmann::ordered_json figures = drawn.done.figures();
   figures.update(figures_of(file.plane));
   if (reordered) figures["reordered_nodes"] = *reordered;
   return fairing.finish<PolygonCurve>(
-      {file.curve, after, constraints, done.faired.report}, file.warnings,
+      {file.curve, after, drawn.constraints, drawn.done.faired.report}, file.warnings,
       {.write = write,
        .picture = draw,
        .figures = std::move(figures),
-       .lines = done.lines() + closed.note() + note_of_order(reordered, before) + note_of(file.plane),
-       .facts = {.resamples = resamples, .moves_freely = arguments.pull.moving_axes == std::array{true, true, true}}});
+       .lines = drawn.done.lines() + closed.note() + note_of_order(reordered, before) + note_of(file.plane),
+       .facts = {.resamples = has_new_nodes,
+                 .moves_freely = arguments.pull.moving_axes == std::array{true, true, true}}});
 }
 
 const std::map<std::string, CurveFormat> curve_formats = {{"obj", CurveFormat::obj}, {"csv", CurveFormat::csv},

@@ -60,6 +60,24 @@ class Curve(Case):
         self.assertIn("noise leaves", self.curve(text, "--noise", "0.03").stdout.decode())
         self.assertIn(b"only one of", self.curve(text, "--rms", "1", "--noise", "1", status=1).stderr)
 
+    def test_within_auto_allows_for_what_lies_behind_a_held_end(self):
+        generator = random.Random(4)
+        rows = [(k / 10 + generator.gauss(0, 0.02), 0.3 * math.sin(k / 10) + generator.gauss(0, 0.02)) for k in range(80)]
+        rows[0] = (rows[1][0] + 0.07, rows[1][1])
+        for options in ([], ["--spacing", "0.1"]):
+            done = self.curve(csv(rows), "--within", "auto", "--report", self.folder / "r.json", *options)
+            report = self.read_json("r.json")
+            self.assertAlmostEqual(report["points"]["within"], 0.07, delta=0.001)
+            self.assertLessEqual(report["points"]["distance"]["after"]["greatest"], report["points"]["within"])
+            self.assertRegex(done.stderr.decode(), r"no curve is within 0\.0\d+, as the noise says: .* 0\.07 away; auto allows for that; --fix none")
+            self.assertEqual(read(self.folder / "out.csv")[0], rows[0])
+        run("measure", self.folder / "in.csv", "--report", self.folder / "m.json")
+        told = self.read_json("m.json")["figures"]["within_auto"]
+        self.assertLess(told, 0.1)
+        self.curve(csv(rows), "--within", repr(told), status=3)
+        self.curve(csv(rows), "--within", "auto", "--fix", "none", "--report", self.folder / "r.json")
+        self.assertEqual(self.read_json("r.json")["points"]["within"], told)
+
     def test_chords_of_new_nodes_stay_near_the_polyline_of_the_rows(self):
         for seed in (8, 16, 49):
             generator = random.Random(seed)

@@ -226,8 +226,9 @@ template <int K>
 void CurveDescent<K>::find_places_between() {
   gives_way_ = false;
   between_.clear();
-  if (task_.in_order && task_.keeps_way)
-    between_ = polyline_bounds(found.curve, found.points, reach(), {.everywhere = task_.way_share < 1});
+  if (!task_.keeps_way) return;
+  if (!task_.in_order) find_places(found.curve, found.way);
+  between_ = polyline_bounds(found.curve, way(), reach(), {.everywhere = task_.way_share < 1});
   for (PolylineBound& one : between_) one.bound *= task_.way_share;
 }
 
@@ -374,7 +375,7 @@ double CurveDescent<K>::settled_step() const {
 
 template <int K>
 double CurveDescent<K>::measured_excess() {
-  if (task_.in_order) between_ = polyline_bounds(found.curve, found.points, reach());
+  between_ = polyline_bounds(found.curve, way(), reach());
   return excess();
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "curve_fit/curve_fitter.hpp"
@@ -51,6 +52,8 @@ class CurveDescent {
     double squared_turns = 0;  ///< times lengths
   };
 
+  /// Points with their places that say which way the curve goes, by chains, in order.
+  [[nodiscard]] std::span<const CurvePoint> way() const { return task_.in_order ? found.points : found.way; }
   void find_places_between();
   [[nodiscard]] double reach() const;
   CurveProgram<K> program(double left, double price);

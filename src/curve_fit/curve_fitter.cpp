@@ -65,6 +65,7 @@ class CurveFitter {
     found_.curve = *task_.nodes;
     hold_corners();
     found_.points = task_.scattered;
+    found_.way = task_.way;
     set_bounds(task_, found_);
     find_places(found_.curve, found_.points);
     descent_.begin_grid(0);

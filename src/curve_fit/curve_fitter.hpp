@@ -12,6 +12,9 @@ namespace vspring {
 struct CurveFound {
   DenseCurve curve;
   std::vector<CurvePoint> points;  ///< with their places; those of scattered ones last
+  /// Of scattered points: the line through them in their order along the given curve, and through the nodes of that
+  /// where it has none, moved along with the points beside.
+  std::vector<CurvePoint> way;
   bool converged = false;
   double greatest = 0;  ///< distance of the points
   double rms = 0;
@@ -30,12 +33,14 @@ struct CurveFitTask {
   std::vector<Chain> chains;
   /// Those that are no nodes of the chains.
   std::vector<CurvePoint> scattered;
-  /// In place of chains: nodes whose chords are the curve. The scattered points have places on them.
+  /// In place of chains: nodes whose chords are the curve. The scattered points have places on them, and so has the
+  /// way.
   const DenseCurve* nodes = nullptr;
+  std::vector<CurvePoint> way;  ///< of scattered points, as it was found; where there are such nodes
   /// What start_of() returned, if it was called: of a task that is the same but for evenly, spare and least_radius.
   const CurveFound* start = nullptr;
   bool in_order = true;          ///< whether points come in the order of the chains
-  bool keeps_way = true;         ///< and whether the curve is held near the polyline through them
+  bool keeps_way = true;         ///< whether the curve is held near the polyline through them
   std::optional<Vector3> plane;  ///< its normal, where all lies in one
   /// 1 for coordinates that move, 0 for others: one in a plane, or two in space.
   Vector3 moving = Vector3::Ones();

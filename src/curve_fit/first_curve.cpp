@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/threads.hpp"
+#include "curve_fit/scattered_way.hpp"
 #include "shape/box_tree.hpp"
 #include "shape/segment.hpp"
 
@@ -70,11 +71,11 @@ class FirstCurve {
     if (found_.points.empty()) return std::move(found_);
     for (int k = 0; k < starts; ++k) {
       smooth_out_at_first();
-      find_places(found_.curve, found_.points);
+      find_all_places();
       take_new_nodes(found_, with_new_nodes(found_.curve, least_spacing(task_)));
     }
     smooth_out_at_first();
-    find_places(found_.curve, found_.points);
+    find_all_places();
     return std::move(found_);
   }
 
@@ -84,7 +85,22 @@ class FirstCurve {
     found_.curve = DenseCurve(false, task_.moving);
     for (const auto& chain : task_.chains) add_start(chain.nodes, chain.closed, scale, found_.curve, found_.points);
     find_scattered();
+    if (!task_.in_order) found_.way = way_of_scattered(found_.curve, found_.points, gap_of_way());
     set_bounds(task_, found_);
+  }
+
+  /// Where points pull, they may be anywhere.
+  [[nodiscard]] double gap_of_way() const {
+    double gap = reach_of_way(task_);
+    if (task_.within > 0 || task_.rms > 0) return gap;
+    for (const CurvePoint& point : found_.points)
+      gap = std::max(gap, found_.curve.offset(point.at, point.place).norm());
+    return gap;
+  }
+
+  void find_all_places() {
+    find_places(found_.curve, found_.points);
+    find_places(found_.curve, found_.way);
   }
 
   void smooth_out_at_first() {
@@ -94,8 +110,19 @@ class FirstCurve {
       for (std::uint32_t i = 0; i < found_.curve.size(); ++i)
         found_.curve.set_spacing(i, std::min(found_.curve.node(i).spacing, spacing_of_springs * found_.smoothing));
     } else {
-      smooth_out(found_.curve, found_.points, first_share * task_.within, first_share * task_.rms);
+      smooth_out(found_.curve, points_and_way(), first_share * task_.within, first_share * task_.rms);
     }
+  }
+
+  /// Where there are no points, the way says where the curve goes.
+  [[nodiscard]] std::vector<CurvePoint> points_and_way() const {
+    std::vector<CurvePoint> all = found_.points;
+    for (const CurvePoint& row : found_.way) {
+      if (row.weight > 0) continue;
+      all.push_back(row);
+      all.back().weight = 1;
+    }
+    return all;
   }
 
   void set_smoothing() {
@@ -159,6 +186,7 @@ void set_bounds(const CurveFitTask& task, CurveFound& found) {
 
 void take_new_nodes(CurveFound& found, DenseCurve now) {
   carry_places(found.curve, now, found.points);
+  carry_places(found.curve, now, found.way);
   found.curve = std::move(now);
 }
 

@@ -13,7 +13,7 @@ double least_spacing(const CurveFitTask& task);
 /// How far points may be from the curve.
 void set_bounds(const CurveFitTask& task, CurveFound& found);
 
-/// Places of points are carried over.
+/// Places of points, and of the way, are carried over.
 void take_new_nodes(CurveFound& found, DenseCurve now);
 
 }  // namespace vspring

@@ -13,6 +13,8 @@ namespace {
 constexpr double sparse_share = 0.05;
 constexpr int most_turns_of_chords = 4;
 constexpr int most_turns_of_pulling = 8;
+// Of how far the curve may go from the way of scattered points: nodes may have to go further, for their chords.
+constexpr double way_of_chords = 3;
 // Of how far places may be from the polyline.
 constexpr double next_to_nothing_beyond = 1.001;
 
@@ -61,9 +63,12 @@ bool FinishedNodes::draw_chords_in(MeasuredNodes& before, bool were_pulled) {
   task.nodes = &chords;
   task.evenly = true;
   task.scattered = found_.points;
+  task.way = found_.way;
   // Nodes that are the points keep the way between them.
-  task.keeps_way = are_new;
+  task.keeps_way = are_new || !task.in_order;
+  if (!task.in_order) task.way_share = way_of_chords;
   carry_places(found_.curve, chords, task.scattered);
+  carry_places(found_.curve, chords, task.way);
   const CurveFound drawn = vspring::fit_curve(task, [](double) {});
   Resampled moved = before.nodes;
   std::vector<Vector3> places = moved.curve.positions();

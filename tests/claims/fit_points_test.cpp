@@ -52,6 +52,31 @@ TEST(FitPoints, ThousandsOfPointsOnOneNodePullLikeTheirAverage) {
   EXPECT_LT(greatest_distance(many.positions, one.positions), 1e-10);
 }
 
+TEST(FitPoints, WhereThereAreNoneTheCurveGoesAsItCame) {
+  // A slender ellipse, open at one tip, with points everywhere but about the other. With 15 nodes chords cut that off.
+  const auto place = [](double angle) { return Vector3(std::cos(angle), 0.1 * std::sin(angle), 0); };
+  for (const int count : {15, 31, 61}) {
+    std::vector<Vector3> nodes;
+    for (int k = 0; k < count; ++k) nodes.push_back(place(pi * (0.1 + 1.8 * k / (count - 1))));
+    for (const double gap : {0.3, 1.0}) {
+      ScatteredPoints points;
+      for (int k = 0; k < 40; ++k) {
+        const double angle = 0.1 * pi + (0.9 * pi - gap) * (k / 2) / 19;
+        points.positions.push_back(place(k % 2 == 0 ? angle : 2 * pi - angle) + Vector3(0, 0.007 * std::sin(9 * k), 0));
+      }
+      FitOptions options;
+      options.criterion = Within{0.01};
+      const FitResult result = fit(PolygonCurve(nodes), held_ends(nodes), points, options);
+      if (count > 15) EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << count << ' ' << gap;
+      const auto [least, greatest] = std::minmax_element(result.positions.begin(), result.positions.end(),
+                                                         [](const auto& a, const auto& b) { return a.x() < b.x(); });
+      EXPECT_NEAR(least->x(), -1, count > 15 ? 0.05 : 0.1) << count << ' ' << gap;
+      EXPECT_LT(greatest->x(), 1) << count << ' ' << gap;
+      for (const Vector3& position : result.positions) EXPECT_LT(std::abs(position.y()), 0.115) << count << ' ' << gap;
+    }
+  }
+}
+
 TEST(FitPoints, SaysWhereTheyAreLeftBehindAndMakesNoBalloon) {
   // A slender loop with its ends held, most of which has no points: what hardly pulls at it lets it become a balloon.
   std::vector<Vector3> nodes;

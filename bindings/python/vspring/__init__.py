@@ -1,0 +1,15 @@
+"""Fair curves and surfaces: vspring moves the nodes of a polygon mesh or a polygonal curve until curvature changes as
+gently as what is held allows.
+
+    positions, report = vspring.fair(vertices, faces)
+
+Arguments have the names of the command line. Lengths are in units of the input. See docs/python.md.
+"""
+from ._errors import Error, Warning
+from ._fairing import fair, fair_curve, measure
+from ._reports import Figure, Figures, Level, Report, Result
+from ._vspring import version as _version
+
+__version__: str = _version()
+
+__all__ = ["Error", "Figure", "Figures", "Level", "Report", "Result", "Warning", "fair", "fair_curve", "measure"]

@@ -1,0 +1,99 @@
+"""Arrays of a caller as shapes of the library, and positions back as arrays like those."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _vspring
+from ._errors import Error
+
+Faces = ArrayLike | Sequence[Sequence[int]] | tuple[np.ndarray, np.ndarray]
+"""(m, 3) or (m, 4) node numbers, a list of lists, or a tuple of two arrays: all corners, and m + 1 offsets into them."""
+
+
+def _refuse(message: str) -> Error:
+    return Error("invalid-argument", message)
+
+
+@dataclass(frozen=True)
+class Given:
+    """A shape of the library, and the array that it was made of."""
+
+    core: _vspring.Mesh | _vspring.PlainCurve
+    array: np.ndarray
+
+    def like_given(self, positions: np.ndarray) -> np.ndarray:
+        """In as many columns, and in single precision where the input is."""
+        dtype = np.float32 if self.array.dtype == np.float32 else np.float64
+        return np.ascontiguousarray(positions[:, :self.array.shape[1]], dtype)
+
+
+def numbers_of(values: ArrayLike, name: str, columns: Sequence[int]) -> np.ndarray:
+    """Real numbers in rows of so many."""
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] not in columns:
+        shapes = " or ".join(f"(n, {count})" for count in columns)
+        raise _refuse(f"{name}: real numbers of the shape {shapes} are needed, not {array.dtype} of {array.shape}")
+    return array
+
+
+def coordinates_of(values: ArrayLike, name: str) -> np.ndarray:
+    """Three doubles a row; what has them already is not copied."""
+    array = numbers_of(values, name, (3,))
+    return np.ascontiguousarray(array, np.float64)
+
+
+def indices_of(values: ArrayLike, name: str) -> np.ndarray:
+    """Node numbers as the library has them."""
+    array = np.asarray(values)
+    if array.size and array.dtype.kind not in "iu":
+        raise _refuse(f"{name}: whole numbers are needed, not {array.dtype}")
+    narrow = np.ascontiguousarray(array, np.int32)
+    if array.dtype.itemsize >= 4 and array.dtype != np.int32 and not np.array_equal(narrow, array):
+        raise _refuse(f"{name}: a number is out of the range of node numbers")
+    return narrow
+
+
+def nodes_of(selection: ArrayLike, count: int, name: str) -> np.ndarray:
+    """The numbers of nodes that a mask or their numbers select."""
+    array = np.asarray(selection)
+    if array.dtype == bool:
+        if array.shape != (count,):
+            raise _refuse(f"{name}: a mask of {count} nodes is needed, not of {array.shape}")
+        return np.flatnonzero(array).astype(np.int32)
+    return indices_of(array, name).ravel()
+
+
+def surface_of(vertices: ArrayLike, faces: Faces) -> Given:
+    array = numbers_of(vertices, "vertices", (3,))
+    positions = coordinates_of(array, "vertices")
+    if isinstance(faces, tuple) and len(faces) == 2 and all(isinstance(one, np.ndarray) for one in faces):
+        corners, offsets = (indices_of(one, "faces") for one in faces)
+        return Given(_vspring.Mesh(positions, corners, offsets), array)
+    if not isinstance(faces, np.ndarray):
+        rows = [np.asarray(face) for face in faces]
+        if len({len(row) for row in rows}) != 1:
+            corners = np.concatenate(rows) if rows else np.zeros(0, np.int32)
+            offsets = np.cumsum([0, *map(len, rows)])
+            return Given(_vspring.Mesh(positions, indices_of(corners, "faces"), indices_of(offsets, "faces")), array)
+        faces = np.stack(rows)
+    if faces.ndim != 2 or (faces.size and faces.shape[1] < 1):
+        raise _refuse(f"faces: (m, 3) or (m, 4) node numbers, a list of lists or (corners, offsets) are needed, "
+                      f"not {faces.dtype} of {faces.shape}")
+    return Given(_vspring.Mesh.of_sides(positions, indices_of(faces, "faces"), max(faces.shape[1], 1)), array)
+
+
+def curve_of(vertices: ArrayLike, chains: Sequence[ArrayLike] | None, closed: bool | Sequence[bool]) -> Given:
+    array = numbers_of(vertices, "vertices", (2, 3))
+    positions = np.zeros((len(array), 3))
+    positions[:, :array.shape[1]] = array
+    if chains is None:
+        chains = [np.arange(len(array), dtype=np.int32)]
+    nodes = [indices_of(chain, "chains") for chain in chains]
+    loops = [bool(closed)] * len(nodes) if np.ndim(closed) == 0 else [bool(one) for one in closed]
+    if len(loops) != len(nodes):
+        raise _refuse(f"closed: {len(loops)} values for {len(nodes)} chains")
+    return Given(_vspring.PlainCurve(positions, nodes, loops), array)

@@ -146,6 +146,7 @@ void add_files(py::module_& module) {
   using Unlocked = py::call_guard<py::gil_scoped_release>;
   add_surface(module);
   add_curve(module);
+  module.def("read_file", [](const Path& path) { return py::bytes(read_file(path)); });
   module.def("read_points", &points_of);
   module.def(
       "read_surface",

@@ -1,9 +1,11 @@
 #include "settings.hpp"
 
+#include <algorithm>
 #include <array>
 #include <initializer_list>
 #include <string_view>
 #include <utility>
+#include <variant>
 
 namespace vspring::python {
 
@@ -76,6 +78,16 @@ void settle_distribution(FairOptions& options, const Settings& settings, const S
   if (chosen != usual || subject.own_nodes_pull) options.distribution = chosen;
 }
 
+/// The last steps of a fit are about k times their distance.
+void shorten_steps(FitOptions& options) {
+  const double k = options.weight().value_or(0);
+  if (!(k > 0)) return;
+  const auto shorten = [&](auto& method) {
+    if constexpr (requires { method.step_tolerance; }) method.step_tolerance = std::min(method.step_tolerance, k / 10);
+  };
+  std::visit(shorten, options.fair.method);
+}
+
 }  // namespace
 
 FairOptions fair_options(const Settings& settings, const Subject& subject) {
@@ -121,6 +133,7 @@ FitOptions fit_options(const Settings& settings, const Subject& subject) {
   if (given != 1)
     throw Error(ErrorCode::invalid_argument, std::string(given == 0 ? "one" : "only one") +
                                                  " of weight, smoothing_length, within, rms and noise has to be given");
+  if (!subject.own_nodes_pull && !settings.get<double>("step_tolerance")) shorten_steps(options);
   take(settings.get<double>("outliers"), options.outliers);
   take(settings.get<double>("min_radius"), options.least_radius);
   take(settings.get<double>("sharp"), options.sharp);

@@ -6,10 +6,14 @@ gently as what is held allows.
 Arguments have the names of the command line. Lengths are in units of the input. See docs/python.md.
 """
 from ._errors import Error, Warning
-from ._fairing import fair, fair_curve, measure
-from ._reports import Figure, Figures, Level, Report, Result
+from ._fairing import fair, fair_curve, fit, measure
+from ._files import read, write
+from ._points import Points, read_points
+from ._reports import Distances, Figure, Figures, FitReport, Level, Report, Result
+from ._vspring import Curve, Surface
 from ._vspring import version as _version
 
 __version__: str = _version()
 
-__all__ = ["Error", "Figure", "Figures", "Level", "Report", "Result", "Warning", "fair", "fair_curve", "measure"]
+__all__ = ["Curve", "Distances", "Error", "Figure", "Figures", "FitReport", "Level", "Points", "Report", "Result",
+           "Surface", "Warning", "fair", "fair_curve", "fit", "measure", "read", "read_points", "write"]

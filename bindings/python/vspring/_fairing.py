@@ -1,25 +1,28 @@
-"""Fairing and measuring."""
+"""Fairing, fitting and measuring."""
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence
+from typing import Any, Mapping, Sequence, Unpack
 
 from numpy.typing import ArrayLike
-from typing import Unpack
 
 from . import _vspring
 from ._errors import warn
 from ._holding import constraints_of
-from ._options import CurveOptions, MeasureOptions, SurfaceOptions, spelled_out
-from ._reports import Figure, Figures, Result, report_of
-from ._shapes import Faces, Given, curve_of, surface_of
+from ._options import CurveOptions, FitOptions, MeasureOptions, SurfaceOptions, spelled_out
+from ._points import Points, arrays_of, is_drawn, without_auto
+from ._reports import Figure, Figures, Report, Result, fit_report_of, report_of
+from ._shapes import Faces, Given, curve_of, shape_of, surface_of
 
 
 @spelled_out(SurfaceOptions)
-def fair(vertices: ArrayLike, faces: Faces, **options: Unpack[SurfaceOptions]) -> Result:
+def fair(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None,
+         **options: Unpack[SurfaceOptions]) -> Result:
     """Fairs a surface: curvature changes as gently as what is held allows. Connectivity stays.
 
     vertices: (n, 3), float64 or float32, in any unit. float32 comes back as float32, rounded from doubles.
     faces: (m, 3) or (m, 4) node numbers, a list of lists, or a tuple of two arrays, corners and m + 1 offsets.
+    Or else, in place of both, what read() returned. With weight, smoothing_length, within, rms or noise, the surface is
+    drawn to its own nodes, as they are in the input.
 
     Returns new positions, (n, 3), and a report; arguments are unchanged. See outcome in the report: what did not
     converge is the best shape so far, never worse than the input without a word.
@@ -34,13 +37,15 @@ def fair(vertices: ArrayLike, faces: Faces, **options: Unpack[SurfaceOptions]) -
 
 
 @spelled_out(CurveOptions)
-def fair_curve(vertices: ArrayLike, *, chains: Sequence[ArrayLike] | None = None,
+def fair_curve(vertices: ArrayLike | _vspring.Curve, *, chains: Sequence[ArrayLike] | None = None,
                closed: bool | Sequence[bool] = False, **options: Unpack[CurveOptions]) -> Result:
     """Fairs a curve: between what is held, curvature becomes linear in arc length.
 
     vertices: (n, 2) or (n, 3), float64 or float32, in any unit; positions come back with as many columns.
     chains: node numbers of each chain in order, where all nodes in a row are not the one chain.
     closed: whether the last node joins the first, which is not repeated; of all chains, or one value each.
+    Or else, in place of all, what read() returned. With weight, smoothing_length, within, rms or noise, the curve is
+    drawn to its own nodes, as they are in the input.
 
     Returns and raises what fair() does. Cost: linear, 0.15 s for 100,000 nodes.
 
@@ -49,9 +54,32 @@ def fair_curve(vertices: ArrayLike, *, chains: Sequence[ArrayLike] | None = None
     return _fair(curve_of(vertices, chains, closed), options)
 
 
+@spelled_out(FitOptions)
+def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None = None,
+        points: ArrayLike | Points | None = None, *, weights: ArrayLike | None = None, normals: ArrayLike | None = None,
+        chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False,
+        **options: Unpack[FitOptions]) -> Result:
+    """Fairs a surface or, without faces, a curve, and draws it to scattered points.
+
+    vertices, faces, chains, closed: as of fair() and fair_curve(), or what read() returned.
+    points: (p, 3), in units of the shape, or what read_points() returned; the shape's own nodes where not given.
+    weights: (p,), 0 or more; 1 each where not given. A point of weight 0 is only measured.
+    normals: (p, 3), unit length, zero where not known: which way a surface faces at each point. A point pulls only at
+    nodes that face within 90° of that.
+
+    One of weight, smoothing_length, within, rms and noise says how points pull. Returns new positions and a report with
+    distances of the points. Raises what fair() does. Cost: that of fair(), and linear in the points for every iteration;
+    within and rms find the equilibrium of a surface some ten to a hundred times.
+
+    Source: § 4.5 and Eq. 9 of the paper; docs/fit.md.
+    """
+    given = shape_of(vertices, faces, chains, closed)
+    return _fit(given, [None] * 3 if points is None else arrays_of(points, weights, normals), options)
+
+
 @spelled_out(MeasureOptions)
-def measure(vertices: ArrayLike, faces: Faces | None = None, *, chains: Sequence[ArrayLike] | None = None,
-            closed: bool | Sequence[bool] = False, **options: Unpack[MeasureOptions]) -> Figures:
+def measure(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None = None, *,
+            chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False, **options: Unpack[MeasureOptions]) -> Figures:
     """Measures how fair a surface is or, without faces, a curve.
 
     vertices, faces: as of fair(); chains, closed: as of fair_curve(). With fix or fix_normals, only what lies at moving
@@ -60,7 +88,7 @@ def measure(vertices: ArrayLike, faces: Faces | None = None, *, chains: Sequence
     Returns figures by their keys, each with name, unit and definition. Raises vspring.Error. Cost: n log n, some
     microseconds a node. Definitions and sources: docs/fairness.md.
     """
-    given = curve_of(vertices, chains, closed) if faces is None else surface_of(vertices, faces)
+    given = shape_of(vertices, faces, chains, closed)
     threads = options.pop("threads", None) or 0
     held = constraints_of(given, options) if options else None
     return Figures({key: Figure(value, name, unit, definition)
@@ -68,11 +96,24 @@ def measure(vertices: ArrayLike, faces: Faces | None = None, *, chains: Sequence
 
 
 def _fair(given: Given, options: Mapping[str, Any]) -> Result:
-    positions, fields, stopped_by = _vspring.fair(given.core, constraints_of(given, options), dict(options), None)
+    if is_drawn(options):
+        return _fit(given, [None, None, None], options)
+    held = constraints_of(given, options)
+    positions, fields, stopped_by = _vspring.fair(given.core, held, dict(options), None)
     return ended(given, positions, report_of(fields), stopped_by)
 
 
-def ended(given: Given, positions: Any, report: Any, stopped_by: BaseException | None) -> Result:
+def _fit(given: Given, points: Sequence[Any], options: Mapping[str, Any]) -> Result:
+    settled = without_auto(options, given) if points[0] is None else dict(options)
+    if isinstance(settled.get("move"), str):
+        settled["move"] = [settled["move"]]
+    settled["planar"] = given.array.shape[1] == 2
+    held = constraints_of(given, options)
+    positions, fields, stopped_by = _vspring.fit(given.core, held, *points, settled, given.file, None)
+    return ended(given, positions, fit_report_of(fields), stopped_by)
+
+
+def ended(given: Given, positions: Any, report: Report, stopped_by: BaseException | None) -> Result:
     result = Result(given.like_given(positions), report)
     if stopped_by is not None:
         stopped_by.positions, stopped_by.report = result

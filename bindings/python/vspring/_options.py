@@ -3,7 +3,8 @@ from __future__ import annotations
 
 import functools
 import inspect
-from typing import Any, Callable, Literal, TypedDict, TypeVar
+import os
+from typing import Any, Callable, Literal, Mapping, Sequence, TypedDict, TypeVar
 
 from numpy.typing import ArrayLike
 
@@ -11,9 +12,30 @@ Nodes = Literal["boundary", "none"] | ArrayLike
 """Nodes of a shape: a mask of n booleans, or an array of their numbers."""
 
 
+Rules = str | os.PathLike[str] | Mapping[str, Any] | Sequence[Mapping[str, Any]]
+"""The path of a file of rules, what such a file holds, or its list of rules."""
+
+
 class Holding(TypedDict, total=False):
     fix: Nodes
     fix_normals: Nodes
+    constraints: Rules
+    region: str | ArrayLike
+
+
+class Pulling(TypedDict, total=False):
+    weight: float
+    smoothing_length: float
+    within: float | Literal["auto"]
+    rms: float | Literal["auto"]
+    noise: float | Literal["auto"]
+    outliers: float
+
+
+class CurvePulling(TypedDict, total=False):
+    min_radius: float
+    sharp: float
+    move: str | Sequence[str]
 
 
 class Solving(TypedDict, total=False):
@@ -31,15 +53,19 @@ class Running(TypedDict, total=False):
     threads: int
 
 
-class SurfaceOptions(Holding, Solving, Running, total=False):
+class SurfaceOptions(Holding, Pulling, Solving, Running, total=False):
     springs: Literal["sphere", "edge"]
     fair_by: Literal["curvature", "bending"]
     pseudo_normals: Literal["link", "average", "area", "angle"]
     fair_boundary: bool
 
 
-class CurveOptions(Holding, Solving, Running, total=False):
+class CurveOptions(Holding, Pulling, CurvePulling, Solving, Running, total=False):
     normal_plane: Literal["full", "principal"]
+
+
+class FitOptions(Holding, Pulling, CurvePulling, Solving, Running, total=False):
+    pass
 
 
 class MeasureOptions(Holding, total=False):
@@ -51,6 +77,20 @@ MEANINGS = {
            "or node numbers",
     "fix_normals": 'nodes whose normals (curves: tangents) are fixed as they are in the input, to second order: "none" '
                    '(the default), "boundary", a mask or node numbers',
+    "constraints": 'rules for positions, normals and tangents, as docs/constraints.md has them: the path of a JSON file, '
+                   'its contents as a dict, or a list of rules; "nodes" may be a mask or an array',
+    "region": 'only these nodes move, and meet what lies outside smoothly: "sphere:x,y,z,r", "box:x0,y0,z0,x1,y1,z1" '
+              '(units of the input), "group:NAME", the path of a JSON file, a mask or node numbers',
+    "weight": "the paper's k: how much a point counts against the springs of its node, 0 or more",
+    "smoothing_length": "take away what is shorter than about 6 times this, whatever the mesh; units of the input",
+    "within": 'the fairest shape from which no point is further away than this, units of the input; "auto": by the noise '
+              "that the nodes seem to have",
+    "rms": "the fairest shape from which points are this far away, root mean square, units of the input; \"auto\" as above",
+    "noise": "take noise of this standard deviation in each coordinate off, units of the input; \"auto\" as above",
+    "outliers": "leave this share of the points out, those furthest away: 0 to less than 1",
+    "min_radius": "curves drawn to points: nowhere bent by a smaller radius than this, units of the input",
+    "sharp": "curves: where they turn by more than this, corners stay; degrees, less than 180",
+    "move": 'curves drawn to their own nodes: only these coordinates move, letters such as "y" or "yz", or names of columns',
     "method": '"equilibrium" (the default), or the paper\'s "multigrid" or "sweep"',
     "tolerance": "equilibrium: end when no node is expected to be further from its final place than this share of the "
                  "diagonal of the box around the moving nodes; 1e-5 by default",

@@ -94,6 +94,63 @@ def _typed(fields: Mapping[str, Any]) -> dict[str, Any]:
             "boundary": None if boundary is None else report_of(boundary)}
 
 
+@dataclass(frozen=True)
+class Distances:
+    """Distances of points from a shape, in units of the input."""
+
+    greatest: float
+    point: int
+    """The number of the furthest point."""
+    rms: float
+    median: float
+    percentile90: float
+    percentile99: float
+
+
+@dataclass(frozen=True, repr=False)
+class FitReport(Report):
+    """How a run ended that drew a shape to points."""
+
+    points: int
+    pulling_points: int
+    """Those tied to a node that moves, at the end."""
+    pulled_nodes: int
+    """Moving nodes with points tied to them, at the end."""
+    most_points: int
+    """The most points on one of these."""
+    outliers: int
+    """Points left out."""
+    outside_points: int
+    """With within and rms: those further away than that."""
+    active_points: np.ndarray
+    """With within: the points at that distance, to 1 %, which keep the shape from becoming fairer."""
+    noise_leaves: float | None
+    """With noise, of curves: the root mean square distance that it leaves."""
+    smoothing_length: float | None
+    """The one given or, for a tolerance, found."""
+    least_radius: float | None
+    """With min_radius: the least one of the new curve."""
+    sharpest_node: int
+    """The node that has it; -1 without."""
+    greatest_slide: float
+    """The greatest way of a node along the shape, where the points are its own nodes."""
+    before: Distances | None
+    after: Distances | None
+    distances: np.ndarray
+    """Of every point from the new shape, outliers too."""
+
+    def _lines(self) -> list[str]:
+        lines = super()._lines()
+        told = "" if self.after is None else f", rms {self.after.rms:.4g} away, {self.after.greatest:.4g} at most"
+        lines.insert(2, f"  {self.points} points, of which {self.pulling_points} pull{told}")
+        return lines
+
+
+def fit_report_of(fields: Mapping[str, Any]) -> FitReport:
+    distances = {name: None if fields[name] is None else Distances(**fields[name]) for name in ("before", "after")}
+    return FitReport(**{**_typed(fields), **distances})
+
+
 class Result(NamedTuple):
     """A fair shape: `positions, report = vspring.fair(...)`."""
 

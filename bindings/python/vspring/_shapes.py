@@ -20,10 +20,15 @@ def _refuse(message: str) -> Error:
 
 @dataclass(frozen=True)
 class Given:
-    """A shape of the library, and the array that it was made of."""
+    """A shape of the library, the array that it was made of, and what a file carried besides."""
 
     core: _vspring.Mesh | _vspring.PlainCurve
     array: np.ndarray
+    file: _vspring.Surface | _vspring.Curve | None = None
+
+    @property
+    def is_curve(self) -> bool:
+        return isinstance(self.core, _vspring.PlainCurve)
 
     def like_given(self, positions: np.ndarray) -> np.ndarray:
         """In as many columns, and in single precision where the input is."""
@@ -44,6 +49,13 @@ def coordinates_of(values: ArrayLike, name: str) -> np.ndarray:
     """Three doubles a row; what has them already is not copied."""
     array = numbers_of(values, name, (3,))
     return np.ascontiguousarray(array, np.float64)
+
+
+def in_space(array: np.ndarray) -> np.ndarray:
+    """Three doubles a row; z = 0 where there are two."""
+    positions = np.zeros((len(array), 3))
+    positions[:, :array.shape[1]] = array
+    return positions
 
 
 def indices_of(values: ArrayLike, name: str) -> np.ndarray:
@@ -67,7 +79,11 @@ def nodes_of(selection: ArrayLike, count: int, name: str) -> np.ndarray:
     return indices_of(array, name).ravel()
 
 
-def surface_of(vertices: ArrayLike, faces: Faces) -> Given:
+def surface_of(vertices: ArrayLike | _vspring.Surface, faces: Faces | None) -> Given:
+    if isinstance(vertices, _vspring.Surface):
+        return _from_file(vertices)
+    if faces is None:
+        raise TypeError("faces are missing; curves have fair_curve()")
     array = numbers_of(vertices, "vertices", (3,))
     positions = coordinates_of(array, "vertices")
     if isinstance(faces, tuple) and len(faces) == 2 and all(isinstance(one, np.ndarray) for one in faces):
@@ -86,10 +102,12 @@ def surface_of(vertices: ArrayLike, faces: Faces) -> Given:
     return Given(_vspring.Mesh.of_sides(positions, indices_of(faces, "faces"), max(faces.shape[1], 1)), array)
 
 
-def curve_of(vertices: ArrayLike, chains: Sequence[ArrayLike] | None, closed: bool | Sequence[bool]) -> Given:
+def curve_of(vertices: ArrayLike | _vspring.Curve, chains: Sequence[ArrayLike] | None,
+             closed: bool | Sequence[bool]) -> Given:
+    if isinstance(vertices, _vspring.Curve):
+        return _from_file(vertices)
     array = numbers_of(vertices, "vertices", (2, 3))
-    positions = np.zeros((len(array), 3))
-    positions[:, :array.shape[1]] = array
+    positions = in_space(array)
     if chains is None:
         chains = [np.arange(len(array), dtype=np.int32)]
     nodes = [indices_of(chain, "chains") for chain in chains]
@@ -97,3 +115,15 @@ def curve_of(vertices: ArrayLike, chains: Sequence[ArrayLike] | None, closed: bo
     if len(loops) != len(nodes):
         raise _refuse(f"closed: {len(loops)} values for {len(nodes)} chains")
     return Given(_vspring.PlainCurve(positions, nodes, loops), array)
+
+
+def shape_of(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None,
+             chains: Sequence[ArrayLike] | None, closed: bool | Sequence[bool]) -> Given:
+    """A curve where there are no faces."""
+    if faces is None and not isinstance(vertices, _vspring.Surface):
+        return curve_of(vertices, chains, closed)
+    return surface_of(vertices, faces)
+
+
+def _from_file(file: _vspring.Surface | _vspring.Curve) -> Given:
+    return Given(file._core, file.vertices, file)

@@ -11,5 +11,6 @@ void add_shapes(py::module_& module);
 void add_constraints(py::module_& module);
 void add_files(py::module_& module);
 void add_fairing(py::module_& module);
+void add_session(py::module_& module);
 
 }  // namespace vspring::python

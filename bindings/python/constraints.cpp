@@ -1,6 +1,6 @@
 // What holds a shape.
 
-#include <optional>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -9,6 +9,9 @@
 namespace vspring::python {
 
 namespace {
+
+using Place = std::array<double, 3>;
+Vector3 vector(const Place& place) { return {place[0], place[1], place[2]}; }
 
 void fix_boundary_directions(Constraints& constraints, const PolygonMesh& mesh) {
   fix_boundary_normals(constraints, mesh);
@@ -79,6 +82,14 @@ void add_holds(py::class_<Constraints>& type) {
 void add_constraints(py::module_& module) {
   py::class_<Constraints> type(module, "Constraints");
   type.def(py::init<Index>());
+  type.def("fix_position", [](Constraints& self, Index node, const Place& at) { self.fix_position(node, vector(at)); });
+  type.def("free_position", &Constraints::free_position);
+  type.def("fix_normal",
+           [](Constraints& self, Index node, const Place& along) { self.fix_normal(node, vector(along)); });
+  type.def("free_normal", &Constraints::free_normal);
+  type.def("fix_tangent",
+           [](Constraints& self, Index node, const Place& along) { self.fix_tangent(node, vector(along)); });
+  type.def("free_tangent", py::overload_cast<Index>(&Constraints::free_tangent));
   add_holds<PolygonMesh>(type);
   add_holds<PolygonCurve>(type);
   add_rules<PolygonMesh, SurfaceFile>(type);

@@ -10,4 +10,5 @@ PYBIND11_MODULE(_vspring, module) {
   add_constraints(module);
   add_files(module);
   add_fairing(module);
+  add_session(module);
 }

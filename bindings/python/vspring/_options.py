@@ -8,6 +8,8 @@ from typing import Any, Callable, Literal, Mapping, Sequence, TypedDict, TypeVar
 
 from numpy.typing import ArrayLike
 
+from ._progress import Bar, Progress
+
 Nodes = Literal["boundary", "none"] | ArrayLike
 """Nodes of a shape: a mask of n booleans, or an array of their numbers."""
 
@@ -51,6 +53,7 @@ class Solving(TypedDict, total=False):
 
 class Running(TypedDict, total=False):
     threads: int
+    progress: Callable[[Progress], object] | Bar
 
 
 class SurfaceOptions(Holding, Pulling, Solving, Running, total=False):
@@ -66,6 +69,15 @@ class CurveOptions(Holding, Pulling, CurvePulling, Solving, Running, total=False
 
 class FitOptions(Holding, Pulling, CurvePulling, Solving, Running, total=False):
     pass
+
+
+class SessionOptions(Holding, Solving, total=False):
+    threads: int
+    springs: Literal["sphere", "edge"]
+    fair_by: Literal["curvature", "bending"]
+    pseudo_normals: Literal["link", "average", "area", "angle"]
+    fair_boundary: bool
+    normal_plane: Literal["full", "principal"]
 
 
 class MeasureOptions(Holding, total=False):
@@ -109,6 +121,8 @@ MEANINGS = {
     "normal_plane": '"full" (the default): curves in space are sprung in the whole normal plane; "principal": along the '
                     "principal normal only, as in the paper",
     "threads": "how many work; all cores by default. The same bits for every number",
+    "progress": "called at most some 20 times a second with a vspring.Progress, or a bar such as tqdm(total=1); what it "
+                "raises ends the call, with positions and report of the best shape so far on the exception",
 }
 
 Call = TypeVar("Call", bound=Callable[..., Any])

@@ -4,6 +4,7 @@ from __future__ import annotations
 import sys
 import warnings
 from pathlib import Path
+from types import FrameType
 from typing import Iterable
 
 _PACKAGE = str(Path(__file__).parent)
@@ -41,7 +42,8 @@ class Warning(UserWarning):
 
 def warn(each: Iterable[tuple[str, str]]) -> None:
     """Warns where the package was called."""
-    depth, frame = 1, sys._getframe()
+    depth = 1
+    frame: FrameType | None = sys._getframe()
     while frame is not None and frame.f_code.co_filename.startswith(_PACKAGE):
         depth, frame = depth + 1, frame.f_back
     for code, message in each:

@@ -11,13 +11,15 @@ from ._holding import constraints_of
 from ._options import CurveOptions, FitOptions, MeasureOptions, SurfaceOptions, spelled_out
 from ._points import Points, arrays_of, is_drawn, without_auto
 from ._progress import Teller, teller
-from ._reports import Figure, Figures, Report, Result, fit_report_of, report_of
+from ._reports import AnyReport, Figure, Figures, FitReport, Report, Result, fit_report_of, report_of
 from ._shapes import Faces, Given, curve_of, shape_of, surface_of
+
+OWN_NODES = (None, None, None)
 
 
 @spelled_out(SurfaceOptions)
 def fair(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None,
-         **options: Unpack[SurfaceOptions]) -> Result:
+         **options: Unpack[SurfaceOptions]) -> Result[Report]:
     """Fairs a surface: curvature changes as gently as what is held allows. Connectivity stays.
 
     vertices: (n, 3), float64 or float32, in any unit. float32 comes back as float32, rounded from doubles.
@@ -30,7 +32,7 @@ def fair(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None,
 
     Raises vspring.Error for input that cannot be faired, TypeError for arguments of another kind, and KeyboardInterrupt on
     Ctrl-C, which has the best shape so far as positions and report. Other threads of Python go on meanwhile. Cost: linear in the
-    nodes, some 5 µs a node and thread; about 0.9 kB of memory for every moving node.
+    nodes, some 10 to 15 µs a node; about 0.9 kB of memory for every moving node.
 
     Source: A. Yamada, K. Shimada, T. Furuhata, K.-H. Hou, "A Discrete Spring Model for Generating Fair Curves and
     Surfaces", Pacific Graphics 1999; docs/solver.md and docs/springs.md.
@@ -40,7 +42,7 @@ def fair(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None,
 
 @spelled_out(CurveOptions)
 def fair_curve(vertices: ArrayLike | _vspring.Curve, *, chains: Sequence[ArrayLike] | None = None,
-               closed: bool | Sequence[bool] = False, **options: Unpack[CurveOptions]) -> Result:
+               closed: bool | Sequence[bool] = False, **options: Unpack[CurveOptions]) -> Result[Report]:
     """Fairs a curve: between what is held, curvature becomes linear in arc length.
 
     vertices: (n, 2) or (n, 3), float64 or float32, in any unit; positions come back with as many columns.
@@ -60,7 +62,7 @@ def fair_curve(vertices: ArrayLike | _vspring.Curve, *, chains: Sequence[ArrayLi
 def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None = None,
         points: ArrayLike | Points | None = None, *, weights: ArrayLike | None = None, normals: ArrayLike | None = None,
         chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False,
-        **options: Unpack[FitOptions]) -> Result:
+        **options: Unpack[FitOptions]) -> Result[FitReport]:
     """Fairs a surface or, without faces, a curve, and draws it to scattered points.
 
     vertices, faces, chains, closed: as of fair() and fair_curve(), or what read() returned.
@@ -76,7 +78,7 @@ def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | 
     Source: § 4.5 and Eq. 9 of the paper; docs/fit.md.
     """
     given = shape_of(vertices, faces, chains, closed)
-    return _fit(given, [None] * 3 if points is None else arrays_of(points, weights, normals), options)
+    return _fit(given, OWN_NODES if points is None else arrays_of(points, weights, normals), options)
 
 
 @spelled_out(MeasureOptions)
@@ -97,16 +99,16 @@ def measure(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Face
                     for key, name, unit, definition, value in _vspring.measure(given.core, held, threads)})
 
 
-def _fair(given: Given, options: Mapping[str, Any]) -> Result:
+def _fair(given: Given, options: Mapping[str, Any]) -> Result[Report]:
     if is_drawn(options):
-        return _fit(given, [None, None, None], options)
+        return _fit(given, OWN_NODES, options)
     held = constraints_of(given, options)
     tell = teller(options.get("progress"))
     positions, fields, stopped_by = _vspring.fair(given.core, held, dict(options), tell)
     return ended(given, positions, report_of(fields), tell, stopped_by)
 
 
-def _fit(given: Given, points: Sequence[Any], options: Mapping[str, Any]) -> Result:
+def _fit(given: Given, points: tuple[Any, Any, Any], options: Mapping[str, Any]) -> Result[FitReport]:
     settled = without_auto(options, given) if points[0] is None else dict(options)
     if isinstance(settled.get("move"), str):
         settled["move"] = [settled["move"]]
@@ -117,11 +119,12 @@ def _fit(given: Given, points: Sequence[Any], options: Mapping[str, Any]) -> Res
     return ended(given, positions, fit_report_of(fields), tell, stopped_by)
 
 
-def ended(given: Given, positions: Any, report: Report, tell: Teller | None, stopped_by: BaseException | None) -> Result:
+def ended(given: Given, positions: Any, report: AnyReport, tell: Teller | None,
+          stopped_by: BaseException | None) -> Result[AnyReport]:
     """The result of a call, or what ended it before its time with the best shape so far."""
     result = Result(given.like_given(positions), report)
     if stopped_by is not None:
-        stopped_by.positions, stopped_by.report = result
+        vars(stopped_by).update(positions=result.positions, report=result.report)
         raise stopped_by
     if tell is not None:
         tell.done()

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import os
 from pathlib import PurePath
-from typing import Sequence
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -60,17 +60,16 @@ def write(path: str | os.PathLike[str], vertices: ArrayLike | Surface | Curve, f
     Warns, with the code "writing", of what the source carried and the output does not. Raises vspring.Error. Cost: linear.
     """
     path, format = os.fspath(path), format or ""
-    if source is None and not isinstance(vertices, (Surface, Curve)):
+    whole = vertices if isinstance(vertices, (Surface, Curve)) else source
+    if whole is None:
         given = shape_of(vertices, faces, chains, closed)
         if given.is_curve:
             _vspring.write_plain_curve(path, given.core, given.array.shape[1] == 2, format)
         else:
             _vspring.write_mesh(path, given.core, format)
         return
-    if source is None:
-        source = vertices
     if faces is not None or chains is not None:
         raise Error("invalid-argument", "write: faces and chains are those of the source; leave them out")
     positions = vertices.vertices if isinstance(vertices, (Surface, Curve)) else numbers_of(vertices, "vertices", (2, 3))
-    put = _vspring.write_surface if isinstance(source, Surface) else _vspring.write_curve
-    warn(("writing", text) for text in put(path, source, in_space(np.asarray(positions)), format))
+    put: Any = _vspring.write_surface if isinstance(whole, Surface) else _vspring.write_curve
+    warn(("writing", text) for text in put(path, whole, in_space(np.asarray(positions)), format))

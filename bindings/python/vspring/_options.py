@@ -133,8 +133,7 @@ def spelled_out(options: type) -> Callable[[Call], Call]:
     hints = {name: hint.__forward_arg__ for name, hint in options.__annotations__.items()}
 
     def decorate(call: Call) -> Call:
-        @functools.wraps(call)
-        def checked(*given: Any, **named: Any) -> Any:
+        def check(*given: Any, **named: Any) -> Any:
             for name in named:
                 if name not in own and name not in hints:
                     raise TypeError(f"{call.__name__}() has no argument {name!r}; it has {', '.join([*own, *hints])}")
@@ -144,6 +143,7 @@ def spelled_out(options: type) -> Callable[[Call], Call]:
         own = {name: one for name, one in signature.parameters.items() if one.kind is not one.VAR_KEYWORD}
         more = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=hint)
                 for name, hint in hints.items()]
+        checked: Any = functools.wraps(call)(check)
         checked.__signature__ = signature.replace(parameters=[*own.values(), *more])
         lines = [f"{name}: {MEANINGS[name]}." for name in hints]
         checked.__doc__ = inspect.cleandoc(call.__doc__ or "") + "\n\nKeyword arguments:\n\n" + "\n".join(lines)

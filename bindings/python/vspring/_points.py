@@ -47,7 +47,7 @@ def is_drawn(options: Mapping[str, Any]) -> bool:
     return drawn
 
 
-def arrays_of(points: ArrayLike | Points, weights: ArrayLike | None, normals: ArrayLike | None) -> list[Any]:
+def arrays_of(points: ArrayLike | Points, weights: ArrayLike | None, normals: ArrayLike | None) -> tuple[Any, Any, Any]:
     """Positions, weights and normals as the library takes them; None for those that there are not."""
     if isinstance(points, Points):
         points, weights, normals = points
@@ -55,8 +55,8 @@ def arrays_of(points: ArrayLike | Points, weights: ArrayLike | None, normals: Ar
         weights = np.ascontiguousarray(weights, np.float64)
         if weights.ndim != 1:
             raise Error("invalid-argument", f"weights: one number a point is needed, not {weights.shape}")
-    return [in_space(numbers_of(points, "points", (2, 3))), weights,
-            None if normals is None else in_space(numbers_of(normals, "normals", (3,)))]
+    return (in_space(numbers_of(points, "points", (2, 3))), weights,
+            None if normals is None else in_space(numbers_of(normals, "normals", (3,))))
 
 
 def without_auto(options: Mapping[str, Any], given: Given) -> dict[str, Any]:

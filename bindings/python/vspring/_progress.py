@@ -1,7 +1,7 @@
 """How far a call has come."""
 from __future__ import annotations
 
-from typing import Callable, NamedTuple, Protocol
+from typing import Any, Callable, NamedTuple, Protocol
 
 
 class Progress(NamedTuple):
@@ -31,7 +31,7 @@ class Teller:
     """What the library calls."""
 
     def __init__(self, progress: Callable[[Progress], object] | Bar) -> None:
-        self._progress = progress
+        self._progress: Any = progress
         self._is_bar = hasattr(progress, "update")
 
     def __call__(self, stage: str, fraction: float, iteration: int, residual: float) -> None:

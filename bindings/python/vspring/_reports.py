@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Mapping, NamedTuple
+from typing import Any, Generic, Mapping, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -151,12 +151,15 @@ def fit_report_of(fields: Mapping[str, Any]) -> FitReport:
     return FitReport(**{**_typed(fields), **distances})
 
 
-class Result(NamedTuple):
+AnyReport = TypeVar("AnyReport", bound=Report, covariant=True)
+
+
+class Result(NamedTuple, Generic[AnyReport]):
     """A fair shape: `positions, report = vspring.fair(...)`."""
 
     positions: np.ndarray
     """One row a node, of the type that was given; fixed nodes bit for bit."""
-    report: Report
+    report: AnyReport
 
 
 class Figure(NamedTuple):

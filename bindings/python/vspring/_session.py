@@ -12,7 +12,7 @@ from ._fairing import ended
 from ._holding import constraints_of
 from ._options import SessionOptions, spelled_out
 from ._progress import Bar, Progress, teller
-from ._reports import Result, report_of
+from ._reports import Report, Result, report_of
 from ._shapes import Faces, in_space, shape_of
 
 PICTURE = 2e-4
@@ -73,13 +73,13 @@ class Session:
         with self._lock:
             self._held.free_tangent(node)
 
-    def fair(self, *, progress: Callable[[Progress], object] | Bar | None = None) -> Result:
+    def fair(self, *, progress: Callable[[Progress], object] | Bar | None = None) -> Result[Report]:
         """The fair shape, to the tolerance of the session: within the expected error what vspring.fair() gives. Raises
         what that raises; a call that ends before its time leaves the session where it was. Cost: a few iterations where
         the same nodes are held as in the last call, else that of vspring.fair()."""
         return self._solve(self._session.fair, progress)
 
-    def update(self, *, tolerance: float = PICTURE, progress: Callable[[Progress], object] | Bar | None = None) -> Result:
+    def update(self, *, tolerance: float = PICTURE, progress: Callable[[Progress], object] | Bar | None = None) -> Result[Report]:
         """A shape for a picture during a drag. tolerance: how near, as a share of the size. Of surfaces, moves and counts
         of what is held are left out of the report, and a shape that is worse than the input comes with that outcome.
         Cost: one or two iterations while what is held moves steadily, some 20 ms for 15,000 nodes."""
@@ -92,7 +92,7 @@ class Session:
             positions = self._session.predict(self._held, tolerance)
         return None if positions is None else self._given.like_given(positions)
 
-    def _solve(self, call: Callable[..., Any], progress: Callable[[Progress], object] | Bar | None, *more: float) -> Result:
+    def _solve(self, call: Callable[..., Any], progress: Callable[[Progress], object] | Bar | None, *more: float) -> Result[Report]:
         tell = teller(progress)
         with self._lock:
             positions, fields, stopped_by = call(self._held, *more, self._threads, tell)

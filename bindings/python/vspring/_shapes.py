@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Sequence
+from typing import Any, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +22,8 @@ def _refuse(message: str) -> Error:
 class Given:
     """A shape of the library, the array that it was made of, and what a file carried besides."""
 
-    core: _vspring.Mesh | _vspring.PlainCurve
+    core: Any
+    """A Mesh or a PlainCurve."""
     array: np.ndarray
     file: _vspring.Surface | _vspring.Curve | None = None
 
@@ -89,17 +90,19 @@ def surface_of(vertices: ArrayLike | _vspring.Surface, faces: Faces | None) -> G
     if isinstance(faces, tuple) and len(faces) == 2 and all(isinstance(one, np.ndarray) for one in faces):
         corners, offsets = (indices_of(one, "faces") for one in faces)
         return Given(_vspring.Mesh(positions, corners, offsets), array)
-    if not isinstance(faces, np.ndarray):
-        rows = [np.asarray(face) for face in faces]
+    if isinstance(faces, np.ndarray):
+        table = faces
+    else:
+        rows = [np.asarray(face) for face in faces]  # type: ignore[union-attr]
         if len({len(row) for row in rows}) != 1:
             corners = np.concatenate(rows) if rows else np.zeros(0, np.int32)
             offsets = np.cumsum([0, *map(len, rows)])
             return Given(_vspring.Mesh(positions, indices_of(corners, "faces"), indices_of(offsets, "faces")), array)
-        faces = np.stack(rows)
-    if faces.ndim != 2 or (faces.size and faces.shape[1] < 1):
+        table = np.stack(rows)
+    if table.ndim != 2 or (table.size and table.shape[1] < 1):
         raise _refuse(f"faces: (m, 3) or (m, 4) node numbers, a list of lists or (corners, offsets) are needed, "
-                      f"not {faces.dtype} of {faces.shape}")
-    return Given(_vspring.Mesh.of_sides(positions, indices_of(faces, "faces"), max(faces.shape[1], 1)), array)
+                      f"not {table.dtype} of {table.shape}")
+    return Given(_vspring.Mesh.of_sides(positions, indices_of(table, "faces"), max(table.shape[1], 1)), array)
 
 
 def curve_of(vertices: ArrayLike | _vspring.Curve, chains: Sequence[ArrayLike] | None,
@@ -111,7 +114,7 @@ def curve_of(vertices: ArrayLike | _vspring.Curve, chains: Sequence[ArrayLike] |
     if chains is None:
         chains = [np.arange(len(array), dtype=np.int32)]
     nodes = [indices_of(chain, "chains") for chain in chains]
-    loops = [bool(closed)] * len(nodes) if np.ndim(closed) == 0 else [bool(one) for one in closed]
+    loops = [bool(one) for one in np.broadcast_to(closed, len(nodes) if np.ndim(closed) == 0 else np.shape(closed))]
     if len(loops) != len(nodes):
         raise _refuse(f"closed: {len(loops)} values for {len(nodes)} chains")
     return Given(_vspring.PlainCurve(positions, nodes, loops), array)
@@ -122,6 +125,8 @@ def shape_of(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Fac
     """A curve where there are no faces."""
     if faces is None and not isinstance(vertices, _vspring.Surface):
         return curve_of(vertices, chains, closed)
+    if isinstance(vertices, _vspring.Curve):
+        raise TypeError("a curve has no faces")
     return surface_of(vertices, faces)
 
 

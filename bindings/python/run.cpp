@@ -5,7 +5,16 @@
 
 namespace vspring::python {
 
+namespace {
+
+// As on the command line.
+constexpr int most_threads = 1024;
+
+}  // namespace
+
 Run::Run(int threads, py::object progress) : progress_(std::move(progress)) {
+  if (threads < 0 || threads > most_threads)
+    throw Error(ErrorCode::invalid_argument, "threads: 1 to " + std::to_string(most_threads) + ", or 0 for all cores");
   context_.threads = threads;
   context_.on_progress = [this](const Progress& now) { tell(now); };
 }

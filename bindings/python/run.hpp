@@ -8,7 +8,8 @@ namespace vspring::python {
 
 class Run {
  public:
-  /// progress: called with stage, fraction, iteration and residual; or None. What it raises ends the call.
+  /// progress: called with stage, fraction, iteration and residual; or None. What it raises ends the call. Throws
+  /// Error(invalid_argument) for a number of threads out of range; 0: all cores.
   Run(int threads, py::object progress);
 
   /// call(context), without Python's lock.

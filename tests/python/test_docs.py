@@ -16,8 +16,9 @@ PACKAGE = ROOT / "bindings/python/vspring"
 
 
 def blocks_of(text):
-    """Indented blocks, each after an empty line."""
-    return [textwrap.dedent(block) for block in re.findall(r"(?:(?<=\n\n)|\A)((?: {4}.*\n|\n(?= {4}))+)", text)]
+    """Indented blocks of Python, each after an empty line."""
+    blocks = re.findall(r"(?:(?<=\n\n)|\A)((?: {4}.*\n|\n(?= {4}))+)", text)
+    return [textwrap.dedent(block) for block in blocks if "pip install" not in block]
 
 
 class Examples(Case):

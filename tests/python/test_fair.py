@@ -134,6 +134,7 @@ class Refused(Case):
         refused("unusable-constraint", "999", lambda: vspring.fair(vertices, faces, fix=[999]))
         refused("unusable-constraint", "-1", lambda: vspring.fair(vertices, faces, fix_normals=[-1]))
         refused("invalid-argument", "tolerance", lambda: vspring.fair(vertices, faces, tolerance=-1.0))
+        refused("invalid-argument", "threads: 1 to", lambda: vspring.fair(vertices, faces, threads=-1))
         refused("invalid-argument", "method.*one of equilibrium", lambda: vspring.fair(vertices, faces, method="newton"))
         refused("invalid-argument", r"vertices.*\(n, 3\).*\(169, 2\)", lambda: vspring.fair(vertices[:, :2], faces))
         refused("invalid-argument", "faces: whole numbers", lambda: vspring.fair(vertices, faces.astype(float)))

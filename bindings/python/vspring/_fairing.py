@@ -1,7 +1,7 @@
 """Fairing, fitting and measuring."""
 from __future__ import annotations
 
-from typing import Any, Mapping, Sequence, Unpack
+from typing import Any, Mapping, Sequence, TypeVar, Unpack
 
 from numpy.typing import ArrayLike
 
@@ -11,8 +11,10 @@ from ._holding import constraints_of
 from ._options import CurveOptions, FitOptions, MeasureOptions, SurfaceOptions, spelled_out
 from ._points import Points, arrays_of, is_drawn, without_auto
 from ._progress import Teller, teller
-from ._reports import AnyReport, Figure, Figures, FitReport, Report, Result, fit_report_of, report_of
+from ._reports import Figure, Figures, FitReport, Report, Result, fit_report_of, report_of
 from ._shapes import Faces, Given, curve_of, shape_of, surface_of
+
+SomeReport = TypeVar("SomeReport", bound=Report)
 
 OWN_NODES = (None, None, None)
 
@@ -119,8 +121,8 @@ def _fit(given: Given, points: tuple[Any, Any, Any], options: Mapping[str, Any])
     return ended(given, positions, fit_report_of(fields), tell, stopped_by)
 
 
-def ended(given: Given, positions: Any, report: AnyReport, tell: Teller | None,
-          stopped_by: BaseException | None) -> Result[AnyReport]:
+def ended(given: Given, positions: Any, report: SomeReport, tell: Teller | None,
+          stopped_by: BaseException | None) -> Result[SomeReport]:
     """The result of a call, or what ended it before its time with the best shape so far."""
     result = Result(given.like_given(positions), report)
     if stopped_by is not None:

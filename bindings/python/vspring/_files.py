@@ -13,7 +13,8 @@ from ._errors import Error, warn
 from ._shapes import Faces, in_space, numbers_of, shape_of
 from ._vspring import Curve, Surface
 
-TABLES = (".csv", ".dat", ".xyz", ".gpx")
+CURVES = ("csv", "dat", "xyz", "gpx")
+"""Formats that have no surfaces."""
 
 
 def read(path: str | os.PathLike[str], *, format: str | None = None, curve: bool | None = None,
@@ -29,13 +30,10 @@ def read(path: str | os.PathLike[str], *, format: str | None = None, curve: bool
     Raises vspring.Error naming path and line (or byte). Cost: linear.
     """
     path = os.fspath(path)
-    if curve is None:
-        curve = (format or PurePath(path).suffix.lower()).lstrip(".") in [table[1:] for table in TABLES]
-        shape = _read(path, format, curve, columns)
-        if isinstance(shape, Surface) and not len(shape.faces) and shape.format == "obj":
-            shape = _vspring.read_curve(path, "obj", [])
-    else:
-        shape = _read(path, format, curve, columns)
+    named = (format or PurePath(path).suffix).lower().lstrip(".")
+    shape = _read(path, format, named in CURVES if curve is None else curve, columns)
+    if curve is None and isinstance(shape, Surface) and shape.format == "obj" and not len(shape.faces):
+        shape = _vspring.read_curve(path, "obj", [])
     warn(("reading", text) for text in shape._warnings)
     return shape
 

@@ -76,6 +76,27 @@ class Surfaces(Case):
         self.assert_same_bits(vspring.fair(vertices, faces).positions, vspring.fair(vspring.read(EXAMPLES / "annulus.obj")).positions)
 
 
+class Examples(Case):
+    def test_files_are_those_of_the_command_line(self):
+        for name, call, options, flags in [("annulus.obj", vspring.fair, {"fix_normals": "boundary"}, ["fair", "--fix-normals", "boundary"]),
+                                           ("pipe-blend.obj", vspring.fair, {}, ["fair"]),
+                                           ("saddle.ply", vspring.fair, {"noise": "auto"}, ["fair", "--noise", "auto"]),
+                                           ("spot.obj", vspring.fair, {"constraints": EXAMPLES / "spot-horns.json"},
+                                            ["fair", "--constraints", EXAMPLES / "spot-horns.json"]),
+                                           ("trefoil.obj", vspring.fair_curve, {"constraints": EXAMPLES / "trefoil.json"},
+                                            ["curve", "--constraints", EXAMPLES / "trefoil.json"]),
+                                           ("naca-2412.dat", vspring.fair_curve, {"within": 0.0003}, ["curve", "--within", "0.0003"]),
+                                           ("track.csv", vspring.fair_curve, {"smoothing_length": 20.0}, ["curve", "--smoothing-length", "20"])]:
+            with self.subTest(name), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                fair, expected = self.folder / ("fair-" + name), self.folder / ("expected-" + name)
+                done = subprocess.run([BUILD / "vspring", *flags, EXAMPLES / name, "-o", expected, "--quiet"], capture_output=True, text=True)
+                self.assertIn(done.returncode, (0, 3), done.stderr)
+                shape = vspring.read(EXAMPLES / name)
+                vspring.write(fair, call(shape, **options).positions, source=shape)
+                self.assertEqual(fair.read_bytes(), expected.read_bytes())
+
+
 class Curves(Case):
     def test_formats(self):
         flat = wave()[:, :2]

@@ -137,6 +137,7 @@ class Refused(Case):
         refused("invalid-argument", "threads: 1 to", lambda: vspring.fair(vertices, faces, threads=-1))
         refused("invalid-argument", "method.*one of equilibrium", lambda: vspring.fair(vertices, faces, method="newton"))
         refused("invalid-argument", r"vertices.*\(n, 3\).*\(169, 2\)", lambda: vspring.fair(vertices[:, :2], faces))
+        refused("invalid-argument", "vertices: not an array", lambda: vspring.fair([[0, 0, 0], [1, 2]], faces))
         refused("invalid-argument", "faces: whole numbers", lambda: vspring.fair(vertices, faces.astype(float)))
         refused("invalid-argument", "out of the range", lambda: vspring.fair(vertices, faces + 2**32))
         refused("invalid-argument", "mask of 169", lambda: vspring.fair(vertices, faces, fix=[True, False]))

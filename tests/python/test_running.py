@@ -190,7 +190,8 @@ class Sessions(Case):
     def test_refused(self):
         vertices, faces = patch()
         session = vspring.Session(vertices, faces)
-        for words, call in [("999", lambda: session.hold(999, [0, 0, 0])), ("zero", lambda: session.hold_normal(3, [0, 0, 0])),
+        for words, call in [("999", lambda: session.hold(999, [0, 0, 0])), ("999", lambda: session.hold(999)),
+                            ("position: ", lambda: session.hold(3, [0, 0, 0, 0])), ("zero", lambda: session.hold_normal(3, [0, 0, 0])),
                             ("tolerance", lambda: session.update(tolerance=0))]:
             with self.assertRaisesRegex(vspring.Error, words):
                 call()

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from . import _vspring
 from ._errors import Error, warn
 from ._options import Pulling
-from ._shapes import Given, in_space, numbers_of
+from ._shapes import Given, array_of, in_space, numbers_of
 
 CRITERIA = [name for name in Pulling.__annotations__ if name != "outliers"]
 
@@ -52,9 +52,10 @@ def arrays_of(points: ArrayLike | Points, weights: ArrayLike | None, normals: Ar
     if isinstance(points, Points):
         points, weights, normals = points
     if weights is not None:
+        weights = array_of(weights, "weights")
+        if weights.dtype.kind not in "fiu" or weights.ndim != 1:
+            raise Error("invalid-argument", f"weights: one number a point is needed, not {weights.dtype} of {weights.shape}")
         weights = np.ascontiguousarray(weights, np.float64)
-        if weights.ndim != 1:
-            raise Error("invalid-argument", f"weights: one number a point is needed, not {weights.shape}")
     return (in_space(numbers_of(points, "points", (2, 3))), weights,
             None if normals is None else in_space(numbers_of(normals, "normals", (3,))))
 

@@ -13,7 +13,7 @@ from ._holding import constraints_of
 from ._options import SessionOptions, spelled_out
 from ._progress import Bar, Progress, teller
 from ._reports import Report, Result, report_of
-from ._shapes import Faces, in_space, shape_of
+from ._shapes import Faces, array_of, in_space, indices_of, numbers_of, shape_of
 
 PICTURE = 2e-4
 """Of the size: a fifth of a pixel where that is a thousand of them."""
@@ -44,9 +44,11 @@ class Session:
 
     def hold(self, node: int, position: ArrayLike | None = None) -> None:
         """Holds a node at a position, (3,) or of curves (2,), or where the input has it."""
-        place = self._given.array[node] if position is None else position
         with self._lock:
-            self._held.fix_position(node, _place(place))
+            if position is None:
+                self._held.fix(self._given.core, indices_of([node], "node"))
+            else:
+                self._held.fix_position(node, _place(position, "position"))
 
     def free(self, node: int) -> None:
         """Lets a node move."""
@@ -56,7 +58,7 @@ class Session:
     def hold_normal(self, node: int, normal: ArrayLike) -> None:
         """Gives a node a normal, (3,), of any length but zero."""
         with self._lock:
-            self._held.fix_normal(node, _place(normal))
+            self._held.fix_normal(node, _place(normal, "normal"))
 
     def free_normal(self, node: int) -> None:
         """Lets the normal of a node follow from the nodes around."""
@@ -66,7 +68,7 @@ class Session:
     def hold_tangent(self, node: int, tangent: ArrayLike) -> None:
         """Gives a node of a curve a tangent, (3,) or (2,), of any length but zero, in the direction of its chain."""
         with self._lock:
-            self._held.fix_tangent(node, _place(tangent))
+            self._held.fix_tangent(node, _place(tangent, "tangent"))
 
     def free_tangent(self, node: int) -> None:
         """Lets the tangent of a node follow from the nodes around."""
@@ -99,5 +101,5 @@ class Session:
         return ended(self._given, positions, report_of(fields), tell, stopped_by)
 
 
-def _place(numbers: ArrayLike) -> list[float]:
-    return in_space(np.asarray(numbers, float).reshape(1, -1))[0].tolist()
+def _place(numbers: ArrayLike, name: str) -> list[float]:
+    return in_space(numbers_of(np.atleast_2d(array_of(numbers, name)), name, (2, 3)))[0].tolist()

@@ -37,9 +37,16 @@ class Given:
         return np.ascontiguousarray(positions[:, :self.array.shape[1]], dtype)
 
 
+def array_of(values: Any, name: str) -> np.ndarray:
+    try:
+        return np.asarray(values)
+    except (TypeError, ValueError) as error:
+        raise _refuse(f"{name}: not an array: {error}") from None
+
+
 def numbers_of(values: ArrayLike, name: str, columns: Sequence[int]) -> np.ndarray:
     """Real numbers in rows of so many."""
-    array = np.asarray(values)
+    array = array_of(values, name)
     if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] not in columns:
         shapes = " or ".join(f"(n, {count})" for count in columns)
         raise _refuse(f"{name}: real numbers of the shape {shapes} are needed, not {array.dtype} of {array.shape}")
@@ -61,7 +68,7 @@ def in_space(array: np.ndarray) -> np.ndarray:
 
 def indices_of(values: ArrayLike, name: str) -> np.ndarray:
     """Node numbers as the library has them."""
-    array = np.asarray(values)
+    array = array_of(values, name)
     if array.size and array.dtype.kind not in "iu":
         raise _refuse(f"{name}: whole numbers are needed, not {array.dtype}")
     narrow = np.ascontiguousarray(array, np.int32)
@@ -72,7 +79,7 @@ def indices_of(values: ArrayLike, name: str) -> np.ndarray:
 
 def nodes_of(selection: ArrayLike, count: int, name: str) -> np.ndarray:
     """The numbers of nodes that a mask or their numbers select."""
-    array = np.asarray(selection)
+    array = array_of(selection, name)
     if array.dtype == bool:
         if array.shape != (count,):
             raise _refuse(f"{name}: a mask of {count} nodes is needed, not of {array.shape}")
@@ -93,7 +100,7 @@ def surface_of(vertices: ArrayLike | _vspring.Surface, faces: Faces | None) -> G
     if isinstance(faces, np.ndarray):
         table = faces
     else:
-        rows = [np.asarray(face) for face in faces]  # type: ignore[union-attr]
+        rows = [np.atleast_1d(array_of(face, "faces")) for face in faces]  # type: ignore[union-attr]
         if len({len(row) for row in rows}) != 1:
             corners = np.concatenate(rows) if rows else np.zeros(0, np.int32)
             offsets = np.cumsum([0, *map(len, rows)])

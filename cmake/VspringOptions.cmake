@@ -13,6 +13,10 @@ target_compile_features(vspring_options INTERFACE cxx_std_20)
 # No contraction of a*b + c to one rounding: the same source gives the same bits from every compiler and on every machine.
 target_compile_options(vspring_options INTERFACE
   -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(CMAKE_POSITION_INDEPENDENT_CODE)
+  # Functions of the library that call each other can be put inline then, too.
+  target_compile_options(vspring_options INTERFACE -fno-semantic-interposition)
+endif()
 if(VSPRING_WARNINGS_AS_ERRORS)
   target_compile_options(vspring_options INTERFACE -Werror)
 endif()

@@ -1,0 +1,79 @@
+// Between NumPy's arrays and the library's vectors.
+
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "vspring/vspring.hpp"
+
+namespace vspring::python {
+
+namespace py = pybind11;
+
+/// As the Python side hands them over: without gaps, converted there.
+template <typename Number>
+using Array = py::array_t<Number, py::array::c_style>;
+
+template <typename Number>
+std::span<const Number> span_of(const Array<Number>& array) {
+  return {array.data(), static_cast<std::size_t>(array.size())};
+}
+
+inline std::vector<Vector3> vectors_of(const Array<double>& array) { return positions_of(span_of(array)); }
+
+inline std::vector<Index> indices_of(const Array<Index>& array) {
+  const auto numbers = span_of(array);
+  return {numbers.begin(), numbers.end()};
+}
+
+/// An array that looks at numbers which `owner` keeps, and must not be written to. row: how many a row has there, where
+/// only the first columns are shown.
+template <typename Number>
+py::array view_of(const Number* numbers, std::vector<py::ssize_t> shape, const py::handle& owner, py::ssize_t row = 0) {
+  constexpr auto size = static_cast<py::ssize_t>(sizeof(Number));
+  const py::ssize_t columns = shape.size() > 1 ? shape[1] : 1;
+  std::vector<py::ssize_t> strides = {(row > 0 ? row : columns) * size};
+  if (shape.size() > 1) strides.push_back(size);
+  py::array_t<Number> view(std::move(shape), std::move(strides), numbers, owner);
+  view.attr("flags").attr("writeable") = false;
+  return view;
+}
+
+/// An array that owns them: nothing is copied.
+template <typename Value>
+py::array array_of(std::vector<Value> values, std::vector<py::ssize_t> shape, const auto* first) {
+  using Values = std::vector<Value>;
+  auto kept = std::make_unique<Values>(std::move(values));
+  const py::capsule owner(kept.get(), [](void* made) { std::default_delete<Values>()(static_cast<Values*>(made)); });
+  (void)kept.release();
+  return py::array(py::dtype::of<std::remove_cv_t<std::remove_pointer_t<decltype(first)>>>(), std::move(shape), first,
+                   owner);
+}
+
+inline py::array array_of(std::vector<Vector3> positions) {
+  const auto count = static_cast<py::ssize_t>(positions.size());
+  const double* const first = coordinates(positions).data();
+  return array_of(std::move(positions), {count, 3}, first);
+}
+
+inline py::array array_of(std::vector<double> numbers) {
+  const auto count = static_cast<py::ssize_t>(numbers.size());
+  const double* const first = numbers.data();
+  return array_of(std::move(numbers), {count}, first);
+}
+
+inline py::array array_of(std::vector<Index> numbers) {
+  const auto count = static_cast<py::ssize_t>(numbers.size());
+  const Index* const first = numbers.data();
+  return array_of(std::move(numbers), {count}, first);
+}
+
+}  // namespace vspring::python

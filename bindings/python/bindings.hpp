@@ -1,0 +1,16 @@
+// What each source adds to the module.
+
+#pragma once
+
+#include "arrays.hpp"
+
+namespace vspring::python {
+
+void add_errors(py::module_& module);
+void add_shapes(py::module_& module);
+void add_constraints(py::module_& module);
+void add_files(py::module_& module);
+void add_fairing(py::module_& module);
+void add_session(py::module_& module);
+
+}  // namespace vspring::python

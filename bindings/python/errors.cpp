@@ -1,0 +1,40 @@
+// Errors of the library become vspring.Error, which is written in Python.
+
+#include <exception>
+#include <string>
+
+#include "bindings.hpp"
+
+namespace vspring::python {
+
+namespace {
+
+const char* name(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::invalid_argument:
+      return "invalid-argument";
+    case ErrorCode::unusable_file:
+      return "unusable-file";
+    case ErrorCode::unusable_shape:
+      return "unusable-shape";
+    case ErrorCode::unusable_constraint:
+      return "unusable-constraint";
+  }
+  return "";
+}
+
+}  // namespace
+
+void add_errors(py::module_& /*module*/) {
+  py::register_local_exception_translator([](std::exception_ptr thrown) {
+    try {
+      std::rethrow_exception(std::move(thrown));
+    } catch (const Error& error) {
+      const py::object type = py::module_::import("vspring._errors").attr("Error");
+      const py::object made = type(name(error.code()), std::string(error.what()));
+      PyErr_SetObject(type.ptr(), made.ptr());
+    }
+  });
+}
+
+}  // namespace vspring::python

@@ -1,0 +1,121 @@
+// Fairing and measuring.
+
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+#include "reports.hpp"
+#include "run.hpp"
+
+namespace vspring::python {
+
+namespace {
+
+template <typename Shape>
+constexpr bool is_curve = std::is_same_v<Shape, PolygonCurve>;
+
+/// The new positions, the fields of the report, and what ended it before its time.
+template <typename Shape>
+py::tuple fair_shape(const Shape& shape, const Constraints& constraints, const py::dict& given, py::object progress) {
+  const Settings settings(given);
+  FairOptions options = fair_options(settings, {.is_curve = is_curve<Shape>});
+  if constexpr (is_curve<Shape>) {
+    if (const auto angle = settings.get<double>("sharp")) options.corners = find_corners(shape, *angle);
+  }
+  Run run(threads_of(settings), std::move(progress));
+  FairResult result = run([&](Context& context) { return fair(shape, constraints, options, context); });
+  return py::make_tuple(array_of(std::move(result.positions)), report_of(result.report), run.stopped_by());
+}
+
+void settle_moving(FitOptions& /*options*/, const Settings& /*settings*/, const SurfaceFile* /*file*/) {}
+
+/// file: whose columns are named.
+void settle_moving(FitOptions& options, const Settings& settings, const CurveFile* file) {
+  const auto names = settings.get<std::vector<std::string>>("move");
+  if (!names) return;
+  CurveFile nameless;
+  nameless.planar = settings.get<bool>("planar").value_or(false);
+  const CurveFile& named = file == nullptr ? nameless : *file;
+  options.moving_axes = choose_axes(named, *names);
+  // Of a plane nothing is left to keep then.
+  if (named.planar && options.moving_axes[0] && options.moving_axes[1]) options.moving_axes[2] = true;
+}
+
+/// The same, and distances of the points. positions: of these; empty for the shape's own nodes. weights, normals: of
+/// each, or empty.
+template <typename Shape, typename File>
+py::tuple fit_shape(const Shape& shape, const Constraints& constraints, const std::optional<Array<double>>& positions,
+                    const std::optional<Array<double>>& weights, const std::optional<Array<double>>& normals,
+                    const py::dict& given, const File* file, py::object progress) {
+  const Settings settings(given);
+  FitOptions options = fit_options(settings, {.is_curve = is_curve<Shape>, .own_nodes_pull = !positions.has_value()});
+  settle_moving(options, settings, file);
+  ScatteredPoints points{.positions = positions ? vectors_of(*positions) : shape.positions()};
+  if (weights) points.weights = {weights->data(), weights->data() + weights->size()};
+  if (normals) points.normals = vectors_of(*normals);
+  Run run(threads_of(settings), std::move(progress));
+  FitResult result = run([&](Context& context) { return fit(shape, constraints, points, options, context); });
+  py::dict fields = report_of(result.report);
+  fields["distances"] = array_of(std::move(result.distances));
+  return py::make_tuple(array_of(std::move(result.positions)), std::move(fields), run.stopped_by());
+}
+
+NoiseEstimate noise_of(const PolygonMesh& mesh, const Context& context) { return estimate_noise(mesh, context); }
+NoiseEstimate noise_of(const PolygonCurve& curve, const Context& /*context*/) { return estimate_noise(curve); }
+
+/// Its deviation, how far it brings the furthest node, and the size of voxels or None.
+template <typename Shape>
+py::tuple estimate(const Shape& shape, int threads) {
+  Run run(threads, py::none());
+  const NoiseEstimate noise = run([&](const Context& context) { return noise_of(shape, context); });
+  run.raise_if_stopped();
+  const py::object voxel =
+      noise.voxel ? py::object(py::make_tuple(noise.voxel->x(), noise.voxel->y(), noise.voxel->z())) : py::none();
+  return py::make_tuple(noise.deviation, greatest_of_noise(noise), voxel);
+}
+
+std::vector<Figure> figures_of(const PolygonMesh& mesh, const Constraints* constraints, const Context& context) {
+  return list_figures(measure_surface(mesh, constraints, context));
+}
+std::vector<Figure> figures_of(const PolygonCurve& curve, const Constraints* constraints, const Context& /*context*/) {
+  return list_figures(measure_curve(curve, constraints));
+}
+
+/// For each figure its key, name, unit, definition and value.
+template <typename Shape>
+py::list measure_shape(const Shape& shape, const Constraints* constraints, int threads) {
+  Run run(threads, py::none());
+  const std::vector<Figure> figures =
+      run([&](const Context& context) { return figures_of(shape, constraints, context); });
+  run.raise_if_stopped();
+  py::list list;
+  for (const Figure& figure : figures) {
+    const py::object value =
+        figure.whole ? py::object(py::int_(static_cast<Index>(figure.value))) : py::object(py::float_(figure.value));
+    list.append(py::make_tuple(std::string(figure.key), std::string(figure.name), std::string(figure.unit),
+                               std::string(figure.definition), value));
+  }
+  return list;
+}
+
+template <typename Shape, typename File>
+void add_calls(py::module_& module) {
+  module.def("fair", &fair_shape<Shape>);
+  module.def("fit", &fit_shape<Shape, File>, py::arg("shape"), py::arg("constraints"), py::arg("positions").none(true),
+             py::arg("weights").none(true), py::arg("normals").none(true), py::arg("given"), py::arg("file").none(true),
+             py::arg("progress"));
+  module.def("estimate_noise", &estimate<Shape>);
+  module.def("measure", &measure_shape<Shape>, py::arg("shape"), py::arg("constraints").none(true), py::arg("threads"));
+}
+
+}  // namespace
+
+void add_fairing(py::module_& module) {
+  add_calls<PolygonMesh, SurfaceFile>(module);
+  add_calls<PolygonCurve, CurveFile>(module);
+}
+
+}  // namespace vspring::python

@@ -1,0 +1,14 @@
+// The module _vspring, on which the package vspring stands: the library with NumPy's arrays in and out.
+
+#include "bindings.hpp"
+
+PYBIND11_MODULE(_vspring, module) {
+  using namespace vspring::python;
+  module.def("version", &vspring::version);
+  add_errors(module);
+  add_shapes(module);
+  add_constraints(module);
+  add_files(module);
+  add_fairing(module);
+  add_session(module);
+}

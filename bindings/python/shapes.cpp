@@ -1,0 +1,36 @@
+// Surfaces and curves made of arrays.
+
+#include <utility>
+#include <vector>
+
+#include "bindings.hpp"
+
+namespace vspring::python {
+
+namespace {
+
+PolygonCurve curve_of(const Array<double>& positions, const std::vector<Array<Index>>& nodes,
+                      const std::vector<bool>& closed) {
+  std::vector<PolygonCurve::Chain> chains;
+  for (std::size_t k = 0; k < nodes.size(); ++k) chains.push_back({.nodes = indices_of(nodes[k]), .closed = closed[k]});
+  return {vectors_of(positions), std::move(chains)};
+}
+
+}  // namespace
+
+void add_shapes(py::module_& module) {
+  py::class_<PolygonMesh>(module, "Mesh")
+      .def(py::init([](const Array<double>& positions, const Array<Index>& corners, const Array<Index>& face_begin) {
+        return PolygonMesh::from_arrays(span_of(positions), span_of(face_begin), span_of(corners));
+      }))
+      .def_static("of_sides",
+                  [](const Array<double>& positions, const Array<Index>& corners, Index sides) {
+                    return PolygonMesh::from_arrays(span_of(positions), span_of(corners), sides);
+                  })
+      .def_property_readonly("node_count", &PolygonMesh::node_count);
+  py::class_<PolygonCurve>(module, "PlainCurve")
+      .def(py::init(&curve_of))
+      .def_property_readonly("node_count", &PolygonCurve::node_count);
+}
+
+}  // namespace vspring::python

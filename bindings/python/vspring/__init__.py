@@ -1,0 +1,21 @@
+"""Fair curves and surfaces: vspring moves the nodes of a polygon mesh or a polygonal curve until curvature changes as
+gently as what is held allows.
+
+    positions, report = vspring.fair(vertices, faces)
+
+Arguments have the names of the command line. Lengths are in units of the input. See docs/python.md.
+"""
+from ._errors import Error, Warning
+from ._fairing import fair, fair_curve, fit, measure
+from ._files import read, write
+from ._points import Points, read_points
+from ._progress import Bar, Progress
+from ._reports import Distances, Figure, Figures, FitReport, Level, Report, Result
+from ._session import Session
+from ._vspring import Curve, Surface
+from ._vspring import version as _version
+
+__version__: str = _version()
+
+__all__ = ["Bar", "Curve", "Distances", "Error", "Figure", "Figures", "FitReport", "Level", "Points", "Progress", "Report", "Result",
+           "Session", "Surface", "Warning", "fair", "fair_curve", "fit", "measure", "read", "read_points", "write"]

@@ -1,0 +1,134 @@
+"""Fairing, fitting and measuring."""
+from __future__ import annotations
+
+from typing import Any, Mapping, Sequence, TypeVar, Unpack
+
+from numpy.typing import ArrayLike
+
+from . import _vspring
+from ._errors import warn
+from ._holding import constraints_of
+from ._options import CurveOptions, FitOptions, MeasureOptions, SurfaceOptions, spelled_out
+from ._points import Points, arrays_of, is_drawn, without_auto
+from ._progress import Teller, teller
+from ._reports import Figure, Figures, FitReport, Report, Result, fit_report_of, report_of
+from ._shapes import Faces, Given, curve_of, shape_of, surface_of
+
+SomeReport = TypeVar("SomeReport", bound=Report)
+
+OWN_NODES = (None, None, None)
+
+
+@spelled_out(SurfaceOptions)
+def fair(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None,
+         **options: Unpack[SurfaceOptions]) -> Result[Report]:
+    """Fairs a surface: curvature changes as gently as what is held allows. Connectivity stays.
+
+    vertices: (n, 3), float64 or float32, in any unit. float32 comes back as float32, rounded from doubles.
+    faces: (m, 3) or (m, 4) node numbers, a list of lists, or a tuple of two arrays, corners and m + 1 offsets.
+    Or else, in place of both, what read() returned. With weight, smoothing_length, within, rms or noise, the surface is
+    drawn to its own nodes, as they are in the input.
+
+    Returns new positions, (n, 3), and a report; arguments are unchanged. See outcome in the report: what did not
+    converge is the best shape so far, never worse than the input without a word.
+
+    Raises vspring.Error for input that cannot be faired, TypeError for arguments of another kind, and KeyboardInterrupt on
+    Ctrl-C, which has the best shape so far as positions and report. Other threads of Python go on meanwhile. Cost: linear in the
+    nodes, some 10 to 15 µs a node; about 0.9 kB of memory for every moving node.
+
+    Source: A. Yamada, K. Shimada, T. Furuhata, K.-H. Hou, "A Discrete Spring Model for Generating Fair Curves and
+    Surfaces", Pacific Graphics 1999; docs/solver.md and docs/springs.md.
+    """
+    return _fair(surface_of(vertices, faces), options)
+
+
+@spelled_out(CurveOptions)
+def fair_curve(vertices: ArrayLike | _vspring.Curve, *, chains: Sequence[ArrayLike] | None = None,
+               closed: bool | Sequence[bool] = False, **options: Unpack[CurveOptions]) -> Result[Report]:
+    """Fairs a curve: between what is held, curvature becomes linear in arc length.
+
+    vertices: (n, 2) or (n, 3), float64 or float32, in any unit; positions come back with as many columns.
+    chains: node numbers of each chain in order, where all nodes in a row are not the one chain.
+    closed: whether the last node joins the first, which is not repeated; of all chains, or one value each.
+    Or else, in place of all, what read() returned. With weight, smoothing_length, within, rms or noise, the curve is
+    drawn to its own nodes, as they are in the input.
+
+    Returns and raises what fair() does. Cost: linear, 0.15 s for 100,000 nodes.
+
+    Source: § 4.8 of the paper; docs/curves.md.
+    """
+    return _fair(curve_of(vertices, chains, closed), options)
+
+
+@spelled_out(FitOptions)
+def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None = None,
+        points: ArrayLike | Points | None = None, *, weights: ArrayLike | None = None, normals: ArrayLike | None = None,
+        chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False,
+        **options: Unpack[FitOptions]) -> Result[FitReport]:
+    """Fairs a surface or, without faces, a curve, and draws it to scattered points.
+
+    vertices, faces, chains, closed: as of fair() and fair_curve(), or what read() returned.
+    points: (p, 3), in units of the shape, or what read_points() returned; the shape's own nodes where not given.
+    weights: (p,), 0 or more; 1 each where not given. A point of weight 0 is only measured.
+    normals: (p, 3), unit length, zero where not known: which way a surface faces at each point. A point pulls only at
+    nodes that face within 90° of that.
+
+    One of weight, smoothing_length, within, rms and noise says how points pull. Returns new positions and a report with
+    distances of the points. Raises what fair() does. Cost: that of fair(), and linear in the points for every iteration;
+    within and rms find the equilibrium of a surface some ten to a hundred times.
+
+    Source: § 4.5 and Eq. 9 of the paper; docs/fit.md.
+    """
+    given = shape_of(vertices, faces, chains, closed)
+    return _fit(given, OWN_NODES if points is None else arrays_of(points, weights, normals), options)
+
+
+@spelled_out(MeasureOptions)
+def measure(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None = None, *,
+            chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False, **options: Unpack[MeasureOptions]) -> Figures:
+    """Measures how fair a surface is or, without faces, a curve.
+
+    vertices, faces: as of fair(); chains, closed: as of fair_curve(). With fix or fix_normals, only what lies at moving
+    nodes is measured.
+
+    Returns figures by their keys, each with name, unit and definition. Raises vspring.Error. Cost: n log n, some
+    microseconds a node. Definitions and sources: docs/fairness.md.
+    """
+    given = shape_of(vertices, faces, chains, closed)
+    threads = options.pop("threads", None) or 0
+    held = constraints_of(given, options) if options else None
+    return Figures({key: Figure(value, name, unit, definition)
+                    for key, name, unit, definition, value in _vspring.measure(given.core, held, threads)})
+
+
+def _fair(given: Given, options: Mapping[str, Any]) -> Result[Report]:
+    if is_drawn(options):
+        return _fit(given, OWN_NODES, options)
+    held = constraints_of(given, options)
+    tell = teller(options.get("progress"))
+    positions, fields, stopped_by = _vspring.fair(given.core, held, dict(options), tell)
+    return ended(given, positions, report_of(fields), tell, stopped_by)
+
+
+def _fit(given: Given, points: tuple[Any, Any, Any], options: Mapping[str, Any]) -> Result[FitReport]:
+    settled = without_auto(options, given) if points[0] is None else dict(options)
+    if isinstance(settled.get("move"), str):
+        settled["move"] = [settled["move"]]
+    settled["planar"] = given.array.shape[1] == 2
+    held = constraints_of(given, options)
+    tell = teller(options.get("progress"))
+    positions, fields, stopped_by = _vspring.fit(given.core, held, *points, settled, given.file, tell)
+    return ended(given, positions, fit_report_of(fields), tell, stopped_by)
+
+
+def ended(given: Given, positions: Any, report: SomeReport, tell: Teller | None,
+          stopped_by: BaseException | None) -> Result[SomeReport]:
+    """The result of a call, or what ended it before its time with the best shape so far."""
+    result = Result(given.like_given(positions), report)
+    if stopped_by is not None:
+        vars(stopped_by).update(positions=result.positions, report=result.report)
+        raise stopped_by
+    if tell is not None:
+        tell.done()
+    warn((warning.code, str(warning)) for warning in report.warnings)
+    return result

@@ -1,0 +1,152 @@
+"""The keyword arguments of calls: their types, and what they mean. Names are those of the command line."""
+from __future__ import annotations
+
+import functools
+import inspect
+import os
+from typing import Any, Callable, Literal, Mapping, Sequence, TypedDict, TypeVar
+
+from numpy.typing import ArrayLike
+
+from ._progress import Bar, Progress
+
+Nodes = Literal["boundary", "none"] | ArrayLike
+"""Nodes of a shape: a mask of n booleans, or an array of their numbers."""
+
+
+Rules = str | os.PathLike[str] | Mapping[str, Any] | Sequence[Mapping[str, Any]]
+"""The path of a file of rules, what such a file holds, or its list of rules."""
+
+
+class Holding(TypedDict, total=False):
+    fix: Nodes
+    fix_normals: Nodes
+    constraints: Rules
+    region: str | ArrayLike
+
+
+class Pulling(TypedDict, total=False):
+    weight: float
+    smoothing_length: float
+    within: float | Literal["auto"]
+    rms: float | Literal["auto"]
+    noise: float | Literal["auto"]
+    outliers: float
+
+
+class CurvePulling(TypedDict, total=False):
+    min_radius: float
+    sharp: float
+    move: str | Sequence[str]
+
+
+class Solving(TypedDict, total=False):
+    method: Literal["equilibrium", "multigrid", "sweep"]
+    tolerance: float
+    step_tolerance: float
+    levels: int
+    pre_smoothing: int
+    max_iterations: int
+    distribution: Literal["smooth", "even", "keep"]
+    strength: float
+
+
+class Running(TypedDict, total=False):
+    threads: int
+    progress: Callable[[Progress], object] | Bar
+
+
+class SurfaceOptions(Holding, Pulling, Solving, Running, total=False):
+    springs: Literal["sphere", "edge"]
+    fair_by: Literal["curvature", "bending"]
+    pseudo_normals: Literal["link", "average", "area", "angle"]
+    fair_boundary: bool
+
+
+class CurveOptions(Holding, Pulling, CurvePulling, Solving, Running, total=False):
+    normal_plane: Literal["full", "principal"]
+
+
+class FitOptions(Holding, Pulling, CurvePulling, Solving, Running, total=False):
+    pass
+
+
+class SessionOptions(Holding, Solving, total=False):
+    threads: int
+    springs: Literal["sphere", "edge"]
+    fair_by: Literal["curvature", "bending"]
+    pseudo_normals: Literal["link", "average", "area", "angle"]
+    fair_boundary: bool
+    normal_plane: Literal["full", "principal"]
+
+
+class MeasureOptions(Holding, total=False):
+    threads: int
+
+
+MEANINGS = {
+    "fix": 'nodes whose positions are fixed: "boundary" (the default; of curves the ends), "none", a mask of n booleans, '
+           "or node numbers",
+    "fix_normals": 'nodes whose normals (curves: tangents) are fixed as they are in the input, to second order: "none" '
+                   '(the default), "boundary", a mask or node numbers',
+    "constraints": 'rules for positions, normals and tangents, as docs/constraints.md has them: the path of a JSON file, '
+                   'its contents as a dict, or a list of rules; "nodes" may be a mask or an array',
+    "region": 'only these nodes move, and meet what lies outside smoothly: "sphere:x,y,z,r", "box:x0,y0,z0,x1,y1,z1" '
+              '(units of the input), "group:NAME", the path of a JSON file, a mask or node numbers',
+    "weight": "the paper's k: how much a point counts against the springs of its node, 0 or more",
+    "smoothing_length": "take away what is shorter than about 6 times this, whatever the mesh; units of the input",
+    "within": 'the fairest shape from which no point is further away than this, units of the input; "auto": by the noise '
+              "that the nodes seem to have",
+    "rms": "the fairest shape from which points are this far away, root mean square, units of the input; \"auto\" as above",
+    "noise": "take noise of this standard deviation in each coordinate off, units of the input; \"auto\" as above",
+    "outliers": "leave this share of the points out, those furthest away: 0 to less than 1",
+    "min_radius": "curves drawn to points: nowhere bent by a smaller radius than this, units of the input",
+    "sharp": "curves: where they turn by more than this, corners stay; degrees, less than 180",
+    "move": 'curves drawn to their own nodes: only these coordinates move, letters such as "y" or "yz", or names of columns',
+    "method": '"equilibrium" (the default), or the paper\'s "multigrid" or "sweep"',
+    "tolerance": "equilibrium: end when no node is expected to be further from its final place than this share of the "
+                 "diagonal of the box around the moving nodes; 1e-5 by default",
+    "step_tolerance": "multigrid, sweep: end when no node moves further in an iteration than this share of its mean edge "
+                      "length; 0.001 by default",
+    "levels": "multigrid: the number of levels",
+    "pre_smoothing": "multigrid: iterations on each level on the way down; 5 by default",
+    "max_iterations": "end after so many iterations, on each level",
+    "distribution": 'along the shape, nodes keep the spacing of the input without its noise ("smooth"), go to the mean of '
+                    'their neighbours ("even"), or keep their share between them ("keep")',
+    "strength": "result = input + strength × (fair − input), 0 to 1; 1 by default",
+    "springs": '"sphere" (the default): the same shape on every mesh; "edge": as in the paper',
+    "fair_by": '"curvature" (the default): mean curvature changes as evenly as it can; "bending": least bending energy',
+    "pseudo_normals": '"link" (the default), "average", "area" or "angle"',
+    "fair_boundary": "fair the boundary loops first, as curves, then the surface; in place of fix=\"boundary\"",
+    "normal_plane": '"full" (the default): curves in space are sprung in the whole normal plane; "principal": along the '
+                    "principal normal only, as in the paper",
+    "threads": "how many work; all cores by default. The same bits for every number",
+    "progress": "called at most some 20 times a second with a vspring.Progress, or a bar such as tqdm(total=1); what it "
+                "raises ends the call, with positions and report of the best shape so far on the exception",
+}
+
+Call = TypeVar("Call", bound=Callable[..., Any])
+
+
+def spelled_out(options: type) -> Callable[[Call], Call]:
+    """Shows the keyword arguments of a call one by one, in its signature and its documentation, and refuses others."""
+    hints = {name: hint.__forward_arg__ for name, hint in options.__annotations__.items()}
+
+    def decorate(call: Call) -> Call:
+        def check(*given: Any, **named: Any) -> Any:
+            for name in named:
+                if name not in own and name not in hints:
+                    raise TypeError(f"{call.__name__}() has no argument {name!r}; it has {', '.join([*own, *hints])}")
+            return call(*given, **named)
+
+        signature = inspect.signature(call)
+        own = {name: one for name, one in signature.parameters.items() if one.kind is not one.VAR_KEYWORD}
+        more = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=hint)
+                for name, hint in hints.items()]
+        checked: Any = functools.wraps(call)(check)
+        checked.__signature__ = signature.replace(parameters=[*own.values(), *more])
+        lines = [f"{name}: {MEANINGS[name]}." for name in hints]
+        checked.__doc__ = inspect.cleandoc(call.__doc__ or "") + "\n\nKeyword arguments:\n\n" + "\n".join(lines)
+        return checked
+
+    return decorate

@@ -1,0 +1,81 @@
+"""Points that shapes are drawn to, and how they pull."""
+from __future__ import annotations
+
+import os
+from typing import Any, Mapping, NamedTuple, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _vspring
+from ._errors import Error, warn
+from ._options import Pulling
+from ._shapes import Given, array_of, in_space, numbers_of
+
+CRITERIA = [name for name in Pulling.__annotations__ if name != "outliers"]
+
+
+class Points(NamedTuple):
+    """Scattered points, as read_points() reads them and fit() takes them."""
+
+    positions: np.ndarray
+    """(n, 3)."""
+    weights: np.ndarray | None = None
+    """(n,), 0 or more; None: 1 each."""
+    normals: np.ndarray | None = None
+    """(n, 3), unit length, zero where not known; None: nowhere known."""
+
+
+def read_points(path: str | os.PathLike[str], *, columns: Sequence[str] = ()) -> Points:
+    """Reads scattered points, with weights and normals where the file has them: the nodes of OBJ, OFF, PLY, STL, CSV, XYZ,
+    DAT.
+
+    columns: of CSV and XYZ, those of x, y and z by their names or numbers from 1; found where not given.
+
+    Raises vspring.Error naming path and line. Cost: linear.
+    """
+    positions, weights, normals, warnings = _vspring.read_points(os.fspath(path), list(map(str, columns)))
+    warn(("reading", text) for text in warnings)
+    return Points(positions, weights, normals)
+
+
+def is_drawn(options: Mapping[str, Any]) -> bool:
+    """Whether the shape is to be drawn to points, be they its own nodes."""
+    drawn = any(options.get(name) is not None for name in CRITERIA)
+    if options.get("outliers") and not drawn:
+        raise Error("invalid-argument", f"outliers needs one of {', '.join(CRITERIA)}")
+    return drawn
+
+
+def arrays_of(points: ArrayLike | Points, weights: ArrayLike | None, normals: ArrayLike | None) -> tuple[Any, Any, Any]:
+    """Positions, weights and normals as the library takes them; None for those that there are not."""
+    if isinstance(points, Points):
+        points, weights, normals = points
+    if weights is not None:
+        weights = array_of(weights, "weights")
+        if weights.dtype.kind not in "fiu" or weights.ndim != 1:
+            raise Error("invalid-argument", f"weights: one number a point is needed, not {weights.dtype} of {weights.shape}")
+        weights = np.ascontiguousarray(weights, np.float64)
+    return (in_space(numbers_of(points, "points", (2, 3))), weights,
+            None if normals is None else in_space(numbers_of(normals, "normals", (3,))))
+
+
+def without_auto(options: Mapping[str, Any], given: Given) -> dict[str, Any]:
+    """What "auto" comes to, as on the command line: by the noise that the nodes seem to have."""
+    settled = dict(options)
+    asked = [name for name in CRITERIA if isinstance(settled.get(name), str)]
+    if not asked:
+        return settled
+    name = asked[0]
+    if name not in ("within", "rms", "noise") or settled[name] != "auto":
+        raise Error("invalid-argument", f"{name}: a number is needed, or \"auto\" of within, rms and noise")
+    deviation, furthest, voxels = _vspring.estimate_noise(given.core, settled.get("threads") or 0)
+    if not deviation > 0:
+        raise Error("unusable-shape", f"{name}: this shape has no noise that its numbers show, or too few nodes to tell; "
+                    "give a number, or smooth by a length (smoothing_length)")
+    del settled[name]
+    if voxels is not None:
+        return {**settled, "voxels": voxels}
+    if name == "within":
+        return {**settled, "within": furthest}
+    return {**settled, "noise" if name == "noise" or given.is_curve else "rms": deviation}

@@ -1,0 +1,105 @@
+"""One shape that is faired again and again while what holds it moves, as in an editor."""
+from __future__ import annotations
+
+import threading
+from typing import Any, Callable, Sequence, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _vspring
+from ._fairing import ended
+from ._holding import constraints_of
+from ._options import SessionOptions, spelled_out
+from ._progress import Bar, Progress, teller
+from ._reports import Report, Result, report_of
+from ._shapes import Faces, array_of, in_space, indices_of, numbers_of, shape_of
+
+PICTURE = 2e-4
+"""Of the size: a fifth of a pixel where that is a thousand of them."""
+
+
+class Session:
+    """Fairs one shape again and again while what holds it moves. Of surfaces levels, equations and their factors are kept
+    between calls, and each call starts from the last shape; curves are faired anew.
+
+        session = vspring.Session(vertices, faces)
+        session.hold(17, (0.1, 0.2, 0.3))
+        positions, report = session.update()
+
+    Calls from several threads wait for each other. Nodes go by their numbers; lengths are in units of the input.
+    Source: docs/solver.md, "Shapes that follow".
+    """
+
+    @spelled_out(SessionOptions)
+    def __init__(self, vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None = None, *,
+                 chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False,
+                 **options: Unpack[SessionOptions]) -> None:
+        """vertices, faces, chains, closed: as of fair() and fair_curve(), or what read() returned. Raises what these do."""
+        self._given = shape_of(vertices, faces, chains, closed)
+        self._held = constraints_of(self._given, options)
+        self._threads = options.get("threads") or 0
+        self._session = _vspring.FairingSession(self._given.core, dict(options))
+        self._lock = threading.Lock()
+
+    def hold(self, node: int, position: ArrayLike | None = None) -> None:
+        """Holds a node at a position, (3,) or of curves (2,), or where the input has it."""
+        with self._lock:
+            if position is None:
+                self._held.fix(self._given.core, indices_of([node], "node"))
+            else:
+                self._held.fix_position(node, _place(position, "position"))
+
+    def free(self, node: int) -> None:
+        """Lets a node move."""
+        with self._lock:
+            self._held.free_position(node)
+
+    def hold_normal(self, node: int, normal: ArrayLike) -> None:
+        """Gives a node a normal, (3,), of any length but zero."""
+        with self._lock:
+            self._held.fix_normal(node, _place(normal, "normal"))
+
+    def free_normal(self, node: int) -> None:
+        """Lets the normal of a node follow from the nodes around."""
+        with self._lock:
+            self._held.free_normal(node)
+
+    def hold_tangent(self, node: int, tangent: ArrayLike) -> None:
+        """Gives a node of a curve a tangent, (3,) or (2,), of any length but zero, in the direction of its chain."""
+        with self._lock:
+            self._held.fix_tangent(node, _place(tangent, "tangent"))
+
+    def free_tangent(self, node: int) -> None:
+        """Lets the tangent of a node follow from the nodes around."""
+        with self._lock:
+            self._held.free_tangent(node)
+
+    def fair(self, *, progress: Callable[[Progress], object] | Bar | None = None) -> Result[Report]:
+        """The fair shape, to the tolerance of the session: within the expected error what vspring.fair() gives. Raises
+        what that raises; a call that ends before its time leaves the session where it was. Cost: a few iterations where
+        the same nodes are held as in the last call, else that of vspring.fair()."""
+        return self._solve(self._session.fair, progress)
+
+    def update(self, *, tolerance: float = PICTURE, progress: Callable[[Progress], object] | Bar | None = None) -> Result[Report]:
+        """A shape for a picture during a drag. tolerance: how near, as a share of the size. Of surfaces, moves and counts
+        of what is held are left out of the report, and a shape that is worse than the input comes with that outcome.
+        Cost: one or two iterations while what is held moves steadily, some 20 ms for 15,000 nodes."""
+        return self._solve(self._session.update, progress, tolerance)
+
+    def predict(self, *, tolerance: float = PICTURE) -> np.ndarray | None:
+        """About where update() would lead; None where that would not start from the last shape, and for curves. Cost:
+        about one iteration."""
+        with self._lock:
+            positions = self._session.predict(self._held, tolerance)
+        return None if positions is None else self._given.like_given(positions)
+
+    def _solve(self, call: Callable[..., Any], progress: Callable[[Progress], object] | Bar | None, *more: float) -> Result[Report]:
+        tell = teller(progress)
+        with self._lock:
+            positions, fields, stopped_by = call(self._held, *more, self._threads, tell)
+        return ended(self._given, positions, report_of(fields), tell, stopped_by)
+
+
+def _place(numbers: ArrayLike, name: str) -> list[float]:
+    return in_space(numbers_of(np.atleast_2d(array_of(numbers, name)), name, (2, 3)))[0].tolist()

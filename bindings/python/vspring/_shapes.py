@@ -1,0 +1,141 @@
+"""Arrays of a caller as shapes of the library, and positions back as arrays like those."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _vspring
+from ._errors import Error
+
+Faces = ArrayLike | Sequence[Sequence[int]] | tuple[np.ndarray, np.ndarray]
+"""(m, 3) or (m, 4) node numbers, a list of lists, or a tuple of two arrays: all corners, and m + 1 offsets into them."""
+
+
+def _refuse(message: str) -> Error:
+    return Error("invalid-argument", message)
+
+
+@dataclass(frozen=True)
+class Given:
+    """A shape of the library, the array that it was made of, and what a file carried besides."""
+
+    core: Any
+    """A Mesh or a PlainCurve."""
+    array: np.ndarray
+    file: _vspring.Surface | _vspring.Curve | None = None
+
+    @property
+    def is_curve(self) -> bool:
+        return isinstance(self.core, _vspring.PlainCurve)
+
+    def like_given(self, positions: np.ndarray) -> np.ndarray:
+        """In as many columns, and in single precision where the input is."""
+        dtype = np.float32 if self.array.dtype == np.float32 else np.float64
+        return np.ascontiguousarray(positions[:, :self.array.shape[1]], dtype)
+
+
+def array_of(values: Any, name: str) -> np.ndarray:
+    try:
+        return np.asarray(values)
+    except (TypeError, ValueError) as error:
+        raise _refuse(f"{name}: not an array: {error}") from None
+
+
+def numbers_of(values: ArrayLike, name: str, columns: Sequence[int]) -> np.ndarray:
+    """Real numbers in rows of so many."""
+    array = array_of(values, name)
+    if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] not in columns:
+        shapes = " or ".join(f"(n, {count})" for count in columns)
+        raise _refuse(f"{name}: real numbers of the shape {shapes} are needed, not {array.dtype} of {array.shape}")
+    return array
+
+
+def coordinates_of(values: ArrayLike, name: str) -> np.ndarray:
+    """Three doubles a row; what has them already is not copied."""
+    array = numbers_of(values, name, (3,))
+    return np.ascontiguousarray(array, np.float64)
+
+
+def in_space(array: np.ndarray) -> np.ndarray:
+    """Three doubles a row; z = 0 where there are two."""
+    positions = np.zeros((len(array), 3))
+    positions[:, :array.shape[1]] = array
+    return positions
+
+
+def indices_of(values: ArrayLike, name: str) -> np.ndarray:
+    """Node numbers as the library has them."""
+    array = array_of(values, name)
+    if array.size and array.dtype.kind not in "iu":
+        raise _refuse(f"{name}: whole numbers are needed, not {array.dtype}")
+    narrow = np.ascontiguousarray(array, np.int32)
+    if array.dtype.itemsize >= 4 and array.dtype != np.int32 and not np.array_equal(narrow, array):
+        raise _refuse(f"{name}: a number is out of the range of node numbers")
+    return narrow
+
+
+def nodes_of(selection: ArrayLike, count: int, name: str) -> np.ndarray:
+    """The numbers of nodes that a mask or their numbers select."""
+    array = array_of(selection, name)
+    if array.dtype == bool:
+        if array.shape != (count,):
+            raise _refuse(f"{name}: a mask of {count} nodes is needed, not of {array.shape}")
+        return np.flatnonzero(array).astype(np.int32)
+    return indices_of(array, name).ravel()
+
+
+def surface_of(vertices: ArrayLike | _vspring.Surface, faces: Faces | None) -> Given:
+    if isinstance(vertices, _vspring.Surface):
+        return _from_file(vertices)
+    if faces is None:
+        raise TypeError("faces are missing; curves have fair_curve()")
+    array = numbers_of(vertices, "vertices", (3,))
+    positions = coordinates_of(array, "vertices")
+    if isinstance(faces, tuple) and len(faces) == 2 and all(isinstance(one, np.ndarray) for one in faces):
+        corners, offsets = (indices_of(one, "faces") for one in faces)
+        return Given(_vspring.Mesh(positions, corners, offsets), array)
+    if isinstance(faces, np.ndarray):
+        table = faces
+    else:
+        rows = [np.atleast_1d(array_of(face, "faces")) for face in faces]  # type: ignore[union-attr]
+        if len({len(row) for row in rows}) != 1:
+            corners = np.concatenate(rows) if rows else np.zeros(0, np.int32)
+            offsets = np.cumsum([0, *map(len, rows)])
+            return Given(_vspring.Mesh(positions, indices_of(corners, "faces"), indices_of(offsets, "faces")), array)
+        table = np.stack(rows)
+    if table.ndim != 2 or (table.size and table.shape[1] < 1):
+        raise _refuse(f"faces: (m, 3) or (m, 4) node numbers, a list of lists or (corners, offsets) are needed, "
+                      f"not {table.dtype} of {table.shape}")
+    return Given(_vspring.Mesh.of_sides(positions, indices_of(table, "faces"), max(table.shape[1], 1)), array)
+
+
+def curve_of(vertices: ArrayLike | _vspring.Curve, chains: Sequence[ArrayLike] | None,
+             closed: bool | Sequence[bool]) -> Given:
+    if isinstance(vertices, _vspring.Curve):
+        return _from_file(vertices)
+    array = numbers_of(vertices, "vertices", (2, 3))
+    positions = in_space(array)
+    if chains is None:
+        chains = [np.arange(len(array), dtype=np.int32)]
+    nodes = [indices_of(chain, "chains") for chain in chains]
+    loops = [bool(one) for one in np.broadcast_to(closed, len(nodes) if np.ndim(closed) == 0 else np.shape(closed))]
+    if len(loops) != len(nodes):
+        raise _refuse(f"closed: {len(loops)} values for {len(nodes)} chains")
+    return Given(_vspring.PlainCurve(positions, nodes, loops), array)
+
+
+def shape_of(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None,
+             chains: Sequence[ArrayLike] | None, closed: bool | Sequence[bool]) -> Given:
+    """A curve where there are no faces."""
+    if faces is None and not isinstance(vertices, _vspring.Surface):
+        return curve_of(vertices, chains, closed)
+    if isinstance(vertices, _vspring.Curve):
+        raise TypeError("a curve has no faces")
+    return surface_of(vertices, faces)
+
+
+def _from_file(file: _vspring.Surface | _vspring.Curve) -> Given:
+    return Given(file._core, file.vertices, file)

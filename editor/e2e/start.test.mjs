@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { choose, drop, find, greatestDistance, keep, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { choose, drag, drop, find, greatestDistance, keep, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -62,45 +62,69 @@ test('a file opens as it is; smoothing is suggested from its noise, tried, given
   assert.deepEqual(placesOf((await saved(page)).path), input);
 });
 
-test('regions accumulate, each with its own undo; what moves nothing says so', async () => {
+test('smooth, repair and pull go in any order, each from what came before and with its own undo; what moves nothing says so', async () => {
   const file = session.generated('plate.obj', 'saddle', '--columns', '30', '--rows', '30', '--noise', '0.01');
-  const input = placesOf(file);
   await open('?file=files/plate.obj', { untouched: true });
+  const shapes = [placesOf(file)];
+  const moved = () => shapes.at(-1).flatMap((place, n) => (greatestDistance([place], [shapes.at(-2)[n]]) > 1e-12 ? [n] : []));
+  const done = async (title) => {
+    await undo().and(page.locator(`[title*="${title}"]`)).waitFor();
+    await settled(page);
+    shapes.push(placesOf((await saved(page)).path));
+  };
+  const tried = () => says(/^Moves [1-9]\d* nodes, (within|at most by)/);
+  const byItsRules = async () => {
+    const rules = join(session.folder, 'rules.json');
+    writeFileSync(rules, await rulesOf(page));
+    return nativelyFair(file, '--constraints', rules);
+  };
+  const all = shapes[0].length;
+
+  await way('Smooth it').click();
+  await tried();
+  await way('Apply').click();
+  await done('Smooth');
+  assert.ok(moved().length > all / 2);
+
   await way('Repair a part').click();
   await says('Paint over what is to be repaired');
-  await paint([0.3, 0.5], [0.34, 0.5]);
-  await says(/^Moves [1-9]\d* nodes, at most by/);
-  await way('Apply').click();
-  await undo().and(page.locator('[title*="Repair"]')).waitFor();
-  const one = placesOf((await saved(page)).path);
-  const moved = (a, b) => a.flatMap((place, n) => (greatestDistance([place], [b[n]]) > 1e-12 ? [n] : []));
-  const first = moved(one, input);
-  assert.ok(first.length > 3);
+  const painted = [];
+  for (const x of [0.3, 0.46]) {
+    await paint([x, 0.5], [x + 0.04, 0.5]);
+    await tried();
+    await way('Apply').click();
+    await done('Repair');
+    painted.push(moved());
+    await says('Paint over what is to be repaired');
+  }
+  for (const nodes of painted) assert.ok(nodes.length > 3 && nodes.length < all / 10, `${nodes}`);
+  assert.ok(!painted[0].some((n) => painted[1].includes(n)), 'the second repair leaves the first one as it is');
+  assert.ok(greatestDistance(shapes.at(-1), await byItsRules()) < 1e-12);
 
-  await says('Paint over what is to be repaired');
-  await paint([0.46, 0.5], [0.5, 0.5]);
-  await says(/^Moves [1-9]\d* nodes, at most by/);
-  await way('Apply').click();
-  await undo().and(page.locator('[title*="Repair"]')).waitFor();
-  await way('Done').click();
-  await settled(page);
-  const two = placesOf((await saved(page)).path);
-  for (const n of first) assert.deepEqual(two[n], one[n], 'the first region stays as it was repaired');
-  assert.ok(moved(two, one).length > 3, 'the second one has moved');
-  const rules = join(session.folder, 'rules.json');
-  writeFileSync(rules, await rulesOf(page));
-  assert.ok(greatestDistance(two, nativelyFair(file, '--constraints', rules)) < 6e-5);
+  // What is tried is kept as a node is pulled.
+  await way('Smooth it').click();
+  await page.getByLabel('Tolerance', { exact: true }).fill('0.002');
+  await page.getByLabel('Tolerance', { exact: true }).press('Enter');
+  await tried();
+  const { x, y, node } = await find(page, /Node \d+ /, [0.36, 0.62], [0.42, 0.66]);
+  await page.mouse.click(x, y);
+  await drag(page, { x, y }, 0, -30);
+  await done('Move node');
+  const far = (n) => Math.hypot(...shapes.at(-1)[n].map((part, i) => part - shapes[3][n][i]));
+  const near = [...shapes[0].keys()].filter((n) => Math.hypot(...shapes[0][n].map((part, i) => part - shapes[0][node][i])) < 0.15);
+  assert.ok(near.length > 4 && near.every((n) => far(n) > 0.4 * far(node)), 'what is next to the node goes along');
+  assert.ok(greatestDistance(shapes.at(-1), await byItsRules()) < 0.005, 'free nodes may lie elsewhere along the same surface');
+  await undo().click();
+  await undo().and(page.locator('[title*="Smooth within 0.002"]')).waitFor();
+  await undo().click();
+  shapes.pop();
 
-  // As by the button that fairs what is picked.
   await page.keyboard.press('w');
   await paint([0.36, 0.6], [0.42, 0.66]);
   await way('Fair only these nodes').click();
-  await undo().and(page.locator('[title*="Fair only"]')).waitFor();
-  await settled(page);
-  const three = placesOf((await saved(page)).path);
-  assert.ok(moved(three, two).length > 3);
-  for (const n of first) assert.deepEqual(three[n], one[n]);
-  for (const expected of [two, one, input]) {
+  await done('Fair only');
+  assert.ok(moved().length > 3 && moved().length < all / 10);
+  for (const expected of shapes.slice(0, -1).reverse()) {
     await undo().click();
     await settled(page);
     assert.ok(greatestDistance(placesOf((await saved(page)).path), expected) < 1e-12);

@@ -9,7 +9,7 @@ import { rove } from './base/toolbar';
 import { bindUnit } from './base/units';
 import type { Report } from './library/protocol';
 import { placesOf } from './shape/shape';
-import { toFile } from './constraints/constraints';
+import { byInput, toFile } from './constraints/constraints';
 import type { Fit } from './constraints/points';
 import { Autosave } from './edit/autosave';
 import { Editor } from './edit/editor';
@@ -81,6 +81,7 @@ const editor: Editor = new Editor({
     fields.move(positions, editor.result, settled);
   },
   changed,
+  leaving: () => start.leave(),
 });
 const opening = new Opening(editor);
 const drawing = new Drawing(canvas, editor, opening, () => view, () => refresh());
@@ -155,7 +156,7 @@ const commands: Command[] = [
     detail: () => (editor.strength < 1 ? `${Math.round(100 * editor.strength)} % of the way from the input` : undefined) },
   { id: 'load-constraints', title: 'Load constraints', keys: [], run: () => choose('.json', open), enabled: opened },
   { id: 'save-constraints', title: 'Save constraints', keys: ['ctrl+shift+s'], enabled: opened,
-    run: () => download(`${stem(editor.name)}-constraints.json`, toFile(editor.constraints)) },
+    run: () => download(`${stem(editor.name)}-constraints.json`, toFile(byInput(editor.shown, editor.shape!, editor.normals))) },
   ...start.commands,
   ...points.commands,
   ...drawing.commands,
@@ -215,7 +216,7 @@ function changed(): void {
 }
 
 function showPoints(): void {
-  const { shape, constraints: { fit }, report } = editor;
+  const { shape, shown: { fit }, report } = editor;
   if ((dotted.fit === fit && dotted.report === report) || (editor.dragging && !report?.distances)) return;
   dotted = { fit, report };
   const distances = report?.distances?.length === (fit?.cloud.positions.length ?? 0) / 3 ? report!.distances! : null;

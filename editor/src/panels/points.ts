@@ -31,7 +31,7 @@ export class PointsPanel {
     const { editor } = this;
     return [
       { id: 'load-points', title: 'Load scattered points', keys: [], run: () => choose(formats, (file) => void this.load(file)), enabled: () => editor.shape !== null },
-      { id: 'own-nodes', title: 'Fit to its own nodes', keys: [], run: () => void this.load({ name: '', bytes: null }), enabled: () => editor.shape !== null && this.fit?.cloud.bytes !== null },
+      { id: 'own-nodes', title: 'Fit to its own nodes', keys: [], run: () => void this.load(editor.start), enabled: () => editor.shape !== null && this.fit?.cloud.bytes !== null },
       { id: 'remove-points', title: 'Remove the points', keys: [], run: () => editor.apply('Remove points', { ...editor.constraints, fit: undefined }), enabled: () => this.fit !== undefined },
     ];
   }
@@ -43,7 +43,7 @@ export class PointsPanel {
       const cloud = await editor.cloudOf(source);
       if (shape !== editor.shape) return;
       const { kind, value, outliers } = this.fit ?? { kind: 'smoothingLength' as const, value: this.start('smoothingLength'), outliers: 0 };
-      editor.apply(source.bytes ? `Load points ${source.name}` : 'Fit to its own nodes', { ...editor.constraints, fit: { cloud, kind, value, outliers } });
+      editor.apply('bytes' in source ? `Load points ${source.name}` : 'Fit to its own nodes', { ...editor.constraints, fit: { cloud, kind, value, outliers } });
       editor.set({ fault: null });
     } catch (error) {
       editor.setFault((error as Error).message, 'file');

@@ -25,11 +25,11 @@ export function sayItCannotDraw(): void {
 const words: Record<string, string> = { converged: 'Done', cancelled: 'Stopped, the last shape stays', foreseen: 'Following', 'worse-than-input': 'Worse than it was, see the warnings' };
 
 /** Whether it is done, and how far it has moved. */
-function ofSolution({ report, dragging, busy, showsInput, shape, moved, constraints }: Editor): string {
+function ofSolution({ report, dragging, busy, showsInput, shape, moved, shown }: Editor): string {
   if (!shape) return 'Open a mesh or a curve, or drop one here';
   if (showsInput) return 'The input';
   if (busy && !dragging) return 'Solving …';
-  if (isUntouched(constraints) && moved === 0) return `As it is in the file${constraints.curve ? ', with other nodes' : ''}`;
+  if (isUntouched(shown) && moved === 0) return `As it is in the file${shown.curve ? ', with other nodes' : ''}`;
   if (!report) return '';
   const what = dragging ? 'Following' : (words[report.outcome] ?? 'Not settled');
   if (report.movingNodes === 0 && moved === 0 && report.outcome === 'converged') return 'Nothing moves: all of it is held';

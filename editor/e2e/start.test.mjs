@@ -45,8 +45,8 @@ test('a file opens as it is; smoothing is suggested from its noise, tried, given
   const [, noise] = (await page.locator('#start-says').textContent()).match(/be ([\d.]+)\./);
   assert.ok(Math.abs(Number(tolerance) - 3 * Number(noise)) < 0.1 * Number(tolerance), `${tolerance}, ${noise}`);
   await page.locator('#legend', { hasText: 'Deviation from the input' }).waitFor();
-  assert.ok(await undo().isDisabled(), 'what is tried is no step yet');
-  await way('Not this').click();
+  await undo().and(page.locator('[title*="Undo: what is tried"]')).click();
+  assert.ok(await undo().isDisabled(), 'what was tried was no step');
   await settled(page);
   assert.deepEqual(placesOf((await saved(page)).path), input);
 
@@ -134,6 +134,38 @@ test('smooth, repair and pull go in any order, each from what came before and wi
   await page.keyboard.press('f');
   await way('Fair only these nodes').click();
   await page.locator('#status', { hasText: 'Nothing moves: all of it is held' }).waitFor();
+});
+
+test('undo in a repair takes back its strokes, and only then what was applied', async () => {
+  const input = placesOf(session.generated('plate.obj', 'saddle', '--columns', '30', '--rows', '30', '--noise', '0.01'));
+  await open('?file=files/plate.obj', { untouched: true });
+  const picked = () => page.locator('#picked').textContent();
+  const stroke = async (x) => {
+    await paint([x, 0.5], [x + 0.04, 0.5]);
+    await undo().and(page.locator('[title*="Undo: stroke"]')).waitFor();
+    await says(/^Moves [1-9]\d* nodes, at most by/);
+  };
+  await way('Repair a part').click();
+  await stroke(0.3);
+  await way('Apply').click();
+  await undo().and(page.locator('[title*="Undo: Repair"]')).waitFor();
+  await stroke(0.4);
+  const one = await picked();
+  await stroke(0.5);
+  const both = await picked();
+  assert.notEqual(one, both);
+  await undo().click();
+  assert.equal(await picked(), one);
+  await page.getByRole('button', { name: 'Redo' }).click();
+  assert.equal(await picked(), both);
+  await says(/^Moves [1-9]\d* nodes, at most by/);
+  for (let k = 0; k < 2; ++k) await undo().click();
+  assert.equal(await picked(), 'No node picked');
+  await undo().and(page.locator('[title*="Undo: Repair"]')).click();
+  await says('Paint over what is to be repaired');
+  await page.locator('#status', { hasText: 'As it is in the file' }).waitFor();
+  assert.deepEqual(placesOf((await saved(page)).path), input);
+  await stroke(0.4);
 });
 
 test('what was open is brought back by undo: by a file, an example and a new curve over it', async () => {

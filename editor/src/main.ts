@@ -161,10 +161,10 @@ const commands: Command[] = [
   ...points.commands,
   ...drawing.commands,
   ...nodes.commands,
-  { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => opening.undo(), enabled: () => opening.undoes !== null,
-    detail: () => opening.undoes ?? undefined },
-  { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => opening.redo(), enabled: () => opening.redoes !== null,
-    detail: () => opening.redoes ?? undefined },
+  { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => (start.undoes ? start : opening).undo(), enabled: () => (start.undoes ?? opening.undoes) !== null,
+    detail: () => start.undoes ?? opening.undoes ?? undefined },
+  { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => (start.redoes ? start : opening).redo(), enabled: () => (start.redoes ?? opening.redoes) !== null,
+    detail: () => start.redoes ?? opening.redoes ?? undefined },
   { id: 'fix-position', title: 'Fix positions of picked nodes', keys: ['f'], run: () => editor.hold('position', true), enabled: somePicked },
   { id: 'free-position', title: 'Free positions of picked nodes', keys: ['shift+f'], run: () => editor.hold('position', false), enabled: somePicked },
   { id: 'fix-normal', title: 'Fix normals or tangents of picked nodes', keys: ['n'], run: () => editor.hold(editor.direction, true), enabled: somePicked },
@@ -188,6 +188,7 @@ const commands: Command[] = [
   { id: 'zoom-out', title: 'Zoom out', keys: ['-'], run: () => view.zoomBy(0.8) },
   { id: 'escape', title: 'Give up what is dragged, solved or picked', keys: ['escape'], run: escape },
   { id: 'end', title: 'End the solution that runs', keys: [], run: () => editor.cancel(), enabled: () => editor.canEnd },
+  { id: 'go-on', title: 'Solve what was cancelled', keys: [], run: () => editor.settle(), enabled: () => editor.stopped },
   { id: 'theme', title: 'Light or dark', keys: ['t'], run: () => { switchTheme(); view.restyle(); } },
   { id: 'help', title: 'Keyboard shortcuts', keys: ['?'], run: () => help.showModal() },
   { id: 'afresh', title: 'Forget what was restored', keys: [], run: () => void autosave.forget().then(() => openExample(firstExample)).then(() => autosave.begin()) },
@@ -315,6 +316,7 @@ acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, (f
   editor.set({ loading: null });
   dropped.take(file, alt);
 }, told);
+setInterval(() => { if (editor.busy) describe(editor, coloured); }, 1000);
 startTheme(() => view.restyle());
 view.restyle();
 changed();

@@ -58,6 +58,8 @@ export class Editor {
   /** Whether the pointer is at the arrow of that node. */
   atArrow = false;
   busy = false;
+  /** When it became that, or rested. */
+  since = 0;
   /** A file waits for its shape. */
   saving = false;
   fraction = 0;
@@ -92,7 +94,10 @@ export class Editor {
     failed: (message) => this.setFault(message, 'solver'),
     ended: () => { this.report = cancelled; },
     progress: (fraction) => this.set({ fraction }),
-    busy: (busy) => this.set({ busy, fraction: 0 }),
+    busy: (busy) => {
+      this.since = performance.now();
+      this.set({ busy, fraction: 0 });
+    },
   });
 
   readonly drags = new Drags(this, this.solver);
@@ -134,6 +139,11 @@ export class Editor {
 
   get dragging(): boolean {
     return this.drags.part !== null;
+  }
+
+  /** Whether the shape is not what holds makes of it, as that was cancelled. */
+  get stopped(): boolean {
+    return this.report?.outcome === 'cancelled' && !this.busy && !this.dragging;
   }
 
   get canEnd(): boolean {

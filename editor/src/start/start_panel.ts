@@ -8,6 +8,7 @@ import type { Shape } from '../shape/shape';
 import { isUntouched, type Constraints } from '../constraints/constraints';
 import type { Cloud } from '../constraints/points';
 import type { Editor } from '../edit/editor';
+import { begun, done, redone, undone, type History } from '../edit/history';
 import type { Tools } from '../pick/tools';
 import { freed, isFree, isHeld, isNoisy, smoothed, suggestedTolerance, type Way } from './ways';
 
@@ -20,6 +21,8 @@ export interface StartEvents {
   chosen: (way: Way | null) => void;
 }
 
+const none: ReadonlySet<number> = new Set();
+
 /** What a way is tried with: anything newer makes it out of date. */
 type Attempt = Pick<Editor, 'history' | 'picked'>;
 
@@ -30,6 +33,8 @@ export class StartPanel {
   private known: { start: Float64Array | undefined; noise: number; own: Cloud } | null = null;
   private latest: Attempt | null = null;
   private asking = false;
+  /** What was painted, stroke by stroke. */
+  private strokes: History<ReadonlySet<number>> = begun(none);
   private readonly says = this.part('start-says');
   private readonly tolerance = this.part<HTMLInputElement>('tolerance');
 
@@ -75,6 +80,30 @@ export class StartPanel {
     return true;
   }
 
+  /** What undo takes back before any step, in words; null: there is nothing of that kind. */
+  get undoes(): string | null {
+    if (this.way === 'repair') return this.strokes.past.length > 0 ? 'stroke' : null;
+    return this.way && 'what is tried';
+  }
+
+  get redoes(): string | null {
+    return this.way === 'repair' && this.strokes.future.length > 0 ? 'stroke' : null;
+  }
+
+  undo(): void {
+    if (this.way === 'repair') this.paintAs(undone(this.strokes));
+    else this.dismiss();
+  }
+
+  redo(): void {
+    this.paintAs(redone(this.strokes));
+  }
+
+  private paintAs(strokes: History<ReadonlySet<number>>): void {
+    this.strokes = strokes;
+    this.editor.set({ picked: strokes.now.state });
+  }
+
   /** As something else begins with what is seen: what is done is kept. */
   leave(): void {
     if (this.ready) this.apply();
@@ -86,7 +115,7 @@ export class StartPanel {
   }
 
   private get ready(): boolean {
-    return this.editor.trying && !this.asking && !this.editor.busy;
+    return this.editor.trying && !this.asking && !this.editor.busy && !this.editor.stopped;
   }
 
   private get freeSays(): string {
@@ -111,12 +140,13 @@ export class StartPanel {
       editor.pick(-1, false);
     }
     if (way === 'repair') this.tools().set('brush');
-    this.events.chosen(way);
+    // It is solved while the view draws it otherwise.
     editor.set({});
+    this.events.chosen(way);
   }
 
   private turnTo(way: Way | null): void {
-    Object.assign(this, { way, latest: null, asking: false });
+    Object.assign(this, { way, latest: null, asking: false, strokes: begun(this.editor.picked) });
   }
 
   private pull(): void {
@@ -135,9 +165,10 @@ export class StartPanel {
     const { editor, way } = this;
     const { history, picked } = editor;
     const attempt = (this.latest = { history, picked });
+    if (way === 'repair' && picked !== this.strokes.now.state) this.strokes = done(this.strokes, '', picked);
     this.asking = true;
     try {
-      const found = await this.tried(way!);
+      const found = way === 'free' ? freed(editor.constraints) : await this.tried();
       if (attempt === this.latest) editor.try(found);
       // It may have asked about a shape that starts elsewhere.
       else if (!this.way) editor.settle();
@@ -149,10 +180,9 @@ export class StartPanel {
   }
 
   /** What holds for it; null: there is nothing to try. */
-  private async tried(way: Way): Promise<Constraints | null> {
+  private async tried(): Promise<Constraints | null> {
     const { editor } = this;
-    if (way === 'free') return freed(editor.constraints);
-    if (way === 'smooth') return this.smoothing(await editor.begun());
+    if (this.way === 'smooth') return this.smoothing(await editor.begun());
     return editor.picked.size > 0 ? editor.restrictedTo(editor.picked, await editor.begun()) : null;
   }
 
@@ -174,7 +204,7 @@ export class StartPanel {
     const { editor, way } = this;
     const titles: Record<Way, string> = { smooth: `Smooth within ${short(this.tolerance.valueAsNumber)}`, repair: `Repair ${counted(editor.picked.size, 'node')}`, free: 'Free form' };
     const title = titles[way!];
-    if (way === 'repair') editor.pick(-1, false);
+    if (way === 'repair') this.paintAs(begun(none));
     else this.turnTo(null);
     editor.accept(title, way !== 'free');
     this.events.chosen(this.way);
@@ -190,7 +220,7 @@ export class StartPanel {
     const size = 1 / shape!.scale;
     const noise = way === 'smooth' ? this.known!.noise : null;
     const why = noise === null ? '' : isNoisy(noise, size) ? ` Its noise seems to be ${rounded(noise)}.` : ' It has no noise to speak of.';
-    if (report?.outcome === 'cancelled') return 'Stopped before it was done.';
+    if (editor.stopped) return 'Stopped before it was done. Go on, or take something else.';
     if (report?.movingNodes === 0) return `Nothing moves: all of it is held.${why}`;
     const far = way === 'smooth' && report?.fit ? `within ${rounded(report.fit.greatest)}` : `at most by ${rounded(editor.movedInTrial)}`;
     return `Moves ${counted(report?.movingNodes ?? 0, 'node')}, ${far}.${why}`;

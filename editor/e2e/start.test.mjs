@@ -51,8 +51,26 @@ test('a file opens as it is; smoothing is suggested from its noise, tried, given
   assert.deepEqual(placesOf((await saved(page)).path), input);
 
   await way('Smooth it').click();
-  await page.getByLabel('Tolerance', { exact: true }).fill('0.03');
-  await page.getByLabel('Tolerance', { exact: true }).press('Enter');
+  await says('Moves');
+  const entry = page.getByLabel('Tolerance', { exact: true });
+  const enter = async (text) => {
+    await entry.fill(text);
+    await entry.press('Enter');
+  };
+  await entry.press('Control+a');
+  assert.equal(await page.locator('#picked').textContent(), 'No node picked');
+  for (const [text, told] of [['', /^Give a length above 0/], ['-1', /^Give a length above 0/], ['5 mm', /^Choose the unit of the file below/]]) {
+    await enter(text);
+    await page.getByRole('alert').filter({ hasText: told }).waitFor();
+    assert.ok(await way('Apply').isDisabled());
+  }
+  await page.getByLabel('Unit').selectOption('m');
+  for (const [act, shown] of [[() => enter('0.000562341 m'), '0.000562341 m'], [() => enter('30 mm'), '0.03 m'], [() => entry.press('ArrowUp'), '0.0315 m'], [() => page.locator('#start .less').click(), '0.0299 m'], [() => enter('0,03'), '0.03 m']]) {
+    await act();
+    assert.equal(await entry.inputValue(), shown);
+    assert.ok(await entry.evaluate((one) => one.scrollWidth <= one.clientWidth), `${shown} is seen whole`);
+  }
+  assert.ok(await page.getByRole('alert').isHidden());
   await keep(page);
   assert.match(await undo().getAttribute('title'), /Undo: Smooth within 0\.03/);
   const smooth = placesOf((await saved(page)).path);

@@ -2,6 +2,7 @@
 
 import { sequential } from '../../page/colours.js';
 import { bindCommands, listShortcuts, type Command } from './base/commands';
+import { Entry, wholeNumber } from './base/entry';
 import { acceptDrops, choose, download, fromAddress, stem } from './base/files';
 import { showLoading, type Loading } from './base/loading';
 import { startTheme, switchTheme } from './base/theme';
@@ -49,7 +50,6 @@ const help = document.getElementById('help') as HTMLDialogElement;
 const format = document.getElementById('format') as HTMLSelectElement;
 const examples = new Examples(document.getElementById('example') as HTMLSelectElement, (...addresses) => void openExample(...addresses));
 const range = document.getElementById('range') as HTMLInputElement;
-const loopCount = document.querySelector<HTMLInputElement>('#loop-nodes input')!;
 const firstExample = 'examples/annulus.obj';
 /** Pixels between nodes from which on each is a target of its own, and where there are fewer a drag turns the view. */
 const distinct = 40;
@@ -129,6 +129,7 @@ const gestures = new Gestures(canvas, {
   cancelled: () => { ways.end(); editor.drags.end(false); },
 });
 const view = newView();
+const loopCount = new Entry(document.querySelector<HTMLInputElement>('#loop-nodes input')!, () => wholeNumber(3, 1000), (count) => count !== null && editor.setFairBoundary(true, count));
 const nodes = new Nodes(canvas, editor, () => view.seen(), () => tools.tool === 'pick');
 
 function newView(): View {
@@ -175,7 +176,7 @@ const commands: Command[] = [
   { id: 'boundary-normals', title: 'Fix or free boundary normals or tangents', keys: ['shift+b'], enabled: opened,
     run: () => editor.setBoundary(editor.direction, !editor.isBoundaryFixed(editor.direction)), pressed: () => editor.isBoundaryFixed(editor.direction) },
   { id: 'fair-boundary', title: 'Fair boundary loops, then the surface', keys: ['k'], enabled: () => !isCurve() && (editor.shape?.boundary.includes(1) ?? false),
-    run: () => editor.setFairBoundary(!editor.constraints.fairBoundary, loopNodes()), pressed: () => editor.constraints.fairBoundary ?? false,
+    run: () => editor.setFairBoundary(!editor.constraints.fairBoundary, loopCount.value), pressed: () => editor.constraints.fairBoundary ?? false,
     detail: () => (editor.shape && !editor.shape.boundary.includes(1) ? 'it has no boundary' : undefined) },
   { id: 'comb', title: 'Curvature comb', keys: ['c'], run: () => curves.toggleComb(), enabled: isCurve, pressed: () => curves.comb },
   { id: 'comb-root', title: 'Hairs by the root of the curvature', keys: [], run: () => { curves.toggleRoot(); refresh(); }, enabled: isCurve, pressed: () => curves.root },
@@ -229,10 +230,6 @@ function showPoints(): void {
   legend.hidden = !drawn || !distances;
   if (!legend.hidden) showLengths(legend, `Distance of the points${fit!.kind === 'within' ? ', in red beyond the tolerance' : ''}`, sequential, limit);
   view.draw();
-}
-
-function loopNodes(): number {
-  return Math.max(3, Math.round(loopCount.valueAsNumber) || 8);
 }
 
 function told(loading: Loading): void {
@@ -308,7 +305,6 @@ bindUnit(document.getElementById('unit') as HTMLSelectElement, () => { fields.se
 bindSymmetry(document.getElementById('symmetry') as HTMLSelectElement, editor);
 bindReach(document.getElementById('reach') as HTMLInputElement, editor);
 bindPresets(document.getElementById('mouse') as HTMLSelectElement, (preset) => view.setPreset(preset));
-loopCount.addEventListener('change', () => editor.setFairBoundary(true, loopNodes()));
 bindStrength(document.querySelector('#strength')!, (share, settled) => editor.setStrength(share, settled));
 rove(document.querySelector('[role=toolbar]')!);
 const dropped = new Dropped(document.getElementById('ask') as HTMLDialogElement, editor, opening, { open, points: (file) => void points.load(file) });

@@ -2,6 +2,7 @@
 
 import { short } from '../../../page/numbers.js';
 import type { Command } from '../base/commands';
+import { Entry } from '../base/entry';
 import { withUnit } from '../base/units';
 import { counted } from '../base/words';
 import type { Shape } from '../shape/shape';
@@ -36,11 +37,9 @@ export class StartPanel {
   /** What was painted, stroke by stroke. */
   private strokes: History<ReadonlySet<number>> = begun(none);
   private readonly says = this.part('start-says');
-  private readonly tolerance = this.part<HTMLInputElement>('tolerance');
+  private readonly tolerance = new Entry(this.part('tolerance'), () => ({ words: 'a length above 0, such as 0.02 or 5 mm', takes: (value) => value > 0 && value < Infinity, isLength: true }), () => void this.attempt());
 
-  constructor(private readonly panel: HTMLElement, private readonly editor: Editor, private readonly tools: () => Tools, private readonly events: StartEvents) {
-    this.tolerance.addEventListener('change', () => void this.attempt());
-  }
+  constructor(private readonly panel: HTMLElement, private readonly editor: Editor, private readonly tools: () => Tools, private readonly events: StartEvents) {}
 
   get commands(): Command[] {
     const { editor } = this;
@@ -65,6 +64,7 @@ export class StartPanel {
     this.panel.hidden = editor.shape === null;
     this.part('start-title').textContent = isUntouched(editor.constraints) && !editor.constraints.start ? 'It is as in the file. What now?' : 'What now?';
     this.part('start-tolerance').hidden = this.way !== 'smooth';
+    if (this.known) this.tolerance.show(this.tolerance.value);
     this.part('start-end').hidden = !this.way;
     this.part('start-free').textContent = this.freeSays;
     document.querySelector('[data-command=start-dismiss]')!.textContent = this.way === 'repair' && editor.picked.size === 0 ? 'Done' : 'Not this';
@@ -193,16 +193,14 @@ export class StartPanel {
       editor.startFrom(start);
       const noise = await editor.client.ask('noise', null);
       this.known = { start, noise, own: await editor.cloudOf(start ?? shape!.input) };
-      this.tolerance.value = String(suggestedTolerance(noise, 1 / shape!.scale));
+      this.tolerance.show(suggestedTolerance(noise, 1 / shape!.scale));
     }
-    const tolerance = this.tolerance.valueAsNumber;
-    this.tolerance.setAttribute('aria-invalid', String(!(tolerance > 0)));
-    return tolerance > 0 ? smoothed(begun, this.known.own, tolerance) : null;
+    return this.tolerance.wrong ? null : smoothed(begun, this.known.own, this.tolerance.value);
   }
 
   private apply(): void {
     const { editor, way } = this;
-    const titles: Record<Way, string> = { smooth: `Smooth within ${short(this.tolerance.valueAsNumber)}`, repair: `Repair ${counted(editor.picked.size, 'node')}`, free: 'Free form' };
+    const titles: Record<Way, string> = { smooth: `Smooth within ${short(this.tolerance.value)}`, repair: `Repair ${counted(editor.picked.size, 'node')}`, free: 'Free form' };
     const title = titles[way!];
     if (way === 'repair') this.paintAs(begun(none));
     else this.turnTo(null);

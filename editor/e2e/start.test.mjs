@@ -44,14 +44,15 @@ test('a file opens as it is; smoothing is suggested from its noise, tried, given
   const tolerance = await page.getByLabel('Tolerance', { exact: true }).inputValue();
   const [, noise] = (await page.locator('#start-says').textContent()).match(/be ([\d.]+)\./);
   assert.ok(Math.abs(Number(tolerance) - 3 * Number(noise)) < 0.1 * Number(tolerance), `${tolerance}, ${noise}`);
-  await page.locator('#legend', { hasText: 'Deviation from the input' }).waitFor();
+  assert.equal(await way('Shaded').getAttribute('aria-pressed'), 'true', 'the smooth shape itself is seen');
   await undo().and(page.locator('[title*="Undo: what is tried"]')).click();
   assert.ok(await undo().isDisabled(), 'what was tried was no step');
   await settled(page);
   assert.deepEqual(placesOf((await saved(page)).path), input);
 
-  await way('Smooth it').click();
+  await page.keyboard.press('s');
   await says('Moves');
+  await way('Zebra').click();
   const entry = page.getByLabel('Tolerance', { exact: true });
   const enter = async (text) => {
     await entry.fill(text);
@@ -72,8 +73,13 @@ test('a file opens as it is; smoothing is suggested from its noise, tried, given
   }
   assert.ok(await page.getByRole('alert').isHidden());
   await keep(page);
+  assert.equal(await way('Zebra').getAttribute('aria-pressed'), 'true', 'the view that was chosen stays');
   assert.match(await undo().getAttribute('title'), /Undo: Smooth within 0\.03/);
   const smooth = placesOf((await saved(page)).path);
+  assert.equal(await page.locator('#status').textContent(), 'Saved as patch-fair.obj');
+  await way('Mean').click();
+  await page.locator('#legend .marks').filter({ hasText: '−' }).waitFor();
+  assert.doesNotMatch(await page.locator('#legend .marks').textContent(), /-/);
   assert.ok(greatestDistance(smooth, nativelyFair(file, '--within', '0.03', '--distribution', 'keep')) < 6e-4);
   await undo().click();
   await settled(page);

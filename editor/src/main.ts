@@ -30,7 +30,6 @@ import { Looks } from './look/looks';
 import { Marks } from './look/marks';
 import { Dropped } from './start/dropped';
 import { StartPanel } from './start/start_panel';
-import type { Way } from './start/ways';
 import { CurvePanel } from './panels/curve_panel';
 import { Examples } from './panels/examples';
 import { showFor } from './panels/kinds';
@@ -108,7 +107,7 @@ const ways = new Ways(document.getElementById('way')!, {
 });
 const autosave = new Autosave(editor, opening, document.getElementById('restored')!);
 const points = new PointsPanel(editor);
-const start: StartPanel = new StartPanel(document.getElementById('start')!, editor, () => tools, { chosen: wayChosen });
+const start: StartPanel = new StartPanel(document.getElementById('start')!, editor, () => tools, { chosen: toolChanged });
 const numbers = new Numbers(document.getElementById('numbers')!, editor);
 const tilts = new Tilts(canvas, editor, () => view, () => tools.tool === 'pick');
 const gestures = new Gestures(canvas, {
@@ -265,6 +264,7 @@ async function save(): Promise<void> {
   const name = `${stem(editor.name)}-fair.${format.value}`;
   try {
     download(name, await editor.written(name));
+    editor.set({ saved: name });
   } catch (error) {
     editor.setFault((error as Error).message, 'file');
   }
@@ -276,11 +276,6 @@ async function begin(): Promise<void> {
   if (file) await openAddress(file);
   else if (!(await autosave.restore())) await openExample(firstExample);
   autosave.begin();
-}
-
-function wayChosen(way: Way | null): void {
-  toolChanged();
-  looks.showDeviation(way === 'smooth' || way === 'free');
 }
 
 function escape(): void {

@@ -27,7 +27,7 @@ export function numberIn(text: string, { words, takes, isLength }: Wanted): numb
   return takes(value) ? value : `Give ${words}`;
 }
 
-/** All digits that anybody looks at. */
+/** All digits that anybody looks at, with the minus sign of the keyboard, as it is typed over and copied. */
 export function shownNumber(value: number): string {
   return String(Number(value.toPrecision(6)));
 }

@@ -62,6 +62,8 @@ export class Editor {
   since = 0;
   /** A file waits for its shape. */
   saving = false;
+  /** The name under which what is seen was saved. */
+  saved: string | null = null;
   fraction = 0;
   showsInput = false;
   /** What is being opened. */
@@ -150,7 +152,7 @@ export class Editor {
     return this.saving || (this.busy && !this.dragging);
   }
 
-  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'hovered' | 'picked' | 'fault' | 'loading' | 'reach'>>): void {
+  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'saved' | 'hovered' | 'picked' | 'fault' | 'loading' | 'reach'>>): void {
     Object.assign(this, state);
     this.events.changed();
   }
@@ -225,6 +227,7 @@ export class Editor {
 
   show(state: Partial<Pick<Editor, 'showsInput' | 'strength'>>, settled: boolean): void {
     Object.assign(this, state);
+    this.saved = null;
     this.seen = this.drags.shape ?? between(this.shape!.input, this.positions, this.showsInput ? 0 : this.strength);
     this.rests = settled;
     this.events.shape(this.seen, settled);
@@ -469,6 +472,7 @@ export class Editor {
 
   settle(): void {
     if (!this.shape) return;
+    this.saved = null;
     this.held = holding.heldNodes(this.shown, this.shape.boundary);
     this.startFrom(this.shown.start);
     this.solver.push(this.holds);

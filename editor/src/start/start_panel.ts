@@ -19,7 +19,7 @@ function rounded(length: number): string {
 
 export interface StartEvents {
   /** Another way has been chosen, or none. */
-  chosen: (way: Way | null) => void;
+  chosen: () => void;
 }
 
 const none: ReadonlySet<number> = new Set();
@@ -44,14 +44,14 @@ export class StartPanel {
   get commands(): Command[] {
     const { editor } = this;
     const opened = (): boolean => editor.shape !== null;
-    const choice = (way: Way, title: string, enabled = (): boolean => true): Command => ({
-      id: `start-${way}`, title, keys: [], enabled: () => opened() && enabled(), run: () => this.choose(way), pressed: () => this.way === way,
+    const choice = (way: Way, title: string, keys: string[], enabled = (): boolean => true): Command => ({
+      id: `start-${way}`, title, keys, enabled: () => opened() && enabled(), run: () => this.choose(way), pressed: () => this.way === way,
     });
     return [
-      choice('smooth', 'Take its noise off, and move no node by more than a tolerance'),
-      choice('repair', 'Paint a part; all else stays as it is'),
-      { id: 'start-pull', title: 'Drag a node; what is near goes along', keys: [], enabled: opened, run: () => this.pull(), pressed: () => !this.way && this.tools().tool === 'pick' },
-      choice('free', 'The fairest shape through what is held', () => isHeld(editor.held) && (this.way === 'free' || !isFree(editor.constraints))),
+      choice('smooth', 'Smooth it: take its noise off, and move no node by more than a tolerance', ['s']),
+      choice('repair', 'Repair a part that you paint; all else stays as it is', ['j']),
+      { id: 'start-pull', title: 'Pull a node; what is near goes along', keys: ['u'], enabled: opened, run: () => this.pull(), pressed: () => !this.way && this.tools().tool === 'pick' },
+      choice('free', 'The fairest shape through what is held', [], () => isHeld(editor.held) && (this.way === 'free' || !isFree(editor.constraints))),
       { id: 'start-apply', title: 'Keep what is shown', keys: [], run: () => this.apply(), enabled: () => this.ready },
       { id: 'start-dismiss', title: 'Take back what is shown', keys: [], run: () => void this.dismiss() },
     ];
@@ -140,9 +140,7 @@ export class StartPanel {
       editor.pick(-1, false);
     }
     if (way === 'repair') this.tools().set('brush');
-    // It is solved while the view draws it otherwise.
-    editor.set({});
-    this.events.chosen(way);
+    this.events.chosen();
   }
 
   private turnTo(way: Way | null): void {
@@ -152,7 +150,7 @@ export class StartPanel {
   private pull(): void {
     this.dismiss();
     this.tools().set('pick');
-    this.events.chosen(null);
+    this.events.chosen();
   }
 
   private get outOfDate(): boolean {
@@ -205,7 +203,7 @@ export class StartPanel {
     if (way === 'repair') this.paintAs(begun(none));
     else this.turnTo(null);
     editor.accept(title, way !== 'free');
-    this.events.chosen(this.way);
+    this.events.chosen();
   }
 
   private said(): string {

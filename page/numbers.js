@@ -5,8 +5,8 @@ export function short(value, whole = false) {
   if (value === null || value === undefined) return '';
   if (whole) return String(value);
   const size = Math.abs(value);
-  if (size !== 0 && (size < 1e-4 || size >= 1e6)) return value.toExponential(3).replace(/\.?0+e/, 'e').replace('-', '−');
-  return String(Number(value.toPrecision(4))).replace('-', '−');
+  if (size !== 0 && (size < 1e-4 || size >= 1e6)) return value.toExponential(3).replace(/\.?0+e/, 'e').replaceAll('-', '−');
+  return String(Number(value.toPrecision(4))).replaceAll('-', '−');
 }
 
 export function quantiles(values, shares) {

@@ -69,6 +69,7 @@ for (const colorScheme of ['light', 'dark']) {
     await page.locator('#start-says', { hasText: 'Moves' }).waitFor();
     // However it ended.
     await page.locator('#status:not([data-outcome="solving"])').waitFor();
+    await page.getByRole('button', { name: 'Deviation' }).click();
     await page.locator('#legend').waitFor();
     assert.deepEqual(await violations(), []);
     await page.getByLabel('Example').selectOption({ label: 'Noisy wave' });

@@ -65,16 +65,25 @@ for (const shared of [true, false]) {
   });
 }
 
-test('after a solution is given up without shared memory, what is changed and saved is right', async () => {
+test('a long solution says how long it lasts; given up without shared memory, it is no step, and goes on where asked', async () => {
   const session = await Session.start({ shared: false });
   try {
     const input = session.generated('patch.obj', 'annulus', '--nodes', '100000', '--noise', '0.01');
     const { page, faults } = await session.open('?file=files/patch.obj');
+    // Which states its bar has had: whether it told how far it is.
+    await page.evaluate(() => {
+      const bar = document.querySelector('#progress progress');
+      window.told = [];
+      new MutationObserver(() => { if (bar.checkVisibility()) window.told.push(bar.position >= 0); }).observe(document.body, { subtree: true, childList: true, attributes: true });
+    });
     await solving(page);
+    await page.locator('#status', { hasText: /^Solving … \d+ s$/ }).waitFor();
+    assert.equal(await page.evaluate(() => window.told[0]), false);
     await page.getByRole('button', { name: 'Cancel' }).click();
     await settled(page, 'cancelled');
-    await page.getByRole('button', { name: 'Normals fixed' }).click();
-    await settled(page);
+    assert.ok(await page.getByRole('button', { name: 'Apply', exact: true }).isDisabled());
+    await page.getByRole('button', { name: 'Go on' }).click();
+    await page.locator('#start-says', { hasText: /^Moves [\d,]+ nodes, at most by/ }).waitFor();
     await expectSameAsNative(session, page, input);
     assert.deepEqual(faults, []);
   } finally {

@@ -63,6 +63,9 @@ test('numbers are seen whole, and warnings at the top of the panel', async () =>
   const { x, y } = await find(page, /position fixed/, [0.02, 0.55], [0.5, 0.55]);
   await page.mouse.click(x, y);
   await page.getByLabel('Position x').waitFor();
+  await page.getByLabel('Position y').fill('five');
+  await page.getByLabel('Position y').press('Enter');
+  await page.getByRole('alert').filter({ hasText: 'Give numbers' }).waitFor();
   await page.getByLabel('Position y').fill('-0.541623');
   for (const axis of 'xyz') assert.ok(await page.getByLabel(`Position ${axis}`).evaluate((one) => one.scrollWidth <= one.clientWidth), axis);
   assert.equal(await page.locator('aside > section:not(#start)').first().getAttribute('id'), 'warnings');

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { statSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { choose, drop, find, greatestDistance, keep, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { choose, drag, drop, find, greatestDistance, keep, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -44,63 +44,111 @@ test('a file opens as it is; smoothing is suggested from its noise, tried, given
   const tolerance = await page.getByLabel('Tolerance', { exact: true }).inputValue();
   const [, noise] = (await page.locator('#start-says').textContent()).match(/be ([\d.]+)\./);
   assert.ok(Math.abs(Number(tolerance) - 3 * Number(noise)) < 0.1 * Number(tolerance), `${tolerance}, ${noise}`);
-  await page.locator('#legend', { hasText: 'Deviation from the input' }).waitFor();
-  assert.ok(await undo().isDisabled(), 'what is tried is no step yet');
-  await way('Not this').click();
+  assert.equal(await way('Shaded').getAttribute('aria-pressed'), 'true', 'the smooth shape itself is seen');
+  await undo().and(page.locator('[title*="Undo: what is tried"]')).click();
+  assert.ok(await undo().isDisabled(), 'what was tried was no step');
   await settled(page);
   assert.deepEqual(placesOf((await saved(page)).path), input);
 
-  await way('Smooth it').click();
-  await page.getByLabel('Tolerance', { exact: true }).fill('0.03');
-  await page.getByLabel('Tolerance', { exact: true }).press('Enter');
+  await page.keyboard.press('s');
+  await says('Moves');
+  await way('Zebra').click();
+  const entry = page.getByLabel('Tolerance', { exact: true });
+  const enter = async (text) => {
+    await entry.fill(text);
+    await entry.press('Enter');
+  };
+  await entry.press('Control+a');
+  assert.equal(await page.locator('#picked').textContent(), 'No node picked');
+  for (const [text, told] of [['', /^Give a length above 0/], ['-1', /^Give a length above 0/], ['5 mm', /^Choose the unit of the file below/]]) {
+    await enter(text);
+    await page.getByRole('alert').filter({ hasText: told }).waitFor();
+    assert.ok(await way('Apply').isDisabled());
+  }
+  await page.getByLabel('Unit').selectOption('m');
+  for (const [act, shown] of [[() => enter('0.000562341 m'), '0.000562341 m'], [() => enter('30 mm'), '0.03 m'], [() => entry.press('ArrowUp'), '0.0315 m'], [() => page.locator('#start .less').click(), '0.0299 m'], [() => enter('0,03'), '0.03 m']]) {
+    await act();
+    assert.equal(await entry.inputValue(), shown);
+    assert.ok(await entry.evaluate((one) => one.scrollWidth <= one.clientWidth), `${shown} is seen whole`);
+  }
+  assert.ok(await page.getByRole('alert').isHidden());
   await keep(page);
+  assert.equal(await way('Zebra').getAttribute('aria-pressed'), 'true', 'the view that was chosen stays');
   assert.match(await undo().getAttribute('title'), /Undo: Smooth within 0\.03/);
   const smooth = placesOf((await saved(page)).path);
+  assert.equal(await page.locator('#status').textContent(), 'Saved as patch-fair.obj');
+  await way('Mean').click();
+  await page.locator('#legend .marks').filter({ hasText: '−' }).waitFor();
+  assert.doesNotMatch(await page.locator('#legend .marks').textContent(), /-/);
   assert.ok(greatestDistance(smooth, nativelyFair(file, '--within', '0.03', '--distribution', 'keep')) < 6e-4);
   await undo().click();
   await settled(page);
   assert.deepEqual(placesOf((await saved(page)).path), input);
 });
 
-test('regions accumulate, each with its own undo; what moves nothing says so', async () => {
+test('smooth, repair and pull go in any order, each from what came before and with its own undo; what moves nothing says so', async () => {
   const file = session.generated('plate.obj', 'saddle', '--columns', '30', '--rows', '30', '--noise', '0.01');
-  const input = placesOf(file);
   await open('?file=files/plate.obj', { untouched: true });
+  const shapes = [placesOf(file)];
+  const moved = () => shapes.at(-1).flatMap((place, n) => (greatestDistance([place], [shapes.at(-2)[n]]) > 1e-12 ? [n] : []));
+  const done = async (title) => {
+    await undo().and(page.locator(`[title*="${title}"]`)).waitFor();
+    await settled(page);
+    shapes.push(placesOf((await saved(page)).path));
+  };
+  const tried = () => says(/^Moves [1-9]\d* nodes, (within|at most by)/);
+  const byItsRules = async () => {
+    const rules = join(session.folder, 'rules.json');
+    writeFileSync(rules, await rulesOf(page));
+    return nativelyFair(file, '--constraints', rules);
+  };
+  const all = shapes[0].length;
+
+  await way('Smooth it').click();
+  await tried();
+  await way('Apply').click();
+  await done('Smooth');
+  assert.ok(moved().length > all / 2);
+
   await way('Repair a part').click();
   await says('Paint over what is to be repaired');
-  await paint([0.3, 0.5], [0.34, 0.5]);
-  await says(/^Moves [1-9]\d* nodes, at most by/);
-  await way('Apply').click();
-  await undo().and(page.locator('[title*="Repair"]')).waitFor();
-  const one = placesOf((await saved(page)).path);
-  const moved = (a, b) => a.flatMap((place, n) => (greatestDistance([place], [b[n]]) > 1e-12 ? [n] : []));
-  const first = moved(one, input);
-  assert.ok(first.length > 3);
+  const painted = [];
+  for (const x of [0.3, 0.46]) {
+    await paint([x, 0.5], [x + 0.04, 0.5]);
+    await tried();
+    await way('Apply').click();
+    await done('Repair');
+    painted.push(moved());
+    await says('Paint over what is to be repaired');
+  }
+  for (const nodes of painted) assert.ok(nodes.length > 3 && nodes.length < all / 10, `${nodes}`);
+  assert.ok(!painted[0].some((n) => painted[1].includes(n)), 'the second repair leaves the first one as it is');
+  assert.ok(greatestDistance(shapes.at(-1), await byItsRules()) < 1e-12);
 
-  await says('Paint over what is to be repaired');
-  await paint([0.46, 0.5], [0.5, 0.5]);
-  await says(/^Moves [1-9]\d* nodes, at most by/);
-  await way('Apply').click();
-  await undo().and(page.locator('[title*="Repair"]')).waitFor();
-  await way('Done').click();
-  await settled(page);
-  const two = placesOf((await saved(page)).path);
-  for (const n of first) assert.deepEqual(two[n], one[n], 'the first region stays as it was repaired');
-  assert.ok(moved(two, one).length > 3, 'the second one has moved');
-  const rules = join(session.folder, 'rules.json');
-  writeFileSync(rules, await rulesOf(page));
-  assert.ok(greatestDistance(two, nativelyFair(file, '--constraints', rules)) < 6e-5);
+  // What is tried is kept as a node is pulled.
+  await way('Smooth it').click();
+  await page.getByLabel('Tolerance', { exact: true }).fill('0.002');
+  await page.getByLabel('Tolerance', { exact: true }).press('Enter');
+  await tried();
+  const { x, y, node } = await find(page, /Node \d+ /, [0.36, 0.62], [0.42, 0.66]);
+  await page.mouse.click(x, y);
+  await drag(page, { x, y }, 0, -30);
+  await done('Move node');
+  const far = (n) => Math.hypot(...shapes.at(-1)[n].map((part, i) => part - shapes[3][n][i]));
+  const near = [...shapes[0].keys()].filter((n) => Math.hypot(...shapes[0][n].map((part, i) => part - shapes[0][node][i])) < 0.15);
+  assert.ok(near.length > 4 && near.every((n) => far(n) > 0.4 * far(node)), 'what is next to the node goes along');
+  assert.ok(greatestDistance(shapes.at(-1), await byItsRules()) < 0.005, 'free nodes may lie elsewhere along the same surface');
+  await undo().click();
+  await undo().and(page.locator('[title*="Smooth within 0.002"]')).waitFor();
+  await undo().click();
+  shapes.pop();
 
-  // As by the button that fairs what is picked.
   await page.keyboard.press('w');
   await paint([0.36, 0.6], [0.42, 0.66]);
   await way('Fair only these nodes').click();
-  await undo().and(page.locator('[title*="Fair only"]')).waitFor();
-  await settled(page);
-  const three = placesOf((await saved(page)).path);
-  assert.ok(moved(three, two).length > 3);
-  for (const n of first) assert.deepEqual(three[n], one[n]);
-  for (const expected of [two, one, input]) {
+  await done('Fair only');
+  assert.ok(moved().length > 3 && moved().length < all / 10);
+  for (const expected of shapes.slice(0, -1).reverse()) {
     await undo().click();
     await settled(page);
     assert.ok(greatestDistance(placesOf((await saved(page)).path), expected) < 1e-12);
@@ -110,6 +158,38 @@ test('regions accumulate, each with its own undo; what moves nothing says so', a
   await page.keyboard.press('f');
   await way('Fair only these nodes').click();
   await page.locator('#status', { hasText: 'Nothing moves: all of it is held' }).waitFor();
+});
+
+test('undo in a repair takes back its strokes, and only then what was applied', async () => {
+  const input = placesOf(session.generated('plate.obj', 'saddle', '--columns', '30', '--rows', '30', '--noise', '0.01'));
+  await open('?file=files/plate.obj', { untouched: true });
+  const picked = () => page.locator('#picked').textContent();
+  const stroke = async (x) => {
+    await paint([x, 0.5], [x + 0.04, 0.5]);
+    await undo().and(page.locator('[title*="Undo: stroke"]')).waitFor();
+    await says(/^Moves [1-9]\d* nodes, at most by/);
+  };
+  await way('Repair a part').click();
+  await stroke(0.3);
+  await way('Apply').click();
+  await undo().and(page.locator('[title*="Undo: Repair"]')).waitFor();
+  await stroke(0.4);
+  const one = await picked();
+  await stroke(0.5);
+  const both = await picked();
+  assert.notEqual(one, both);
+  await undo().click();
+  assert.equal(await picked(), one);
+  await page.getByRole('button', { name: 'Redo' }).click();
+  assert.equal(await picked(), both);
+  await says(/^Moves [1-9]\d* nodes, at most by/);
+  for (let k = 0; k < 2; ++k) await undo().click();
+  assert.equal(await picked(), 'No node picked');
+  await undo().and(page.locator('[title*="Undo: Repair"]')).click();
+  await says('Paint over what is to be repaired');
+  await page.locator('#status', { hasText: 'As it is in the file' }).waitFor();
+  assert.deepEqual(placesOf((await saved(page)).path), input);
+  await stroke(0.4);
 });
 
 test('what was open is brought back by undo: by a file, an example and a new curve over it', async () => {

@@ -99,7 +99,8 @@ export async function visit(page, address) {
 // Where a file is as it came: the fairest shape through its boundary.
 export async function freeForm(page) {
   const free = page.getByRole('button', { name: 'Free form' });
-  if (!(await page.locator('#start').isVisible()) || (await free.isDisabled())) return;
+  const came = page.getByRole('heading', { name: 'It is as in the file' });
+  if (!(await came.isVisible()) || (await free.isDisabled())) return;
   await free.click();
   await keep(page);
 }

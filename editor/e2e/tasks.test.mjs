@@ -95,7 +95,6 @@ test('a hull is faired within 2 mm, from its file to the saved one', async () =>
   await picture(2);
   await act(() => button('Apply').click());
   await settled(page);
-  await act(() => button('Zebra').click());
   await picture(3);
   const fair = await done('the hull', 'fair-hull.obj');
   const path = join(session.folder, 'hull.obj');

@@ -2,6 +2,7 @@
 
 import { sequential } from '../../page/colours.js';
 import { bindCommands, listShortcuts, type Command } from './base/commands';
+import { Entry, wholeNumber } from './base/entry';
 import { acceptDrops, choose, download, fromAddress, stem } from './base/files';
 import { showLoading, type Loading } from './base/loading';
 import { startTheme, switchTheme } from './base/theme';
@@ -9,7 +10,7 @@ import { rove } from './base/toolbar';
 import { bindUnit } from './base/units';
 import type { Report } from './library/protocol';
 import { placesOf } from './shape/shape';
-import { toFile } from './constraints/constraints';
+import { byInput, toFile } from './constraints/constraints';
 import type { Fit } from './constraints/points';
 import { Autosave } from './edit/autosave';
 import { Editor } from './edit/editor';
@@ -29,7 +30,6 @@ import { Looks } from './look/looks';
 import { Marks } from './look/marks';
 import { Dropped } from './start/dropped';
 import { StartPanel } from './start/start_panel';
-import type { Way } from './start/ways';
 import { CurvePanel } from './panels/curve_panel';
 import { Examples } from './panels/examples';
 import { showFor } from './panels/kinds';
@@ -49,7 +49,6 @@ const help = document.getElementById('help') as HTMLDialogElement;
 const format = document.getElementById('format') as HTMLSelectElement;
 const examples = new Examples(document.getElementById('example') as HTMLSelectElement, (...addresses) => void openExample(...addresses));
 const range = document.getElementById('range') as HTMLInputElement;
-const loopCount = document.querySelector<HTMLInputElement>('#loop-nodes input')!;
 const firstExample = 'examples/annulus.obj';
 /** Pixels between nodes from which on each is a target of its own, and where there are fewer a drag turns the view. */
 const distinct = 40;
@@ -81,6 +80,7 @@ const editor: Editor = new Editor({
     fields.move(positions, editor.result, settled);
   },
   changed,
+  leaving: () => start.leave(),
 });
 const opening = new Opening(editor);
 const drawing = new Drawing(canvas, editor, opening, () => view, () => refresh());
@@ -107,7 +107,7 @@ const ways = new Ways(document.getElementById('way')!, {
 });
 const autosave = new Autosave(editor, opening, document.getElementById('restored')!);
 const points = new PointsPanel(editor);
-const start: StartPanel = new StartPanel(document.getElementById('start')!, editor, () => tools, { chosen: wayChosen });
+const start: StartPanel = new StartPanel(document.getElementById('start')!, editor, () => tools, { chosen: toolChanged });
 const numbers = new Numbers(document.getElementById('numbers')!, editor);
 const tilts = new Tilts(canvas, editor, () => view, () => tools.tool === 'pick');
 const gestures = new Gestures(canvas, {
@@ -128,6 +128,7 @@ const gestures = new Gestures(canvas, {
   cancelled: () => { ways.end(); editor.drags.end(false); },
 });
 const view = newView();
+const loopCount = new Entry(document.querySelector<HTMLInputElement>('#loop-nodes input')!, () => wholeNumber(3, 1000), (count) => count !== null && editor.setFairBoundary(true, count));
 const nodes = new Nodes(canvas, editor, () => view.seen(), () => tools.tool === 'pick');
 
 function newView(): View {
@@ -155,15 +156,15 @@ const commands: Command[] = [
     detail: () => (editor.strength < 1 ? `${Math.round(100 * editor.strength)} % of the way from the input` : undefined) },
   { id: 'load-constraints', title: 'Load constraints', keys: [], run: () => choose('.json', open), enabled: opened },
   { id: 'save-constraints', title: 'Save constraints', keys: ['ctrl+shift+s'], enabled: opened,
-    run: () => download(`${stem(editor.name)}-constraints.json`, toFile(editor.constraints)) },
+    run: () => download(`${stem(editor.name)}-constraints.json`, toFile(byInput(editor.shown, editor.shape!, editor.normals))) },
   ...start.commands,
   ...points.commands,
   ...drawing.commands,
   ...nodes.commands,
-  { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => opening.undo(), enabled: () => opening.undoes !== null,
-    detail: () => opening.undoes ?? undefined },
-  { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => opening.redo(), enabled: () => opening.redoes !== null,
-    detail: () => opening.redoes ?? undefined },
+  { id: 'undo', title: 'Undo', keys: ['ctrl+z', 'z'], run: () => (start.undoes ? start : opening).undo(), enabled: () => (start.undoes ?? opening.undoes) !== null,
+    detail: () => start.undoes ?? opening.undoes ?? undefined },
+  { id: 'redo', title: 'Redo', keys: ['ctrl+shift+z', 'ctrl+y', 'y'], run: () => (start.redoes ? start : opening).redo(), enabled: () => (start.redoes ?? opening.redoes) !== null,
+    detail: () => start.redoes ?? opening.redoes ?? undefined },
   { id: 'fix-position', title: 'Fix positions of picked nodes', keys: ['f'], run: () => editor.hold('position', true), enabled: somePicked },
   { id: 'free-position', title: 'Free positions of picked nodes', keys: ['shift+f'], run: () => editor.hold('position', false), enabled: somePicked },
   { id: 'fix-normal', title: 'Fix normals or tangents of picked nodes', keys: ['n'], run: () => editor.hold(editor.direction, true), enabled: somePicked },
@@ -174,7 +175,7 @@ const commands: Command[] = [
   { id: 'boundary-normals', title: 'Fix or free boundary normals or tangents', keys: ['shift+b'], enabled: opened,
     run: () => editor.setBoundary(editor.direction, !editor.isBoundaryFixed(editor.direction)), pressed: () => editor.isBoundaryFixed(editor.direction) },
   { id: 'fair-boundary', title: 'Fair boundary loops, then the surface', keys: ['k'], enabled: () => !isCurve() && (editor.shape?.boundary.includes(1) ?? false),
-    run: () => editor.setFairBoundary(!editor.constraints.fairBoundary, loopNodes()), pressed: () => editor.constraints.fairBoundary ?? false,
+    run: () => editor.setFairBoundary(!editor.constraints.fairBoundary, loopCount.value), pressed: () => editor.constraints.fairBoundary ?? false,
     detail: () => (editor.shape && !editor.shape.boundary.includes(1) ? 'it has no boundary' : undefined) },
   { id: 'comb', title: 'Curvature comb', keys: ['c'], run: () => curves.toggleComb(), enabled: isCurve, pressed: () => curves.comb },
   { id: 'comb-root', title: 'Hairs by the root of the curvature', keys: [], run: () => { curves.toggleRoot(); refresh(); }, enabled: isCurve, pressed: () => curves.root },
@@ -187,6 +188,7 @@ const commands: Command[] = [
   { id: 'zoom-out', title: 'Zoom out', keys: ['-'], run: () => view.zoomBy(0.8) },
   { id: 'escape', title: 'Give up what is dragged, solved or picked', keys: ['escape'], run: escape },
   { id: 'end', title: 'End the solution that runs', keys: [], run: () => editor.cancel(), enabled: () => editor.canEnd },
+  { id: 'go-on', title: 'Solve what was cancelled', keys: [], run: () => editor.settle(), enabled: () => editor.stopped },
   { id: 'theme', title: 'Light or dark', keys: ['t'], run: () => { switchTheme(); view.restyle(); } },
   { id: 'help', title: 'Keyboard shortcuts', keys: ['?'], run: () => help.showModal() },
   { id: 'afresh', title: 'Forget what was restored', keys: [], run: () => void autosave.forget().then(() => openExample(firstExample)).then(() => autosave.begin()) },
@@ -215,7 +217,7 @@ function changed(): void {
 }
 
 function showPoints(): void {
-  const { shape, constraints: { fit }, report } = editor;
+  const { shape, shown: { fit }, report } = editor;
   if ((dotted.fit === fit && dotted.report === report) || (editor.dragging && !report?.distances)) return;
   dotted = { fit, report };
   const distances = report?.distances?.length === (fit?.cloud.positions.length ?? 0) / 3 ? report!.distances! : null;
@@ -227,10 +229,6 @@ function showPoints(): void {
   legend.hidden = !drawn || !distances;
   if (!legend.hidden) showLengths(legend, `Distance of the points${fit!.kind === 'within' ? ', in red beyond the tolerance' : ''}`, sequential, limit);
   view.draw();
-}
-
-function loopNodes(): number {
-  return Math.max(3, Math.round(loopCount.valueAsNumber) || 8);
 }
 
 function told(loading: Loading): void {
@@ -266,6 +264,7 @@ async function save(): Promise<void> {
   const name = `${stem(editor.name)}-fair.${format.value}`;
   try {
     download(name, await editor.written(name));
+    editor.set({ saved: name });
   } catch (error) {
     editor.setFault((error as Error).message, 'file');
   }
@@ -277,11 +276,6 @@ async function begin(): Promise<void> {
   if (file) await openAddress(file);
   else if (!(await autosave.restore())) await openExample(firstExample);
   autosave.begin();
-}
-
-function wayChosen(way: Way | null): void {
-  toolChanged();
-  looks.showDeviation(way === 'smooth' || way === 'free');
 }
 
 function escape(): void {
@@ -306,7 +300,6 @@ bindUnit(document.getElementById('unit') as HTMLSelectElement, () => { fields.se
 bindSymmetry(document.getElementById('symmetry') as HTMLSelectElement, editor);
 bindReach(document.getElementById('reach') as HTMLInputElement, editor);
 bindPresets(document.getElementById('mouse') as HTMLSelectElement, (preset) => view.setPreset(preset));
-loopCount.addEventListener('change', () => editor.setFairBoundary(true, loopNodes()));
 bindStrength(document.querySelector('#strength')!, (share, settled) => editor.setStrength(share, settled));
 rove(document.querySelector('[role=toolbar]')!);
 const dropped = new Dropped(document.getElementById('ask') as HTMLDialogElement, editor, opening, { open, points: (file) => void points.load(file) });
@@ -314,6 +307,7 @@ acceptDrops((hangs) => { document.getElementById('drop')!.hidden = !hangs; }, (f
   editor.set({ loading: null });
   dropped.take(file, alt);
 }, told);
+setInterval(() => { if (editor.busy) describe(editor, coloured); }, 1000);
 startTheme(() => view.restyle());
 view.restyle();
 changed();

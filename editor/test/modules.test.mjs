@@ -90,7 +90,7 @@ test('newer jobs stand for those that wait, and constraints are not lost', async
   assert.deepEqual(ends, [3, 5], 'a slow step of a drag that has ended is not waited for');
 });
 
-test('another worker is told what opened the shape, its points and its newest nodes', async () => {
+test('another worker is told what opened the shape, its points, its newest nodes and where it starts last', async () => {
   const { CoreClient } = await compiled('library/client');
   const workers = [];
   globalThis.self = globalThis;
@@ -110,14 +110,16 @@ test('another worker is told what opened the shape, its points and its newest no
   };
   await answered('open', 'an older file');
   await answered('open', 'file');
-  await answered('nodes', 'before the points');
-  await answered('points', 'cloud');
   await answered('nodes', 'older');
+  await answered('points', 'cloud');
+  await answered('start', 'of the older nodes');
   await answered('nodes', 'newest');
+  await answered('start', 'older');
+  await answered('start', 'newest');
   const given = client.ask('solve', {});
   client.endNow();
   await assert.rejects(given);
-  assert.deepEqual(workers[1].posted.slice(1).map(({ kind, ask }) => [kind, ask]), [['open', 'file'], ['nodes', 'before the points'], ['points', 'cloud'], ['nodes', 'newest']]);
+  assert.deepEqual(workers[1].posted.slice(1).map(({ kind, ask }) => [kind, ask]), [['open', 'file'], ['points', 'cloud'], ['nodes', 'newest'], ['start', 'newest']]);
 });
 
 // A cube of six quads about the origin, its sides all facing outwards.
@@ -218,7 +220,7 @@ test('a drag of many nodes shows what is foreseen, then what is solved, both mov
     let shown = 0;
     const editor = {
       picked: new Set([0]), busy: false, result: start, report: { movingNodes }, shape: { curve: null, scale: 0.01 }, isDraggable: () => true,
-      placeOf: () => [0, 0, 0], dragBegun() {}, nearby: () => null, showDrag() { ++shown; },
+      placeOf: () => [0, 0, 0], leaveTrial() {}, dragBegun() {}, nearby: () => null, showDrag() { ++shown; },
     };
     const drags = new Drags(editor, { push: ({ drag }) => asked.push(drag) });
     drags.begin('position', 0, 0);

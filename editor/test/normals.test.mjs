@@ -34,10 +34,11 @@ test('a way along an axis is the one that is seen nearest to the pointer', () =>
   near(along([0, 1, 0], right, down, 50, -30), [0, 0, 0]);
 });
 
-test('numbers are read as people type them', () => {
-  assert.deepEqual(vectorOf(['1', '−2.5', '']), [1, -2.5, 0]);
-  assert.deepEqual(vectorOf(['0,5', '1e-3', '0']), [0.5, 0.001, 0]);
-  for (const wrong of [['', '', ''], ['1', 'x', '2'], ['1', '', 'Infinity']]) assert.equal(vectorOf(wrong), null);
+test('numbers are read as people type them; of what is none it is said what to do', () => {
+  const any = { words: 'numbers', takes: Number.isFinite };
+  assert.deepEqual(vectorOf(['1', '−2.5', ''], any), [1, -2.5, 0]);
+  assert.deepEqual(vectorOf(['0,5', '1e-3', '0'], any), [0.5, 0.001, 0]);
+  for (const wrong of [['', '', ''], ['1', 'x', '2'], ['1', '', 'Infinity'], ['1', '5 mm', '0']]) assert.equal(vectorOf(wrong, any), 'Give numbers');
 });
 
 test('what the library advises is said in words of the editor', () => {

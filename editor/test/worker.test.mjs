@@ -69,7 +69,7 @@ function request(draw, nodes) {
   const rules = () => (wrongly ? draw.one('', '[', '{"rules": [{"nodes": [99999], "position": "fixed"}]}', held.replace('fixed', 'loose')) : draw.one(held, '{"rules": [{"nodes": "all", "position": "fixed"}]}', '{"rules": []}'));
   const drag = () => ({ part: draw.one('position', 'normal', 'tangent'), nodes: Int32Array.of(node), vectors: places(1), way: [0, 0, 0.1], time: 0, rough: draw.one(true, false, undefined) });
   const fit = () => draw.one(null, undefined, { points: draw.below(3), kind: draw.one('within', 'rms', 'weight', 'smoothingLength'), value: draw.one(0.1, 1, 0, -1), outliers: 0 });
-  switch (draw.one('open', 'draw', 'hold', 'points', 'region', 'noise', 'solve', 'solve', 'solve', 'curvatures', 'write')) {
+  switch (draw.one('open', 'draw', 'hold', 'points', 'start', 'region', 'noise', 'solve', 'solve', 'solve', 'curvatures', 'write')) {
     case 'open':
       return ['open', { name: draw.one('a.obj', 'a.obj', 'a.csv', 'a.ply', 'a', ''), bytes: bytesOf(wrongly ? 'v 0 0 zero' : draw.one(grid(draw), '0,0\n1,1\n2,0\n3,1\n4,0')), rules: rules() }];
     case 'draw':
@@ -77,7 +77,9 @@ function request(draw, nodes) {
     case 'hold':
       return ['hold', { rules: rules() }];
     case 'points':
-      return ['points', { number: draw.below(3), name: 'p.xyz', bytes: draw.one(null, bytesOf('0 0 0\n1 1 0.2\n'), bytesOf('no points')) }];
+      return ['points', { number: draw.below(3), from: draw.one(places(3), { name: 'p.xyz', bytes: draw.one(bytesOf('0 0 0\n1 1 0.2\n'), bytesOf('no points')) }) }];
+    case 'start':
+      return ['start', draw.one(null, places(wrongly ? nodes + 1 : nodes))];
     case 'region':
       return ['region', { rules: rules(), nodes: Int32Array.of(node), positions: places(wrongly ? nodes + 1 : nodes) }];
     case 'noise':
@@ -91,9 +93,11 @@ function request(draw, nodes) {
   }
 }
 
+// One for all tests: its module runs but once.
+const worker = await startWorker();
+let number = 0;
+
 test('any sequence of messages is answered, each once, and the shape stays usable', async () => {
-  const worker = await startWorker();
-  let number = 0;
   let messages = 0;
   let nodes = 0;
   for (let seed = firstSeed; seed < firstSeed + sequences; ++seed) {
@@ -128,4 +132,22 @@ test('any sequence of messages is answered, each once, and the shape stays usabl
     messages += 4;
   }
   if (sequences > 1000) console.log(`${sequences} sequences, ${messages} messages`);
+});
+
+test('what starts elsewhere is solved from there to the last digit, whatever the file is, and is written as the file', async () => {
+  const all = '{"rules": [{"nodes": "all", "position": "fixed"}]}';
+  const stl = 'solid mine\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid mine\n';
+  const gpx = '<gpx version="1.1"><trk><trkseg>' + [0, 1, 2, 3].map((k) => `<trkpt lat="47.${k}" lon="8.${k * k}"><time>2020-01-01T00:00:0${k}Z</time></trkpt>`).join('') + '</trkseg></trk></gpx>';
+  for (const [name, text, kept] of [['a.stl', stl, 'solid mine'], ['a.obj', `# mine\n${grid(drawFrom(3))}`, '# mine'], ['a.gpx', gpx, '2020-01-01T00:00:03Z']]) {
+    const { answer: { positions } } = await worker.ask(++number, 'open', { name, bytes: bytesOf(text), rules: all });
+    // Some nodes nearly at one place.
+    const start = positions.map((part, k) => 1 / 3 + 1e-9 * part + 1e-12 * k);
+    await worker.ask(++number, 'start', start);
+    const { answer: solved } = await worker.ask(++number, 'solve', { rules: all });
+    assert.deepEqual(solved.positions, start, name);
+    const { answer: bytes } = await worker.ask(++number, 'write', { name, positions });
+    assert.ok(new TextDecoder().decode(bytes).includes(kept), name);
+    await worker.ask(++number, 'start', null);
+    assert.deepEqual((await worker.ask(++number, 'solve', { rules: all })).answer.positions, positions, name);
+  }
 });

@@ -26,9 +26,9 @@ function shown(key: string): string {
 /** Whether the key means something to what has the focus. */
 function takes(target: EventTarget | null, key: string): boolean {
   if (target instanceof HTMLInputElement && target.type === 'range') return key === 'home';
-  if (key.startsWith('ctrl+')) return false;
-  return target instanceof HTMLSelectElement || target instanceof HTMLTextAreaElement
-    || (target instanceof HTMLInputElement && !['checkbox', 'radio', 'button'].includes(target.type));
+  const typed = target instanceof HTMLTextAreaElement || (target instanceof HTMLInputElement && !['checkbox', 'radio', 'button'].includes(target.type));
+  if (key.startsWith('ctrl+')) return typed && key === 'ctrl+a';
+  return typed || target instanceof HTMLSelectElement;
 }
 
 /** Binds every element with data-command, and the keys. Returns what brings the buttons up to date. */

@@ -11,6 +11,13 @@ function kept(): string {
   }
 }
 
+const metres: Record<string, number> = { mm: 0.001, cm: 0.01, m: 1, in: 0.0254, ft: 0.3048 };
+
+/** How many units of the file one of that name is. */
+export function inUnitOfFile(name: string): number {
+  return metres[name] / metres[unit];
+}
+
 /** Empty where nobody has said. */
 export function unitOf(): string {
   return unit;

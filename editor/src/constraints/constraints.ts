@@ -34,6 +34,8 @@ export interface Constraints {
   readonly loopNodes?: readonly number[];
   /** In no file either: points that the shape is drawn towards. */
   readonly fit?: Fit;
+  /** In no file either: the shape that was applied, which all is solved from in place of the input. */
+  readonly start?: Float64Array;
   /** In no file either: the nodes of a curve, which all else here numbers, where some were inserted or deleted. */
   readonly curve?: CurveNodes;
 }
@@ -41,6 +43,11 @@ export interface Constraints {
 export const initial: Constraints = { rules: [{ nodes: 'boundary', position: 'fixed' }], edits: {} };
 /** As a file is opened: nothing moves, until it is said what is to. */
 export const untouched: Constraints = { ...initial, region: [{ nodes: 'all', position: 'fixed' }] };
+
+/** A shape that has come about is the one that all starts from; what drew it there does so no longer. */
+export function baked(constraints: Constraints, start: Float64Array | undefined): Constraints {
+  return { ...constraints, region: untouched.region, fit: undefined, start };
+}
 
 export function isUntouched({ region }: Constraints): boolean {
   return region === untouched.region || region?.[0]?.nodes === 'all';
@@ -74,6 +81,30 @@ function byHand(edits: Constraints['edits']): Rule[] {
     if (given.length > 0) found.push({ nodes: given, [part]: given.map((node) => edits[node][part]) });
   }
   return found;
+}
+
+/** The same for whoever has only the file of the input: what is fixed as it is where all starts is said by numbers. directions: of normals or tangents that are held. */
+export function byInput(constraints: Constraints, { input, boundary }: { input: Float64Array; boundary: Uint8Array }, directions: ReadonlyMap<number, Vector>): Constraints {
+  const { start } = constraints;
+  if (!start) return constraints;
+  const place = (node: number): Vector => [...start.subarray(3 * node, 3 * node + 3)] as Vector;
+  const moved = (node: number): boolean => place(node).some((part, i) => part !== input[3 * node + i]);
+  const spelled = (rule: Rule): Rule[] => {
+    const among = [...(nodesOf(rule.nodes, boundary) ?? [])];
+    const pieces: Rule[] = [];
+    const rest: Rule = { ...rule };
+    for (const part of parts) {
+      const given = among.filter((node) => (part === 'position' ? moved(node) : directions.has(node)));
+      if (rule[part] !== 'fixed' || given.length === 0) continue;
+      delete rest[part];
+      const numbered = new Set(given);
+      const others = among.filter((node) => !numbered.has(node));
+      pieces.push({ nodes: given, [part]: given.map((node) => (part === 'position' ? place(node) : directions.get(node))) });
+      if (others.length > 0) pieces.push({ nodes: others, [part]: 'fixed' });
+    }
+    return Object.keys(rest).length > 1 ? [rest, ...pieces] : pieces;
+  };
+  return { rules: allRules(constraints).flatMap(spelled), edits: {} };
 }
 
 /** Numbers come out so that they are read as the same ones. */

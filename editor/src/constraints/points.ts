@@ -1,17 +1,20 @@
 // Scattered points that the shape is drawn towards, and how.
 
+import type { NamedBytes } from '../base/files';
 import type { FitSettings } from '../library/protocol';
 
-/** Of a file; without bytes the nodes of the input. */
-export interface PointSource {
+/** Points as the worker knows them by their number; without bytes they were nodes of the shape itself. */
+export interface Cloud {
+  number: number;
   name: string;
   bytes: Uint8Array | null;
+  positions: Float64Array;
 }
 
-/** Points as the worker knows them by their number. */
-export interface Cloud extends PointSource {
-  number: number;
-  positions: Float64Array;
+export type PointSource = NamedBytes | Float64Array;
+
+export function sourceOf({ name, bytes, positions }: Cloud): PointSource {
+  return bytes ? { name, bytes } : positions;
 }
 
 /** Part of what holds: undo takes it back. */

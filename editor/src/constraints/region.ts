@@ -5,12 +5,12 @@ import type { Region } from '../library/protocol';
 import { isUntouched, ownRules, type Constraints, type Rule } from './constraints';
 import type { Renumbered } from './nodes';
 
-/** In place of what another region held: what that one has moved stays as it is seen. input, seen: positions. */
-export function restricted(constraints: Constraints, nodes: Iterable<number>, { fixed, rim, normals, tangents }: Region, input: Float64Array, seen: Float64Array): Constraints {
+/** In place of what another region held: what that one has moved stays as it is seen. start: the positions from which all is solved. */
+export function restricted(constraints: Constraints, nodes: Iterable<number>, { fixed, rim, normals, tangents }: Region, start: Float64Array, seen: Float64Array): Constraints {
   const place = (node: number): Vector => [...seen.subarray(3 * node, 3 * node + 3)] as Vector;
-  const moved = (node: number): boolean => [0, 1, 2].some((i) => seen[3 * node + i] !== input[3 * node + i]);
+  const moved = (node: number): boolean => [0, 1, 2].some((i) => seen[3 * node + i] !== start[3 * node + i]);
   const inside = new Set(nodes);
-  const outside = [...Array(input.length / 3).keys()].filter((node) => !inside.has(node));
+  const outside = [...Array(start.length / 3).keys()].filter((node) => !inside.has(node));
   const held = new Set(fixed);
   const region: Rule[] = [];
   const still = outside.filter((node) => held.has(node) && !moved(node));

@@ -1,6 +1,7 @@
 // Curves that are drawn: the tool, and what is said of it in the page.
 
 import type { Command } from '../base/commands';
+import { Entry, wholeNumber } from '../base/entry';
 import type { Vector } from '../base/vectors';
 import type { Editor } from '../edit/editor';
 import type { Opening } from '../edit/opening';
@@ -11,7 +12,7 @@ import { Preview } from './preview';
 export class Drawing {
   private normal: Vector = [0, 0, 1];
   private readonly hint = document.getElementById('hint')!;
-  private readonly perSpan = document.getElementById('per-span') as HTMLInputElement;
+  private readonly perSpan: Entry;
   private readonly tool: DrawTool;
   private sketched: readonly Vector[] = [];
   private readonly preview: Preview;
@@ -32,8 +33,8 @@ export class Drawing {
         if (nodes.length > 0) void opening.draw(nodes, closed, this.nodesPerSpan);
       },
     });
-    this.perSpan.addEventListener('change', () => {
-      if (editor.drawn) opening.redraw(this.closed, this.nodesPerSpan);
+    this.perSpan = new Entry(document.getElementById('per-span') as HTMLInputElement, () => wholeNumber(1, 1000), (nodes) => {
+      if (nodes !== null && editor.drawn) opening.redraw(this.closed, nodes);
     });
   }
 
@@ -51,7 +52,7 @@ export class Drawing {
   }
 
   private get nodesPerSpan(): number {
-    return Math.min(1000, Math.max(1, Math.round(Number(this.perSpan.value) || 20)));
+    return this.perSpan.value;
   }
 
   /** Where nothing is open, in the plane z = 0, seen from above; else in the plane of the view through the origin. */

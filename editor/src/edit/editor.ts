@@ -26,6 +26,8 @@ export interface EditorEvents {
   opened: (shape: Shape, stays: boolean) => void;
   /** What is open has other nodes. */
   renumbered: (shape: Shape) => void;
+  /** What is tried is to be kept, or given up, as something else begins. */
+  leaving: () => void;
   /** Another shape is to be seen; settled: it is not one of many during a drag. */
   shape: (positions: Float64Array, settled: boolean) => void;
   /** Anything else that is shown has changed. */
@@ -56,8 +58,12 @@ export class Editor {
   /** Whether the pointer is at the arrow of that node. */
   atArrow = false;
   busy = false;
+  /** When it became that, or rested. */
+  since = 0;
   /** A file waits for its shape. */
   saving = false;
+  /** The name under which what is seen was saved. */
+  saved: string | null = null;
   fraction = 0;
   showsInput = false;
   /** What is being opened. */
@@ -79,6 +85,8 @@ export class Editor {
   seen: Float64Array = this.positions;
   /** Whether that was shown for more than a moment. */
   private rests = true;
+  /** Where the worker starts from; undefined: the input. */
+  private started: Float64Array | undefined = undefined;
   /** Numbers of points that are known to the worker. */
   clouds = 0;
   source: Source | null = null;
@@ -88,15 +96,29 @@ export class Editor {
     failed: (message) => this.setFault(message, 'solver'),
     ended: () => { this.report = cancelled; },
     progress: (fraction) => this.set({ fraction }),
-    busy: (busy) => this.set({ busy, fraction: 0 }),
+    busy: (busy) => {
+      this.since = performance.now();
+      this.set({ busy, fraction: 0 });
+    },
   });
 
   readonly drags = new Drags(this, this.solver);
 
   constructor(private readonly events: EditorEvents) {}
 
+  /** What holds by all steps. */
   get constraints(): Constraints {
-    return this.tried ?? this.history.now.state;
+    return this.history.now.state;
+  }
+
+  /** The same, or what is tried in its place. */
+  get shown(): Constraints {
+    return this.tried ?? this.constraints;
+  }
+
+  /** The positions from which all is solved. */
+  get start(): Float64Array {
+    return this.constraints.start ?? this.shape!.input;
   }
 
   /** How far what is tried moves a node. */
@@ -121,11 +143,16 @@ export class Editor {
     return this.drags.part !== null;
   }
 
+  /** Whether the shape is not what holds makes of it, as that was cancelled. */
+  get stopped(): boolean {
+    return this.report?.outcome === 'cancelled' && !this.busy && !this.dragging;
+  }
+
   get canEnd(): boolean {
     return this.saving || (this.busy && !this.dragging);
   }
 
-  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'hovered' | 'picked' | 'fault' | 'loading' | 'reach'>>): void {
+  set(state: Partial<Pick<Editor, 'atArrow' | 'busy' | 'fraction' | 'saving' | 'saved' | 'hovered' | 'picked' | 'fault' | 'loading' | 'reach'>>): void {
     Object.assign(this, state);
     this.events.changed();
   }
@@ -152,6 +179,7 @@ export class Editor {
     this.normals = new Map();
     this.history = history;
     this.tried = null;
+    this.started = undefined;
     this.loading = null;
     this.shape = shapeOf(opened);
     this.positions = this.seen = opened.positions;
@@ -177,10 +205,10 @@ export class Editor {
     this.events.changed();
   }
 
-  async cloudOf({ name, bytes }: PointSource): Promise<Cloud> {
+  async cloudOf(from: PointSource): Promise<Cloud> {
     const number = ++this.clouds;
-    const { positions } = await this.client.ask('points', { number, name, bytes });
-    return { number, name, bytes, positions };
+    const { positions } = await this.client.ask('points', { number, from });
+    return { number, positions, ...('bytes' in from ? { name: from.name, bytes: from.bytes } : { name: '', bytes: null }) };
   }
 
   toggleInput(): void {
@@ -199,6 +227,7 @@ export class Editor {
 
   show(state: Partial<Pick<Editor, 'showsInput' | 'strength'>>, settled: boolean): void {
     Object.assign(this, state);
+    this.saved = null;
     this.seen = this.drags.shape ?? between(this.shape!.input, this.positions, this.showsInput ? 0 : this.strength);
     this.rests = settled;
     this.events.shape(this.seen, settled);
@@ -249,16 +278,29 @@ export class Editor {
       holding.edited(this.constraints, this.picked, change));
   }
 
-  /** All nodes but these stay where they are seen, and what moves joins them smoothly. Null where something else has been done meanwhile. */
-  async restrictedTo(nodes: ReadonlySet<number>): Promise<Constraints | null> {
+  /** What is seen, or was before something was tried, is what all is to start from, and holds until more is said. */
+  async begun(): Promise<Constraints> {
+    const seen = await this.settledShape();
+    const { constraints, shape } = this;
+    const isSeen = (start: Float64Array | undefined): boolean => furthest(start ?? shape!.input, seen) === 0;
+    return holding.baked(constraints, isSeen(undefined) ? undefined : isSeen(constraints.start) ? constraints.start : seen);
+  }
+
+  private async settledShape(): Promise<Float64Array> {
     if (!this.tried) await this.solver.rest();
-    const { history, shape } = this;
-    const constraints = history.now.state;
     const { positions, strength } = this.tried ? this.before : { positions: this.positions, strength: this.strength };
-    const seen = between(shape!.input, positions, strength);
+    return between(this.shape!.input, positions, strength);
+  }
+
+  /** All nodes but these stay where they are seen, and what moves joins them smoothly. Null where something else has been done meanwhile. */
+  async restrictedTo(nodes: ReadonlySet<number>, from?: Constraints): Promise<Constraints | null> {
+    const seen = await this.settledShape();
+    const { history, shape } = this;
+    const constraints = from ?? history.now.state;
+    this.startFrom(constraints.start);
     const rules = holding.toFile({ ...constraints, region: null });
     const region = await this.client.ask('region', { rules, nodes: Int32Array.from(nodes), positions: seen });
-    return history === this.history && shape === this.shape ? restricted(constraints, nodes, region, shape!.input, seen) : null;
+    return history === this.history && shape === this.shape ? restricted(constraints, nodes, region, constraints.start ?? shape!.input, seen) : null;
   }
 
   async fairOnlyPicked(): Promise<void> {
@@ -279,18 +321,28 @@ export class Editor {
     if (constraints === this.tried) return;
     const { positions, strength, report } = this;
     if (!this.tried) this.before = { positions, strength, report };
+    if (!constraints) this.giveUp();
     this.tried = constraints;
-    if (!constraints) Object.assign(this, this.before);
     this.show({ strength: constraints ? 1 : this.strength, showsInput: false }, true);
     this.settle();
   }
 
-  /** What is tried becomes a step, with the shape that it has. */
-  accept(label: string): void {
-    if (!this.tried) return;
-    this.history = done(this.history, label, this.tried);
+  private giveUp(): void {
+    if (this.tried) Object.assign(this, this.before);
     this.tried = null;
-    this.events.changed();
+  }
+
+  /** What is tried becomes a step, with the shape that it has. bakes: that is the one from which all starts from then on. */
+  accept(label: string, bakes: boolean): void {
+    if (!this.tried) return;
+    this.history = done(this.history, label, bakes ? holding.baked(this.tried, this.positions) : this.tried);
+    this.tried = null;
+    if (bakes) this.settle();
+    else this.events.changed();
+  }
+
+  leaveTrial(): void {
+    if (this.tried) this.events.leaving();
   }
 
   /** How much of the size around what is pulled goes with it; 1: all. */
@@ -328,7 +380,14 @@ export class Editor {
   }
 
   private get holds(): Job {
-    return this.jobOf(this.constraints);
+    return this.jobOf(this.shown);
+  }
+
+  /** What is solved from now on starts there; undefined: at the input. */
+  startFrom(start: Float64Array | undefined): void {
+    if (start === this.started) return;
+    this.started = start;
+    this.client.ask('start', start ?? null).catch((error: Error) => this.setFault(error.message, 'solver'));
   }
 
   jobOf(constraints: Constraints): Job {
@@ -365,8 +424,8 @@ export class Editor {
 
   travel(history: History<Constraints>): void {
     const other = history.now.state.curve !== this.history.now.state.curve;
+    this.giveUp();
     this.history = history;
-    this.tried = null;
     if (other) void this.takeNodes();
     else this.settle();
   }
@@ -380,7 +439,8 @@ export class Editor {
   renumber(label: string, changed: Renumbered, picked: readonly number[]): void {
     this.try(null);
     const { history, positions, seen } = this;
-    const held = { ...holding.renumbered(history.now.state, changed.now), curve: changed.curve };
+    const { start } = history.now.state;
+    const held = { ...holding.renumbered(history.now.state, changed.now), curve: changed.curve, start: start && changed.carried(start) };
     this.history = done(history, label, keepingAdded(held, changed, changed.carried(seen)));
     void this.takeNodes(changed.carried(positions), picked);
   }
@@ -393,7 +453,9 @@ export class Editor {
     this.drags.drop();
     this.set({ picked: new Set(), hovered: -1, atArrow: false });
     try {
-      const opened = await this.client.ask('nodes', curve ?? null);
+      const asked = this.client.ask('nodes', curve ?? null);
+      this.started = undefined;
+      const opened = await asked;
       // Something else may have been done meanwhile.
       if (source !== this.source || curve !== this.history.now.state.curve) return;
       this.shape = shapeOf(opened);
@@ -410,7 +472,9 @@ export class Editor {
 
   settle(): void {
     if (!this.shape) return;
-    this.held = holding.heldNodes(this.constraints, this.shape.boundary);
+    this.saved = null;
+    this.held = holding.heldNodes(this.shown, this.shape.boundary);
+    this.startFrom(this.shown.start);
     this.solver.push(this.holds);
     this.events.changed();
   }

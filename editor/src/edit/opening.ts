@@ -7,7 +7,7 @@ import { counted } from '../base/words';
 import type { Constraints, Edit } from '../constraints/constraints';
 import type { Opened } from '../library/protocol';
 import * as holding from '../constraints/constraints';
-import type { Fit } from '../constraints/points';
+import { sourceOf, type Fit } from '../constraints/points';
 import { Documents, type Document } from './documents';
 import { nameOf, type Editor } from './editor';
 import { begun, redone, undone } from './history';
@@ -79,9 +79,9 @@ export class Opening {
     if (state.curve) opened = await client.ask('nodes', state.curve);
     const clouds = new Set([...history.past, history.now, ...history.future].flatMap(({ state }) => state.fit?.cloud ?? []));
     for (const cloud of clouds) {
-      const { number, name, bytes } = cloud;
-      await client.ask('points', { number, name, bytes });
-      this.editor.clouds = Math.max(this.editor.clouds, cloud.number);
+      const { number } = cloud;
+      await client.ask('points', { number, from: sourceOf(cloud) });
+      this.editor.clouds = Math.max(this.editor.clouds, number);
     }
     this.editor.take(source, opened, history);
     this.editor.show({ strength }, true);
@@ -107,7 +107,7 @@ export class Opening {
       this.leave();
       const kept = [...opened.from.keys()].filter((node) => opened.from[node] >= 0);
       const held = holding.edited(holding.initial, kept, (node) => ({ ...edit(opened.from[node]), position: places[opened.from[node]] }));
-      this.editor.take(source, opened, begun({ ...held, fit: fit && { ...fit, cloud: await this.editor.cloudOf(fit.cloud) } }));
+      this.editor.take(source, opened, begun({ ...held, fit: fit && { ...fit, cloud: await this.editor.cloudOf(fit.cloud.bytes ? sourceOf(fit.cloud) : opened.positions) } }));
     } catch (error) {
       this.editor.setFault((error as Error).message, 'file');
     }

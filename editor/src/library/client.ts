@@ -21,7 +21,7 @@ export class CoreClient {
   private readonly ended = self.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(8)) : null;
   private last = 0;
 
-  /** What opened the shape, changed its nodes and read its points, and what held it last: all that another worker has to know. */
+  /** What opened the shape, changed its nodes, says where it starts and read its points, and what held it last: all that another worker has to know. */
   private sources: Request[] = [];
   private holds: Job = {};
   private anew = false;
@@ -96,9 +96,10 @@ export class CoreClient {
 
   private keep(request: Request): void {
     if (request.kind === 'open' || request.kind === 'draw') this.sources = [request];
-    // Newer nodes stand for older ones, as far as no points were those of the older ones.
-    if (request.kind === 'nodes' && this.sources.at(-1)?.kind === 'nodes') this.sources.pop();
-    if (request.kind === 'points' || request.kind === 'nodes') this.sources.push(request);
+    // Newer ones stand for older ones, and other nodes start at the input.
+    const gone: Partial<Record<Kind, readonly Kind[]>> = { nodes: ['nodes', 'start'], start: ['start'], points: [] };
+    const replaced = gone[request.kind];
+    if (replaced) this.sources = [...this.sources.filter(({ kind }) => !replaced.includes(kind)), request];
   }
 
   private receive(reply: Reply): void {

@@ -1,5 +1,6 @@
 // What the page asks of the worker, and what it answers. Arrays are handed over, not copied.
 
+import type { NamedBytes } from '../base/files';
 import type { Vector } from '../base/vectors';
 
 /** What may be held of a node; tangents are those of curves. */
@@ -126,11 +127,13 @@ export interface Requests {
   nodes: { ask: CurveNodes | null; answer: OpenedCurve };
   /** Throws, and leaves what held, where the rules are refused. */
   hold: { ask: { rules: string }; answer: null };
-  /** Reads scattered points, which the jobs name by that number; without bytes they are the nodes of the input. Another shape has none. */
-  points: { ask: { number: number; name: string; bytes: Uint8Array | null }; answer: { positions: Float64Array } };
+  /** All that is solved starts from there; null: from the input. Nothing holds it then. */
+  start: { ask: Float64Array | null; answer: null };
+  /** Takes scattered points, which the jobs name by that number, from a file or as nodes of the shape itself. Another shape has none. */
+  points: { ask: { number: number; from: NamedBytes | Float64Array }; answer: { positions: Float64Array } };
   /** Of a shape of those positions. */
   region: { ask: { rules: string; nodes: Int32Array; positions: Float64Array }; answer: Region };
-  /** The standard deviation of the nodes of the input, as far as that can be told; else 0. */
+  /** The standard deviation of the nodes where all starts from, as far as that can be told; else 0. */
   noise: { ask: null; answer: number };
   solve: { ask: Job; answer: Solved };
   curvatures: { ask: { positions: Float64Array }; answer: Curvatures };

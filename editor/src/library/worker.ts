@@ -7,12 +7,16 @@ import { endedAll, endedSolution, type Answer, type Ask, type Drag, type HeldNor
 declare function postMessage(reply: Reply, transfer?: Transferable[]): void;
 
 let core: Core;
+/** What is open, with all that its file carries. */
+let file: CoreSurface | CoreCurve | null = null;
+/** What is solved: that, or another one of the same nodes that starts elsewhere. */
 let shape: CoreSurface | CoreCurve | null = null;
+/** The number that each node of a curve had when it was opened. */
+let from: Int32Array | null = null;
 /** Makes the curve that is open once more, as it was opened. */
 let anew: (() => CoreCurve) | null = null;
 let ended: Int32Array | null = null;
 const fits = new Fits();
-let input: Float64Array = new Float64Array();
 
 /** Of a shape that nobody has looked at. */
 const rough: Report = { outcome: 'foreseen', iterations: 0, seconds: 0, threads: 1, expectedError: null, movingNodes: 0, warnings: [] };
@@ -26,9 +30,35 @@ function opened(): CoreSurface | CoreCurve {
 }
 
 function take(next: CoreSurface | CoreCurve): void {
-  shape?.delete();
-  shape = next;
-  input = next.positions();
+  startAtInput();
+  file?.delete();
+  file = shape = next;
+  from = null;
+}
+
+function startAtInput(): void {
+  if (shape !== file) shape?.delete();
+  shape = file;
+}
+
+/** The same nodes elsewhere. OBJ keeps all digits, and what rules may name: groups and normals. */
+function moved(positions: Float64Array): CoreSurface | CoreCurve {
+  const name = 'start.obj';
+  if ('faceBegin' in file!) return new core.Surface(written(file, name, positions), name);
+  const { chainBegin, chainNodes, closed } = describeCurve(file!);
+  const curve = anew!();
+  curve.setNodes(positions, chainBegin, chainNodes, closed, from ?? Int32Array.from({ length: positions.length / 3 }, (_, node) => node));
+  return curve;
+}
+
+function written(target: CoreSurface | CoreCurve, name: string, positions: Float64Array): Uint8Array {
+  const before = target.positions();
+  target.setPositions(positions);
+  try {
+    return target.write(name);
+  } finally {
+    target.setPositions(before);
+  }
 }
 
 function drawn({ places, closed, nodes }: Ask<'draw'>): { curve: CoreCurve; from: Int32Array } {
@@ -96,15 +126,23 @@ const handlers: Handlers = {
     const next = anew();
     if (ask) next.setNodes(ask.positions, ask.chainBegin, ask.chainNodes, ask.closed, ask.from);
     take(next);
+    from = ask?.from ?? null;
     return describeCurve(next);
+  },
+  start(positions) {
+    opened();
+    startAtInput();
+    if (positions) shape = moved(positions);
+    return null;
   },
   hold({ rules }) {
     opened().setRules(rules);
     return null;
   },
-  points({ number, name, bytes }) {
+  points({ number, from }) {
+    const own = ArrayBuffer.isView(from);
     // As the program does: a shape that is drawn to its own nodes leaves them about where they are.
-    return { positions: fits.add(number, bytes ? new core.Points(bytes, name) : core.Points.at(input), !bytes) };
+    return { positions: fits.add(number, own ? core.Points.at(from) : new core.Points(from.bytes, from.name), own) };
   },
   region({ rules, nodes, positions }) {
     opened().setRules(rules);
@@ -130,14 +168,8 @@ const handlers: Handlers = {
     return (opened() as CoreSurface).curvatures(positions);  // nobody asks it of curves
   },
   write({ name, positions }) {
-    const target = opened();
-    const before = target.positions();
-    target.setPositions(positions);
-    try {
-      return target.write(name);
-    } finally {
-      target.setPositions(before);
-    }
+    opened();
+    return written(file!, name, positions);
   },
 };
 

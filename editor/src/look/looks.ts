@@ -13,7 +13,6 @@ const titles: Record<Look, string> = { shaded: 'Shaded', wire: 'Wire', zebra: 'Z
 
 export class Looks {
   look: Look = 'shaded';
-  private before: Look | null = null;
   private edges = false;
 
   /** wipe, lamps: the sliders between input and result and of reflection lines, in their cards. changed: the buttons are to be brought up to date. */
@@ -53,18 +52,6 @@ export class Looks {
     this.marks.refresh(which, false);
     this.fields.choose(fieldNames.find((name) => name === which) ?? null);
     this.changed();
-  }
-
-  /** What would move is coloured by how far while something is tried. */
-  showDeviation(tries: boolean): void {
-    if (this.editor.shape?.curve) return;
-    if (tries) {
-      this.before ??= this.look;
-      this.set('deviation');
-    } else if (this.before) {
-      this.set(this.before);
-      this.before = null;
-    }
   }
 
   private showLamps(): void {

@@ -1,33 +1,37 @@
 // Positions and normals, or tangents, of picked nodes as numbers; Enter applies them.
 
+import { numberIn, shownNumber, type Wanted } from '../base/entry';
+import { unitOf } from '../base/units';
 import type { Vector } from '../base/vectors';
 import type { Part } from '../library/protocol';
 import { placed } from '../constraints/constraints';
 import { labelOf } from '../pull/drags';
 import type { Editor } from '../edit/editor';
 
-/** null: not three numbers. An empty field counts as zero if another one is filled. */
-export function vectorOf(texts: readonly string[]): Vector | null {
-  if (texts.every((text) => text.trim() === '')) return null;
-  const numbers = texts.map((text) => Number(text.trim().replace('−', '-').replace(',', '.')));
-  return numbers.every(Number.isFinite) ? (numbers as Vector) : null;
-}
+const direction: Wanted = { words: 'numbers such as 0.5 or −2; what is empty counts as 0', takes: Number.isFinite };
+const place: Wanted = { words: 'numbers such as 0.5 or 5 mm; what is empty counts as 0', takes: Number.isFinite, isLength: true };
 
-function shown(number: number): string {
-  return String(Number(number.toPrecision(6)));
+/** In words what is to be done where these are no numbers. An empty field counts as zero if another one is filled. */
+export function vectorOf(texts: readonly string[], wanted: Wanted): Vector | string {
+  if (texts.every((text) => text.trim() === '')) return `Give ${wanted.words}`;
+  const numbers = texts.map((text) => (text.trim() === '' ? 0 : numberIn(text, wanted)));
+  return numbers.find((number) => typeof number === 'string') ?? (numbers as Vector);
 }
 
 class Fields {
   private readonly inputs: HTMLInputElement[];
+  private readonly note = Object.assign(document.createElement('p'), { className: 'wrong', role: 'alert' });
   private texts = '';
 
-  constructor(readonly form: HTMLFormElement, private readonly applied: (vector: Vector) => void) {
+  constructor(readonly form: HTMLFormElement, private readonly wanted: Wanted, private readonly applied: (vector: Vector) => void) {
     this.inputs = [...form.querySelectorAll('input')];
+    form.append(this.note);
+    this.say('');
     form.addEventListener('submit', (event) => {
       event.preventDefault();
-      const vector = vectorOf(this.inputs.map(({ value }) => value));
-      for (const input of this.inputs) input.setAttribute('aria-invalid', String(!vector));
-      if (!vector) return;
+      const vector = vectorOf(this.inputs.map(({ value }) => value), wanted);
+      this.say(typeof vector === 'string' ? vector : '');
+      if (typeof vector === 'string') return;
       this.texts = '';
       this.applied(vector);
     });
@@ -40,15 +44,22 @@ class Fields {
 
   /** What is being typed stays. */
   show(label: string, vector: Vector | null): void {
-    const texts = JSON.stringify([label, vector]);
+    const said = this.wanted.isLength && unitOf() ? `${label}, ${unitOf()}` : label;
+    const texts = JSON.stringify([said, vector]);
     if (texts === this.texts) return;
     this.texts = texts;
-    this.form.querySelector('span')!.textContent = label;
+    this.form.querySelector('span')!.textContent = said;
+    this.say('');
     this.inputs.forEach((input, i) => {
-      input.value = vector ? shown(vector[i]) : '';
-      input.setAttribute('aria-invalid', 'false');
+      input.value = vector ? shownNumber(vector[i]) : '';
       input.setAttribute('aria-label', `${label} ${'xyz'[i]}`);
     });
+  }
+
+  private say(problem: string): void {
+    this.note.textContent = problem;
+    this.note.hidden = problem === '';
+    for (const input of this.inputs) input.setAttribute('aria-invalid', String(problem !== ''));
   }
 }
 
@@ -57,9 +68,9 @@ export class Numbers {
   private readonly normal: Fields;
 
   constructor(private readonly section: HTMLElement, private readonly editor: Editor) {
-    const fields = (which: string, part: () => Part): Fields => new Fields(section.querySelector(`[data-part=${which}]`)!, (vector) => this.apply(part(), vector));
-    this.position = fields('position', () => 'position');
-    this.normal = fields('normal', () => editor.direction);
+    const fields = (which: string, wanted: Wanted, part: () => Part): Fields => new Fields(section.querySelector(`[data-part=${which}]`)!, wanted, (vector) => this.apply(part(), vector));
+    this.position = fields('position', place, () => 'position');
+    this.normal = fields('normal', direction, () => editor.direction);
   }
 
   refresh(): void {

@@ -2,6 +2,7 @@
 
 import { short } from '../../../page/numbers.js';
 import type { Command } from '../base/commands';
+import { Entry, type Wanted } from '../base/entry';
 import { choose } from '../base/files';
 import type { FitKind, FitSettings, Report } from '../library/protocol';
 import type { Cloud, Fit, PointSource } from '../constraints/points';
@@ -12,26 +13,28 @@ const formats = '.xyz,.csv,.ply,.obj,.off,.stl,.dat';
 const ranges: Record<FitKind, [number, number]> = { smoothingLength: [1e-3, 1], within: [1e-4, 0.3], rms: [1e-4, 0.3], weight: [1e-8, 10] };
 const usual: Record<FitKind, number> = { smoothingLength: 0.05, within: 0.02, rms: 0.01, weight: 0.01 };
 const titles: Record<FitKind, string> = { smoothingLength: 'Smoothing length', within: 'Tolerance', rms: 'Root mean square', weight: 'Weight' };
+const takes = (value: number): boolean => value > 0 && value < Infinity;
+const weight: Wanted = { words: 'a number above 0, such as 0.01', takes };
+const length: Wanted = { words: 'a length above 0, such as 0.02 or 5 mm', takes, isLength: true };
+const share: Wanted = { words: 'a number of per cent from 0 to 99', takes: (value) => value >= 0 && value <= 99 };
 
 export class PointsPanel {
   private readonly kind = this.part<HTMLSelectElement>('fit-kind');
   private readonly slider = this.part<HTMLInputElement>('fit-slider');
-  private readonly value = this.part<HTMLInputElement>('fit-value');
-  private readonly outliers = this.part<HTMLInputElement>('fit-outliers');
+  private readonly value = new Entry(this.part('fit-value'), () => this.wanted, (value) => value !== null && this.change({ value }));
+  private readonly outliers = new Entry(this.part('fit-outliers'), () => share, (percent) => percent !== null && this.change({ outliers: percent / 100 }));
 
   constructor(private readonly editor: Editor) {
     this.kind.addEventListener('change', () => this.change({ kind: this.kind.value as FitKind, value: this.start(this.kind.value as FitKind) }));
-    this.slider.addEventListener('input', () => { this.value.value = String(this.fromSlider()); });
+    this.slider.addEventListener('input', () => { this.value.show(this.fromSlider()); });
     this.slider.addEventListener('change', () => this.change({ value: this.fromSlider() }));
-    this.value.addEventListener('change', () => this.change({ value: this.value.valueAsNumber }));
-    this.outliers.addEventListener('change', () => this.change({ outliers: this.outliers.valueAsNumber / 100 }));
   }
 
   get commands(): Command[] {
     const { editor } = this;
     return [
       { id: 'load-points', title: 'Load scattered points', keys: [], run: () => choose(formats, (file) => void this.load(file)), enabled: () => editor.shape !== null },
-      { id: 'own-nodes', title: 'Fit to its own nodes', keys: [], run: () => void this.load({ name: '', bytes: null }), enabled: () => editor.shape !== null && this.fit?.cloud.bytes !== null },
+      { id: 'own-nodes', title: 'Fit to its own nodes', keys: [], run: () => void this.load(editor.start), enabled: () => editor.shape !== null && this.fit?.cloud.bytes !== null },
       { id: 'remove-points', title: 'Remove the points', keys: [], run: () => editor.apply('Remove points', { ...editor.constraints, fit: undefined }), enabled: () => this.fit !== undefined },
     ];
   }
@@ -43,7 +46,7 @@ export class PointsPanel {
       const cloud = await editor.cloudOf(source);
       if (shape !== editor.shape) return;
       const { kind, value, outliers } = this.fit ?? { kind: 'smoothingLength' as const, value: this.start('smoothingLength'), outliers: 0 };
-      editor.apply(source.bytes ? `Load points ${source.name}` : 'Fit to its own nodes', { ...editor.constraints, fit: { cloud, kind, value, outliers } });
+      editor.apply('bytes' in source ? `Load points ${source.name}` : 'Fit to its own nodes', { ...editor.constraints, fit: { cloud, kind, value, outliers } });
       editor.set({ fault: null });
     } catch (error) {
       editor.setFault((error as Error).message, 'file');
@@ -60,9 +63,9 @@ export class PointsPanel {
     const [least, most] = this.range(kind);
     this.kind.value = kind;
     if (document.activeElement !== this.slider) this.slider.valueAsNumber = (1000 * Math.log(value / least)) / Math.log(most / least);
-    if (document.activeElement !== this.value || this.value.value === '') this.value.value = String(value);
-    if (document.activeElement !== this.outliers) this.outliers.value = String(Number((100 * outliers).toPrecision(6)));
-    this.value.setAttribute('aria-label', `${titles[kind]}${kind === 'weight' ? '' : ', units of the file'}`);
+    this.value.show(value);
+    this.outliers.show(Number((100 * outliers).toPrecision(6)));
+    this.part('fit-value').setAttribute('aria-label', `${titles[kind]}${kind === 'weight' ? '' : ', units of the file'}`);
     document.getElementById('fit-figures')!.textContent = figures(cloud, this.editor.report, fit);
   }
 
@@ -91,16 +94,14 @@ export class PointsPanel {
     return Number((least * (most / least) ** (this.slider.valueAsNumber / 1000)).toPrecision(3));
   }
 
-  /** What the library would not take is not asked of it: the fields go back. */
+  private get wanted(): Wanted {
+    return this.kind.value === 'weight' ? weight : length;
+  }
+
   private change(settings: Partial<FitSettings>): void {
     const { fit, editor } = this;
     if (!fit) return;
     const next = { ...fit, ...settings };
-    if (!(next.value > 0 && Number.isFinite(next.value) && next.outliers >= 0 && next.outliers < 1)) {
-      this.value.value = '';
-      this.refresh();
-      return;
-    }
     editor.apply(`${titles[next.kind]} ${short(next.value)}`, { ...editor.constraints, fit: next });
   }
 }

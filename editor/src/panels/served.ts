@@ -43,7 +43,7 @@ export class ServedFile {
   /** Whether there is something to save. Another surface, opened since, does not go into the file. */
   private tell(): boolean {
     const open = this.source !== null && this.source === this.editor.source;
-    const { constraints, strength } = this.editor;
+    const { shown: constraints, strength } = this.editor;
     const saved = open && this.saved?.constraints === constraints && this.saved.strength === strength;
     const text = `${saved ? 'Saved' : 'Save'} to ${this.name}`;
     if (this.button.textContent !== text) this.button.textContent = text;
@@ -51,7 +51,7 @@ export class ServedFile {
   }
 
   private async save(): Promise<void> {
-    const { constraints, strength } = this.editor;
+    const { shown: constraints, strength } = this.editor;
     try {
       const body = await this.editor.written(this.name);
       const response = await fetch(new URL(this.address, document.baseURI), { method: 'PUT', body: body as Uint8Array<ArrayBuffer> }).catch(() => null);

@@ -25,15 +25,22 @@ export function sayItCannotDraw(): void {
 const words: Record<string, string> = { converged: 'Done', cancelled: 'Stopped, the last shape stays', foreseen: 'Following', 'worse-than-input': 'Worse than it was, see the warnings' };
 
 /** Whether it is done, and how far it has moved. */
-function ofSolution({ report, dragging, busy, showsInput, shape, moved, constraints }: Editor): string {
+function ofSolution({ report, dragging, busy, since, saved, showsInput, shape, moved, shown }: Editor): string {
   if (!shape) return 'Open a mesh or a curve, or drop one here';
+  if (saved) return `Saved as ${saved}`;
   if (showsInput) return 'The input';
-  if (busy && !dragging) return 'Solving …';
-  if (isUntouched(constraints) && moved === 0) return `As it is in the file${constraints.curve ? ', with other nodes' : ''}`;
+  if (busy && !dragging) return `Solving …${lasting(performance.now() - since)}`;
+  if (isUntouched(shown) && moved === 0) return `As it is in the file${shown.curve ? ', with other nodes' : ''}`;
   if (!report) return '';
   const what = dragging ? 'Following' : (words[report.outcome] ?? 'Not settled');
   if (report.movingNodes === 0 && moved === 0 && report.outcome === 'converged') return 'Nothing moves: all of it is held';
   return `${what} · moved ${moved > 0 ? `at most ${withUnit(short(Number(moved.toPrecision(2))))} (${share(moved * shape.scale)})` : 'nothing'}`;
+}
+
+/** Of what takes so long that somebody may ask whether it goes on. */
+function lasting(milliseconds: number): string {
+  const seconds = Math.floor(milliseconds / 1000);
+  return seconds > 0 ? ` ${seconds} s` : '';
 }
 
 function share(part: number): string {
@@ -70,6 +77,12 @@ function ofParts({ faces, curve }: Shape): string {
   return closed.length === 1 ? `${closed[0] ? 'closed' : 'open'} curve` : counted(closed.length, 'chain');
 }
 
+/** Before the first word of how far it is, the bar only says that something goes on. */
+function showProgress(bar: HTMLProgressElement, fraction: number): void {
+  if (fraction > 0) bar.value = fraction;
+  else bar.removeAttribute('value');
+}
+
 /** field: what colours show. */
 export function describe(editor: Editor, field: Field | null): void {
   const { shape, fault, held, picked, fileWarnings, report, canEnd, fraction } = editor;
@@ -91,7 +104,8 @@ export function describe(editor: Editor, field: Field | null): void {
   const message = inEditorWords(fault?.message ?? '');
   if (part('fault').firstElementChild!.textContent !== message) part('fault').firstElementChild!.textContent = message;
   part('progress').hidden = !canEnd;
-  part('progress').querySelector('progress')!.value = fraction;
+  document.querySelector<HTMLElement>('[data-command=go-on]')!.hidden = !editor.stopped;
+  showProgress(part('progress').querySelector('progress')!, fraction);
   const warnings = [...fileWarnings, ...(report?.warnings ?? []).filter((warning) => !isNote(warning))].map(inEditorWords);
   part('warnings').hidden = warnings.length === 0;
   part('warnings').querySelector('ul')!.replaceChildren(...warnings.map((textContent) =>

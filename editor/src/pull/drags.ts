@@ -44,6 +44,7 @@ export interface Pulled {
   apply(label: string, constraints: Constraints): void;
   /** It was none. */
   settle(): void;
+  leaveTrial(): void;
   setFault(message: string, source: 'solver'): void;
 }
 
@@ -71,6 +72,7 @@ export class Drags {
   /** Takes the node, and with it the picked ones if it is one of them: of a node that is held those that are, of a free one all. */
   begin(part: Part, node: number, now: number): void {
     const { editor } = this;
+    editor.leaveTrial();
     if (!editor.picked.has(node)) editor.pick(node, false);
     const turns = part !== 'position';
     const nodes = [...editor.picked].filter((other) => (turns ? editor.normals.has(other) : editor.isDraggable(other) || !editor.isDraggable(node)));

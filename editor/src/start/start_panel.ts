@@ -1,15 +1,17 @@
-// The panel of a file that is as it came: it offers what may be done, shows on the shape what would come of it, and makes it a step.
+// The panel of what may be done to the shape: it shows what would come of each way, and makes it a step. The next way begins with what came of it.
 
 import { short } from '../../../page/numbers.js';
 import type { Command } from '../base/commands';
+import { Entry } from '../base/entry';
 import { withUnit } from '../base/units';
 import { counted } from '../base/words';
 import type { Shape } from '../shape/shape';
-import { isUntouched } from '../constraints/constraints';
+import { isUntouched, type Constraints } from '../constraints/constraints';
 import type { Cloud } from '../constraints/points';
 import type { Editor } from '../edit/editor';
+import { begun, done, redone, undone, type History } from '../edit/history';
 import type { Tools } from '../pick/tools';
-import { freed, isHeld, isNoisy, smoothed, suggestedTolerance, type Way } from './ways';
+import { freed, isFree, isHeld, isNoisy, smoothed, suggestedTolerance, type Way } from './ways';
 
 function rounded(length: number): string {
   return withUnit(short(Number(length.toPrecision(2))));
@@ -17,33 +19,40 @@ function rounded(length: number): string {
 
 export interface StartEvents {
   /** Another way has been chosen, or none. */
-  chosen: (way: Way | null) => void;
+  chosen: () => void;
 }
+
+const none: ReadonlySet<number> = new Set();
+
+/** What a way is tried with: anything newer makes it out of date. */
+type Attempt = Pick<Editor, 'history' | 'picked'>;
 
 export class StartPanel {
   way: Way | null = null;
   private shape: Shape | null = null;
-  private own: Cloud | null = null;
-  private noise: number | null = null;
-  /** The nodes that a repair has been tried for. */
-  private painted: ReadonlySet<number> = new Set();
-  private asking = 0;
+  /** Of the shape as it starts there; undefined: of the input. */
+  private known: { start: Float64Array | undefined; noise: number; own: Cloud } | null = null;
+  private latest: Attempt | null = null;
+  private asking = false;
+  /** What was painted, stroke by stroke. */
+  private strokes: History<ReadonlySet<number>> = begun(none);
   private readonly says = this.part('start-says');
-  private readonly tolerance = this.part<HTMLInputElement>('tolerance');
+  private readonly tolerance = new Entry(this.part('tolerance'), () => ({ words: 'a length above 0, such as 0.02 or 5 mm', takes: (value) => value > 0 && value < Infinity, isLength: true }), () => void this.attempt());
 
-  constructor(private readonly panel: HTMLElement, private readonly editor: Editor, private readonly tools: () => Tools, private readonly events: StartEvents) {
-    this.tolerance.addEventListener('change', () => void this.smooth());
-  }
+  constructor(private readonly panel: HTMLElement, private readonly editor: Editor, private readonly tools: () => Tools, private readonly events: StartEvents) {}
 
   get commands(): Command[] {
-    const choice = (way: Way, title: string, enabled = (): boolean => true): Command => ({
-      id: `start-${way}`, title, keys: [], enabled: () => this.editor.shape !== null && enabled(), run: () => this.choose(way), pressed: () => this.way === way,
+    const { editor } = this;
+    const opened = (): boolean => editor.shape !== null;
+    const choice = (way: Way, title: string, keys: string[], enabled = (): boolean => true): Command => ({
+      id: `start-${way}`, title, keys, enabled: () => opened() && enabled(), run: () => this.choose(way), pressed: () => this.way === way,
     });
     return [
-      choice('smooth', 'Take its noise off, and move no node by more than a tolerance'),
-      choice('repair', 'Paint a part; all else stays as it is'),
-      choice('free', 'The fairest shape through what is held', () => isHeld(this.editor.held)),
-      { id: 'start-apply', title: 'Keep what is shown', keys: [], run: () => this.apply(), enabled: () => this.editor.trying && !this.editor.busy },
+      choice('smooth', 'Smooth it: take its noise off, and move no node by more than a tolerance', ['s']),
+      choice('repair', 'Repair a part that you paint; all else stays as it is', ['j']),
+      { id: 'start-pull', title: 'Pull a node; what is near goes along', keys: ['u'], enabled: opened, run: () => this.pull(), pressed: () => !this.way && this.tools().tool === 'pick' },
+      choice('free', 'The fairest shape through what is held', [], () => isHeld(editor.held) && (this.way === 'free' || !isFree(editor.constraints))),
+      { id: 'start-apply', title: 'Keep what is shown', keys: [], run: () => this.apply(), enabled: () => this.ready },
       { id: 'start-dismiss', title: 'Take back what is shown', keys: [], run: () => void this.dismiss() },
     ];
   }
@@ -51,16 +60,14 @@ export class StartPanel {
   refresh(): void {
     const { editor } = this;
     if (editor.shape !== this.shape) this.begin();
-    const untouched = editor.shape !== null && isUntouched(editor.history.now.state);
-    if (this.way && this.way !== 'repair' && !editor.trying && this.asking === 0) this.choose(null);
-    if (this.way === 'repair' && editor.picked !== this.painted && !this.tools().busy) void this.repair();
-    this.panel.hidden = !untouched && !this.way;
-    this.part('start-title').textContent = untouched ? 'It is as in the file. What now?' : 'Repair a part';
-    this.part('start-offers').hidden = !untouched;
+    if (this.way && this.outOfDate) void this.attempt();
+    this.panel.hidden = editor.shape === null;
+    this.part('start-title').textContent = isUntouched(editor.constraints) && !editor.constraints.start ? 'It is as in the file. What now?' : 'What now?';
     this.part('start-tolerance').hidden = this.way !== 'smooth';
+    if (this.known) this.tolerance.show(this.tolerance.value);
     this.part('start-end').hidden = !this.way;
-    this.part('start-free').textContent = isHeld(editor.held) ? (editor.shape?.curve ? 'between its ends' : 'between its boundaries') : 'needs a boundary or fixed nodes';
-    document.querySelector('[data-command=start-dismiss]')!.textContent = untouched ? 'Not this' : 'Done';
+    this.part('start-free').textContent = this.freeSays;
+    document.querySelector('[data-command=start-dismiss]')!.textContent = this.way === 'repair' && editor.picked.size === 0 ? 'Done' : 'Not this';
     const said = this.said();
     if (this.says.textContent !== said) this.says.textContent = said;
     this.says.hidden = said === '';
@@ -70,18 +77,55 @@ export class StartPanel {
   dismiss(): boolean {
     if (!this.way) return false;
     this.choose(null);
-    this.editor.try(null);
     return true;
+  }
+
+  /** What undo takes back before any step, in words; null: there is nothing of that kind. */
+  get undoes(): string | null {
+    if (this.way === 'repair') return this.strokes.past.length > 0 ? 'stroke' : null;
+    return this.way && 'what is tried';
+  }
+
+  get redoes(): string | null {
+    return this.way === 'repair' && this.strokes.future.length > 0 ? 'stroke' : null;
+  }
+
+  undo(): void {
+    if (this.way === 'repair') this.paintAs(undone(this.strokes));
+    else this.dismiss();
+  }
+
+  redo(): void {
+    this.paintAs(redone(this.strokes));
+  }
+
+  private paintAs(strokes: History<ReadonlySet<number>>): void {
+    this.strokes = strokes;
+    this.editor.set({ picked: strokes.now.state });
+  }
+
+  /** As something else begins with what is seen: what is done is kept. */
+  leave(): void {
+    if (this.ready) this.apply();
+    this.dismiss();
   }
 
   private part<Part extends HTMLElement>(id: string): Part {
     return document.getElementById(id) as Part;
   }
 
+  private get ready(): boolean {
+    return this.editor.trying && !this.asking && !this.editor.busy && !this.editor.stopped;
+  }
+
+  private get freeSays(): string {
+    const { constraints, held, shape } = this.editor;
+    if (!isHeld(held)) return 'needs a boundary or fixed nodes';
+    return isFree(constraints) ? 'as it is now' : shape?.curve ? 'between its ends' : 'between its boundaries';
+  }
+
   private begin(): void {
-    Object.assign(this, { shape: this.editor.shape, own: null, noise: null, painted: this.editor.picked });
-    ++this.asking;
-    this.asking = 0;
+    Object.assign(this, { shape: this.editor.shape, known: null });
     if (this.way) this.choose(null);
   }
 
@@ -89,84 +133,90 @@ export class StartPanel {
     const { editor } = this;
     const before = this.way;
     if (way === before) return;
-    this.way = way;
+    editor.try(null);
+    this.turnTo(way);
     if (before === 'repair') {
       this.tools().set('pick');
       editor.pick(-1, false);
     }
-    if (way === 'repair') {
-      editor.try(null);
-      this.painted = editor.picked;
-      this.tools().set('brush');
-      if (editor.picked.size > 0) void this.repair();
-    } else if (way === 'smooth') {
-      void this.smooth();
-    } else if (way === 'free') {
-      editor.try(freed(editor.history.now.state));
+    if (way === 'repair') this.tools().set('brush');
+    this.events.chosen();
+  }
+
+  private turnTo(way: Way | null): void {
+    Object.assign(this, { way, latest: null, asking: false, strokes: begun(this.editor.picked) });
+  }
+
+  private pull(): void {
+    this.dismiss();
+    this.tools().set('pick');
+    this.events.chosen();
+  }
+
+  private get outOfDate(): boolean {
+    const { history, picked } = this.editor;
+    if (history !== this.latest?.history) return true;
+    return this.way === 'repair' && picked !== this.latest.picked && !this.tools().busy;
+  }
+
+  private async attempt(): Promise<void> {
+    const { editor, way } = this;
+    const { history, picked } = editor;
+    const attempt = (this.latest = { history, picked });
+    if (way === 'repair' && picked !== this.strokes.now.state) this.strokes = done(this.strokes, '', picked);
+    this.asking = true;
+    try {
+      const found = way === 'free' ? freed(editor.constraints) : await this.tried();
+      if (attempt === this.latest) editor.try(found);
+      // It may have asked about a shape that starts elsewhere.
+      else if (!this.way) editor.settle();
+    } catch (error) {
+      editor.setFault((error as Error).message, 'solver');
     }
-    this.events.chosen(way);
+    if (attempt === this.latest) this.asking = false;
     editor.set({});
   }
 
-  private async smooth(): Promise<void> {
-    const { editor, shape } = this;
-    await this.asked(async () => {
-      if (this.noise === null) {
-        this.noise = await editor.client.ask('noise', null);
-        this.tolerance.value = String(suggestedTolerance(this.noise, 1 / shape!.scale));
-      }
-      this.own ??= await editor.cloudOf({ name: '', bytes: null });
-      const tolerance = this.tolerance.valueAsNumber;
-      this.tolerance.setAttribute('aria-invalid', String(!(tolerance > 0)));
-      if (this.way === 'smooth' && tolerance > 0) editor.try(smoothed(editor.history.now.state, this.own, tolerance));
-    });
-  }
-
-  private async repair(): Promise<void> {
+  /** What holds for it; null: there is nothing to try. */
+  private async tried(): Promise<Constraints | null> {
     const { editor } = this;
-    const nodes = (this.painted = editor.picked);
-    if (nodes.size === 0) {
-      editor.try(null);
-      return;
-    }
-    await this.asked(async () => {
-      const next = await editor.restrictedTo(nodes);
-      if (next && nodes === editor.picked && this.way === 'repair') editor.try(next);
-    });
+    if (this.way === 'smooth') return this.smoothing(await editor.begun());
+    return editor.picked.size > 0 ? editor.restrictedTo(editor.picked, await editor.begun()) : null;
   }
 
-  /** What another file makes out of date is dropped. */
-  private async asked(ask: () => Promise<void>): Promise<void> {
-    ++this.asking;
-    try {
-      await ask();
-    } catch (error) {
-      this.editor.setFault((error as Error).message, 'solver');
+  private async smoothing(begun: Constraints): Promise<Constraints | null> {
+    const { editor, shape } = this;
+    const { start } = begun;
+    if (this.known?.start !== start || !this.known) {
+      editor.startFrom(start);
+      const noise = await editor.client.ask('noise', null);
+      this.known = { start, noise, own: await editor.cloudOf(start ?? shape!.input) };
+      this.tolerance.show(suggestedTolerance(noise, 1 / shape!.scale));
     }
-    --this.asking;
-    this.editor.set({});
+    return this.tolerance.wrong ? null : smoothed(begun, this.known.own, this.tolerance.value);
   }
 
   private apply(): void {
     const { editor, way } = this;
-    const titles: Record<Way, string> = { smooth: `Smooth within ${short(this.tolerance.valueAsNumber)}`, repair: `Repair ${counted(editor.picked.size, 'node')}`, free: 'Free form' };
-    editor.accept(titles[way!]);
-    if (way !== 'repair') {
-      this.choose(null);
-      return;
-    }
-    editor.pick(-1, false);
+    const titles: Record<Way, string> = { smooth: `Smooth within ${short(this.tolerance.value)}`, repair: `Repair ${counted(editor.picked.size, 'node')}`, free: 'Free form' };
+    const title = titles[way!];
+    if (way === 'repair') this.paintAs(begun(none));
+    else this.turnTo(null);
+    editor.accept(title, way !== 'free');
+    this.events.chosen();
   }
 
   private said(): string {
     const { editor, way } = this;
     if (!way) return '';
     if (way === 'repair' && editor.picked.size === 0) return 'Paint over what is to be repaired. With Alt the brush takes away.';
-    if (!editor.trying || editor.busy) return 'Trying it …';
+    if (this.asking || editor.busy) return 'Trying it …';
+    if (!editor.trying) return '';
     const { report, shape } = editor;
     const size = 1 / shape!.scale;
-    const why = way !== 'smooth' || this.noise === null ? '' : isNoisy(this.noise, size) ? ` Its noise seems to be ${rounded(this.noise)}.` : ' It has no noise to speak of.';
-    if (report?.outcome === 'cancelled') return 'Stopped before it was done.';
+    const noise = way === 'smooth' ? this.known!.noise : null;
+    const why = noise === null ? '' : isNoisy(noise, size) ? ` Its noise seems to be ${rounded(noise)}.` : ' It has no noise to speak of.';
+    if (editor.stopped) return 'Stopped before it was done. Go on, or take something else.';
     if (report?.movingNodes === 0) return `Nothing moves: all of it is held.${why}`;
     const far = way === 'smooth' && report?.fit ? `within ${rounded(report.fit.greatest)}` : `at most by ${rounded(editor.movedInTrial)}`;
     return `Moves ${counted(report?.movingNodes ?? 0, 'node')}, ${far}.${why}`;

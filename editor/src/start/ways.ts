@@ -1,4 +1,4 @@
-// What may be done to a shape that is as it is in its file: the constraints of each way.
+// What may be done to a shape: the constraints of each way.
 
 import { heldPosition, type Constraints, type Held } from '../constraints/constraints';
 import type { Cloud } from '../constraints/points';
@@ -21,13 +21,18 @@ export function isNoisy(noise: number, size: number): boolean {
   return noise > noticeable * size;
 }
 
-/** own: the nodes of the shape itself. */
-export function smoothed(constraints: Constraints, own: Cloud, tolerance: number): Constraints {
-  return { ...constraints, region: null, fit: { cloud: own, kind: 'within', value: tolerance, outliers: 0 } };
+/** own: the nodes of the shape as it starts. */
+export function smoothed(begun: Constraints, own: Cloud, tolerance: number): Constraints {
+  return { ...begun, region: null, fit: { cloud: own, kind: 'within', value: tolerance, outliers: 0 } };
 }
 
 export function freed(constraints: Constraints): Constraints {
   return { ...constraints, region: null, fit: undefined };
+}
+
+/** Whether it is the fairest shape already, as far as what holds lets it be. */
+export function isFree({ region, fit }: Constraints): boolean {
+  return !region && !fit;
 }
 
 /** Whether something would hold a shape that is free besides. */

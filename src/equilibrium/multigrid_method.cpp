@@ -50,6 +50,8 @@ class Cycle {
       report_.levels[k].outcome = result.outcome;
       if (result.lost) lost_ = true;
       if (k == finest) break;
+      // What was found on coarser levels is handed up, too, where somebody has cancelled.
+      const UncancelledScope whole;
       update_directions(hierarchy_.net(k), model_, team_);
       if (context_.cancelled())
         hierarchy_.prolong_roughly_from(k);

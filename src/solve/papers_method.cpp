@@ -4,6 +4,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/cancellation.hpp"
 #include "equilibrium/account.hpp"
 #include "equilibrium/from_options.hpp"
 #include "equilibrium/multigrid_method.hpp"
@@ -22,6 +23,8 @@ Net run_papers_method(Net net, const Model& model, const ResultCheck& check, con
     run_multigrid(*hierarchy, model, std::get<MultigridMethod>(options.method), call);
     net = std::move(*hierarchy).take();
   }
+  // What was found by then is looked at whole where somebody has cancelled.
+  const UncancelledScope whole;
   warn_if_worse(check, net, call.report);
   return net;
 }

@@ -156,7 +156,7 @@ std::optional<Net> SurfaceFairing::run(const Constraints& constraints, Context& 
     look_at_start(net, constraints);
     net = run_papers_method(std::move(net), *model_, *check_, options, call);
     check_->forget_start();
-    if (looks_at_crossings) warn_of_crossings(net, constraints, context, report);
+    if (looks_at_crossings && !context.cancelled()) warn_of_crossings(net, constraints, context, report);
     return net;
   } catch (const Cancelled&) {
     hierarchy_.reset();

@@ -192,6 +192,21 @@ TEST(FairSurface, TellsHowItWentAndHowFarNodesMoved) {
   EXPECT_EQ(cancelled.positions, mesh.positions());
 }
 
+TEST(FairSurface, WhatThePapersMethodsHadFoundWhenCancelledStays) {
+  const PolygonMesh mesh = noisy_annulus();
+  for (const FairingMethod& method :
+       {FairingMethod(SweepMethod{.step_tolerance = 1e-12}), FairingMethod(MultigridMethod{.step_tolerance = 1e-12})}) {
+    Context context;
+    context.on_progress = [&](const Progress& progress) {
+      if (progress.iteration > 3) context.cancel();
+    };
+    const FairResult result = fair(mesh, held_boundary(mesh), {.method = method}, context);
+    EXPECT_EQ(result.report.outcome, Outcome::cancelled);
+    EXPECT_GT(result.report.greatest_move, 1e-4);
+    EXPECT_NE(result.positions, mesh.positions());
+  }
+}
+
 TEST(FairSurface, RefusesOptionsOutOfRange) {
   const PolygonMesh mesh = noisy_annulus();
   const Constraints constraints = held_boundary(mesh);

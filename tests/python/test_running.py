@@ -76,6 +76,8 @@ class Ended(Case):
     def test_by_ctrl_c(self):
         curve = wave()
         main = threading.get_ident()
+        # What runs in the background of a shell is begun without a handler.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
 
         def interrupt():
             # This thread comes to run only where the call has released Python's lock.

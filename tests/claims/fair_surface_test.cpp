@@ -16,7 +16,6 @@ namespace {
 using namespace support;
 
 using generate::Faces;
-using generate::Grid;
 
 FairOptions to_the_end() { return {.method = SweepMethod{.step_tolerance = 1e-13, .max_iterations = 20000}}; }
 

@@ -57,11 +57,13 @@ TEST(FitPoints, WhereThereAreNoneTheCurveGoesAsItCame) {
   const auto place = [](double angle) { return Vector3(std::cos(angle), 0.1 * std::sin(angle), 0); };
   for (const int count : {15, 31, 61}) {
     std::vector<Vector3> nodes;
+    nodes.reserve(static_cast<std::size_t>(count));
     for (int k = 0; k < count; ++k) nodes.push_back(place(pi * (0.1 + 1.8 * k / (count - 1))));
     for (const double gap : {0.3, 1.0}) {
       ScatteredPoints points;
       for (int k = 0; k < 40; ++k) {
-        const double angle = 0.1 * pi + (0.9 * pi - gap) * (k / 2) / 19;
+        const int step = k / 2;
+        const double angle = 0.1 * pi + (0.9 * pi - gap) * step / 19;
         points.positions.push_back(place(k % 2 == 0 ? angle : 2 * pi - angle) + Vector3(0, 0.007 * std::sin(9 * k), 0));
       }
       FitOptions options;

@@ -42,6 +42,7 @@ TEST(ScatteredWay, GoesThroughPointsInTheirOrderAndCarriesTheCurveAlongBetweenTh
 TEST(ScatteredWay, GoesAroundAClosedCurve) {
   constexpr int count = 40;
   std::vector<Vector3> ring;
+  ring.reserve(count);
   for (int k = 0; k < count; ++k)
     ring.emplace_back(std::cos(2 * std::numbers::pi * k / count), std::sin(2 * std::numbers::pi * k / count), 0);
   const DenseCurve curve = curve_of(ring, true);

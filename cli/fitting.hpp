@@ -78,8 +78,8 @@ class FitAccount {
 
   [[nodiscard]] nlohmann::ordered_json figures() const;
   [[nodiscard]] std::string lines() const;
-  /// How far points are from the shape, at most.
-  [[nodiscard]] double greatest() const { return report_.after.all.greatest; }
+  /// How far points are from the shape, and which one is furthest.
+  [[nodiscard]] const Distance& furthest() const { return report_.after.all; }
 
  private:
   [[nodiscard]] bool is_measured() const;

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,6 +30,10 @@ namespace {
 
 // So that rounding leaves none outside.
 constexpr double spare_of_tolerance = 1.001;
+// Of what noise brings a row to: how far it brings two rows from each other.
+constexpr double apart_by_noise = std::numbers::sqrt2;
+// Of a distance.
+constexpr double unseen_distance = 1e-9;
 
 struct CurveArguments : FairingArguments {
   std::optional<CurveFormat> format;
@@ -75,22 +80,36 @@ Drawn draw_once(const PolygonCurve& curve, const Constraints& constraints, const
   return {curve, constraints, fair_or_fit(curve, constraints, {}, arguments, arguments.pull, context)};
 }
 
-/// The same. A tolerance that noise gave is as large as rows behind held ends need: these ends have noise, too. Says so
+/// Whether a row that is so far from the curve is as far from a node that is held: no curve is nearer to it then.
+bool is_at_held(const PolygonCurve& curve, const Constraints& constraints, Index row, double distance) {
+  for (Index i = 0; i < curve.node_count(); ++i) {
+    if (constraints.position_fixed(i) &&
+        (constraints.position(i) - curve.position(row)).norm() <= (1 + unseen_distance) * distance)
+      return true;
+  }
+  return false;
+}
+
+/// The same. A tolerance that noise gave is as large as a row behind a held end needs: that end has noise, too. Says so
 /// in `warnings`, and changes the tolerance.
 Drawn draw(const PolygonCurve& curve, const Constraints& constraints, CurveArguments& arguments,
            std::vector<std::string>& warnings, Context& context) {
   Drawn drawn = draw_once(curve, constraints, arguments, context);
   if (arguments.pull.automatic != "--within" || context.cancelled()) return drawn;
-  const double needed = drawn.done.account->greatest();
-  if (!(needed > *arguments.pull.within)) return drawn;
+  const Distance& furthest = drawn.done.account->furthest();
+  const double needed = furthest.greatest;
+  const double given = *arguments.pull.within;
+  if (!(needed > given && needed <= apart_by_noise * given) || !is_at_held(curve, constraints, furthest.node, needed))
+    return drawn;
   CurveArguments wider = arguments;
   wider.pull.within = spare_of_tolerance * needed;
   Drawn again = draw_once(curve, constraints, wider, context);
   if (again.done.faired.report.outcome != Outcome::converged) return drawn;
-  warnings.push_back(fmt::format(
-      "no curve is within {:.3g}, as the noise says: some row is nearest to what is held, and {:.3g} away; auto allows "
-      "for that; --fix none lets ends go along with their rows",
-      *arguments.pull.within, needed));
+  warnings.push_back(
+      fmt::format("no curve is within {:.3g}, as the noise says: row {} is {:.3g} away from the node that is held "
+                  "there; auto allows "
+                  "for that; --fix none lets ends go along with their rows",
+                  given, furthest.node, needed));
   arguments.pull.within = wider.pull.within;
   return again;
 }

@@ -48,7 +48,8 @@ struct Defect {
 /// is named once, `node` the smaller of its ends. Cost: n log n in the faces.
 [[nodiscard]] std::vector<Defect> check(const PolygonMesh& mesh);
 
-/// The faces that have no area, so no normal: those that check() names as such. Cost: linear.
+/// The faces of three or more nodes that have no area, so no normal; also where a node occurs in one twice, of which
+/// check() says that. Cost: linear.
 [[nodiscard]] std::vector<Index> faces_without_area(const PolygonMesh& mesh);
 
 }  // namespace vspring

@@ -69,7 +69,7 @@ class Curve(Case):
             report = self.read_json("r.json")
             self.assertAlmostEqual(report["points"]["within"], 0.07, delta=0.001)
             self.assertLessEqual(report["points"]["distance"]["after"]["greatest"], report["points"]["within"])
-            self.assertRegex(done.stderr.decode(), r"no curve is within 0\.0\d+, as the noise says: .* 0\.07 away; auto allows for that; --fix none")
+            self.assertRegex(done.stderr.decode(), r"no curve is within 0\.0\d+, as the noise says: row 1 is 0\.07 away from the node that is held there; auto allows for that; --fix none")
             self.assertEqual(read(self.folder / "out.csv")[0], rows[0])
         run("measure", self.folder / "in.csv", "--report", self.folder / "m.json")
         told = self.read_json("m.json")["figures"]["within_auto"]
@@ -77,6 +77,13 @@ class Curve(Case):
         self.curve(csv(rows), "--within", repr(told), status=3)
         self.curve(csv(rows), "--within", "auto", "--fix", "none", "--report", self.folder / "r.json")
         self.assertEqual(self.read_json("r.json")["points"]["within"], told)
+        # Not for what long edges cut off, nor for rows that are far from where a rule puts an end.
+        rows[0] = (0, 0)
+        self.curve(csv(rows), "--within", "auto", "--spacing", "1", "--report", self.folder / "r.json", status=3)
+        self.assertLess(self.read_json("r.json")["points"]["within"], 0.1)
+        rule = self.write("rule.json", json.dumps({"rules": [{"nodes": [0], "position": [-0.5, 0.5, 0]}]}))
+        self.curve(csv(rows), "--within", "auto", "--constraints", rule, "--report", self.folder / "r.json", status=3)
+        self.assertLess(self.read_json("r.json")["points"]["within"], 0.1)
 
     def test_chords_of_new_nodes_stay_near_the_polyline_of_the_rows(self):
         for seed in (8, 16, 49):

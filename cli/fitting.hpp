@@ -106,11 +106,12 @@ struct FairedOrFitted {
   [[nodiscard]] std::string lines() const { return account ? account->lines() : ""; }
 };
 
-/// shape: that was fitted to its own nodes, or those that it had.
+/// shape: the one that came, whose nodes are the points.
 template <typename Shape>
 FairedOrFitted account_for(FitResult fitted, const Shape& shape, const FairingArguments& arguments,
                            const PullArguments& pull, const Context& context) {
-  if (fitted.report.fair.outcome != Outcome::converged && fitted.report.fair.outcome != Outcome::cancelled)
+  const Outcome outcome = fitted.report.fair.outcome;
+  if (outcome != Outcome::converged && outcome != Outcome::cancelled && pull.automatic.empty())
     warn_of_noise(pull, noise_of(shape, pull, context), fitted.report.fair.warnings);
   FitAccount account(fitted.report, pull, arguments.input, {});
   return {{std::move(fitted.positions), std::move(fitted.report.fair)}, std::move(account)};

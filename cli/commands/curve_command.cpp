@@ -59,7 +59,7 @@ Drawn resample_and_fair(const PolygonCurve& curve, const Constraints& constraint
   if (asks_to_fit(arguments.pull)) {
     ResampledFit made = fit_resampled(curve, constraints, arguments.resampling,
                                       fit_options(arguments.pull, arguments.options), context);
-    FairedOrFitted done = account_for(std::move(made.fit), made.resampled.curve, arguments, arguments.pull, context);
+    FairedOrFitted done = account_for(std::move(made.fit), curve, arguments, arguments.pull, context);
     return {std::move(made.resampled.curve), std::move(made.resampled.constraints), std::move(done)};
   }
   Resampled resampled = resample(curve, constraints, arguments.resampling);

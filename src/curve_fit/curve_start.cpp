@@ -241,9 +241,7 @@ void carry_places(const DenseCurve& before, const DenseCurve& curve, std::vector
   const auto from = lengths_of(before);
   const auto to = lengths_of(curve);
   for (CurvePoint& point : points) {
-    const auto above = std::upper_bound(before.chains().begin(), before.chains().end(), point.at.edge,
-                                        [](std::uint32_t edge, const auto& chain) { return edge < chain.begin; });
-    const auto c = static_cast<std::size_t>(above - before.chains().begin() - 1);
+    const std::size_t c = before.chain_of(point.at.edge);
     const auto& now = curve.chains()[c];
     const std::uint32_t k = point.at.edge - before.chains()[c].begin;
     const double scale = from[c].back() > 0 ? to[c].back() / from[c].back() : 1;

@@ -41,6 +41,12 @@ Vector3 circle_curvature(const Vector3& to_next, const Vector3& to_before) {
   return 2 * (a - a.dot(d) / square * d);
 }
 
+std::size_t DenseCurve::chain_of(std::uint32_t edge) const {
+  const auto above = std::upper_bound(chains_.begin(), chains_.end(), edge,
+                                      [](std::uint32_t one, const Chain& chain) { return one < chain.begin; });
+  return static_cast<std::size_t>(above - chains_.begin()) - 1;
+}
+
 void DenseCurve::add_chain(const std::vector<Node>& nodes, bool closed) {
   const std::uint32_t begin = size();
   const auto count = static_cast<std::uint32_t>(nodes.size());

@@ -46,6 +46,8 @@ class DenseCurve {
   void add_chain(const std::vector<Node>& nodes, bool closed);
 
   [[nodiscard]] const std::vector<Chain>& chains() const { return chains_; }
+  /// The number of the chain that an edge belongs to. Cost: the logarithm of their number.
+  [[nodiscard]] std::size_t chain_of(std::uint32_t edge) const;
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(nodes_.size()); }
   [[nodiscard]] const Node& node(std::uint32_t i) const { return nodes_[i]; }
   [[nodiscard]] const Vector3& place(std::uint32_t i) const { return nodes_[i].place; }

@@ -1,7 +1,6 @@
 #include "curve_fit/scattered_way.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -95,12 +94,7 @@ class ChainWay {
 std::vector<CurvePoint> way_of_scattered(const DenseCurve& curve, std::span<const CurvePoint> points, double gap) {
   std::vector<ChainWay> ways;
   for (const DenseCurve::Chain& chain : curve.chains()) ways.emplace_back(curve, chain, gap);
-  for (const CurvePoint& point : points) {
-    const auto above =
-        std::upper_bound(curve.chains().begin(), curve.chains().end(), point.at.edge,
-                         [](std::uint32_t edge, const DenseCurve::Chain& chain) { return edge < chain.begin; });
-    ways[static_cast<std::size_t>(above - curve.chains().begin()) - 1].add(point);
-  }
+  for (const CurvePoint& point : points) ways[curve.chain_of(point.at.edge)].add(point);
   std::vector<CurvePoint> way;
   for (ChainWay& one : ways) one.add_to(way);
   return way;

@@ -38,11 +38,9 @@ def draw_surface(axes, vertices, faces, colours, title, view=(20, -60), at=None,
 def surfaces(path, before, after, faces, **seen):
     """Both beside each other, coloured by mean curvature in the same range."""
     bends = [vspring.curvatures(one, faces).mean for one in (before, after)]
-    # The range of the result: what sticks out before has the colours of the ends.
-    _, (low, high) = vspring.colours(bends[1])
     figure = pyplot.figure(figsize=(9, 4.5), dpi=100, layout="constrained")
     for place, (vertices, bend, title) in enumerate(zip((before, after), bends, ("before", "after"))):
-        shades = vspring.colours(np.concatenate([[low] * 60, np.clip(bend, low, high), [high] * 60]))[0][60:-60]
+        shades, _ = vspring.colours(bend, over=bends[1])
         draw_surface(figure.add_subplot(1, 2, place + 1, projection="3d"), vertices, faces, shades, title, **seen)
     figure.savefig(path)
     pyplot.close(figure)

@@ -15,18 +15,30 @@ class Refused(Exception):
 
 
 class EditedMesh:
-    """vertices: (n, 3) float32. faces: corners and offsets. edges: (m, 2). selected: of vertices, selected_edges: of edges."""
+    """vertices: (n, 3) float32. faces: corners and offsets. selected: the mask of vertices."""
 
     def __init__(self, thing):
         thing.update_from_editmode()
-        self.object, mesh = thing, thing.data
-        # The mesh has the coordinates of the basis where another shape key is edited.
-        made = bmesh.from_edit_mesh(mesh)
-        self.vertices = np.fromiter((part for vertex in made.verts for part in vertex.co), np.float32).reshape(-1, 3)
-        self.faces = _column(mesh.loops, "vertex_index"), np.append(_column(mesh.polygons, "loop_start"), len(mesh.loops)).astype(np.int32)
-        self.edges = _column(mesh.edges, "vertices", columns=2).reshape(-1, 2)
-        self.selected = _column(mesh.vertices, "select", bool)
-        self.selected_edges = _column(mesh.edges, "select", bool)
+        self.object, self.mesh = thing, thing.data
+        if self.mesh.shape_keys is None:
+            self.vertices = _column(self.mesh.vertices, "co", np.float32, 3).reshape(-1, 3)
+        else:
+            # The mesh has the coordinates of the basis, whichever key is edited.
+            made = bmesh.from_edit_mesh(self.mesh)
+            self.vertices = np.fromiter((part for vertex in made.verts for part in vertex.co), np.float32).reshape(-1, 3)
+        self.faces = (_column(self.mesh.loops, "vertex_index"),
+                      np.append(_column(self.mesh.polygons, "loop_start"), len(self.mesh.loops)).astype(np.int32))
+        self.selected = _column(self.mesh.vertices, "select", bool)
+
+    @property
+    def edges(self):
+        """(m, 2)."""
+        return _column(self.mesh.edges, "vertices", columns=2).reshape(-1, 2)
+
+    @property
+    def selected_edges(self):
+        """The mask of edges."""
+        return _column(self.mesh.edges, "select", bool)
 
     def group(self, name):
         """The mask of the vertices with a weight in a vertex group; of none without a name."""
@@ -35,7 +47,7 @@ class EditedMesh:
         group = self.object.vertex_groups.get(name)
         if group is None:
             raise Refused(f"{self.object.name}: it has no vertex group “{name}”")
-        made = bmesh.from_edit_mesh(self.object.data)
+        made = bmesh.from_edit_mesh(self.mesh)
         layer = made.verts.layers.deform.active
         if layer is None:
             return np.zeros(len(self.vertices), bool)
@@ -53,33 +65,33 @@ class EditedMesh:
         return self._mask(self.faces_at(moving)[0]) & ~moving
 
     def mirrors(self):
-        """For each axis that the mesh is mirrored at while it is edited, the axis and every vertex's partner; -1 without one."""
-        mesh = self.object.data
-        axes = [axis for axis, on in enumerate((mesh.use_mirror_x, mesh.use_mirror_y, mesh.use_mirror_z)) if on]
+        """A Mirror for each axis that the mesh is mirrored at while it is edited."""
+        axes = [axis for axis, on in enumerate((self.mesh.use_mirror_x, self.mesh.use_mirror_y, self.mesh.use_mirror_z)) if on]
         if not axes:
             return []
         tree = mathutils.kdtree.KDTree(len(self.vertices))
-        for index, place in enumerate(self.vertices):
+        for index, place in enumerate(self.vertices.tolist()):
             tree.insert(place, index)
         tree.balance()
-        return [(axis, self._partners(tree, axis)) for axis in axes]
-
-    def _partners(self, tree, axis):
-        images = self.vertices.copy()
-        images[:, axis] *= -1
-        found = (tree.find(place) for place in images)
-        return np.fromiter((index if distance <= PAIRED else -1 for _, index, distance in found), np.int64)
+        return [Mirror(self.vertices, tree, axis) for axis in axes]
 
     def put(self, positions):
         """Moves the vertices that are elsewhere, and nothing else of the mesh. Returns how many these are."""
         moved = np.flatnonzero((positions != self.vertices).any(axis=1))
-        mesh = self.object.data
-        made = bmesh.from_edit_mesh(mesh)
+        made = bmesh.from_edit_mesh(self.mesh)
         made.verts.ensure_lookup_table()
-        for index, place in zip(moved.tolist(), positions[moved].tolist()):
-            made.verts[index].co = place
-        made.normal_update()
-        bmesh.update_edit_mesh(mesh, loop_triangles=True, destructive=False)
+        vertices = [made.verts[index] for index in moved.tolist()]
+        for vertex, place in zip(vertices, positions[moved].tolist()):
+            vertex.co = place
+        if 8 * len(moved) > len(self.vertices):
+            made.normal_update()
+        else:
+            faces = {face for vertex in vertices for face in vertex.link_faces}
+            for face in faces:
+                face.normal_update()
+            for vertex in {vertex for face in faces for vertex in face.verts}:
+                vertex.normal_update()
+        bmesh.update_edit_mesh(self.mesh, loop_triangles=True, destructive=False)
         return len(moved)
 
     def _mask(self, nodes):
@@ -88,21 +100,38 @@ class EditedMesh:
         return mask
 
 
+class Mirror:
+    """Partners of vertices across a plane through the object's origin. axis: what the plane is at right angles to."""
+
+    def __init__(self, vertices, tree, axis):
+        self.vertices, self.tree, self.axis = vertices, tree, axis
+
+    def partners(self, nodes):
+        """For each of some vertices its partner; -1 without one."""
+        images = self.vertices[nodes]
+        images[:, self.axis] *= -1
+        found = (self.tree.find(place) for place in images.tolist())
+        return np.fromiter((index if distance <= PAIRED else -1 for _, index, distance in found), np.int64)
+
+
 def on_both_sides(mask, mirrors):
     """With the partners of its vertices."""
     mask = mask.copy()
-    for _, partner in mirrors:
-        mask[partner[mask & (partner >= 0)]] = True
+    for mirror in mirrors:
+        partners = mirror.partners(np.flatnonzero(mask))
+        mask[partners[partners >= 0]] = True
     return mask
 
 
 def made_even(positions, moving, mirrors):
     """Moving vertices and their partners at mirror images of each other: at the middle of where they are and where they should be."""
-    for axis, partner in mirrors:
-        paired = moving & (partner >= 0)
-        image = positions[partner[paired]]
-        image[:, axis] *= -1
-        positions[paired] = (positions[paired] + image) / 2
+    for mirror in mirrors:
+        nodes = np.flatnonzero(moving)
+        partners = mirror.partners(nodes)
+        nodes, partners = nodes[partners >= 0], partners[partners >= 0]
+        image = positions[partners]
+        image[:, mirror.axis] *= -1
+        positions[nodes] = (positions[nodes] + image) / 2
     return positions
 
 

@@ -78,14 +78,16 @@ class VSPRING_OT_fair(Running, bpy.types.Operator):
                    tolerance=as_typed(self.tolerance), **options)
 
     def add_normals(self, edited, mirrors, moving, rules, context):
+        if not self.normals and self.normals_from == 'CURRENT':
+            return
         given = np.flatnonzero(on_both_sides(edited.group(self.normals), mirrors) if self.normals else edited.rim(moving))
-        if self.normals_from == 'OBJECT':
-            other = other_object(context, self.other)
-            if other is None or other.type != 'MESH':
-                raise Refused("Name the mesh object that normals come from, or select it besides the one that is edited")
-            rules.append({"nodes": given, "normal": normals_from(other, edited, given, context)})
-        elif self.normals:
+        if self.normals_from == 'CURRENT':
             rules.append({"nodes": given, "normal": "fixed"})
+            return
+        other = other_object(context, self.other)
+        if other is None or other.type != 'MESH':
+            raise Refused("Name the mesh object that normals come from, or select it besides the one that is edited")
+        rules.append({"nodes": given, "normal": normals_from(other, edited, given, context)})
 
     def advice(self, failure):
         if failure.code != "unusable-constraint":

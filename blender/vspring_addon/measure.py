@@ -11,7 +11,7 @@ NUMBERS, COLOURS = "curvature", "Curvature"
 
 
 class VSPRING_OT_measure(EditModeOperator, bpy.types.Operator):
-    """Write the curvature at every vertex into the attribute “curvature”, and colours for it into the colour attribute “Curvature”"""
+    """Write the curvature at every vertex into the attribute “curvature”, and colours for it into the colour attribute “Curvature”. Colours are spread over what is selected"""
 
     bl_idname = "mesh.vspring_measure"
     bl_label = "Measure Curvature"
@@ -30,10 +30,12 @@ class VSPRING_OT_measure(EditModeOperator, bpy.types.Operator):
         except vspring.Error as failure:
             self.report({'ERROR'}, str(failure))
             return {'CANCELLED'}
-        colours, (low, high) = vspring.colours(np.concatenate(found), about=None if self.kind == 'mean' else 0)
+        chosen = np.concatenate([values[edited.selected] for edited, values in zip(meshes, found)])
+        if not len(chosen):
+            chosen = np.concatenate(found)
         for edited, values in zip(meshes, found):
-            put(edited.object.data, values, linear(colours[:len(values)]))
-            colours = colours[len(values):]
+            colours, (low, high) = vspring.colours(values, about=None if self.kind == 'mean' else 0, over=chosen)
+            put(edited.mesh, values, linear(colours))
         space = context.space_data
         if self.shown and space is not None and space.type == 'VIEW_3D':
             space.shading.color_type = 'VERTEX'

@@ -94,6 +94,46 @@ class Window(support.Case):
         self.assertEqual(self.invoke(), {'FINISHED'})
         np.testing.assert_allclose(now(), vertices + 0.5 * (whole - vertices), atol=1e-7)  # as it was left
 
+        yield from self.panels()
+
+    def panels(self):
+        """What operators show after they ran, and the menu. What fails there Blender prints, and `run` looks for that."""
+        vertices, faces = support.grid()
+        scan = vertices.copy()
+        scan[:, 2] += 0.1
+        row = np.arange(6 * 13, 7 * 13)
+        middle = support.within(vertices, 0.6)
+        for name, chosen, options in [
+                ("vspring_fair", middle, {"normals_from": 'OBJECT'}), ("vspring_fair_edges", row, {}), ("vspring_fit", middle, {}),
+                ("vspring_smooth", middle, {"by": 'DISTANCE', "within": 0.05}), ("vspring_measure", row, {})]:
+            self.setUp()
+            yield lambda: True
+            with self.area():
+                other, thing = self.add(scan, faces, name="Scan"), self.add(vertices, faces)
+                self.edit(thing, selected=[chosen])
+                other.select_set(True)
+                self.assertEqual(getattr(bpy.ops.mesh, name)('EXEC_DEFAULT', True, **options), {'FINISHED'})
+                self.assertEqual(self.last().bl_idname, "MESH_OT_" + name)
+                bpy.ops.screen.redo_last('INVOKE_DEFAULT')
+            yield from self.shown(name)
+        with self.area():
+            bpy.ops.wm.call_menu(name="VIEW3D_MT_edit_mesh_vertices")
+        yield from self.shown("menu")
+        with self.area():
+            bpy.context.space_data.show_region_ui = True
+            bpy.ops.wm.call_panel(name="VSPRING_PT_fair")
+        yield from self.shown("panel")
+
+    def shown(self, name):
+        """Waits until it is drawn, keeps a picture where VSPRING_SHOTS names a folder, and closes it."""
+        for _ in range(3):
+            yield lambda: True
+        if "VSPRING_SHOTS" in os.environ:
+            with self.area():
+                bpy.ops.screen.screenshot(filepath=os.path.join(os.environ["VSPRING_SHOTS"], name + ".png"))
+        self.press_escape()
+        yield lambda: True
+
 
 def run():
     window = Window()

@@ -202,6 +202,18 @@ class AllElseStays(Case):
         self.assertFalse(np.array_equal(self.places(thing), vertices))
         self.assertEqual(kept(), before)
 
+    def test_normals_follow(self):
+        """Of few vertices that move, and of many."""
+        for reach in (0.25, 0.9):
+            thing, *_ = self.edited_patch(reach=reach, noise=0.05)
+            fair()
+            made = bmesh.from_edit_mesh(thing.data)
+            found = [[one.normal[:] for one in ones] for ones in (made.faces, made.verts)]
+            made.normal_update()
+            for ones, others in zip(found, (made.faces, made.verts)):
+                np.testing.assert_allclose(ones, [one.normal[:] for one in others], atol=1e-6)
+            bpy.ops.object.mode_set(mode='OBJECT')
+
     def test_shape_keys(self):
         """The key that is edited moves; the basis stays."""
         vertices, faces = grid()

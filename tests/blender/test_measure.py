@@ -41,6 +41,18 @@ class Measured(Case):
         self.assertGreater(expected[outer, 0], expected[outer, 2])  # orange
         self.assertGreater(expected[inner, 2], expected[inner, 0])  # violet
 
+    def test_colours_are_spread_over_the_selection(self):
+        bpy.ops.mesh.primitive_torus_add(major_segments=48, minor_segments=24)
+        thing = bpy.context.object
+        places = np.array([v.co[:] for v in thing.data.vertices], np.float32)
+        outside = np.linalg.norm(places[:, :2], axis=1) > 1.1
+        self.edit(thing, selected=[outside])
+        with told() as lines:
+            measure()
+        bends = module().curvatures(places, [list(face.vertices) for face in thing.data.polygons]).mean
+        low, high = np.quantile(bends[outside], [0.02, 0.98])
+        self.assertIn(f"from {low:.4g} to {high:.4g}", lines[0])
+
     def test_again_and_undo(self):
         bpy.ops.mesh.primitive_torus_add()
         thing = bpy.context.object

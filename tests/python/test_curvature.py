@@ -62,7 +62,15 @@ class Colours(unittest.TestCase):
             self.assertEqual(len(np.unique(shades, axis=0)), 1)
         self.assertEqual(vspring.colours([])[0].shape, (0, 3))
 
+    def test_over_others(self):
+        shades, ends = vspring.colours([5, 50, 500], over=np.linspace(0, 100, 1001))
+        np.testing.assert_allclose(ends, [2, 98])
+        np.testing.assert_allclose(shades[2] * 255, [0xfd, 0xe7, 0x25])
+        np.testing.assert_allclose(shades[1] * 255, [0x21, 0x90, 0x8c])
+
     def test_refused(self):
+        with self.assertRaisesRegex(vspring.Error, "over: number 0 is"):
+            vspring.colours([0], over=[np.inf])
         with self.assertRaisesRegex(vspring.Error, "number 1 is not finite"):
             vspring.colours([0, np.nan])
 

@@ -57,31 +57,37 @@ def curvatures(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = Non
     return Curvatures(*_vspring.curvatures(surface_of(vertices, faces).core, threads or 0))
 
 
-def colours(values: ArrayLike, *, about: float | None = None) -> tuple[np.ndarray, tuple[float, float]]:
+def colours(values: ArrayLike, *, about: float | None = None, over: ArrayLike | None = None) -> tuple[np.ndarray, tuple[float, float]]:
     """Colours that show numbers at nodes, even to the eye and safe for the colour-blind.
 
     values: (n,), finite. about: the value that is white, with violet below and orange above; without it colours go from dark
-    blue to yellow. They are spread over the middle 96 % of the values; those beyond have the colours of the ends.
+    blue to yellow. over: values that colours are spread over, such as those of another shape or of a part; these ones where
+    not given. Colours are spread over the middle 96 %; what is beyond has the colours of the ends.
 
     Returns (n, 3), sRGB from 0 to 1, and the values of the first and the last colour. Raises vspring.Error.
     """
-    numbers = numbers_of(np.reshape(np.asarray(values), (-1, 1)), "values", (1,))[:, 0].astype(float)
-    if not np.isfinite(numbers).all():
-        raise Error("invalid-argument", f"values: number {int(np.argmin(np.isfinite(numbers)))} is not finite")
-    if not len(numbers):
-        return np.zeros((0, 3)), (0.0, 0.0)
-    if about is None:
-        low, high = np.quantile(numbers, [(1 - SHARE) / 2, (1 + SHARE) / 2])
-    else:
-        reach = np.quantile(np.abs(numbers - about), (1 + SHARE) / 2)
-        low, high = about - reach, about + reach
-    # A sphere has one curvature, but for the last digits.
-    least = 0.02 * max(abs(low), abs(high)) or 1.0
-    if about is None and high - low < least:
-        low, high = (low + high - least) / 2, (low + high + least) / 2
-    elif high == low:
-        low, high = low - least, high + least
+    numbers = _finite(values, "values")
+    low, high = _range(numbers if over is None else _finite(over, "over"), about)
     points = np.array([[int(code[k:k + 2], 16) for k in (0, 2, 4)] for code in (SEQUENTIAL if about is None else DIVERGING).split()]) / 255
     place = np.clip((numbers - low) / (high - low), 0, 1)
     at = np.linspace(0, 1, len(points))
-    return np.column_stack([np.interp(place, at, part) for part in points.T]), (float(low), float(high))
+    return np.column_stack([np.interp(place, at, part) for part in points.T]), (low, high)
+
+
+def _finite(values: ArrayLike, name: str) -> np.ndarray:
+    numbers = numbers_of(np.reshape(np.asarray(values), (-1, 1)), name, (1,))[:, 0].astype(float)
+    if not np.isfinite(numbers).all():
+        raise Error("invalid-argument", f"{name}: number {int(np.argmin(np.isfinite(numbers)))} is not finite")
+    return numbers
+
+
+def _range(numbers: np.ndarray, about: float | None) -> tuple[float, float]:
+    """A sphere has one curvature, but for the last digits: it has one colour."""
+    if not len(numbers):
+        numbers = np.zeros(1)
+    if about is None:
+        low, high = np.quantile(numbers, [(1 - SHARE) / 2, (1 + SHARE) / 2])
+        middle, reach = (low + high) / 2, max((high - low) / 2, 0.01 * abs(low + high)) or 1.0
+    else:
+        middle, reach = about, np.quantile(np.abs(numbers - about), (1 + SHARE) / 2) or 1.0
+    return float(middle - reach), float(middle + reach)

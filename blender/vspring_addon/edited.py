@@ -75,6 +75,10 @@ class EditedMesh:
         tree.balance()
         return [Mirror(self.vertices, tree, axis) for axis in axes]
 
+    def is_edited_still(self):
+        """Whether it is in Edit Mode, with as many vertices."""
+        return self.object.mode == 'EDIT' and len(bmesh.from_edit_mesh(self.mesh).verts) == len(self.vertices)
+
     def put(self, positions):
         """Moves the vertices that are elsewhere, and nothing else of the mesh. Returns how many these are."""
         moved = np.flatnonzero((positions != self.vertices).any(axis=1))

@@ -123,6 +123,10 @@ class Running(EditModeOperator):
             context.workspace.status_text_set("Stopping" if self.is_stopped else f"{self.bl_label}: {self.percent} %. Esc: stop, and leave the mesh as it was")
         return {'RUNNING_MODAL'}
 
+    def cancel(self, context):
+        """Blender ends, or opens another file."""
+        self.is_stopped = True
+
     def begin(self, context):
         self.percent, self.is_stopped, self.failure = 0, False, None
         try:
@@ -162,13 +166,20 @@ class Running(EditModeOperator):
                 raise failure
             self.report({'ERROR'}, f"{job.edited.object.name}: {failure}{self.advice(failure)}")
             return {'CANCELLED'}
+        changed = [job.edited.object.name for job in self.jobs if not job.edited.is_edited_still()]
+        if changed:
+            self.report({'ERROR'}, f"{changed[0]}: it was changed meanwhile, or left Edit Mode. Start again")
+            return {'CANCELLED'}
         count, furthest = 0, 0.0
         for job in self.jobs:
             moved, move = job.put(self.strength)
             count, furthest = count + moved, max(furthest, move)
             for warning in job.report.warnings:
                 self.report({'WARNING'}, f"{job.edited.object.name}: {warning}")
-        self.report({'INFO'}, f"{count} vertices moved, by {furthest:.3g} at most")
+        if count:
+            self.report({'INFO'}, f"{count} {'vertex' if count == 1 else 'vertices'} moved, by {furthest:.3g} at most")
+        else:
+            self.report({'WARNING'}, "No vertex moved: what is selected is fair already, or held (see Open Edges, Ends and Pins)")
         return {'FINISHED'}
 
     def advice(self, failure):

@@ -74,6 +74,17 @@ class Window(support.Case):
 
         self.seconds = 1
         self.assertEqual(self.invoke(), {'RUNNING_MODAL'})
+        with self.area():
+            bpy.ops.object.mode_set(mode='OBJECT')
+        yield lambda: not any(thread.name == "vspring" for thread in threading.enumerate())
+        yield lambda: True
+        with self.area():
+            bpy.ops.object.mode_set(mode='EDIT')
+        self.assert_same_bits(now(), vertices)
+        self.assertIsNone(self.last())
+
+        support.forget_results()
+        self.assertEqual(self.invoke(), {'RUNNING_MODAL'})
         yield lambda: self.last() is not None
         whole = real(vertices, faces, region=chosen).positions
         self.assert_same_bits(now(), whole)

@@ -28,6 +28,11 @@ def module():
     return sys.modules[f"{ADDON}.vspring"]
 
 
+def forget_results():
+    """Of what was asked for last."""
+    sys.modules[f"{ADDON}.running"].Job.kept.clear()
+
+
 @contextlib.contextmanager
 def told():
     """What Blender prints meanwhile, reports of operators too, as a list of one text."""
@@ -65,7 +70,7 @@ class Case(unittest.TestCase):
     def setUp(self):
         bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
         bpy.ops.preferences.addon_enable(module=ADDON)
-        sys.modules[f"{ADDON}.running"].Job.kept.clear()
+        forget_results()
 
     def add(self, vertices, faces=(), edges=(), name="Part"):
         mesh = bpy.data.meshes.new(name)

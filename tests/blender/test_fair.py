@@ -301,6 +301,13 @@ class Told(Case):
         self.assert_refused("vertex group “Rim”", fair, pins="Rim")
         self.assert_refused("select it besides", fair, normals_from='OBJECT')
 
+    def test_nothing_moved(self):
+        self.edited_patch(reach=0)
+        self.select(bpy.context.edit_object, [0, 1, 2])
+        with told() as lines:
+            fair()
+        self.assertIn("No vertex moved: ", lines[0])
+
     def test_uneven_scale_and_what_moved(self):
         thing, vertices, faces, chosen = self.edited_patch()
         thing.scale = (1, 2, 1)

@@ -27,6 +27,7 @@ class Measured(Case):
         """Those of the module, as a person sees them; the attribute is the active one."""
         bpy.ops.mesh.primitive_torus_add(major_segments=48, minor_segments=24)
         thing = bpy.context.object
+        thing.data.attributes.active_color = thing.data.attributes.new("Paint", 'FLOAT_COLOR', 'POINT')
         self.edit(thing)
         measure(kind='gaussian')
         bpy.ops.object.mode_set(mode='OBJECT')

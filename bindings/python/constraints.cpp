@@ -80,7 +80,7 @@ void add_holds(py::class_<Constraints>& type) {
 }  // namespace
 
 void add_constraints(py::module_& module) {
-  py::class_<Constraints> type(module, "Constraints");
+  py::class_<Constraints> type(module, "Constraints", py::module_local());
   type.def(py::init<Index>());
   type.def("fix_position", [](Constraints& self, Index node, const Place& at) { self.fix_position(node, vector(at)); });
   type.def("free_position", &Constraints::free_position);

@@ -25,12 +25,15 @@ const char* name(ErrorCode code) {
 
 }  // namespace
 
-void add_errors(py::module_& /*module*/) {
+void add_errors(py::module_& module) {
+  // Not by the name "vspring": another package may have this one inside.
+  static const py::handle self = module.inc_ref();
   py::register_local_exception_translator([](std::exception_ptr thrown) {
     try {
       std::rethrow_exception(std::move(thrown));
     } catch (const Error& error) {
-      const py::object type = py::module_::import("vspring._errors").attr("Error");
+      const std::string package = self.attr("__spec__").attr("parent").cast<std::string>();
+      const py::object type = py::module_::import((package + "._errors").c_str()).attr("Error");
       const py::object made = type(name(error.code()), std::string(error.what()));
       PyErr_SetObject(type.ptr(), made.ptr());
     }

@@ -1,5 +1,7 @@
 // Fairing and measuring.
 
+#include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -101,6 +103,20 @@ py::list measure_shape(const Shape& shape, const Constraints* constraints, int t
   return list;
 }
 
+/// k1 and k2 of every node, its normal, and the directions of k1 and k2.
+py::tuple curvatures_of_surface(const PolygonMesh& mesh, int threads) {
+  Run run(threads, py::none());
+  const std::vector<NodeCurvature> found = run([&](const Context& context) { return curvatures(mesh, context); });
+  run.raise_if_stopped();
+  const auto each = [&](const auto& part) {
+    std::vector<std::decay_t<decltype(found.front().*part)>> values(found.size());
+    std::ranges::transform(found, values.begin(), part);
+    return array_of(std::move(values));
+  };
+  return py::make_tuple(each(&NodeCurvature::k1), each(&NodeCurvature::k2), each(&NodeCurvature::normal),
+                        each(&NodeCurvature::direction1), each(&NodeCurvature::direction2));
+}
+
 template <typename Shape, typename File>
 void add_calls(py::module_& module) {
   module.def("fair", &fair_shape<Shape>);
@@ -116,6 +132,7 @@ void add_calls(py::module_& module) {
 void add_fairing(py::module_& module) {
   add_calls<PolygonMesh, SurfaceFile>(module);
   add_calls<PolygonCurve, CurveFile>(module);
+  module.def("curvatures", &curvatures_of_surface);
 }
 
 }  // namespace vspring::python

@@ -53,7 +53,7 @@ py::object faces_of(const py::object& self) {
 }
 
 void add_surface(py::module_& module) {
-  py::class_<SurfaceFile>(module, "Surface",
+  py::class_<SurfaceFile>(module, "Surface", py::module_local(),
                           "A surface and everything else that its file carried, from vspring.read().")
       .def_property_readonly(
           "vertices",
@@ -85,7 +85,8 @@ void add_surface(py::module_& module) {
 }
 
 void add_curve(py::module_& module) {
-  py::class_<CurveFile>(module, "Curve", "A curve and everything else that its file carried, from vspring.read().")
+  py::class_<CurveFile>(module, "Curve", py::module_local(),
+                        "A curve and everything else that its file carried, from vspring.read().")
       .def_property_readonly(
           "vertices",
           [](const py::object& self) {

@@ -23,7 +23,7 @@ py::tuple solve(int threads, py::object progress, const Solve& with) {
 }  // namespace
 
 void add_session(py::module_& module) {
-  py::class_<FairingSession>(module, "FairingSession")
+  py::class_<FairingSession>(module, "FairingSession", py::module_local())
       .def(py::init([](const PolygonMesh& mesh, const py::dict& given) {
         const Settings settings(given);
         return FairingSession(mesh, fair_options(settings, {}), threads_of(settings));

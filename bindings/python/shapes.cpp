@@ -19,7 +19,7 @@ PolygonCurve curve_of(const Array<double>& positions, const std::vector<Array<In
 }  // namespace
 
 void add_shapes(py::module_& module) {
-  py::class_<PolygonMesh>(module, "Mesh")
+  py::class_<PolygonMesh>(module, "Mesh", py::module_local())
       .def(py::init([](const Array<double>& positions, const Array<Index>& corners, const Array<Index>& face_begin) {
         return PolygonMesh::from_arrays(span_of(positions), span_of(face_begin), span_of(corners));
       }))
@@ -28,7 +28,7 @@ void add_shapes(py::module_& module) {
                     return PolygonMesh::from_arrays(span_of(positions), span_of(corners), sides);
                   })
       .def_property_readonly("node_count", &PolygonMesh::node_count);
-  py::class_<PolygonCurve>(module, "PlainCurve")
+  py::class_<PolygonCurve>(module, "PlainCurve", py::module_local())
       .def(py::init(&curve_of))
       .def_property_readonly("node_count", &PolygonCurve::node_count);
 }

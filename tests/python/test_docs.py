@@ -5,12 +5,14 @@ import inspect
 import io
 import os
 import re
+import subprocess
+import sys
 import textwrap
 import unittest
 import warnings
 
 import numpy as np
-from support import ROOT, Case, patch, vspring
+from support import BUILD, ROOT, Case, patch, vspring
 
 PACKAGE = ROOT / "bindings/python/vspring"
 
@@ -31,6 +33,7 @@ class Examples(Case):
         self.names = {"np": np, "vspring": vspring, "vertices": vertices, "faces": quads}
         vspring.write("part.ply", vertices, np.vstack([quads[:, :3], quads[:, [0, 2, 3]]]))
         vspring.write("scan.ply", *patch(cells=30, seed=2))
+        (self.folder / "examples").symlink_to(ROOT / "examples")
         (self.folder / "rules.json").write_text('{"rules": [{"nodes": "boundary", "normal": "fixed"}]}')
 
     def run_blocks(self, text, name):
@@ -44,6 +47,20 @@ class Examples(Case):
     def test_page(self):
         self.assertEqual(self.run_blocks((ROOT / "docs/python.md").read_text(), "python.md"), 7)
         self.assertTrue((self.folder / "fair.ply").exists())
+
+    def test_tasks(self):
+        self.assertEqual(self.run_blocks((ROOT / "docs/python-tasks.md").read_text(), "python-tasks.md"), 6)
+        self.assertEqual(len(vspring.read("hornless.obj").vertices), len(vspring.read("examples/spot.obj").vertices))
+
+    def test_gallery(self):
+        """Every picture is drawn, and each shape is fairer, or nearer to the true one, than it was."""
+        told = subprocess.run([sys.executable, "-B", ROOT / "examples/gallery.py", self.folder / "drawn"], check=True, capture_output=True, text=True,
+                              env={**os.environ, "PYTHONPATH": str(BUILD / "python"), "MPLCONFIGDIR": str(self.folder)}).stdout
+        rows = re.findall(r"^(\w+): (\S+) to (\S+)$", told, re.MULTILINE)
+        self.assertEqual([f"python-{name}.png" for name, _, _ in rows], re.findall(r"\(pictures/(.*?)\)", (ROOT / "docs/python-tasks.md").read_text()))
+        for name, before, after in rows:
+            self.assertLess(float(after), float(before) / 2, name)
+            self.assertGreater((self.folder / f"drawn/python-{name}.png").stat().st_size, 10_000)
 
     def test_docstrings(self):
         ran = self.run_blocks(inspect.cleandoc(vspring.__doc__) + "\n", "vspring")

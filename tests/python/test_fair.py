@@ -64,6 +64,19 @@ class Arrays(Case):
         self.assert_same_bits(vspring.fair(vertices, mixed).positions, vspring.fair(vertices, (np.concatenate(mixed), offsets)).positions)
         self.assert_same_bits(vspring.fair(vertices, mixed).positions, self.by_command_line("fair", vertices, mixed))
 
+    def test_blocks_as_of_meshio(self):
+        import meshio
+
+        vertices, quads = patch()
+        cells = [("quad", quads[1:]), ("triangle", np.array([quads[0, :3], quads[0, [0, 2, 3]]]))]
+        meshio.write_points_cells(self.folder / "part.obj", vertices, cells)
+        mesh = meshio.read(self.folder / "part.obj")
+        self.assertEqual([block.type for block in mesh.cells], ["quad", "triangle"])
+        blocks = [block.data for block in mesh.cells]
+        mixed = [face.tolist() for block in blocks for face in block]
+        self.assert_same_bits(vspring.fair(mesh.points, blocks).positions, vspring.fair(mesh.points, mixed).positions)
+        self.assert_same_bits(vspring.fair(mesh.points, [quads]).positions, vspring.fair(mesh.points, quads).positions)
+
     def test_single_precision_comes_back_as_such(self):
         vertices, faces = patch()
         single = vertices.astype(np.float32)

@@ -1,6 +1,8 @@
 """pip install . into a folder, without network, of what CMake has built."""
+import importlib
 import os
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -39,6 +41,19 @@ class Installed(Case):
         shipped = {path.name for path in (folder / "vspring").iterdir() if path.is_file()}
         for needed in [path.name for path in (ROOT / "bindings/python/vspring").iterdir() if path.is_file()]:
             self.assertIn(needed, shipped)
+
+    def test_inside_of_another_package(self):
+        """As a program may have it that brings its own along; both work side by side."""
+        shutil.copytree(BUILD / "python/vspring", self.folder / "host/vspring")
+        sys.path.insert(0, str(self.folder))
+        self.addCleanup(sys.path.remove, str(self.folder))
+        inner = importlib.import_module("host.vspring")
+        vertices, faces = patch()
+        self.assert_same_bits(inner.fair(vertices, faces).positions, vspring.fair(vertices, faces).positions)
+        for one, other in ((inner, vspring), (vspring, inner)):
+            with self.assertRaises(one.Error) as caught:
+                one.fair(vertices, faces, fix="none")
+            self.assertNotIsInstance(caught.exception, other.Error)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,8 @@ gently as what is held allows.
 
 Arguments have the names of the command line. Lengths are in units of the input. See docs/python.md.
 """
+from ._chains import Chains, chains_of
+from ._curvature import Curvatures, colours, curvatures
 from ._errors import Error, Warning
 from ._fairing import fair, fair_curve, fit, measure
 from ._files import read, write
@@ -17,5 +19,6 @@ from ._vspring import version as _version
 
 __version__: str = _version()
 
-__all__ = ["Bar", "Curve", "Distances", "Error", "Figure", "Figures", "FitReport", "Level", "Points", "Progress", "Report", "Result",
-           "Session", "Surface", "Warning", "fair", "fair_curve", "fit", "measure", "read", "read_points", "write"]
+__all__ = ["Bar", "Chains", "Curvatures", "Curve", "Distances", "Error", "Figure", "Figures", "FitReport", "Level", "Points", "Progress",
+           "Report", "Result", "Session", "Surface", "Warning", "chains_of", "colours", "curvatures", "fair", "fair_curve", "fit",
+           "measure", "read", "read_points", "write"]

@@ -25,7 +25,8 @@ def fair(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None,
     """Fairs a surface: curvature changes as gently as what is held allows. Connectivity stays.
 
     vertices: (n, 3), float64 or float32, in any unit. float32 comes back as float32, rounded from doubles.
-    faces: (m, 3) or (m, 4) node numbers, a list of lists, or a tuple of two arrays, corners and m + 1 offsets.
+    faces: (m, 3) or (m, 4) node numbers, a list of lists or of such arrays, or a tuple of two arrays, corners and m + 1
+    offsets.
     Or else, in place of both, what read() returned. With weight, smoothing_length, within, rms or noise, the surface is
     drawn to its own nodes, as they are in the input.
 

@@ -10,8 +10,9 @@ from numpy.typing import ArrayLike
 from . import _vspring
 from ._errors import Error
 
-Faces = ArrayLike | Sequence[Sequence[int]] | tuple[np.ndarray, np.ndarray]
-"""(m, 3) or (m, 4) node numbers, a list of lists, or a tuple of two arrays: all corners, and m + 1 offsets into them."""
+Faces = ArrayLike | Sequence[Sequence[int]] | tuple[np.ndarray, np.ndarray] | list[np.ndarray]
+"""(m, 3) or (m, 4) node numbers, a list of lists, a list of such arrays one after the other, or a tuple of two arrays: all
+corners, and m + 1 offsets into them."""
 
 
 def _refuse(message: str) -> Error:
@@ -97,6 +98,10 @@ def surface_of(vertices: ArrayLike | _vspring.Surface, faces: Faces | None) -> G
     if isinstance(faces, tuple) and len(faces) == 2 and all(isinstance(one, np.ndarray) for one in faces):
         corners, offsets = (indices_of(one, "faces") for one in faces)
         return Given(_vspring.Mesh(positions, corners, offsets), array)
+    if isinstance(faces, list) and faces and all(isinstance(one, np.ndarray) and one.ndim == 2 for one in faces):
+        corners = indices_of(np.concatenate([block.ravel() for block in faces]), "faces")
+        sizes = np.concatenate([np.full(len(block), block.shape[1]) for block in faces])
+        return Given(_vspring.Mesh(positions, corners, indices_of(np.append(0, np.cumsum(sizes)), "faces")), array)
     if isinstance(faces, np.ndarray):
         table = faces
     else:
@@ -107,7 +112,7 @@ def surface_of(vertices: ArrayLike | _vspring.Surface, faces: Faces | None) -> G
             return Given(_vspring.Mesh(positions, indices_of(corners, "faces"), indices_of(offsets, "faces")), array)
         table = np.stack(rows)
     if table.ndim != 2 or (table.size and table.shape[1] < 1):
-        raise _refuse(f"faces: (m, 3) or (m, 4) node numbers, a list of lists or (corners, offsets) are needed, "
+        raise _refuse(f"faces: (m, 3) or (m, 4) node numbers, a list of lists or of such arrays, or (corners, offsets) are needed, "
                       f"not {table.dtype} of {table.shape}")
     return Given(_vspring.Mesh.of_sides(positions, indices_of(table, "faces"), max(table.shape[1], 1)), array)
 

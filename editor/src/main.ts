@@ -47,7 +47,11 @@ const canvas = document.getElementById('canvas') as HTMLCanvasElement;
 const panel = document.querySelector('aside')!;
 const help = document.getElementById('help') as HTMLDialogElement;
 const format = document.getElementById('format') as HTMLSelectElement;
-const examples = new Examples(document.getElementById('example') as HTMLSelectElement, (...addresses) => void openExample(...addresses));
+const examples = new Examples(document.getElementById('example') as HTMLSelectElement, {
+  open: (...addresses) => void openExample(...addresses),
+  reopen: (slot) => void autosave.reopen(slot),
+  forget: () => void autosave.forgetOthers(),
+});
 const range = document.getElementById('range') as HTMLInputElement;
 const firstExample = 'examples/annulus.obj';
 /** Pixels between nodes from which on each is a target of its own, and where there are fewer a drag turns the view. */
@@ -59,7 +63,7 @@ let dotted: { fit: Fit | undefined; report: Report | null } = { fit: undefined, 
 const editor: Editor = new Editor({
   opened: (shape, stays) => {
     marks.clear();
-    examples.opened(editor.name);
+    examples.opened(opening.example ? editor.name : null);
     showFor(shape, editor.name, format);
     // With the room that its plot leaves.
     curves.open(shape);
@@ -105,7 +109,7 @@ const ways = new Ways(document.getElementById('way')!, {
   normal: () => editor.normalOf(editor.drags.node),
   moved: (way, time) => editor.drags.by(way, time),
 });
-const autosave = new Autosave(editor, opening, document.getElementById('restored')!);
+const autosave = new Autosave(editor, opening, document.getElementById('restored')!, (recent) => examples.list(recent));
 const points = new PointsPanel(editor);
 const start: StartPanel = new StartPanel(document.getElementById('start')!, editor, () => tools, { chosen: toolChanged });
 const numbers = new Numbers(document.getElementById('numbers')!, editor);

@@ -16,6 +16,7 @@ import { Autosave } from './edit/autosave';
 import { Editor } from './edit/editor';
 import { Opening } from './edit/opening';
 import { bindPresets } from './navigation/presets';
+import { UpMenu } from './navigation/up';
 import { Fields, type Field } from './view/fields';
 import { View } from './view/view';
 import { Gestures } from './pick/gestures';
@@ -67,6 +68,7 @@ const editor: Editor = new Editor({
     showFor(shape, editor.name, format);
     // With the room that its plot leaves.
     curves.open(shape);
+    view.setUp(up.open(shape));
     view.open(shape, stays);
     looks.opened(shape);
     fields.open(shape);
@@ -303,6 +305,7 @@ range.addEventListener('input', () => {
 bindUnit(document.getElementById('unit') as HTMLSelectElement, () => { fields.setShare(range.valueAsNumber / 100); changed(); });
 bindSymmetry(document.getElementById('symmetry') as HTMLSelectElement, editor);
 bindReach(document.getElementById('reach') as HTMLInputElement, editor);
+const up = new UpMenu(document.getElementById('up') as HTMLSelectElement, (which) => view.setUp(which));
 bindPresets(document.getElementById('mouse') as HTMLSelectElement, (preset) => view.setPreset(preset));
 bindStrength(document.querySelector('#strength')!, (share, settled) => editor.setStrength(share, settled));
 rove(document.querySelector('[role=toolbar]')!);

@@ -9,6 +9,7 @@ import { startTheme, switchTheme } from './base/theme';
 import { rove } from './base/toolbar';
 import { bindUnit } from './base/units';
 import type { Report } from './library/protocol';
+import { enclosed } from './shape/neighbours';
 import { placesOf } from './shape/shape';
 import { byInput, toFile } from './constraints/constraints';
 import type { Fit } from './constraints/points';
@@ -20,6 +21,7 @@ import { UpMenu } from './navigation/up';
 import { Fields, type Field } from './view/fields';
 import { View } from './view/view';
 import { Gestures } from './pick/gestures';
+import { BrushCard } from './pick/brush_card';
 import { pick } from './pick/picking';
 import { selectionCommands } from './pick/selection';
 import { Tilts } from './pick/tilts';
@@ -105,7 +107,10 @@ const tools: Tools = new Tools(canvas, document.querySelector('#overlay')!, {
   picked: () => editor.picked,
   pick: (picked) => editor.set({ picked }),
   withImages: (nodes) => editor.symmetry.with(nodes),
+  enclosed: (nodes, others) => enclosed(editor.shape!, nodes, others),
+  brush: () => brush.refresh(),
 });
+const brush = new BrushCard(document.getElementById('brush')!, () => tools);
 const ways = new Ways(document.getElementById('way')!, {
   wayOf: (across, down) => view.wayOf(across, down),
   normal: () => editor.normalOf(editor.drags.node),

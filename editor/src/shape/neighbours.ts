@@ -36,16 +36,34 @@ export function rim(shape: Joined, nodes: readonly number[]): Set<number> {
   return found;
 }
 
-/** All nodes of the connected parts on which some of those nodes lie. */
-export function withParts({ edges, input }: Joined, nodes: Nodes): Set<number> {
+/** Which nodes the edges join, of those that count: for each node one that stands for all of its part. */
+function partsOf({ edges, input }: Joined, joins: (a: number, b: number) => boolean): (node: number) => number {
   const parent = Int32Array.from({ length: input.length / 3 }, (_, node) => node);
   const root = (node: number): number => {
     while (parent[node] !== node) node = parent[node] = parent[parent[node]];
     return node;
   };
-  for (let k = 0; k < 2 * edges.count; k += 2) parent[root(edges.ends[k])] = root(edges.ends[k + 1]);
+  for (let k = 0; k < 2 * edges.count; k += 2) {
+    const [a, b] = [edges.ends[k], edges.ends[k + 1]];
+    if (joins(a, b)) parent[root(a)] = root(b);
+  }
+  return root;
+}
+
+/** All nodes of the connected parts on which some of those nodes lie. */
+export function withParts(shape: Joined, nodes: Nodes): Set<number> {
+  const root = partsOf(shape, () => true);
   const wanted = new Set([...nodes].map(root));
-  return new Set([...parent.keys()].filter((node) => wanted.has(root(node))));
+  return new Set([...Array(shape.input.length / 3).keys()].filter((node) => wanted.has(root(node))));
+}
+
+/** Of those nodes the ones whose part, as far as they are joined, has no neighbour but those around. */
+export function enclosed(shape: Joined, nodes: Nodes, around: Pick<Nodes, 'has'>): Set<number> {
+  if (nodes.size === 0) return new Set();
+  const root = partsOf(shape, (a, b) => nodes.has(a) && nodes.has(b));
+  const open = new Set<number>();
+  forRim(shape, nodes, (inside, outside) => { if (!around.has(outside)) open.add(root(inside)); });
+  return new Set([...nodes].filter((node) => !open.has(root(node))));
 }
 
 export function all({ input }: Pick<Shape, 'input'>): Set<number> {

@@ -209,7 +209,7 @@ export class StartPanel {
   private said(): string {
     const { editor, way } = this;
     if (!way) return '';
-    if (way === 'repair' && editor.picked.size === 0) return 'Paint over what is to be repaired. With Alt the brush takes away.';
+    if (way === 'repair' && editor.picked.size === 0) return 'Paint over what is to be repaired; what is hidden goes with what is painted around it. Erase, or Alt, takes away.';
     if (this.asking || editor.busy) return 'Trying it …';
     if (!editor.trying) return '';
     const { report, shape } = editor;

@@ -1,8 +1,9 @@
 // What helps to judge a shape: marks out of the way, edges, ranges of colours and combs that are set, units.
 
 import assert from 'node:assert/strict';
+import { copyFileSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { choose, drop, find, follows, open, page, picture, session, settled, useSession } from './support.mjs';
+import { choose, downloaded, drop, find, follows, open, page, picture, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -89,6 +90,35 @@ test('input and result are compared left and right of a line, which is moved', a
   assert.ok((await part()) === input, 'all of the input');
   await slider.fill('0');
   assert.ok((await part()) === result, 'all of the result');
+  const box = await page.locator('#canvas').boundingBox();
+  const { x: free } = await page.locator('aside').boundingBox();
+  await page.mouse.move(box.x + 3, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.75 * (free - box.x), box.y + box.height / 3, { steps: 4 });
+  await page.mouse.up();
+  assert.equal(await slider.inputValue(), '75');
+  const most = await part();
+  assert.ok(most !== input && most !== half && most !== result);
+
+  // The picture has both sides, whatever the line hides, and the colours with their legend.
+  await page.getByLabel('Unit').selectOption('mm');
+  await page.keyboard.press('4');
+  await page.locator('#legend .marks').waitFor();
+  const { name, path } = await downloaded(page, () => page.keyboard.press('Shift+P'));
+  assert.equal(name, 'annulus-before-after.png');
+  assert.equal(await slider.inputValue(), '75');
+  if (process.env.PICTURES) copyFileSync(path, `${process.env.PICTURES}/before-after.png`);
+  const { width, height, data } = await pixels(readFileSync(path).toString('base64'));
+  assert.ok(width > 2 * (free - box.x), `${width} by ${height}`);
+  const side = (from, to) => {
+    const rows = [];
+    for (let row = Math.round(0.2 * height); row < 0.7 * height; ++row) rows.push(data.subarray(4 * (row * width + Math.round(from * width)), 4 * (row * width + Math.round(to * width))));
+    return Buffer.concat(rows);
+  };
+  const colours = (bytes) => new Set(Array.from({ length: bytes.length / 4 }, (_, k) => bytes.readUInt32LE(4 * k))).size;
+  const sides = [side(0.05, 0.45), side(0.55, 0.95)];
+  for (const one of sides) assert.ok(colours(one) > 200, `${colours(one)} colours`);
+  assert.ok(!sides[0].equals(sides[1]));
 });
 
 // The numbers of the picture as it is, red, green, blue and opacity of each pixel.

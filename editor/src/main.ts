@@ -38,6 +38,7 @@ import { Examples } from './panels/examples';
 import { showFor } from './panels/kinds';
 import { showLegend, showLengths } from './panels/legend';
 import { Numbers } from './panels/numbers';
+import { PictureOf } from './panels/picture';
 import { PointsPanel } from './panels/points';
 import { bindReach, showReach } from './panels/reach_slider';
 import { SectionPanel } from './panels/section_panel';
@@ -60,6 +61,7 @@ const firstExample = 'examples/annulus.obj';
 /** Pixels between nodes from which on each is a target of its own, and where there are fewer a drag turns the view. */
 const distinct = 40;
 const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz,.gpx';
+const fromField = document.getElementById('deviation-from')!;
 let coloured: Field | null = null;
 let dotted: { fit: Fit | undefined; report: Report | null } = { fit: undefined, report: null };
 
@@ -96,6 +98,7 @@ const fields = new Fields({
   ask: (positions) => editor.client.ask('curvatures', { positions }),
   show: (field) => {
     coloured = field;
+    compare();
     view.setField(field);
     showLegend(document.getElementById('legend')!, field);
     describe(editor, coloured);
@@ -152,9 +155,10 @@ function newView(): View {
 }
 
 const marks = new Marks(editor, view);
-const looks: Looks = new Looks(editor, view, fields, marks, document.getElementById('wipe')!, document.getElementById('lamps')!, () => refresh());
+const looks: Looks = new Looks(editor, view, fields, marks, document.getElementById('wipe')!, document.getElementById('wipe-line')!, document.getElementById('lamps')!, () => refresh());
 const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('comb-clip') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
 const section = new SectionPanel(view.section, () => view.draw());
+const pictureOf = new PictureOf(editor, view, fields);
 const served = ServedFile.of(location.href, editor, format.parentElement!);
 
 const opened = (): boolean => editor.shape !== null;
@@ -192,6 +196,7 @@ const commands: Command[] = [
   { id: 'comb-root', title: 'Hairs by the root of the curvature', keys: [], run: () => { curves.toggleRoot(); refresh(); }, enabled: isCurve, pressed: () => curves.root },
   { id: 'plot', title: 'Plot of curvature', keys: ['p'], run: () => { curves.fold(); refresh(); }, enabled: isCurve, pressed: () => curves.unfolded },
   ...looks.commands,
+  { id: 'picture', title: 'Save a picture of before and after', keys: ['shift+p'], enabled: () => opened() && !editor.busy, run: () => void pictureOf.save().catch((error: Error) => editor.setFault(error.message, 'file')) },
   section.command,
   { id: 'input', title: 'Show the input or the result', keys: ['i'], run: () => editor.toggleInput(), enabled: opened, pressed: () => editor.showsInput },
   { id: 'fit', title: 'Show all', keys: ['0', 'home'], run: () => view.fit() },
@@ -212,7 +217,15 @@ listShortcuts(help.querySelector('dl')!, [...commands,
   { title: 'While a curve is drawn: end it, take its last node away', keys: ['enter', 'backspace'] },
 ]);
 
+/** Deviation is from the file, or, where that was chosen and something was applied, from that. */
+function compare(): void {
+  const applied = editor.shown.start;
+  fromField.hidden = coloured?.name !== 'deviation' || !applied;
+  if (editor.shape) fields.compareWith(fromField.querySelector('select')!.value && applied ? applied : editor.shape.input);
+}
+
 function changed(): void {
+  compare();
   marks.refresh(looks.look, editor.trying && start.way === 'repair');
   describe(editor, coloured);
   showLoading(document.getElementById('loading')!, editor.loading);
@@ -307,6 +320,7 @@ range.addEventListener('input', () => {
   range.parentElement!.querySelector('output')!.textContent = `${range.value} %`;
   fields.setShare(range.valueAsNumber / 100);
 });
+fromField.addEventListener('change', changed);
 bindUnit(document.getElementById('unit') as HTMLSelectElement, () => { fields.setShare(range.valueAsNumber / 100); changed(); });
 bindSymmetry(document.getElementById('symmetry') as HTMLSelectElement, editor);
 bindReach(document.getElementById('reach') as HTMLInputElement, editor);

@@ -337,6 +337,33 @@ export class View {
     });
   }
 
+  /** What is seen beside the panel, as finely as it is drawn at last, without a line between input and result. */
+  async picture(): Promise<HTMLCanvasElement> {
+    await new Promise(requestAnimationFrame);
+    const { share } = this.wipe;
+    this.wipe.set(null, this.shape);
+    this.setResolution(2);
+    this.paint();
+    const { width, height } = this.scaleOfPicture;
+    const copy = Object.assign(document.createElement('canvas'), { width, height });
+    copy.getContext('2d')!.drawImage(this.canvas, 0, 0);
+    this.wipe.set(share, this.shape);
+    this.draw();
+    return copy;
+  }
+
+  /** Pixels of such a picture, and how many a unit of the file has. */
+  get scaleOfPicture(): { width: number; height: number; perUnit: number } {
+    const ratio = 2 * window.devicePixelRatio;
+    const { clientWidth, clientHeight } = this.canvas;
+    return { width: Math.floor(ratio * (clientWidth - this.covered)), height: Math.floor(ratio * clientHeight), perUnit: (ratio * this.camera.zoom * clientHeight * (this.shape?.scale ?? 1)) / 2 };
+  }
+
+  /** Pixels of the view, left of what lies above it. */
+  get free(): number {
+    return this.canvas.clientWidth - this.covered;
+  }
+
   /** What the panel covers of the width. */
   private get covered(): number {
     return this.panel.offsetLeft > 0 ? this.canvas.clientWidth - this.panel.offsetLeft : 0;

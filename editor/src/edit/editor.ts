@@ -376,7 +376,7 @@ export class Editor {
   /** The solution that runs ends, and the last shape stays. */
   cancel(): void {
     ++this.cancels;
-    this.client.endNow();
+    this.solver.cancel();
   }
 
   private get holds(): Job {

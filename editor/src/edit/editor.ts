@@ -10,6 +10,7 @@ import { between, furthest } from '../shape/between';
 import { heldOn, loopsOf } from '../shape/loops';
 import type { Mirror } from '../shape/mirror';
 import { normalNear, nothing, shapeOf, type Shape } from '../shape/shape';
+import { slid, stayed } from '../shape/stays';
 import type { Constraints, Edit, Held } from '../constraints/constraints';
 import * as holding from '../constraints/constraints';
 import { nodesOf, type Renumbered } from '../constraints/nodes';
@@ -40,6 +41,13 @@ export type Source = NamedBytes | Ask<'draw'>;
 
 export function nameOf(source: Source): string {
   return 'places' in source ? 'curve.csv' : source.name;
+}
+
+/** How far nodes have come to positions: at most, and along the shape. */
+interface Moved {
+  positions: Float64Array;
+  all: number;
+  along: number;
 }
 
 type FaultSource = 'file' | 'solver';
@@ -76,6 +84,7 @@ export class Editor {
   /** What is shown to be judged before it is a step, and what was there before. */
   private tried: Constraints | null = null;
   private before: { positions: Float64Array; strength: number; report: Report | null } = { positions: new Float64Array(), strength: 1, report: null };
+  private moves: Moved = { positions: new Float64Array(), all: 0, along: 0 };
   private cancels = 0;
   /** Null: as is usual for what is open. */
   reach: number | null = null;
@@ -89,6 +98,8 @@ export class Editor {
   private started: Float64Array | undefined = undefined;
   /** Numbers of points that are known to the worker. */
   clouds = 0;
+  /** Nodes that do not keep the coordinate that they are to keep, as the shape is too steep there. */
+  steep = 0;
   source: Source | null = null;
   readonly client = new CoreClient((message) => this.setFault(message, 'file'));
   private readonly solver = new Solver(this.client, {
@@ -121,9 +132,12 @@ export class Editor {
     return this.constraints.start ?? this.shape!.input;
   }
 
-  /** How far what is tried moves a node. */
-  get movedInTrial(): number {
-    return this.tried ? furthest(this.positions, this.before.positions) : 0;
+  /** How far what is tried moves a node, and how far along the shape. */
+  get movedInTrial(): Moved {
+    const { positions, before, shape } = this;
+    if (!this.tried) return { positions, all: 0, along: 0 };
+    if (this.moves.positions !== positions) this.moves = { positions, all: furthest(positions, before.positions), along: slid(shape!, before.positions, positions) };
+    return this.moves;
   }
 
   /** How far what is seen is from the input. */
@@ -480,13 +494,14 @@ export class Editor {
   }
 
   private solved(solved: Solved, { drag }: Job): void {
-    const { positions, report, normals } = solved;
-    if (positions.length !== this.positions.length) return;
+    const { report, normals } = solved;
+    if (solved.positions.length !== this.positions.length) return;
     if (drag && report.outcome === 'cancelled') return;
     if (drag && report.outcome === 'foreseen') {
       this.drags.solved(drag, solved);
       return;
     }
+    const positions = drag ? solved.positions : this.kept(solved.positions);
     // Of a large shape that stays as it is a picture would take seconds.
     const same = this.rests && this.seen === this.positions && furthest(positions, this.positions) === 0;
     if (!same) this.positions = positions;
@@ -497,5 +512,13 @@ export class Editor {
     if (normals && this.drags.part !== this.direction) this.normals = new Map([...normals.nodes].map((node, k) => [node, [...normals.normals.subarray(3 * k, 3 * k + 3)] as Vector]));
     if (this.showsInput || same) this.events.changed();
     else this.show({}, !drag);
+  }
+  /** With nodes where they are to stay along the shape. */
+  private kept(positions: Float64Array): Float64Array {
+    const { shape, shown: { fit, start } } = this;
+    if (!fit?.stay) return positions;
+    const found = stayed(shape!, start ?? shape!.input, positions, fit.stay, fit.value);
+    this.steep = found.steep;
+    return found.positions;
   }
 }

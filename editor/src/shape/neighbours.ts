@@ -1,5 +1,6 @@
 // Sets of nodes by what the edges join. Linear in the size of the surface.
 
+import { partsOf } from './joined';
 import type { Shape } from './shape';
 
 type Joined = Pick<Shape, 'edges' | 'input'>;
@@ -36,23 +37,9 @@ export function rim(shape: Joined, nodes: readonly number[]): Set<number> {
   return found;
 }
 
-/** Which nodes the edges join, of those that count: for each node one that stands for all of its part. */
-function partsOf({ edges, input }: Joined, joins: (a: number, b: number) => boolean): (node: number) => number {
-  const parent = Int32Array.from({ length: input.length / 3 }, (_, node) => node);
-  const root = (node: number): number => {
-    while (parent[node] !== node) node = parent[node] = parent[parent[node]];
-    return node;
-  };
-  for (let k = 0; k < 2 * edges.count; k += 2) {
-    const [a, b] = [edges.ends[k], edges.ends[k + 1]];
-    if (joins(a, b)) parent[root(a)] = root(b);
-  }
-  return root;
-}
-
 /** All nodes of the connected parts on which some of those nodes lie. */
 export function withParts(shape: Joined, nodes: Nodes): Set<number> {
-  const root = partsOf(shape, () => true);
+  const root = partsOf(shape.edges, shape.input.length / 3, () => true);
   const wanted = new Set([...nodes].map(root));
   return new Set([...Array(shape.input.length / 3).keys()].filter((node) => wanted.has(root(node))));
 }
@@ -60,7 +47,8 @@ export function withParts(shape: Joined, nodes: Nodes): Set<number> {
 /** Of those nodes the ones whose part, as far as they are joined, has no neighbour but those around. */
 export function enclosed(shape: Joined, nodes: Nodes, around: Pick<Nodes, 'has'>): Set<number> {
   if (nodes.size === 0) return new Set();
-  const root = partsOf(shape, (a, b) => nodes.has(a) && nodes.has(b));
+  const { edges, input } = shape;
+  const root = partsOf(edges, input.length / 3, (e) => nodes.has(edges.ends[2 * e]) && nodes.has(edges.ends[2 * e + 1]));
   const open = new Set<number>();
   forRim(shape, nodes, (inside, outside) => { if (!around.has(outside)) open.add(root(inside)); });
   return new Set([...nodes].filter((node) => !open.has(root(node))));

@@ -63,6 +63,9 @@ test('numbers are seen whole, and warnings at the top of the panel', async () =>
   const { x, y } = await find(page, /position fixed/, [0.02, 0.55], [0.5, 0.55]);
   await page.mouse.click(x, y);
   await page.getByLabel('Position x').waitFor();
+  const [numbers, panel] = await Promise.all(['#numbers', 'aside'].map((one) => page.locator(one).boundingBox()));
+  assert.ok(numbers.y + numbers.height <= panel.y + panel.height, 'they are found without scrolling');
+  assert.equal((await page.locator('#numbers form').first().textContent()).replace(/\s/g, ''), 'PositionXYZApply', 'what each is, is said beside it');
   await page.getByLabel('Position y').fill('five');
   await page.getByLabel('Position y').press('Enter');
   await page.getByRole('alert').filter({ hasText: 'Give numbers' }).waitFor();

@@ -30,6 +30,17 @@ test('marks of held nodes hide under reflection lines, and a key shows them; edg
   assert.ok((await seen()) !== bare);
   await page.keyboard.press('7');
   assert.ok((await seen()) === bare);
+  await page.keyboard.press('Shift+B');
+  await settled(page);
+  assert.equal(await page.getByRole('button', { name: 'Normals fixed' }).getAttribute('aria-pressed'), 'true');
+  // Pixels that have the colour of what is held, as marks and arrows have.
+  const held = async () => {
+    const { data } = await pixels(await seen());
+    return Array.from({ length: data.length / 4 }, (_, k) => data.subarray(4 * k, 4 * k + 3)).filter(([red, green, blue]) => red > green + 60 && green > blue + 30).length;
+  };
+  assert.equal(await held(), 0, 'no arrows either');
+  await page.keyboard.press('m');
+  assert.ok((await held()) > 1000);
   await page.keyboard.press('1');
   assert.equal(await marks().getAttribute('aria-pressed'), 'true');
 });
@@ -44,7 +55,7 @@ test('colours are spread over as many nodes as the slider says; legend and foote
   const widths = [];
   for (const share of [60, 96, 100]) {
     const before = await page.locator('#legend .marks').textContent();
-    await page.getByRole('slider', { name: 'Middle' }).fill(String(share));
+    await page.getByRole('slider', { name: 'Colours for' }).fill(String(share));
     if (share !== 96 || widths.length > 0) await page.waitForFunction((old) => document.querySelector('#legend .marks').textContent !== old, before);
     const [low, , high] = (await page.locator('#legend .marks span').allTextContents()).map(numberOf);
     widths.push(high - low);
@@ -201,6 +212,19 @@ test('a section of a surface has a comb, is moved by a slider, and follows a dra
   await page.locator('#section-at').fill('150');
   const aside = await combBox(await seen());
   assert.ok(aside[0] < middle[0] - 50, `${middle}, then ${aside}`);
+  const value = page.getByLabel('At', { exact: true });
+  await value.fill('-0.7');
+  await value.press('Enter');
+  assert.equal(Number(await page.locator('#section-at').inputValue()), 150, 'the slider is where the number says');
+  assert.deepEqual(await combBox(await seen()), aside);
+  const count = page.getByLabel('How many');
+  await count.fill('9');
+  await count.press('Enter');
+  const several = await combBox(await seen());
+  assert.ok(several[2] - several[0] > 2 * (aside[2] - aside[0]), `${aside}, then ${several}`);
+  assert.ok(await value.isHidden());
+  await count.fill('1');
+  await count.press('Enter');
   await page.locator('#section-comb').fill('0');
   assert.equal(await combBox(await seen()), null, 'no hairs');
   await page.locator('#section-comb').fill('1');

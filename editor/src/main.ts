@@ -317,7 +317,7 @@ function toolChanged(): void {
 }
 
 range.addEventListener('input', () => {
-  range.parentElement!.querySelector('output')!.textContent = `${range.value} %`;
+  range.parentElement!.querySelector('output')!.textContent = `${range.value} % of the nodes`;
   fields.setShare(range.valueAsNumber / 100);
 });
 fromField.addEventListener('change', changed);

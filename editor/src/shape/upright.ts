@@ -21,10 +21,27 @@ const low = 0.03;
 /** So many times as large a ground as Z has is clear enough. */
 const clear = 1.5;
 
-/** What stands has more to stand on than what lies on its back. A plane curve needs no up. */
-export function guessedUp({ curve, input }: Pick<Shape, 'curve' | 'input'>): Up {
+/** What stands has more to stand on than what lies on its back; an open sheet lies as its sides face. A plane curve needs no up. */
+export function guessedUp({ curve, input, triangles }: Pick<Shape, 'curve' | 'input' | 'triangles'>): Up {
   if (curve || input.length === 0) return 'z';
-  return groundOf(input, 1) > clear * groundOf(input, 2) ? 'y' : 'z';
+  const stands = groundOf(input, 1) > clear * groundOf(input, 2);
+  return stands && facing(input, triangles, 1) >= facing(input, triangles, 2) - sideways ? 'y' : 'z';
+}
+
+/** Share of the area by which an open shape may face Z more than Y and yet have Y upwards. */
+const sideways = 0.1;
+
+/** The share of its area by which it faces along an axis more one way than the other; a closed shape faces both ways alike. */
+function facing(places: Float64Array, triangles: Uint32Array, axis: number): number {
+  const [i, j] = [(axis + 1) % 3, (axis + 2) % 3];
+  let [along, all] = [0, 0];
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [a, b, c] = [3 * triangles[t], 3 * triangles[t + 1], 3 * triangles[t + 2]];
+    const part = (m: number, n: number): number => (places[b + m] - places[a + m]) * (places[c + n] - places[a + n]) - (places[b + n] - places[a + n]) * (places[c + m] - places[a + m]);
+    along += part(i, j);
+    all += Math.hypot(part(0, 1), part(1, 2), part(2, 0));
+  }
+  return all > 0 ? Math.abs(along) / all : 0;
 }
 
 /** What the box around the lowest nodes covers of that around all, seen along an axis; none where the middle of all is not above it. */

@@ -167,7 +167,7 @@ export class View {
       this.canvas.style.color = `var(${name})`;
       return new Color().setStyle(style.color);
     };
-    this.renderer.setClearColor(colour('--stage'));
+    this.renderer.setClearColor(colour(this.look === 'zebra' ? '--behind-zebra' : '--stage'));
     this.surface.restyle(colour);
     this.wipe.restyle(this.look, this.surface.edges, colour);
     this.curve.restyle(colour);

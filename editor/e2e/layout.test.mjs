@@ -44,6 +44,19 @@ for (const [width, height] of sizes) {
     const canvas = await page.locator('#canvas').boundingBox();
     assert.ok(canvas.height > 0.4 * height && canvas.width > 0.9 * width, `the shape has ${canvas.width} by ${canvas.height}`);
 
+    if (width <= 768) {
+      const long = page.locator('#name');
+      assert.ok(await long.evaluate((one) => one.scrollWidth <= one.clientWidth), 'the file is named');
+      await page.getByRole('button', { name: 'Smooth it' }).click();
+      await page.locator('#start-says', { hasText: 'Moves' }).waitFor();
+      await page.getByRole('button', { name: 'Mean' }).click();
+      await page.locator('#legend').waitFor();
+      const [apply, panel, legend] = await Promise.all(['#start-end', 'aside', '#legend'].map((one) => page.locator(one).boundingBox()));
+      assert.ok(apply.y + apply.height <= panel.y + panel.height + 1, 'Apply is above the fold');
+      assert.ok(legend.width * legend.height < 0.15 * canvas.width * (panel.y - canvas.y), `the legend covers ${legend.width} by ${legend.height}`);
+      await page.getByRole('button', { name: 'Not this' }).click();
+    }
+
     await page.getByLabel('Example').selectOption({ label: 'Aerofoil NACA 2412' });
     await page.locator('#size', { hasText: 'curve' }).waitFor();
     await settled(page);

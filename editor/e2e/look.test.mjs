@@ -75,8 +75,11 @@ test('a comb has a root scale, and its sharpest places can be cut off', async ()
   const pictures = new Set([await seen()]);
   await page.getByRole('button', { name: 'Root scale' }).click();
   pictures.add(await seen());
+  const highest = async () => Math.max(...(await page.locator('#plot text[text-anchor=end]').allTextContents()).map(numberOf));
+  const nose = await highest();
   await page.getByLabel('Cut off beyond').fill('80');
   pictures.add(await seen());
+  assert.ok((await highest()) < nose / 3, `the plot is not ruled by the nose: ${nose}, then ${await highest()}`);
   await page.getByRole('button', { name: 'Root scale' }).click();
   pictures.add(await seen());
   assert.equal(pictures.size, 4);

@@ -154,6 +154,18 @@ test('all, the rest, rings, parts; the toolbar goes by arrow keys', async () => 
   await page.keyboard.press('Shift+L');
   assert.equal(await count(), 8);
 
+  await page.keyboard.press('Escape');
+  const number = page.getByLabel('Node number');
+  await number.fill('5');
+  await number.press('Enter');
+  await page.locator('#picked', { hasText: /^Node 5$/ }).waitFor();
+  await number.evaluate((one) => one.blur());
+  await page.keyboard.press('.');
+  await page.keyboard.press('.');
+  await page.keyboard.press(',');
+  assert.equal(await page.locator('#picked').textContent(), 'Node 6');
+  await page.keyboard.press('Shift+L');
+
   await tool('Pick and drag').focus();
   await page.keyboard.press('ArrowDown');
   await page.keyboard.press('Enter');

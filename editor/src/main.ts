@@ -143,6 +143,7 @@ const gestures = new Gestures(canvas, {
 });
 const view = newView();
 const loopCount = new Entry(document.querySelector<HTMLInputElement>('#loop-nodes input')!, () => wholeNumber(3, 1000), (count) => count !== null && editor.setFairBoundary(true, count));
+new Entry(document.getElementById('node-number') as HTMLInputElement, () => wholeNumber(0, (editor.shape?.input.length ?? 3) / 3 - 1), (node) => node !== null && editor.shape && editor.pick(node, false));
 const nodes = new Nodes(canvas, editor, () => view.seen(), () => tools.tool === 'pick');
 
 function newView(): View {
@@ -156,7 +157,7 @@ function newView(): View {
 
 const marks = new Marks(editor, view);
 const looks: Looks = new Looks(editor, view, fields, marks, document.getElementById('wipe')!, document.getElementById('wipe-line')!, document.getElementById('lamps')!, () => refresh());
-const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('comb-clip') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
+const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('comb-clip') as HTMLInputElement, document.getElementById('dock')!, () => view.draw(), () => refresh());
 const section = new SectionPanel(view.section, () => view.draw());
 const pictureOf = new PictureOf(editor, view, fields);
 const served = ServedFile.of(location.href, editor, format.parentElement!);
@@ -194,6 +195,8 @@ const commands: Command[] = [
     detail: () => (editor.shape && !editor.shape.boundary.includes(1) ? 'it has no boundary' : undefined) },
   { id: 'comb', title: 'Curvature comb', keys: ['c'], run: () => curves.toggleComb(), enabled: isCurve, pressed: () => curves.comb },
   { id: 'comb-root', title: 'Hairs by the root of the curvature', keys: [], run: () => { curves.toggleRoot(); refresh(); }, enabled: isCurve, pressed: () => curves.root },
+  { id: 'plot-in', title: 'Plot less of the curve; the wheel does so at the pointer, a drag moves', keys: [], run: () => curves.zoom(0.5), enabled: isCurve },
+  { id: 'plot-out', title: 'Plot more of the curve', keys: [], run: () => curves.zoom(2), enabled: () => isCurve() && curves.zoomed },
   { id: 'plot', title: 'Plot of curvature', keys: ['p'], run: () => { curves.fold(); refresh(); }, enabled: isCurve, pressed: () => curves.unfolded },
   ...looks.commands,
   { id: 'picture', title: 'Save a picture of before and after', keys: ['shift+p'], enabled: () => opened() && !editor.busy, run: () => void pictureOf.save().catch((error: Error) => editor.setFault(error.message, 'file')) },

@@ -31,7 +31,7 @@ export class UpMenu {
   /** Another shape is open. Returns its up. */
   open(shape: Shape): Up {
     this.guessed = guessedUp(shape);
-    this.menu.options[0].textContent = `as it seems: ${this.guessed.toUpperCase()}`;
+    this.menu.options[0].textContent = `seems ${this.guessed.toUpperCase()}`;
     return this.up;
   }
 

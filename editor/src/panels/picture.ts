@@ -73,7 +73,7 @@ export class PictureOf {
     const { editor } = this;
     const { shape, result, strength } = editor;
     const moved = strength * furthest(result, shape!.input);
-    const figures = after ? (moved > 0 ? `moved at most ${withUnit(short(Number(moved.toPrecision(2))))}` : 'nothing has moved') : counted(shape!.input.length / 3, 'node');
+    const figures = after ? (moved > 0 ? `nodes moved at most ${withUnit(short(Number(moved.toPrecision(2))))}` : 'nothing has moved') : counted(shape!.input.length / 3, 'node');
     if (!field || field.name === 'deviation') return figures;
     const { share } = this.fields;
     const [low, high] = quantiles(field.values, [(1 - share) / 2, (1 + share) / 2]).map((value: number) => short(Number(value.toPrecision(3))));

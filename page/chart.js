@@ -2,7 +2,7 @@
 
 import {powersOf, short, ticksOf} from './numbers.js';
 
-const edge = {left: 58, right: 12, top: 12, bottom: 38};
+export const edge = {left: 58, right: 12, top: 12, bottom: 38};
 const mostPoints = 1500;
 
 function element(name, attributes, parent, text) {

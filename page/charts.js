@@ -60,24 +60,28 @@ export function addSurfaceCharts(parent, shapes, leading, report) {
   addHistory(parent, report);
 }
 
-// unit: the length of the input that is 1 in the page. leading: the shape whose curvature is shown whole. pixels: see addChart().
-export function addCurveCharts(parent, shapes, {unit, leading, planar, pixels}, report) {
+// unit: the length of the input that is 1 in the page. leading: the shape whose curvature is shown whole, or the share of it in the middle. part: of
+// the arc length, from and to, as shares of all. pixels: see addChart().
+export function addCurveCharts(parent, shapes, {unit, leading, planar, share = 1, part = [0, 1], pixels}, report) {
   const series = shapes.map(({title, chains}, k) => ({name: title, style: styleOf(k, shapes.length),
     lines: chains.map(({middles, curvatures}) =>
       middles.map((length, n) => [length * unit, curvatures[n] === null ? null : curvatures[n] / unit])
         .filter((point) => point[1] !== null)).filter((line) => line.length > 0)}));
-  const heights = (one) => one.lines.flat().map((point) => point[1]);
+  const far = Math.max(...series.flatMap((one) => one.lines.flat().slice(-1)).map((point) => point[0]), 0);
+  const [from, to] = part.map((end) => end * far);
+  const heights = (one) => one.lines.flat().filter((point) => point[0] >= from && point[0] <= to).map((point) => point[1]);
   // Others are cut off where the leading one would be flat beside them, unless it is straight.
   const farthest = heights(series[leading]).reduce((most, height) => Math.max(most, Math.abs(height)), 0);
   const reach = farthest * shapes[leading].chains.reduce((sum, {arc}) => Math.max(sum, arc.at(-1) || 0), 0) * unit > 0.1 ? 2 * farthest : Infinity;
-  const bounds = series.map((one, k) => (k === leading ? quantiles(heights(one), [0, 1])
-    : quantiles(heights(one), [0.02, 0.98]).map((end) => Math.max(-reach, Math.min(reach, end)))));
-  const low = Math.min(0, ...bounds.map((pair) => pair[0]));
-  const high = Math.max(0, ...bounds.map((pair) => pair[1]));
-  const far = Math.max(...series.flatMap((one) => one.lines.flat().slice(-1)).map((point) => point[0]), 0);
+  const bounds = series.map((one, k) => (k === leading ? quantiles(heights(one), [(1 - share) / 2, (1 + share) / 2])
+    : quantiles(heights(one), [(1 - 0.96 * share) / 2, (1 + 0.96 * share) / 2]).map((end) => Math.max(-reach, Math.min(reach, end)))));
+  // A part of the curve has the axis to itself.
+  const zero = from > 0 || to < far ? [] : [0];
+  const low = Math.min(...zero, ...bounds.map((pair) => pair[0]));
+  const high = Math.max(...zero, ...bounds.map((pair) => pair[1]));
   const space = 0.05 * (high - low);
   addChart(parent, {id: 'curvature', title: 'Curvature along the curve', series, pixels,
-    x: {label: `arc length, units of the input${planar ? '; curvature is positive to the left' : ''}`, low: 0, high: far},
+    x: {label: `arc length, units of the input${planar ? '; curvature is positive to the left' : ''}`, low: from, high: to},
     y: {label: 'curvature, 1/unit', low: low - space, high: high + space}});
   addHistory(parent, report);
 }

@@ -47,8 +47,8 @@ void add_pull_options(CLI::App& command, PullArguments& arguments, const std::st
       ->group(heading);
   add_amount(
       command, "--within", arguments.within, arguments,
-      "The fairest shape from which no point is further away than this; of scans whose noise is about a third of "
-      "that: noise off, details kept (units of the input)")
+      "The fairest shape from which no point is further away than this (nodes may slide further along it); of scans "
+      "whose noise is about a third of that: noise off, details kept (units of the input)")
       ->group(heading);
   add_amount(command, "--rms", arguments.rms, arguments,
              "The fairest shape from which points are this far away, root mean square (units of the input)")

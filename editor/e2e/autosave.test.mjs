@@ -1,4 +1,4 @@
-// What is open outlives the page: after a crash, with its history and points; and where nothing can be kept, it is said once.
+// What is open outlives the page: after a crash, with its history and points, each file by itself; and where nothing can be kept, it is said once.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -17,17 +17,11 @@ async function visit(query = '') {
   return page;
 }
 
-// Until the step of that label is in the storage.
+const recent = (page) => page.locator('#example optgroup[label=Recent] option');
+
+// Until the step of that label is in the storage, as the newest of all.
 async function kept(page, label) {
-  await page.waitForFunction((wanted) => new Promise((done) => {
-    indexedDB.open('vspring-editor').onsuccess = ({ target: { result: database } }) => {
-      if (!database.objectStoreNames.contains('kept')) return done(false);
-      database.transaction('kept').objectStore('kept').get('state').onsuccess = ({ target: { result } }) => {
-        database.close();
-        done(result?.history.now.label.startsWith(wanted));
-      };
-    };
-  }), label);
+  await recent(page).first().filter({ hasText: ` · ${label}` }).waitFor({ state: 'attached' });
 }
 
 async function crash(page) {
@@ -84,6 +78,44 @@ test('a reload after a crash', async () => {
   page = await visit();
   assert.equal(await page.locator('#name').textContent(), 'annulus.obj');
   assert.ok(await page.locator('#restored').isHidden());
+  await context.close();
+});
+
+test('two pages and two files each have a place of their own, and what was worked on lately is listed', async () => {
+  context = await session.browser.newContext();
+  const tent = (height) => `v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0.6 0.6 ${height}\nf 1 2 4\nf 2 3 4\nf 3 1 4\n`;
+  const begin = async (page, name, height) => {
+    await drop(page, name, tent(height));
+    await page.locator('#name', { hasText: name }).waitFor();
+    await settled(page);
+    await page.keyboard.press('Shift+B');
+    await settled(page);
+    await kept(page, 'Fix boundary normals');
+  };
+  const restored = async (page, name) => {
+    await page.locator('#restored', { hasText: `Restored ${name}` }).waitFor();
+    assert.equal(await page.getByRole('button', { name: 'Normals fixed' }).getAttribute('aria-pressed'), 'true');
+  };
+  const pages = [await visit(), await visit()];
+  await begin(pages[0], 'one.obj', 1);
+  await begin(pages[1], 'two.obj', 2);
+  await begin(pages[1], 'three.obj', 3);
+  for (const [k, name] of [[0, 'one.obj'], [1, 'three.obj']]) {
+    await pages[k].reload();
+    await restored(pages[k], name);
+  }
+  for (const page of pages) await page.close();
+
+  const page = await visit();
+  await restored(page, 'three.obj');
+  const listed = await recent(page).allTextContents();
+  assert.deepEqual(listed.map((line) => line.split(' · ').slice(0, 2).join(' · ')), ['three.obj', 'two.obj', 'one.obj'].map((name) => `${name} · Fix boundary normals`).concat('Forget those that are not open'));
+  await page.getByLabel('Example').selectOption({ label: listed[2] });
+  await restored(page, 'one.obj');
+  assert.equal(readFileSync((await saved(page)).path, 'utf8'), tent(1));
+  await page.getByLabel('Example').selectOption({ label: 'Forget those that are not open' });
+  await recent(page).nth(2).waitFor({ state: 'detached' });
+  assert.match(await recent(page).first().textContent(), /^one\.obj/);
   await context.close();
 });
 

@@ -117,9 +117,35 @@ test('the comb and the plot follow; both can be put away', async () => {
   assert.notEqual(await picture(), withComb);
 
   const before = await page.locator('#plot path.second').getAttribute('d');
+  // From the plot's ticks: what it shows of the arc length.
+  const shown = async () => {
+    const numbers = (await page.locator('#plot text[text-anchor=middle]').allTextContents()).map(Number).filter(Number.isFinite);
+    return [Math.min(...numbers), Math.max(...numbers)];
+  };
+  const other = (was) => page.waitForFunction((d) => document.querySelector('#plot path.second').getAttribute('d') !== d, was);
+  const line = () => page.locator('#plot path.second').getAttribute('d');
+  const whole = await shown();
+  const box = await page.locator('#plot').boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.wheel(0, -800);
+  await other(before);
+  const part = await shown();
+  assert.ok(part[0] > whole[0] && part[1] < whole[1], `${whole}, then ${part}`);
+  const zoomed = await line();
+  await page.mouse.down();
+  await page.mouse.move(x - 200, y, { steps: 4 });
+  await page.mouse.up();
+  await other(zoomed);
+  const moved = await shown();
+  assert.ok(moved[0] > part[0], `${part}, then ${moved}`);
+  const out = page.getByRole('button', { name: 'Zoom out along the curve' });
+  for (let k = 0; k < 3; ++k) if (await out.isEnabled()) await out.click();
+  assert.ok(await out.isDisabled());
+  await page.waitForFunction((d) => document.querySelector('#plot path.second').getAttribute('d') === d, before);
   await page.getByRole('button', { name: 'Tangents fixed' }).click();
   await settled(page);
-  await page.waitForFunction((d) => document.querySelector('#plot path.second').getAttribute('d') !== d, before);
+  await other(before);
 
   await page.getByRole('button', { name: 'Fold the plot away' }).click();
   assert.ok(await page.locator('#dock').isHidden());

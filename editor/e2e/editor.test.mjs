@@ -99,9 +99,9 @@ test('the shape follows while the button is down', async () => {
   await page.mouse.down();
   for (let k = 1; k <= 5; ++k) await page.mouse.move(held.x - 8 * k, held.y - 8 * k);
   await follows(page);
-  await page.locator('#status', { hasText: /Following · moved at most/ }).waitFor();
+  await page.locator('#status', { hasText: /Following · nodes moved at most/ }).waitFor();
   await page.mouse.up();
-  await page.locator('#status', { hasText: /^Done · moved at most [\d.]+ \([\d.]+ % of the size\)$/ }).waitFor();
+  await page.locator('#status', { hasText: /^Done · nodes moved at most [\d.]+ \([\d.]+ % of the size\)$/ }).waitFor();
 });
 
 test('a long solution is cancelled: the last shape stays, and that is what is saved', async () => {

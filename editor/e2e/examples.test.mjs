@@ -31,6 +31,7 @@ test('figures of the paper: the shapes are those of its commands, and Figs. 8(C)
     assert.ok(greatestDistance(...[ours, theirs].map(placesOf)) < 1e-12);
   }
   await open('?file=examples/saddle.ply');
+  assert.equal(await page.getByLabel('Example').inputValue(), '', 'a file of somebody is no example, whatever its name');
   await page.getByLabel('Example').selectOption({ label: 'Fig. 8(C): normals too' });
   await page.locator('#name', { hasText: 'figure-8' }).waitFor();
   await settled(page);

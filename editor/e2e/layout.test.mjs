@@ -44,6 +44,19 @@ for (const [width, height] of sizes) {
     const canvas = await page.locator('#canvas').boundingBox();
     assert.ok(canvas.height > 0.4 * height && canvas.width > 0.9 * width, `the shape has ${canvas.width} by ${canvas.height}`);
 
+    if (width <= 768) {
+      const long = page.locator('#name');
+      assert.ok(await long.evaluate((one) => one.scrollWidth <= one.clientWidth), 'the file is named');
+      await page.getByRole('button', { name: 'Smooth it' }).click();
+      await page.locator('#start-says', { hasText: 'Moves' }).waitFor();
+      await page.getByRole('button', { name: 'Mean' }).click();
+      await page.locator('#legend').waitFor();
+      const [apply, panel, legend] = await Promise.all(['#start-end', 'aside', '#legend'].map((one) => page.locator(one).boundingBox()));
+      assert.ok(apply.y + apply.height <= panel.y + panel.height + 1, 'Apply is above the fold');
+      assert.ok(legend.width * legend.height < 0.15 * canvas.width * (panel.y - canvas.y), `the legend covers ${legend.width} by ${legend.height}`);
+      await page.getByRole('button', { name: 'Not this' }).click();
+    }
+
     await page.getByLabel('Example').selectOption({ label: 'Aerofoil NACA 2412' });
     await page.locator('#size', { hasText: 'curve' }).waitFor();
     await settled(page);
@@ -63,6 +76,9 @@ test('numbers are seen whole, and warnings at the top of the panel', async () =>
   const { x, y } = await find(page, /position fixed/, [0.02, 0.55], [0.5, 0.55]);
   await page.mouse.click(x, y);
   await page.getByLabel('Position x').waitFor();
+  const [numbers, panel] = await Promise.all(['#numbers', 'aside'].map((one) => page.locator(one).boundingBox()));
+  assert.ok(numbers.y + numbers.height <= panel.y + panel.height, 'they are found without scrolling');
+  assert.equal((await page.locator('#numbers form').first().textContent()).replace(/\s/g, ''), 'PositionXYZApply', 'what each is, is said beside it');
   await page.getByLabel('Position y').fill('five');
   await page.getByLabel('Position y').press('Enter');
   await page.getByRole('alert').filter({ hasText: 'Give numbers' }).waitFor();

@@ -1,8 +1,9 @@
 // What helps to judge a shape: marks out of the way, edges, ranges of colours and combs that are set, units.
 
 import assert from 'node:assert/strict';
+import { copyFileSync, readFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { choose, drop, find, follows, open, page, picture, session, settled, useSession } from './support.mjs';
+import { choose, downloaded, drop, find, follows, open, page, picture, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -29,6 +30,17 @@ test('marks of held nodes hide under reflection lines, and a key shows them; edg
   assert.ok((await seen()) !== bare);
   await page.keyboard.press('7');
   assert.ok((await seen()) === bare);
+  await page.keyboard.press('Shift+B');
+  await settled(page);
+  assert.equal(await page.getByRole('button', { name: 'Normals fixed' }).getAttribute('aria-pressed'), 'true');
+  // Pixels that have the colour of what is held, as marks and arrows have.
+  const held = async () => {
+    const { data } = await pixels(await seen());
+    return Array.from({ length: data.length / 4 }, (_, k) => data.subarray(4 * k, 4 * k + 3)).filter(([red, green, blue]) => red > green + 60 && green > blue + 30).length;
+  };
+  assert.equal(await held(), 0, 'no arrows either');
+  await page.keyboard.press('m');
+  assert.ok((await held()) > 1000);
   await page.keyboard.press('1');
   assert.equal(await marks().getAttribute('aria-pressed'), 'true');
 });
@@ -43,7 +55,7 @@ test('colours are spread over as many nodes as the slider says; legend and foote
   const widths = [];
   for (const share of [60, 96, 100]) {
     const before = await page.locator('#legend .marks').textContent();
-    await page.getByRole('slider', { name: 'Middle' }).fill(String(share));
+    await page.getByRole('slider', { name: 'Colours for' }).fill(String(share));
     if (share !== 96 || widths.length > 0) await page.waitForFunction((old) => document.querySelector('#legend .marks').textContent !== old, before);
     const [low, , high] = (await page.locator('#legend .marks span').allTextContents()).map(numberOf);
     widths.push(high - low);
@@ -63,8 +75,11 @@ test('a comb has a root scale, and its sharpest places can be cut off', async ()
   const pictures = new Set([await seen()]);
   await page.getByRole('button', { name: 'Root scale' }).click();
   pictures.add(await seen());
+  const highest = async () => Math.max(...(await page.locator('#plot text[text-anchor=end]').allTextContents()).map(numberOf));
+  const nose = await highest();
   await page.getByLabel('Cut off beyond').fill('80');
   pictures.add(await seen());
+  assert.ok((await highest()) < nose / 3, `the plot is not ruled by the nose: ${nose}, then ${await highest()}`);
   await page.getByRole('button', { name: 'Root scale' }).click();
   pictures.add(await seen());
   assert.equal(pictures.size, 4);
@@ -89,6 +104,37 @@ test('input and result are compared left and right of a line, which is moved', a
   assert.ok((await part()) === input, 'all of the input');
   await slider.fill('0');
   assert.ok((await part()) === result, 'all of the result');
+  const box = await page.locator('#canvas').boundingBox();
+  const { x: free } = await page.locator('aside').boundingBox();
+  await page.mouse.move(box.x + 3, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.75 * (free - box.x), box.y + box.height / 3, { steps: 4 });
+  await page.mouse.up();
+  assert.equal(await slider.inputValue(), '75');
+  const most = await part();
+  assert.ok(most !== input && most !== half && most !== result);
+
+  // The picture has both sides, whatever the line hides, and the colours with their legend.
+  await page.getByLabel('Unit').selectOption('mm');
+  await page.keyboard.press('4');
+  await page.locator('#legend .marks').waitFor();
+  const { name, path } = await downloaded(page, () => page.keyboard.press('Shift+P'));
+  assert.equal(name, 'annulus-before-after.png');
+  assert.equal(await slider.inputValue(), '75');
+  if (process.env.PICTURES) copyFileSync(path, `${process.env.PICTURES}/before-after.png`);
+  const { width, height, data } = await pixels(readFileSync(path).toString('base64'));
+  assert.ok(width > 2 * (free - box.x), `${width} by ${height}`);
+  const side = (from, to) => {
+    const rows = [];
+    for (let row = Math.round(0.2 * height); row < 0.7 * height; ++row) rows.push(data.subarray(4 * (row * width + Math.round(from * width)), 4 * (row * width + Math.round(to * width))));
+    return Buffer.concat(rows);
+  };
+  // How much of a side has the colour of the upper end: of the input, whose curvature is great, more.
+  const bright = (bytes) => Array.from({ length: bytes.length / 4 }, (_, k) => bytes.subarray(4 * k, 4 * k + 3)).filter(([red, green, blue]) => red > 200 && green > 180 && blue < 80).length / (bytes.length / 4);
+  const colours = (bytes) => new Set(Array.from({ length: bytes.length / 4 }, (_, k) => bytes.readUInt32LE(4 * k))).size;
+  const sides = [side(0.05, 0.45), side(0.55, 0.95)];
+  for (const one of sides) assert.ok(colours(one) > 200, `${colours(one)} colours`);
+  assert.ok(bright(sides[0]) > 3 * bright(sides[1]), `${sides.map(bright)}`);
 });
 
 // The numbers of the picture as it is, red, green, blue and opacity of each pixel.
@@ -171,6 +217,19 @@ test('a section of a surface has a comb, is moved by a slider, and follows a dra
   await page.locator('#section-at').fill('150');
   const aside = await combBox(await seen());
   assert.ok(aside[0] < middle[0] - 50, `${middle}, then ${aside}`);
+  const value = page.getByLabel('At', { exact: true });
+  await value.fill('-0.7');
+  await value.press('Enter');
+  assert.equal(Number(await page.locator('#section-at').inputValue()), 150, 'the slider is where the number says');
+  assert.deepEqual(await combBox(await seen()), aside);
+  const count = page.getByLabel('How many');
+  await count.fill('9');
+  await count.press('Enter');
+  const several = await combBox(await seen());
+  assert.ok(several[2] - several[0] > 2 * (aside[2] - aside[0]), `${aside}, then ${several}`);
+  assert.ok(await value.isHidden());
+  await count.fill('1');
+  await count.press('Enter');
   await page.locator('#section-comb').fill('0');
   assert.equal(await combBox(await seen()), null, 'no hairs');
   await page.locator('#section-comb').fill('1');

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { greatestDistance, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
+import { drop, greatestDistance, native, open, page, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -46,7 +46,7 @@ test('box and lasso: alone, with Shift more, with Alt fewer; clicks and Escape p
   await stroke([[0.01, 0.01], [0.5, 0.01], [0.5, 0.99], [0.01, 0.99]]);
   await page.keyboard.up('Alt');
   assert.equal(await count(), 1610 - left);
-  await stroke([[0.9, 0.02]]);
+  await stroke([[0.9, 0.12]]);
   assert.equal(await count(), 0);
 
   await page.mouse.move(20, 300);
@@ -85,11 +85,48 @@ test('the switch leaves out what is hidden; the brush never paints that, and its
   await stroke(way);
   const wide = await count();
   assert.ok(wide > 1.3 * narrow, `${narrow}, ${wide}`);
+  await page.getByRole('slider', { name: 'Brush' }).press('Home');
+  assert.equal(await ring.getAttribute('r'), '3');
+  await page.getByRole('slider', { name: 'Brush' }).press('End');
+  assert.equal(await page.locator('#brush output').textContent(), '600 pixels');
+  await page.getByRole('button', { name: 'Erase' }).click();
+  await stroke([[0.3, 0.7], [0.31, 0.7]]);
+  const less = await count();
+  assert.ok(less < wide, `${less}`);
+  await page.keyboard.press('Shift+X');
   await page.keyboard.down('Alt');
-  await stroke(way);
+  await stroke(everything);
   await page.keyboard.up('Alt');
   assert.equal(await count(), 0);
+  await page.keyboard.press('q');
+  assert.ok(await page.getByRole('button', { name: 'Erase' }).isHidden());
   assert.equal(await page.getByRole('button', { name: 'Undo' }).isDisabled(), true, 'what is picked is no step of its own');
+});
+
+test('the brush paints what a spike hides, with a finger too, and not the other side', async () => {
+  const cells = 20;
+  const plate = (spike) => {
+    const places = Array.from({ length: (cells + 1) ** 2 }, (_, n) => [n % (cells + 1), Math.floor(n / (cells + 1)), 0]);
+    if (spike) places[10 * (cells + 1) + 8] = [12.4, 10.1, 2];
+    const faces = places.flatMap(([x, y], n) => (x < cells && y < cells ? [`f ${[n + 1, n + 2, n + cells + 3, n + cells + 2].join(' ')}`] : []));
+    return `${places.map((place) => `v ${place.join(' ')}`).join('\n')}\n${faces.join('\n')}\n`;
+  };
+  await open('', { untouched: true, hasTouch: true });
+  const painted = [];
+  for (const spike of [false, true]) {
+    await drop(page, `plate${spike}.obj`, plate(spike));
+    await page.locator('#name', { hasText: `plate${spike}` }).waitFor();
+    await settled(page);
+    await page.getByRole('button', { name: 'View from the top' }).click();
+    await page.keyboard.press('r');
+    await page.getByRole('slider', { name: 'Brush' }).fill('86');
+    const box = await page.locator('#canvas').boundingBox();
+    await page.touchscreen.tap(box.x + (box.width - 300) / 2, box.y + box.height / 2);
+    painted.push(await count());
+    await page.keyboard.press('Escape');
+  }
+  assert.ok(painted[0] > 60, `${painted}`);
+  assert.equal(painted[0], painted[1]);
 });
 
 test('all, the rest, rings, parts; the toolbar goes by arrow keys', async () => {
@@ -116,6 +153,18 @@ test('all, the rest, rings, parts; the toolbar goes by arrow keys', async () => 
   assert.ok(await count() < more || more === 8);
   await page.keyboard.press('Shift+L');
   assert.equal(await count(), 8);
+
+  await page.keyboard.press('Escape');
+  const number = page.getByLabel('Node number');
+  await number.fill('5');
+  await number.press('Enter');
+  await page.locator('#picked', { hasText: /^Node 5$/ }).waitFor();
+  await number.evaluate((one) => one.blur());
+  await page.keyboard.press('.');
+  await page.keyboard.press('.');
+  await page.keyboard.press(',');
+  assert.equal(await page.locator('#picked').textContent(), 'Node 6');
+  await page.keyboard.press('Shift+L');
 
   await tool('Pick and drag').focus();
   await page.keyboard.press('ArrowDown');

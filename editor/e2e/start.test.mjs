@@ -40,7 +40,7 @@ test('a file opens as it is; smoothing is suggested from its noise, tried, given
   assert.deepEqual(placesOf((await saved(page)).path), input);
 
   await way('Smooth it').click();
-  await says(/^Moves [\d,]+ nodes, within [\d.]+\. Its noise seems to be [\d.]+\.$/);
+  await says(/^Moves [\d,]+ nodes: the shape by at most [\d.]+, nodes along it by up to [\d.]+\. Its noise seems to be [\d.]+\.$/);
   const tolerance = await page.getByLabel('Tolerance', { exact: true }).inputValue();
   const [, noise] = (await page.locator('#start-says').textContent()).match(/be ([\d.]+)\./);
   assert.ok(Math.abs(Number(tolerance) - 3 * Number(noise)) < 0.1 * Number(tolerance), `${tolerance}, ${noise}`);
@@ -72,6 +72,24 @@ test('a file opens as it is; smoothing is suggested from its noise, tried, given
     assert.ok(await entry.evaluate((one) => one.scrollWidth <= one.clientWidth), `${shown} is seen whole`);
   }
   assert.ok(await page.getByRole('alert').isHidden());
+  // What nodes keep of their places: the shape is the same, and so is what is said of it.
+  const shape = () => says(/the shape by at most/);
+  await shape();
+  const free = placesOf((await saved(page)).path);
+  const [, slid] = (await page.locator('#start-says').textContent()).match(/nodes along it by up to ([\d.]+) m/);
+  const stay = page.getByLabel('Its nodes');
+  await stay.selectOption('stay along it');
+  await says(/none by more than [\d.]+ m, and none along the shape/);
+  const straight = placesOf((await saved(page)).path);
+  assert.ok(greatestDistance(straight, input) < 0.03 + 1e-9 && greatestDistance(straight, input) > 0.01);
+  const back = greatestDistance(straight, free);
+  assert.ok(slid > 0.0005 && Math.abs(back - slid) < 0.05 * slid, `${back} of ${slid}`);
+  await stay.selectOption('keep their x');
+  await says(/and each keeps its x/);
+  assert.deepEqual(placesOf((await saved(page)).path).map(([x]) => x), input.map(([x]) => x));
+  await stay.selectOption('may slide along it');
+  await shape();
+  await settled(page);
   await keep(page);
   assert.equal(await way('Zebra').getAttribute('aria-pressed'), 'true', 'the view that was chosen stays');
   assert.match(await undo().getAttribute('title'), /Undo: Smooth within 0\.03/);
@@ -86,6 +104,40 @@ test('a file opens as it is; smoothing is suggested from its noise, tried, given
   assert.deepEqual(placesOf((await saved(page)).path), input);
 });
 
+test('sharp edges stay where they are as the faces between are smoothed, unless the slider says that none do', async () => {
+  const cells = 8;
+  let state = 7;
+  const random = () => (state = (state * 16807) % 2147483647) / 2147483647 - 0.5;
+  const [numbers, lines, faces] = [new Map(), [], []];
+  const node = (...at) => {
+    if (!numbers.has(String(at))) lines.push(`v ${at.map((part) => part / cells + 0.02 * random()).join(' ')}`);
+    if (!numbers.has(String(at))) numbers.set(String(at), lines.length);
+    return numbers.get(String(at));
+  };
+  for (const [end, sense] of [[0, -1], [cells, 1]]) for (let axis = 0; axis < 3; ++axis) for (let i = 0; i < cells; ++i) for (let j = 0; j < cells; ++j) {
+    const corner = (u, v) => node(...[[end, u, v], [v, end, u], [u, v, end]][axis]);
+    const face = [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)];
+    faces.push(`f ${(sense > 0 ? face : face.reverse()).join(' ')}`);
+  }
+  await open('', { untouched: true });
+  await drop(page, 'box.obj', `${lines.join('\n')}\n${faces.join('\n')}\n`);
+  await page.locator('#name', { hasText: 'box.obj' }).waitFor();
+  await settled(page);
+  const input = lines.map((line) => line.split(' ').slice(1).map(Number));
+  const onEdge = [...numbers.keys()].map((at) => at.split(',').filter((part) => part === '0' || part === String(cells)).length > 1);
+  const moved = async () => placesOf((await saved(page)).path).map((place, n) => greatestDistance([place], [input[n]]));
+  await way('Smooth it').click();
+  await says(`Keeps ${onEdge.filter(Boolean).length} nodes at sharp edges`);
+  await settled(page);
+  const held = await moved();
+  assert.equal(Math.max(...held.filter((_, n) => onEdge[n])), 0);
+  assert.ok(held.filter((far, n) => !onEdge[n] && far > 1e-4).length > 0.9 * onEdge.filter((is) => !is).length);
+  await page.getByLabel('Edges stay over').fill('180');
+  await page.locator('#start-says', { hasText: /^Moves (?!.*Keeps)/ }).waitFor();
+  await settled(page);
+  assert.ok((await moved()).filter((far, n) => onEdge[n] && far > 1e-4).length > 0.9 * onEdge.filter(Boolean).length);
+});
+
 test('smooth, repair and pull go in any order, each from what came before and with its own undo; what moves nothing says so', async () => {
   const file = session.generated('plate.obj', 'saddle', '--columns', '30', '--rows', '30', '--noise', '0.01');
   await open('?file=files/plate.obj', { untouched: true });
@@ -96,7 +148,7 @@ test('smooth, repair and pull go in any order, each from what came before and wi
     await settled(page);
     shapes.push(placesOf((await saved(page)).path));
   };
-  const tried = () => says(/^Moves [1-9]\d* nodes, (within|at most by)/);
+  const tried = () => says(/^Moves [1-9]\d* nodes[:,]/);
   const byItsRules = async () => {
     const rules = join(session.folder, 'rules.json');
     writeFileSync(rules, await rulesOf(page));

@@ -177,6 +177,20 @@ export async function find(page, pattern, from, to) {
   throw new Error(`nothing between ${from} and ${to} is ${pattern}`);
 }
 
+// The same around a place, from there outwards.
+export async function findAround(page, pattern, { x, y }, reach = 200) {
+  const step = 16;
+  for (let far = 0; far <= reach; far += step) {
+    for (let turn = 0; turn <= (2 * Math.PI * far) / step; ++turn) {
+      const angle = (turn * step) / Math.max(far, 1);
+      await page.mouse.move(x + far * Math.cos(angle), y + far * Math.sin(angle));
+      await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+      if (pattern.test(await page.locator('#node').textContent())) return { x: x + far * Math.cos(angle), y: y + far * Math.sin(angle) };
+    }
+  }
+  throw new Error(`nothing around ${x}, ${y} is ${pattern}`);
+}
+
 const downloads = mkdtempSync(join(tmpdir(), 'vspring-downloads-'));
 let files = 0;
 process.on('exit', () => rmSync(downloads, { recursive: true }));

@@ -48,7 +48,8 @@ test('a pair is picked by a click, dragged to mirror places, and let go by Shift
   const shape = placesOf((await saved(page)).path);
   assert.ok(greatestDistance(shape, mirrored(shape)) < 1e-4, `${greatestDistance(shape, mirrored(shape))}`);
 
-  await page.getByLabel('Move by x').fill('0.1');
+  assert.equal(Number(await page.getByLabel('Position x').inputValue()).toFixed(5), right[0].toFixed(5), 'a pair has a place, as one node has');
+  await page.getByLabel('Position x').fill(String(right[0] + 0.1));
   await page.keyboard.press('Enter');
   await settled(page);
   const moved = await edits();

@@ -5,7 +5,7 @@ import assert from 'node:assert/strict';
 import { copyFileSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { choose, downloaded, find, greatestDistance, native, open, page, placesOf, root, session, settled, useSession } from './support.mjs';
+import { choose, downloaded, find, findAround, greatestDistance, native, open, page, placesOf, root, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -90,7 +90,7 @@ test('a hull is faired within 2 mm, from its file to the saved one', async () =>
     await page.getByLabel('Tolerance', { exact: true }).fill('0.002');
     await page.getByLabel('Tolerance', { exact: true }).press('Enter');
   });
-  await says('within 0.002 m');
+  await says('the shape by at most 0.002 m');
   await settled(page);
   await picture(2);
   await act(() => button('Apply').click());
@@ -189,9 +189,7 @@ test('the nose of an aerofoil is redesigned by its comb', async () => {
   });
   await act(() => page.getByLabel('A pull reaches').fill('6'));
   await page.evaluate(() => new Promise((ready) => requestAnimationFrame(() => requestAnimationFrame(ready))));
-  const box = await page.locator('#canvas').boundingBox();
-  let nose;
-  for (let y = (seen.y - box.y) / box.height - 0.15; !nose && y < 0.9; y += 0.02) nose = await find(page, new RegExp(`Node ${seen.node} `), [0.05, y], [0.2, y]).catch(() => null);
+  const nose = await findAround(page, new RegExp(`Node ${seen.node} `), seen);
   const plot = () => page.locator('#plot path.second').getAttribute('d');
   const before = await plot();
   await act(async () => {

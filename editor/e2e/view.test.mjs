@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { find, greatestDistance, native, open, page, placesOf, root, saved, session, settled, useSession } from './support.mjs';
+import { drop, find, greatestDistance, native, open, page, placesOf, root, saved, session, settled, useSession } from './support.mjs';
 
 useSession();
 
@@ -100,6 +100,35 @@ test('between input and result: what is saved is what --strength makes; a drag s
   await page.mouse.up();
   await settled(page);
   assert.deepEqual(placesOf((await saved(page)).path), whole);
+});
+
+test('a file whose Y is upwards stands up by itself; a choice is kept, and sides are named by it', async () => {
+  await open('?file=examples/annulus.obj', { untouched: true });
+  const up = page.getByLabel('Up');
+  assert.equal(await up.locator('option:checked').textContent(), 'seems Z');
+  // A pyramid that stands on y = 0.
+  await drop(page, 'mast.obj', 'v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nv 0 3 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n');
+  await page.locator('#name', { hasText: 'mast.obj' }).waitFor();
+  await settled(page);
+  assert.equal(await up.locator('option:checked').textContent(), 'seems Y');
+  const box = await page.locator('#canvas').boundingBox();
+  // Where the tip is, as a share of the height, seen from the front.
+  const tip = async () => {
+    await page.getByRole('button', { name: 'View from the front' }).click();
+    const line = [0.5 - 0.5 * (300 / box.width), 0.5 - 0.5 * (300 / box.width)];
+    return ((await find(page, /Node 4 /, [line[0], 0.05], [line[1], 0.95])).y - box.y) / box.height;
+  };
+  assert.equal(await page.getByRole('button', { name: 'View from the top, Y' }).count(), 1);
+  assert.ok((await tip()) < 0.2, 'the tip is on top');
+  await page.getByRole('button', { name: 'View from the top, Y' }).click();
+  await page.locator('#canvas').focus();
+  for (let k = 0; k < 12; ++k) await page.keyboard.press('ArrowUp');
+  await up.selectOption('z');
+  assert.equal(await page.getByRole('button', { name: 'View from the top, Z' }).count(), 1);
+  assert.ok((await tip()) > 0.3, 'it lies on its back');
+  await page.reload();
+  await settled(page);
+  assert.equal(await up.inputValue(), 'z');
 });
 
 test('a browser without WebGL 2 is told what is missing and what to do', async () => {

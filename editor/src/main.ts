@@ -9,6 +9,7 @@ import { startTheme, switchTheme } from './base/theme';
 import { rove } from './base/toolbar';
 import { bindUnit } from './base/units';
 import type { Report } from './library/protocol';
+import { enclosed } from './shape/neighbours';
 import { placesOf } from './shape/shape';
 import { byInput, toFile } from './constraints/constraints';
 import type { Fit } from './constraints/points';
@@ -16,9 +17,11 @@ import { Autosave } from './edit/autosave';
 import { Editor } from './edit/editor';
 import { Opening } from './edit/opening';
 import { bindPresets } from './navigation/presets';
+import { UpMenu } from './navigation/up';
 import { Fields, type Field } from './view/fields';
 import { View } from './view/view';
 import { Gestures } from './pick/gestures';
+import { BrushCard } from './pick/brush_card';
 import { pick } from './pick/picking';
 import { selectionCommands } from './pick/selection';
 import { Tilts } from './pick/tilts';
@@ -35,6 +38,7 @@ import { Examples } from './panels/examples';
 import { showFor } from './panels/kinds';
 import { showLegend, showLengths } from './panels/legend';
 import { Numbers } from './panels/numbers';
+import { PictureOf } from './panels/picture';
 import { PointsPanel } from './panels/points';
 import { bindReach, showReach } from './panels/reach_slider';
 import { SectionPanel } from './panels/section_panel';
@@ -47,22 +51,28 @@ const canvas = document.getElementById('canvas') as HTMLCanvasElement;
 const panel = document.querySelector('aside')!;
 const help = document.getElementById('help') as HTMLDialogElement;
 const format = document.getElementById('format') as HTMLSelectElement;
-const examples = new Examples(document.getElementById('example') as HTMLSelectElement, (...addresses) => void openExample(...addresses));
+const examples = new Examples(document.getElementById('example') as HTMLSelectElement, {
+  open: (...addresses) => void openExample(...addresses),
+  reopen: (slot) => void autosave.reopen(slot),
+  forget: () => void autosave.forgetOthers(),
+});
 const range = document.getElementById('range') as HTMLInputElement;
 const firstExample = 'examples/annulus.obj';
 /** Pixels between nodes from which on each is a target of its own, and where there are fewer a drag turns the view. */
 const distinct = 40;
 const shapes = '.obj,.off,.ply,.stl,.csv,.dat,.xyz,.gpx';
+const fromField = document.getElementById('deviation-from')!;
 let coloured: Field | null = null;
 let dotted: { fit: Fit | undefined; report: Report | null } = { fit: undefined, report: null };
 
 const editor: Editor = new Editor({
   opened: (shape, stays) => {
     marks.clear();
-    examples.opened(editor.name);
+    examples.opened(opening.example ? editor.name : null);
     showFor(shape, editor.name, format);
     // With the room that its plot leaves.
     curves.open(shape);
+    view.setUp(up.open(shape));
     view.open(shape, stays);
     looks.opened(shape);
     fields.open(shape);
@@ -88,6 +98,7 @@ const fields = new Fields({
   ask: (positions) => editor.client.ask('curvatures', { positions }),
   show: (field) => {
     coloured = field;
+    compare();
     view.setField(field);
     showLegend(document.getElementById('legend')!, field);
     describe(editor, coloured);
@@ -99,13 +110,16 @@ const tools: Tools = new Tools(canvas, document.querySelector('#overlay')!, {
   picked: () => editor.picked,
   pick: (picked) => editor.set({ picked }),
   withImages: (nodes) => editor.symmetry.with(nodes),
+  enclosed: (nodes, others) => enclosed(editor.shape!, nodes, others),
+  brush: () => brush.refresh(),
 });
+const brush = new BrushCard(document.getElementById('brush')!, () => tools);
 const ways = new Ways(document.getElementById('way')!, {
   wayOf: (across, down) => view.wayOf(across, down),
   normal: () => editor.normalOf(editor.drags.node),
   moved: (way, time) => editor.drags.by(way, time),
 });
-const autosave = new Autosave(editor, opening, document.getElementById('restored')!);
+const autosave = new Autosave(editor, opening, document.getElementById('restored')!, (recent) => examples.list(recent));
 const points = new PointsPanel(editor);
 const start: StartPanel = new StartPanel(document.getElementById('start')!, editor, () => tools, { chosen: toolChanged });
 const numbers = new Numbers(document.getElementById('numbers')!, editor);
@@ -129,6 +143,7 @@ const gestures = new Gestures(canvas, {
 });
 const view = newView();
 const loopCount = new Entry(document.querySelector<HTMLInputElement>('#loop-nodes input')!, () => wholeNumber(3, 1000), (count) => count !== null && editor.setFairBoundary(true, count));
+new Entry(document.getElementById('node-number') as HTMLInputElement, () => wholeNumber(0, (editor.shape?.input.length ?? 3) / 3 - 1), (node) => node !== null && editor.shape && editor.pick(node, false));
 const nodes = new Nodes(canvas, editor, () => view.seen(), () => tools.tool === 'pick');
 
 function newView(): View {
@@ -141,9 +156,10 @@ function newView(): View {
 }
 
 const marks = new Marks(editor, view);
-const looks: Looks = new Looks(editor, view, fields, marks, document.getElementById('wipe')!, document.getElementById('lamps')!, () => refresh());
-const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('comb-clip') as HTMLInputElement, document.getElementById('dock')!, () => view.draw());
+const looks: Looks = new Looks(editor, view, fields, marks, document.getElementById('wipe')!, document.getElementById('wipe-line')!, document.getElementById('lamps')!, () => refresh());
+const curves = new CurvePanel(view.curve, document.getElementById('comb') as HTMLInputElement, document.getElementById('comb-clip') as HTMLInputElement, document.getElementById('dock')!, () => view.draw(), () => refresh());
 const section = new SectionPanel(view.section, () => view.draw());
+const pictureOf = new PictureOf(editor, view, fields);
 const served = ServedFile.of(location.href, editor, format.parentElement!);
 
 const opened = (): boolean => editor.shape !== null;
@@ -179,8 +195,11 @@ const commands: Command[] = [
     detail: () => (editor.shape && !editor.shape.boundary.includes(1) ? 'it has no boundary' : undefined) },
   { id: 'comb', title: 'Curvature comb', keys: ['c'], run: () => curves.toggleComb(), enabled: isCurve, pressed: () => curves.comb },
   { id: 'comb-root', title: 'Hairs by the root of the curvature', keys: [], run: () => { curves.toggleRoot(); refresh(); }, enabled: isCurve, pressed: () => curves.root },
+  { id: 'plot-in', title: 'Plot less of the curve; the wheel does so at the pointer, a drag moves', keys: [], run: () => curves.zoom(0.5), enabled: isCurve },
+  { id: 'plot-out', title: 'Plot more of the curve', keys: [], run: () => curves.zoom(2), enabled: () => isCurve() && curves.zoomed },
   { id: 'plot', title: 'Plot of curvature', keys: ['p'], run: () => { curves.fold(); refresh(); }, enabled: isCurve, pressed: () => curves.unfolded },
   ...looks.commands,
+  { id: 'picture', title: 'Save a picture of before and after', keys: ['shift+p'], enabled: () => opened() && !editor.busy, run: () => void pictureOf.save().catch((error: Error) => editor.setFault(error.message, 'file')) },
   section.command,
   { id: 'input', title: 'Show the input or the result', keys: ['i'], run: () => editor.toggleInput(), enabled: opened, pressed: () => editor.showsInput },
   { id: 'fit', title: 'Show all', keys: ['0', 'home'], run: () => view.fit() },
@@ -201,7 +220,15 @@ listShortcuts(help.querySelector('dl')!, [...commands,
   { title: 'While a curve is drawn: end it, take its last node away', keys: ['enter', 'backspace'] },
 ]);
 
+/** Deviation is from the file, or, where that was chosen and something was applied, from that. */
+function compare(): void {
+  const applied = editor.shown.start;
+  fromField.hidden = coloured?.name !== 'deviation' || !applied;
+  if (editor.shape) fields.compareWith(fromField.querySelector('select')!.value && applied ? applied : editor.shape.input);
+}
+
 function changed(): void {
+  compare();
   marks.refresh(looks.look, editor.trying && start.way === 'repair');
   describe(editor, coloured);
   showLoading(document.getElementById('loading')!, editor.loading);
@@ -293,12 +320,14 @@ function toolChanged(): void {
 }
 
 range.addEventListener('input', () => {
-  range.parentElement!.querySelector('output')!.textContent = `${range.value} %`;
+  range.parentElement!.querySelector('output')!.textContent = `${range.value} % of the nodes`;
   fields.setShare(range.valueAsNumber / 100);
 });
+fromField.addEventListener('change', changed);
 bindUnit(document.getElementById('unit') as HTMLSelectElement, () => { fields.setShare(range.valueAsNumber / 100); changed(); });
 bindSymmetry(document.getElementById('symmetry') as HTMLSelectElement, editor);
 bindReach(document.getElementById('reach') as HTMLInputElement, editor);
+const up = new UpMenu(document.getElementById('up') as HTMLSelectElement, (which) => view.setUp(which));
 bindPresets(document.getElementById('mouse') as HTMLSelectElement, (preset) => view.setPreset(preset));
 bindStrength(document.querySelector('#strength')!, (share, settled) => editor.setStrength(share, settled));
 rove(document.querySelector('[role=toolbar]')!);

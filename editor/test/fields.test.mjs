@@ -89,6 +89,18 @@ test('deviation is along the normal of the input, without the library', async ()
   assert.equal(asked.length, 0);
 });
 
+test('deviation is from what is said: its title tells, and its values are those from there', async () => {
+  const { made, shown, input } = fields();
+  const lifted = (by) => input.map((part, k) => (k % 3 === 2 ? part + by : part));
+  made.choose('deviation');
+  made.move(lifted(3), lifted(3), true);
+  await rest();
+  assert.deepEqual([shown.at(-1).title, Math.abs(shown.at(-1).values[0])], ['Deviation from the input, units of the file', 3]);
+  made.compareWith(lifted(2));
+  await rest();
+  assert.deepEqual([shown.at(-1).title, Math.abs(shown.at(-1).values[0])], ['Deviation from what was applied last, units of the file', 1]);
+});
+
 test('between input and result the ends are those themselves', () => {
   const [input, result] = [Float64Array.of(0.1, 1 / 3), Float64Array.of(0.7, 5)];
   assert.equal(between(input, result, 0), input);

@@ -90,6 +90,25 @@ test('newer jobs stand for those that wait, and constraints are not lost', async
   assert.deepEqual(ends, [3, 5], 'a slow step of a drag that has ended is not waited for');
 });
 
+test('what waits is given up with what is solved, and what it was to hold is told with the next one', async () => {
+  const asked = [];
+  const told = [];
+  const client = { ask: (_, job) => new Promise((done) => asked.push({ job, done })), endSolutions() {}, endNow: () => told.push('end now') };
+  const solver = new Solver(client, { solved: () => told.push('solved'), failed() {}, ended: () => told.push('ended'), progress() {}, busy: (on) => told.push(on) });
+  solver.push({ rules: 'a' });
+  solver.push({ rules: 'b', fairBoundary: true });
+  solver.cancel();
+  asked[0].done({});
+  await new Promise(setImmediate);
+  assert.deepEqual(told, [true, 'end now', 'solved', 'ended', false], 'nothing more is solved');
+  solver.push({ drag: 1 });
+  assert.deepEqual(asked.map(({ job }) => job), [{ rules: 'a' }, { rules: 'b', fairBoundary: true, drag: 1 }]);
+  asked[1].done({});
+  await new Promise(setImmediate);
+  solver.push({ drag: 2 });
+  assert.deepEqual(asked[2].job, { drag: 2 }, 'it is told once');
+});
+
 test('another worker is told what opened the shape, its points, its newest nodes and where it starts last', async () => {
   const { CoreClient } = await compiled('library/client');
   const workers = [];

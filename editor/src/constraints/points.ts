@@ -2,6 +2,7 @@
 
 import type { NamedBytes } from '../base/files';
 import type { FitSettings } from '../library/protocol';
+import type { Stay } from '../shape/stays';
 
 /** Points as the worker knows them by their number; without bytes they were nodes of the shape itself. */
 export interface Cloud {
@@ -20,4 +21,6 @@ export function sourceOf({ name, bytes, positions }: Cloud): PointSource {
 /** Part of what holds: undo takes it back. */
 export interface Fit extends FitSettings {
   readonly cloud: Cloud;
+  /** What its nodes keep of their places along the shape. */
+  readonly stay?: Stay;
 }

@@ -10,6 +10,7 @@ import { between, furthest } from '../shape/between';
 import { heldOn, loopsOf } from '../shape/loops';
 import type { Mirror } from '../shape/mirror';
 import { normalNear, nothing, shapeOf, type Shape } from '../shape/shape';
+import { stayed } from '../shape/stays';
 import type { Constraints, Edit, Held } from '../constraints/constraints';
 import * as holding from '../constraints/constraints';
 import { nodesOf, type Renumbered } from '../constraints/nodes';
@@ -20,6 +21,7 @@ import { near, within } from '../pull/reach';
 import { FrameCounter } from './frames';
 import { begun, done, type History } from './history';
 import { Symmetry } from './symmetry';
+import { Trial, type Moved } from './trial';
 
 export interface EditorEvents {
   /** stays: where it is seen. */
@@ -73,9 +75,7 @@ export class Editor {
   /** How far on the way from the input to the result that is which is seen and saved: 0 to 1. */
   strength = 1;
   history: History<Constraints> = begun(holding.initial);
-  /** What is shown to be judged before it is a step, and what was there before. */
-  private tried: Constraints | null = null;
-  private before: { positions: Float64Array; strength: number; report: Report | null } = { positions: new Float64Array(), strength: 1, report: null };
+  private readonly trial = new Trial();
   private cancels = 0;
   /** Null: as is usual for what is open. */
   reach: number | null = null;
@@ -89,6 +89,8 @@ export class Editor {
   private started: Float64Array | undefined = undefined;
   /** Numbers of points that are known to the worker. */
   clouds = 0;
+  /** Nodes that do not keep the coordinate that they are to keep, as the shape is too steep there. */
+  steep = 0;
   source: Source | null = null;
   readonly client = new CoreClient((message) => this.setFault(message, 'file'));
   private readonly solver = new Solver(this.client, {
@@ -113,7 +115,7 @@ export class Editor {
 
   /** The same, or what is tried in its place. */
   get shown(): Constraints {
-    return this.tried ?? this.constraints;
+    return this.trial.constraints ?? this.constraints;
   }
 
   /** The positions from which all is solved. */
@@ -121,9 +123,9 @@ export class Editor {
     return this.constraints.start ?? this.shape!.input;
   }
 
-  /** How far what is tried moves a node. */
-  get movedInTrial(): number {
-    return this.tried ? furthest(this.positions, this.before.positions) : 0;
+  /** How far what is tried moves a node, and how far along the shape. */
+  get movedInTrial(): Moved {
+    return this.trial.moved(this.shape!, this.positions);
   }
 
   /** How far what is seen is from the input. */
@@ -132,7 +134,7 @@ export class Editor {
   }
 
   get trying(): boolean {
-    return this.tried !== null;
+    return this.trial.constraints !== null;
   }
 
   get result(): Float64Array {
@@ -178,7 +180,7 @@ export class Editor {
     this.drags.drop();
     this.normals = new Map();
     this.history = history;
-    this.tried = null;
+    this.trial.end();
     this.started = undefined;
     this.loading = null;
     this.shape = shapeOf(opened);
@@ -192,7 +194,7 @@ export class Editor {
   /** Nothing is open. */
   close(): void {
     this.source = null;
-    this.tried = null;
+    this.trial.end();
     this.solver.clear();
     this.drags.drop();
     this.normals = new Map();
@@ -287,8 +289,8 @@ export class Editor {
   }
 
   private async settledShape(): Promise<Float64Array> {
-    if (!this.tried) await this.solver.rest();
-    const { positions, strength } = this.tried ? this.before : { positions: this.positions, strength: this.strength };
+    if (!this.trying) await this.solver.rest();
+    const { positions, strength } = this.trying ? this.trial.before : { positions: this.positions, strength: this.strength };
     return between(this.shape!.input, positions, strength);
   }
 
@@ -318,31 +320,30 @@ export class Editor {
 
   /** Shows what would come of these; null: what there was. */
   try(constraints: Constraints | null): void {
-    if (constraints === this.tried) return;
+    if (constraints === this.trial.constraints) return;
     const { positions, strength, report } = this;
-    if (!this.tried) this.before = { positions, strength, report };
     if (!constraints) this.giveUp();
-    this.tried = constraints;
+    else this.trial.begin(constraints, { positions, strength, report });
     this.show({ strength: constraints ? 1 : this.strength, showsInput: false }, true);
     this.settle();
   }
 
   private giveUp(): void {
-    if (this.tried) Object.assign(this, this.before);
-    this.tried = null;
+    Object.assign(this, this.trial.end());
   }
 
   /** What is tried becomes a step, with the shape that it has. bakes: that is the one from which all starts from then on. */
   accept(label: string, bakes: boolean): void {
-    if (!this.tried) return;
-    this.history = done(this.history, label, bakes ? holding.baked(this.tried, this.positions) : this.tried);
-    this.tried = null;
+    const { constraints } = this.trial;
+    if (!constraints) return;
+    this.history = done(this.history, label, bakes ? holding.baked(constraints, this.positions) : constraints);
+    this.trial.end();
     if (bakes) this.settle();
     else this.events.changed();
   }
 
   leaveTrial(): void {
-    if (this.tried) this.events.leaving();
+    if (this.trying) this.events.leaving();
   }
 
   /** How much of the size around what is pulled goes with it; 1: all. */
@@ -376,7 +377,7 @@ export class Editor {
   /** The solution that runs ends, and the last shape stays. */
   cancel(): void {
     ++this.cancels;
-    this.client.endNow();
+    this.solver.cancel();
   }
 
   private get holds(): Job {
@@ -480,13 +481,14 @@ export class Editor {
   }
 
   private solved(solved: Solved, { drag }: Job): void {
-    const { positions, report, normals } = solved;
-    if (positions.length !== this.positions.length) return;
+    const { report, normals } = solved;
+    if (solved.positions.length !== this.positions.length) return;
     if (drag && report.outcome === 'cancelled') return;
     if (drag && report.outcome === 'foreseen') {
       this.drags.solved(drag, solved);
       return;
     }
+    const positions = drag ? solved.positions : this.kept(solved.positions);
     // Of a large shape that stays as it is a picture would take seconds.
     const same = this.rests && this.seen === this.positions && furthest(positions, this.positions) === 0;
     if (!same) this.positions = positions;
@@ -497,5 +499,13 @@ export class Editor {
     if (normals && this.drags.part !== this.direction) this.normals = new Map([...normals.nodes].map((node, k) => [node, [...normals.normals.subarray(3 * k, 3 * k + 3)] as Vector]));
     if (this.showsInput || same) this.events.changed();
     else this.show({}, !drag);
+  }
+  /** With nodes where they are to stay along the shape. */
+  private kept(positions: Float64Array): Float64Array {
+    const { shape, shown: { fit, start } } = this;
+    if (!fit?.stay) return positions;
+    const found = stayed(shape!, start ?? shape!.input, positions, fit.stay, fit.value);
+    this.steep = found.steep;
+    return found.positions;
   }
 }

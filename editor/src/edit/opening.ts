@@ -17,8 +17,8 @@ const long = 3e6;
 
 export class Opening {
   private readonly documents = new Documents();
-  /** Whether what is open is nobody's own: an example. */
-  private example = false;
+  /** Whether what is open is nobody's own. */
+  example = false;
 
   constructor(private readonly editor: Editor) {}
 
@@ -37,8 +37,7 @@ export class Opening {
   async open(name: string, bytes: Uint8Array): Promise<void> {
     try {
       if (name.toLowerCase().endsWith('.json')) await this.openConstraints(new TextDecoder().decode(bytes));
-      else await this.openShape(name, bytes, holding.untouched);
-      this.example = false;
+      else await this.openShape(name, bytes, holding.untouched, false);
       this.editor.set({ fault: null, loading: null });
     } catch (error) {
       this.editor.setFault((error as Error).message, 'file');
@@ -48,15 +47,14 @@ export class Opening {
   /** A shape that is faired at once. held: a constraints file for it. points: what it is drawn towards, with the weight of the paper's Fig. 12. */
   async openFair(name: string, bytes: Uint8Array, held?: string, points?: NamedBytes): Promise<void> {
     try {
-      await this.openShape(name, bytes, held === undefined ? holding.initial : holding.fromFile(held), points);
-      this.example = true;
+      await this.openShape(name, bytes, held === undefined ? holding.initial : holding.fromFile(held), true, points);
       this.editor.set({ fault: null });
     } catch (error) {
       this.editor.setFault((error as Error).message, 'file');
     }
   }
 
-  private async openShape(name: string, bytes: Uint8Array, constraints: Constraints, points?: NamedBytes): Promise<void> {
+  private async openShape(name: string, bytes: Uint8Array, constraints: Constraints, example: boolean, points?: NamedBytes): Promise<void> {
     this.editor.halt();
     const size = bytes.length;
     this.editor.set({ loading: { name, size, doing: 'reading its nodes and faces' } });
@@ -67,11 +65,18 @@ export class Opening {
     }
     const fit = points && { cloud: await this.editor.cloudOf(points), kind: 'weight' as const, value: 0.01, outliers: 0 };
     this.leave();
+    this.example = example;
     this.editor.take({ name, bytes }, opened, begun({ ...constraints, fit }));
   }
 
+  /** What was kept, in place of what is open. */
+  async reopen(document: Document): Promise<void> {
+    this.leave();
+    await this.restore(document);
+  }
+
   /** As it was when the page, or it for something else, was left. */
-  async restore({ source, history, strength }: Document): Promise<void> {
+  private async restore({ source, history, strength }: Document): Promise<void> {
     this.editor.halt();
     const { client } = this.editor;
     const { state } = history.now;
@@ -83,6 +88,7 @@ export class Opening {
       await client.ask('points', { number, from: sourceOf(cloud) });
       this.editor.clouds = Math.max(this.editor.clouds, number);
     }
+    this.example = false;
     this.editor.take(source, opened, history);
     this.editor.show({ strength }, true);
   }
@@ -105,6 +111,7 @@ export class Opening {
       const source = { places: Float64Array.from(places.flat()), closed, nodes };
       const opened = await this.editor.client.ask('draw', source);
       this.leave();
+      this.example = false;
       const kept = [...opened.from.keys()].filter((node) => opened.from[node] >= 0);
       const held = holding.edited(holding.initial, kept, (node) => ({ ...edit(opened.from[node]), position: places[opened.from[node]] }));
       this.editor.take(source, opened, begun({ ...held, fit: fit && { ...fit, cloud: await this.editor.cloudOf(fit.cloud.bytes ? sourceOf(fit.cloud) : opened.positions) } }));
@@ -138,15 +145,15 @@ export class Opening {
 
   undo(): void {
     if (this.editor.history.past.length > 0) this.editor.travel(undone(this.editor.history));
-    else void this.reopen(this.documents.before, (now) => this.documents.back(now));
+    else void this.travel(this.documents.before, (now) => this.documents.back(now));
   }
 
   redo(): void {
     if (this.editor.history.future.length > 0) this.editor.travel(redone(this.editor.history));
-    else void this.reopen(this.documents.after, (now) => this.documents.forward(now));
+    else void this.travel(this.documents.after, (now) => this.documents.forward(now));
   }
 
-  private async reopen(document: Document | undefined, move: (now: Document | null) => void): Promise<void> {
+  private async travel(document: Document | undefined, move: (now: Document | null) => void): Promise<void> {
     if (!document) return;
     const { source, history, strength } = this.editor;
     move(source && { source, history, strength });

@@ -141,14 +141,19 @@ export class Solver {
   private running: Job | null = null;
   private began = 0;
   private waiting: Job | null = null;
+  /** What was given up before it ran. */
+  private left: Job | null = null;
+  private dropped = false;
   private readonly resting: (() => void)[] = [];
 
   constructor(
-    private readonly client: Pick<CoreClient, 'ask' | 'endSolutions'>,
+    private readonly client: Pick<CoreClient, 'ask' | 'endNow' | 'endSolutions'>,
     private readonly events: SolverEvents,
   ) {}
 
-  push(job: Job): void {
+  push(next: Job): void {
+    const job = merged(this.left, next);
+    this.left = null;
     if (this.running) {
       this.waiting = merged(this.waiting, job);
       // What comes from the input takes long, and is out of date already; what is dragged is still shown where that is soon.
@@ -167,9 +172,17 @@ export class Solver {
     });
   }
 
+  /** Nothing is solved any longer, not even what waits; what holds is not lost. */
+  cancel(): void {
+    if (this.waiting) this.left = merged(this.left, this.waiting);
+    this.dropped = this.waiting !== null;
+    this.waiting = null;
+    this.client.endNow();
+  }
+
   /** Forgets what waits, as another file is opened. */
   clear(): void {
-    this.waiting = null;
+    this.waiting = this.left = null;
     if (this.running) this.client.endSolutions();
   }
 
@@ -185,6 +198,9 @@ export class Solver {
       else this.events.failed((error as Error).message, job);
     }
     this.running = null;
+    // The shape is not what holds makes of it, however that one ended.
+    if (this.dropped) this.events.ended();
+    this.dropped = false;
     const next = this.waiting;
     this.waiting = null;
     if (next) {

@@ -15,10 +15,17 @@ export class Looks {
   look: Look = 'shaded';
   private edges = false;
 
-  /** wipe, lamps: the sliders between input and result and of reflection lines, in their cards. changed: the buttons are to be brought up to date. */
-  constructor(private readonly editor: Editor, private readonly view: View, private readonly fields: Fields, private readonly marks: Marks, private readonly wipe: HTMLElement,
+  /** wipe, lamps: the sliders between input and result and of reflection lines, in their cards. line: between input and result, which can be dragged. changed: the buttons are to be brought up to date. */
+  constructor(private readonly editor: Editor, private readonly view: View, private readonly fields: Fields, private readonly marks: Marks, private readonly wipe: HTMLElement, line: HTMLElement,
     private readonly lamps: HTMLElement, private readonly changed: () => void) {
     wipe.addEventListener('input', () => this.setWipe());
+    line.addEventListener('pointerdown', (event) => line.setPointerCapture(event.pointerId));
+    line.addEventListener('pointermove', (event) => {
+      if (!line.hasPointerCapture(event.pointerId)) return;
+      const { left } = line.parentElement!.getBoundingClientRect();
+      wipe.querySelector('input')!.value = String((100 * (event.clientX - left)) / view.free);
+      this.setWipe();
+    });
     bindLamps(lamps, (set) => view.setLamps(set));
   }
 

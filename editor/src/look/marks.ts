@@ -8,8 +8,8 @@ import type { View } from '../view/view';
 
 export class Marks {
   private held: Uint8Array = new Uint8Array();
-  private shown = { normals: new Map() as Editor['normals'], picked: new Set() as ReadonlySet<number>, hovered: -1, edgeOnly: false };
-  /** Marks of held nodes cover what reflection lines and colours show. */
+  private shown = { normals: new Map() as Editor['normals'], picked: new Set() as ReadonlySet<number>, hovered: -1, edgeOnly: false, hidden: false };
+  /** Marks of held nodes, and their arrows, cover what reflection lines and colours show. */
   private hidden = false;
   private look: Look = 'shaded';
 
@@ -47,9 +47,10 @@ export class Marks {
       view.markers.set('held', this.hidden || edgeOnly ? [] : some);
       view.draw();
     }
-    if (shown.normals !== normals || shown.picked !== picked || shown.hovered !== hovered || shown.edgeOnly !== edgeOnly) {
-      this.shown = { normals, picked, hovered, edgeOnly };
-      view.arrows.set(normals, new Set(hovered < 0 ? picked : [...picked, hovered]));
+    if (shown.normals !== normals || shown.picked !== picked || shown.hovered !== hovered || shown.edgeOnly !== edgeOnly || shown.hidden !== this.hidden) {
+      const { hidden } = this;
+      this.shown = { normals, picked, hovered, edgeOnly, hidden };
+      view.arrows.set(hidden ? new Map() : normals, new Set(hovered < 0 ? picked : [...picked, hovered]));
       view.markers.set('picked', edgeOnly && !curve ? [...rim(shape!, [...picked])] : [...picked]);
       view.markers.set('hovered', hovered < 0 || picked.has(hovered) ? [] : [hovered]);
       view.draw();

@@ -1,9 +1,11 @@
 // The axes in the corner of the view: how it is turned, and a click on an end looks from there.
 
 import type { Vector } from '../base/vectors';
+import { standing, type Up } from '../shape/upright';
 
-const titles: [string, Vector][] = [['X', [1, 0, 0]], ['Y', [0, 1, 0]], ['Z', [0, 0, 1]], ['−X', [-1, 0, 0]], ['−Y', [0, -1, 0]], ['−Z', [0, 0, -1]]];
-const names: Record<string, string> = { X: 'right', '−X': 'left', Y: 'back', '−Y': 'front', Z: 'top', '−Z': 'bottom' };
+const axes: [string, Vector][] = [['X', [1, 0, 0]], ['Y', [0, 1, 0]], ['Z', [0, 0, 1]], ['−X', [-1, 0, 0]], ['−Y', [0, -1, 0]], ['−Z', [0, 0, -1]]];
+/** Of directions as they stand in the view. */
+const sides: [string, Vector][] = [['right', [1, 0, 0]], ['left', [-1, 0, 0]], ['back', [0, 1, 0]], ['front', [0, -1, 0]], ['top', [0, 0, 1]], ['bottom', [0, 0, -1]]];
 const radius = 30;
 
 export class Gizmo {
@@ -11,16 +13,25 @@ export class Gizmo {
   private turned = '';
 
   constructor(private readonly box: HTMLElement, look: (from: Vector) => void) {
-    this.ends = titles.map(([title, axis]) => {
-      const button = Object.assign(document.createElement('button'), { type: 'button', textContent: title.length === 1 ? title : '', title: `From the ${names[title]}, ${title}` });
-      button.setAttribute('aria-label', `View from the ${names[title]}, ${title}`);
+    this.ends = axes.map(([title, axis]) => {
+      const button = Object.assign(document.createElement('button'), { type: 'button', textContent: title.length === 1 ? title : '' });
       button.dataset.axis = title.at(-1)!.toLowerCase();
       button.addEventListener('click', () => look(axis));
       return { button, axis };
     });
     const lines = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
-    lines.append(...titles.slice(0, 3).map(() => document.createElementNS('http://www.w3.org/2000/svg', 'line')));
+    lines.append(...axes.slice(0, 3).map(() => document.createElementNS('http://www.w3.org/2000/svg', 'line')));
     box.append(lines, ...this.ends.map(({ button }) => button));
+    this.setUp('z');
+  }
+
+  setUp(up: Up): void {
+    this.ends.forEach(({ button, axis }, k) => {
+      const stands = standing(axis, up);
+      const [side] = sides.find(([, way]) => way.every((part, i) => part === stands[i]))!;
+      button.title = `From the ${side}, ${axes[k][0]}`;
+      button.setAttribute('aria-label', `View from the ${side}, ${axes[k][0]}`);
+    });
   }
 
   /** Unit vectors of the view: to the right, up, and towards whoever looks. */

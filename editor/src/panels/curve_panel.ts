@@ -1,10 +1,15 @@
 // The curvature of the open curve: its comb in the view, and its plot in the dock. Both follow the shape that is seen.
 
+import { edge as chartEdge } from '../../../page/chart.js';
 import { addCurveCharts } from '../../../page/charts.js';
 import { chainsOf } from '../../../page/curve.js';
 import type { Shape } from '../shape/shape';
 import { combOf, toothOf, type Chain } from '../view/comb';
 import type { CurveLayer } from '../view/curve_layer';
+
+/** Of the arc length, the least that the plot shows. */
+const least = 0.002;
+const wide = (plot: HTMLElement): number => Math.max(1, plot.clientWidth - chartEdge.left - chartEdge.right);
 
 export class CurvePanel {
   private shape: Shape | null = null;
@@ -14,19 +19,56 @@ export class CurvePanel {
   private asked = false;
   /** A small screen has no room for it. */
   root = false;
+  /** What the plot shows of the arc length, from and to, as shares of all. */
+  private part: [number, number] = [0, 1];
   unfolded = innerWidth > 768;
 
-  /** slider: how long hairs are, 1 as is good for most. clip: the share of the curve that is shown in full. dock: where the plot is, with its switch. drawn: has the view drawn. */
+  /** slider: how long hairs are, 1 as is good for most. clip: the share of the curve that is shown in full. dock: where the plot is, with its switch. drawn: has the view drawn. changed: the plot shows another part. */
   constructor(
     private readonly layer: CurveLayer,
     private readonly slider: HTMLInputElement,
     private readonly clip: HTMLInputElement,
     private readonly dock: HTMLElement,
     private readonly drawn: () => void,
+    private readonly changed: () => void,
   ) {
     slider.addEventListener('input', () => this.refresh());
     clip.addEventListener('input', () => { this.scaleTeeth(); this.refresh(); });
     new ResizeObserver(() => this.refresh()).observe(dock);
+    this.bindPlot(dock.querySelector('#plot')!);
+  }
+
+  /** The wheel zooms along the curve at the pointer, a drag moves. */
+  private bindPlot(plot: HTMLElement): void {
+    plot.addEventListener('wheel', (event) => {
+      event.preventDefault();
+      this.zoom(2 ** (event.deltaY / 400), (event.clientX - plot.getBoundingClientRect().left - chartEdge.left) / wide(plot));
+    }, { passive: false });
+    plot.addEventListener('pointerdown', (event) => plot.setPointerCapture(event.pointerId));
+    plot.addEventListener('pointermove', (event) => {
+      if (!plot.hasPointerCapture(event.pointerId)) return;
+      const [from, to] = this.part;
+      this.setPart(from - (event.movementX / wide(plot)) * (to - from), to - from);
+    });
+    plot.addEventListener('dblclick', () => this.setPart(0, 1));
+  }
+
+  /** at: what stays where it is, as a share of what is shown. */
+  zoom(factor: number, at = 0.5): void {
+    const [from, to] = this.part;
+    const length = Math.min(1, Math.max(least, factor * (to - from)));
+    this.setPart(from + at * (to - from - length), length);
+  }
+
+  get zoomed(): boolean {
+    return this.part[1] - this.part[0] < 1;
+  }
+
+  private setPart(from: number, length: number): void {
+    const begin = Math.min(1 - length, Math.max(0, from));
+    this.part = [begin, begin + length];
+    this.changed();
+    this.refresh();
   }
 
   get comb(): boolean {
@@ -47,6 +89,7 @@ export class CurvePanel {
   open(shape: Shape): void {
     this.shape = shape.curve && shape;
     this.dock.hidden = !this.shape || !this.unfolded;
+    this.part = [0, 1];
     this.input = this.chainsAt(shape.input);
     this.show(shape.input, true);
   }
@@ -102,6 +145,6 @@ export class CurvePanel {
     const shapes = [{ title: 'input', chains: this.input }, { title: 'shown', chains: this.chains }];
     plot.replaceChildren();
     if (input.length === 0) return;
-    addCurveCharts(plot, shapes, { unit: 1, leading: 1, planar: curve!.plane !== null, pixels: { width, height } }, {});
+    addCurveCharts(plot, shapes, { unit: 1, leading: 1, planar: curve!.plane !== null, share: Number(this.clip.value) / 100, part: this.part, pixels: { width, height } }, {});
   }
 }

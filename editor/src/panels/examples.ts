@@ -1,4 +1,7 @@
-// Shapes to try, by name: files of examples/, and what holds them where it is not just the boundary.
+// What may be opened by name: what was worked on lately, and shapes to try. These are files of examples/, and what holds them where it is not
+// just the boundary.
+
+import type { About } from '../edit/slots';
 
 interface Example {
   title: string;
@@ -30,11 +33,26 @@ const groups: { title: string; examples: Example[] }[] = [
   ] },
 ];
 
+export interface ExampleEvents {
+  /** Addresses of a shape, of its constraints and of points. */
+  open: (file: string, constraints?: string, points?: string) => void;
+  reopen: (slot: string) => void;
+  /** All that is kept but what is open. */
+  forget: () => void;
+}
+
+const forget = 'forget';
+
+function saidOf({ name, step, time }: About): string {
+  return [name, step, new Date(time).toLocaleString('en', { day: 'numeric', month: 'short', hour: '2-digit', minute: '2-digit', hour12: false })].filter(Boolean).join(' · ');
+}
+
 export class Examples {
   private readonly all = groups.flatMap(({ examples }) => examples);
+  private readonly recent = Object.assign(document.createElement('optgroup'), { label: 'Recent', hidden: true });
 
-  /** open: addresses of a shape, of its constraints and of points. */
-  constructor(private readonly menu: HTMLSelectElement, open: (file: string, constraints?: string, points?: string) => void) {
+  constructor(private readonly menu: HTMLSelectElement, events: ExampleEvents) {
+    menu.append(this.recent);
     let number = 0;
     for (const { title, examples } of groups) {
       const group = Object.assign(document.createElement('optgroup'), { label: title });
@@ -42,14 +60,30 @@ export class Examples {
       menu.append(group);
     }
     menu.addEventListener('change', () => {
-      const { file, constraints, points } = this.all[Number(menu.value)];
-      open(`examples/${file}`, constraints && `examples/${constraints}`, points && `examples/${points}`);
+      const example = this.all[Number(menu.value)];
+      if (!example) {
+        if (menu.value === forget) events.forget();
+        else events.reopen(menu.value);
+        menu.value = '';
+        return;
+      }
+      const { file, constraints, points } = example;
+      events.open(`examples/${file}`, constraints && `examples/${constraints}`, points && `examples/${points}`);
     });
   }
 
-  /** A file of that name is open: the menu shows the example that it may be. */
-  opened(name: string): void {
-    if (this.all[Number(this.menu.value || -1)]?.file === name) return;
+  /** What is kept, the newest first. */
+  list(recent: readonly About[]): void {
+    const { value } = this.menu;
+    const options = recent.map((about) => new Option(saidOf(about), about.slot));
+    this.recent.hidden = recent.length === 0;
+    this.recent.replaceChildren(...options, ...(options.length > 0 ? [new Option('Forget those that are not open', forget)] : []));
+    this.menu.value = value;
+  }
+
+  /** name: of the example that is open; null: what is open is none. */
+  opened(name: string | null): void {
+    if (name !== null && this.all[Number(this.menu.value || -1)]?.file === name) return;
     const number = this.all.findIndex(({ file }) => file === name);
     this.menu.value = number < 0 ? '' : String(number);
   }

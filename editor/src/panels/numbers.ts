@@ -80,10 +80,17 @@ export class Numbers {
     const [first] = picked;
     const shared = normals.get(first);
     const alike = shared && [...picked].every((node) => normals.get(node)?.every((part, i) => part === shared[i]));
-    if (picked.size === 1) this.position.show('Position', this.editor.placeOf(first));
+    if (this.isOne) this.position.show('Position', this.editor.placeOf(first));
     else this.position.show('Move by', null);
     const name = this.editor.shape?.curve ? 'Tangent' : 'Normal';
-    this.normal.show(picked.size === 1 ? name : `${name}s`, alike ? shared : null);
+    this.normal.show(this.isOne ? name : `${name}s`, alike ? shared : null);
+  }
+
+  /** Whether it is one node, or one with its mirror image. */
+  private get isOne(): boolean {
+    const { picked, mirror } = this.editor;
+    const [first] = picked;
+    return picked.size === 1 || (mirror !== null && picked.size === 2 && mirror.with([first]).length === 2 && mirror.with([first]).every((node) => picked.has(node)));
   }
 
   /** What is picked is held there. Of the one node the fields have its place, of several how far they go. */
@@ -94,9 +101,10 @@ export class Numbers {
       return;
     }
     const { mirror } = this.editor;
+    const { isOne } = this;
     const vectors = nodes.flatMap((node) => {
       const own = mirror?.mirrored(vector, nodes[0], node, false) ?? vector;
-      return part !== 'position' || nodes.length === 1 ? own : this.editor.placeOf(node).map((place, i) => place + own[i]);
+      return part !== 'position' || isOne ? own : this.editor.placeOf(node).map((place, i) => place + own[i]);
     });
     this.editor.apply(labelOf(part, nodes), placed(this.editor.constraints, nodes, Float64Array.from(vectors), part));
   }

@@ -1,8 +1,7 @@
-// A section of the surface across an axis, where a slider says, with its curvature comb. It follows the shape that is seen.
+// Sections of the surface across an axis with their curvature combs: one where a slider or a number says, or several at even steps. They follow the shape that is seen.
 
-import { short } from '../../../page/numbers.js';
 import type { Command } from '../base/commands';
-import { withUnit } from '../base/units';
+import { Entry, wholeNumber } from '../base/entry';
 import { sectionOf } from '../shape/section';
 import { placesOf, type Shape } from '../shape/shape';
 import { verticesOf, type Vertices } from '../shape/vertices';
@@ -20,6 +19,9 @@ export class SectionPanel {
   private shown = false;
   private readonly axis = document.getElementById('section-axis') as HTMLSelectElement;
   private readonly at = document.getElementById('section-at') as HTMLInputElement;
+  /** In units of the file. */
+  private readonly value = new Entry(document.getElementById('section-value') as HTMLInputElement, () => ({ words: 'a place within the shape, such as 0.5 or 5 mm', takes: (value) => value >= this.ends[0] && value <= this.ends[1], isLength: true }), (value) => { if (value !== null) this.moveTo(value); });
+  private readonly count = new Entry(document.getElementById('section-count') as HTMLInputElement, () => wholeNumber(1, 100), (count) => { if (count !== null) this.rescale(); });
   private readonly comb = document.getElementById('section-comb') as HTMLInputElement;
 
   /** drawn: has the view drawn. */
@@ -56,9 +58,10 @@ export class SectionPanel {
   }
 
   private draw(): void {
-    const { shape, positions, axis, at } = this;
+    const { shape, positions, axis } = this;
     const chosen = 'xyz'.indexOf(axis.value || '-');
-    for (const slider of [at, this.comb]) slider.parentElement!.hidden = chosen < 0;
+    for (const field of document.querySelectorAll<HTMLElement>('#section .field:has(input)')) field.hidden = chosen < 0;
+    for (const id of ['section-at', 'section-value']) document.getElementById(id)!.closest<HTMLElement>('.field')!.hidden = chosen < 0 || this.count.value > 1;
     // Without a section another picture would be drawn for nothing.
     const draws = shape !== null && chosen >= 0;
     if (!draws && !this.shown) return;
@@ -80,12 +83,33 @@ export class SectionPanel {
   }
 
   private runsAt(shape: Shape, positions: Float64Array, axis: number): ReturnType<typeof sectionOf> {
-    let [low, high] = [Infinity, -Infinity];
-    for (let k = axis; k < shape.input.length; k += 3) [low, high] = [Math.min(low, shape.input[k]), Math.max(high, shape.input[k])];
-    const value = low + (this.at.valueAsNumber / Number(this.at.max)) * (high - low);
-    this.at.parentElement!.querySelector('output')!.textContent = withUnit(short(Number(value.toPrecision(3))));
     const places = placesOf(shape, positions);
     this.vertices ??= verticesOf(shape.faces, places, shape.edges);
-    return sectionOf(shape, places, this.vertices, axis, (value - shape.centre[axis]) * shape.scale);
+    const { vertices } = this;
+    return this.valuesAcross(this.ends).flatMap((value) => sectionOf(shape, places, vertices, axis, (value - shape.centre[axis]) * shape.scale));
+  }
+
+  private valuesAcross([low, high]: [number, number]): number[] {
+    const { count: { value: many }, at } = this;
+    if (many > 1) return Array.from({ length: many }, (_, k) => low + ((k + 0.5) / many) * (high - low));
+    const value = low + (at.valueAsNumber / Number(at.max)) * (high - low);
+    this.value.show(Number(value.toPrecision(4)));
+    return [value];
+  }
+
+  private moveTo(value: number): void {
+    const [low, high] = this.ends;
+    this.at.value = String(((value - low) / (high - low)) * Number(this.at.max));
+    this.rescale();
+  }
+
+  /** Of the input along the axis. */
+  private get ends(): [number, number] {
+    let [low, high] = [Infinity, -Infinity];
+    const { shape, axis } = this;
+    const chosen = 'xyz'.indexOf(axis.value || '-');
+    if (!shape || chosen < 0) return [low, high];
+    for (let k = chosen; k < shape.input.length; k += 3) [low, high] = [Math.min(low, shape.input[k]), Math.max(high, shape.input[k])];
+    return [low, high];
   }
 }

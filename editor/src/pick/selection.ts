@@ -15,6 +15,11 @@ export function selectionCommands(editor: Editor, hand: Tools, toolChanged: () =
   const some = (): boolean => editor.picked.size > 0;
   const change = (id: string, title: string, keys: string[], made: (shape: Shape, picked: ReadonlySet<number>) => Set<number>, enabled = some): Command =>
     ({ id, title, keys, enabled, run: () => editor.set({ picked: made(editor.shape!, editor.picked) }) });
+  const step = (by: number): void => {
+    const count = editor.shape!.input.length / 3;
+    const [last] = [...editor.picked].slice(-1);
+    editor.pick(last === undefined ? (by > 0 ? 0 : count - 1) : (last + by + count) % count, false);
+  };
   const tool = (run: () => void) => (): void => {
     run();
     toolChanged();
@@ -23,10 +28,13 @@ export function selectionCommands(editor: Editor, hand: Tools, toolChanged: () =
     ...tools.map((which, k) => ({ id: `tool-${which}`, title: titles[which], keys: ['qwer'[k]], run: tool(() => hand.set(which)), pressed: () => hand.tool === which })),
     { id: 'visible-only', title: 'Box and lasso leave out what is hidden', keys: ['h'], run: tool(() => { hand.visibleOnly = !hand.visibleOnly; }),
       pressed: () => hand.visibleOnly },
-    { id: 'narrow', title: 'Smaller brush', keys: ['['], run: () => hand.widen(0.8) },
-    { id: 'widen', title: 'Larger brush', keys: [']'], run: () => hand.widen(1.25) },
+    { id: 'narrow', title: 'Smaller brush', keys: ['['], run: () => hand.setRadius(0.8 * hand.radius) },
+    { id: 'widen', title: 'Larger brush', keys: [']'], run: () => hand.setRadius(1.25 * hand.radius) },
+    { id: 'erase', title: 'The brush takes away, as with Alt', keys: ['shift+x'], run: tool(() => hand.setErases(!hand.erases)), enabled: () => hand.tool === 'brush', pressed: () => hand.erases },
     change('loop', 'Pick boundary loops of picked nodes', ['l'], withLoops, () => [...editor.picked].some((node) => editor.shape!.boundary[node])),
     change('part', 'Pick connected parts of picked nodes', ['shift+l'], withParts),
+    { id: 'next', title: 'Pick the next node', keys: ['.'], enabled: opened, run: () => step(1) },
+    { id: 'previous', title: 'Pick the node before', keys: [','], enabled: opened, run: () => step(-1) },
     change('all', 'Pick all nodes', ['ctrl+a'], all, opened),
     change('invert', 'Pick the other nodes', ['ctrl+i'], inverted, opened),
     change('grow', 'Pick one ring of neighbours more', ['g'], grown),

@@ -7,6 +7,9 @@ import { inBox, inLoop, Squares } from './within';
 export const tools = ['pick', 'box', 'lasso', 'brush'] as const;
 export type Tool = (typeof tools)[number];
 type Point = [number, number];
+/** Radii of the brush, in pixels. */
+export const narrowest = 3;
+export const widest = 300;
 
 export interface ToolEvents {
   seen: () => Seen | null;
@@ -14,6 +17,10 @@ export interface ToolEvents {
   pick: (nodes: ReadonlySet<number>) => void;
   /** Those nodes, and others that go with them. */
   withImages: (nodes: Iterable<number>) => Iterable<number>;
+  /** Of those nodes the ones that lie within the others. */
+  enclosed: (nodes: ReadonlySet<number>, others: Pick<ReadonlySet<number>, 'has'>) => Iterable<number>;
+  /** The brush is in hand or no longer, or it works otherwise. */
+  brush: () => void;
 }
 
 interface Stroke {
@@ -24,6 +31,8 @@ interface Stroke {
   squares: Squares | null;
   /** Null where all nodes count. */
   visible: Uint8Array | null;
+  /** What the brush has gone over that is hidden. */
+  hidden: Set<number>;
   before: ReadonlySet<number>;
   nodes: Set<number>;
   takes: boolean;
@@ -34,7 +43,10 @@ export class Tools {
   tool: Tool = 'pick';
   /** Whether box and lasso leave out what is hidden; the brush always does. */
   visibleOnly = false;
-  private radius = 24;
+  /** Of the brush, in pixels. */
+  radius = 24;
+  /** Whether the brush takes away, as it does with Alt. */
+  erases = false;
   private pointer: Point = [0, 0];
   private stroke: Stroke | null = null;
   private asked = false;
@@ -56,13 +68,21 @@ export class Tools {
   set(tool: Tool): void {
     this.cancel();
     this.tool = tool;
+    this.erases = false;
     this.canvas.style.cursor = tool === 'pick' ? '' : tool === 'brush' ? 'none' : 'crosshair';
+    this.events.brush();
     this.draw();
   }
 
-  widen(factor: number): void {
-    this.radius = Math.min(300, Math.max(3, Math.round(this.radius * factor)));
+  setRadius(radius: number): void {
+    this.radius = Math.min(widest, Math.max(narrowest, Math.round(radius)));
+    this.events.brush();
     this.draw();
+  }
+
+  setErases(erases: boolean): void {
+    this.erases = erases;
+    this.events.brush();
   }
 
   /** What was picked before the stroke is picked again. Returns whether there was one. */
@@ -90,7 +110,7 @@ export class Tools {
     this.pointer = this.at(event);
     this.stroke = {
       id: event.pointerId, points: [this.pointer], screen, before, squares: this.tool === 'brush' ? new Squares(screen, seen.width, seen.height) : null,
-      nodes: new Set(adds ? before : []), takes: event.altKey,
+      nodes: new Set(adds ? before : []), takes: event.altKey || (this.tool === 'brush' && this.erases), hidden: new Set(),
       visible: this.visibleOnly || this.tool === 'brush' ? visibleNodes(screen, seen) : null,
     };
     if (this.tool === 'brush') this.paint();
@@ -112,7 +132,7 @@ export class Tools {
     const { stroke } = this;
     if (!stroke || stroke.id !== event.pointerId) return;
     stroke.points.push((this.pointer = this.at(event)));
-    if (this.tool === 'brush') this.paint();
+    if (this.tool === 'brush') this.paintWithin();
     else this.take(this.tool === 'box' ? inBox(stroke.screen, stroke.points[0], this.pointer) : inLoop(stroke.screen, stroke.points));
     this.stroke = null;
     this.events.pick(stroke.nodes);
@@ -137,9 +157,24 @@ export class Tools {
     });
   }
 
+  /** What is hidden, as behind a spike, goes with what is painted all around it. */
+  private paintWithin(): void {
+    this.paint();
+    const { stroke, events } = this;
+    const { nodes, hidden, takes } = stroke!;
+    const open = new Set([...hidden].filter((node) => nodes.has(node) === takes));
+    const others = takes ? { has: (node: number) => !nodes.has(node) } : nodes;
+    stroke!.visible = null;
+    this.take([...events.enclosed(open, others)]);
+  }
+
   private paint(): void {
-    const { points, squares, nodes } = this.stroke!;
-    points.forEach((to, k) => this.take(squares!.inStroke(points[Math.max(0, k - 1)], to, this.radius)));
+    const { points, squares, nodes, visible, hidden } = this.stroke!;
+    points.forEach((to, k) => {
+      const under = squares!.inStroke(points[Math.max(0, k - 1)], to, this.radius);
+      for (const node of under) if (!visible![node]) hidden.add(node);
+      this.take(under);
+    });
     points.splice(0, points.length - 1);
     this.events.pick(new Set(nodes));
   }

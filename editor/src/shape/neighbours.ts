@@ -1,5 +1,6 @@
 // Sets of nodes by what the edges join. Linear in the size of the surface.
 
+import { partsOf } from './joined';
 import type { Shape } from './shape';
 
 type Joined = Pick<Shape, 'edges' | 'input'>;
@@ -37,15 +38,20 @@ export function rim(shape: Joined, nodes: readonly number[]): Set<number> {
 }
 
 /** All nodes of the connected parts on which some of those nodes lie. */
-export function withParts({ edges, input }: Joined, nodes: Nodes): Set<number> {
-  const parent = Int32Array.from({ length: input.length / 3 }, (_, node) => node);
-  const root = (node: number): number => {
-    while (parent[node] !== node) node = parent[node] = parent[parent[node]];
-    return node;
-  };
-  for (let k = 0; k < 2 * edges.count; k += 2) parent[root(edges.ends[k])] = root(edges.ends[k + 1]);
+export function withParts(shape: Joined, nodes: Nodes): Set<number> {
+  const root = partsOf(shape.edges, shape.input.length / 3, () => true);
   const wanted = new Set([...nodes].map(root));
-  return new Set([...parent.keys()].filter((node) => wanted.has(root(node))));
+  return new Set([...Array(shape.input.length / 3).keys()].filter((node) => wanted.has(root(node))));
+}
+
+/** Of those nodes the ones whose part, as far as they are joined, has no neighbour but those around. */
+export function enclosed(shape: Joined, nodes: Nodes, around: Pick<Nodes, 'has'>): Set<number> {
+  if (nodes.size === 0) return new Set();
+  const { edges, input } = shape;
+  const root = partsOf(edges, input.length / 3, (e) => nodes.has(edges.ends[2 * e]) && nodes.has(edges.ends[2 * e + 1]));
+  const open = new Set<number>();
+  forRim(shape, nodes, (inside, outside) => { if (!around.has(outside)) open.add(root(inside)); });
+  return new Set([...nodes].filter((node) => !open.has(root(node))));
 }
 
 export function all({ input }: Pick<Shape, 'input'>): Set<number> {

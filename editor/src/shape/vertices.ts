@@ -1,5 +1,7 @@
 // What is drawn of a surface: its nodes, those at sharp edges once for every smooth part that meets there.
 
+import { sharpEdges } from './sharp';
+
 interface Faces {
   begin: Int32Array;
   nodes: Int32Array;
@@ -27,44 +29,10 @@ export interface Vertices {
   features: Uint32Array;
 }
 
-/** Normals of faces, their length twice the area. */
-function areasOf({ begin, nodes }: Faces, positions: Float32Array): Float32Array {
-  const areas = new Float32Array(3 * (begin.length - 1));
-  for (let f = 0; f + 1 < begin.length; ++f) {
-    const o = 3 * nodes[begin[f]];
-    for (let c = begin[f] + 1; c + 1 < begin[f + 1]; ++c) {
-      const [a, b] = [3 * nodes[c], 3 * nodes[c + 1]];
-      const [ax, ay, az] = [positions[a] - positions[o], positions[a + 1] - positions[o + 1], positions[a + 2] - positions[o + 2]];
-      const [bx, by, bz] = [positions[b] - positions[o], positions[b + 1] - positions[o + 1], positions[b + 2] - positions[o + 2]];
-      areas[3 * f] += ay * bz - az * by;
-      areas[3 * f + 1] += az * bx - ax * bz;
-      areas[3 * f + 2] += ax * by - ay * bx;
-    }
-  }
-  return areas;
-}
-
-/** Edges that turn by more than the angle, in degrees, or that do not join two faces of one sense. */
-function sharpEdges(areas: Float32Array, { count, faces, against }: Edges, angle: number): Uint8Array {
-  const sharp = new Uint8Array(count);
-  const limit = Math.cos((angle * Math.PI) / 180);
-  for (let e = 0; e < count; ++e) {
-    const [a, b] = [3 * faces[2 * e], 3 * faces[2 * e + 1]];
-    if (b < 0 || against[e]) {
-      sharp[e] = 1;
-      continue;
-    }
-    const dot = areas[a] * areas[b] + areas[a + 1] * areas[b + 1] + areas[a + 2] * areas[b + 2];
-    const lengths = Math.hypot(areas[a], areas[a + 1], areas[a + 2]) * Math.hypot(areas[b], areas[b + 1], areas[b + 2]);
-    if (dot < limit * lengths) sharp[e] = 1;
-  }
-  return sharp;
-}
-
 /** Corners around a node share a vertex where smooth edges join their faces. */
 export function verticesOf(faces: Faces, positions: Float32Array, edges: Edges, angle = 40): Vertices {
   const { begin, nodes } = faces;
-  const sharp = sharpEdges(areasOf(faces, positions), edges, angle);
+  const sharp = sharpEdges(faces, positions, edges, angle);
   const parent = Uint32Array.from(nodes.keys());
   const root = (corner: number): number => {
     while (parent[corner] !== corner) corner = parent[corner] = parent[parent[corner]];

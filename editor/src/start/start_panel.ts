@@ -6,6 +6,8 @@ import { Entry } from '../base/entry';
 import { withUnit } from '../base/units';
 import { counted } from '../base/words';
 import type { Shape } from '../shape/shape';
+import { sharpNodes } from '../shape/sharp';
+import type { Stay } from '../shape/stays';
 import { isUntouched, type Constraints } from '../constraints/constraints';
 import type { Cloud } from '../constraints/points';
 import type { Editor } from '../edit/editor';
@@ -23,6 +25,8 @@ export interface StartEvents {
 }
 
 const none: ReadonlySet<number> = new Set();
+/** Degrees by which nothing turns. */
+const flat = 180;
 
 /** What a way is tried with: anything newer makes it out of date. */
 type Attempt = Pick<Editor, 'history' | 'picked'>;
@@ -33,13 +37,31 @@ export class StartPanel {
   /** Of the shape as it starts there; undefined: of the input. */
   private known: { start: Float64Array | undefined; noise: number; own: Cloud } | null = null;
   private latest: Attempt | null = null;
+  /** Nodes at sharp edges that stay. */
+  private held: readonly number[] = [];
   private asking = false;
   /** What was painted, stroke by stroke. */
   private strokes: History<ReadonlySet<number>> = begun(none);
   private readonly says = this.part('start-says');
   private readonly tolerance = new Entry(this.part('tolerance'), () => ({ words: 'a length above 0, such as 0.02 or 5 mm', takes: (value) => value > 0 && value < Infinity, isLength: true }), () => void this.attempt());
 
-  constructor(private readonly panel: HTMLElement, private readonly editor: Editor, private readonly tools: () => Tools, private readonly events: StartEvents) {}
+  private readonly stay = this.part<HTMLSelectElement>('stay');
+  private readonly sharp = this.part<HTMLInputElement>('sharp');
+
+  constructor(private readonly panel: HTMLElement, private readonly editor: Editor, private readonly tools: () => Tools, private readonly events: StartEvents) {
+    this.stay.addEventListener('change', () => void this.attempt());
+    this.sharp.addEventListener('input', () => this.showAngle());
+    this.sharp.addEventListener('change', () => void this.attempt());
+    this.showAngle();
+  }
+
+  private showAngle(): void {
+    this.sharp.parentElement!.querySelector('output')!.textContent = this.angle < flat ? `${this.angle}°` : 'none';
+  }
+
+  private get angle(): number {
+    return this.sharp.valueAsNumber;
+  }
 
   get commands(): Command[] {
     const { editor } = this;
@@ -48,7 +70,7 @@ export class StartPanel {
       id: `start-${way}`, title, keys, enabled: () => opened() && enabled(), run: () => this.choose(way), pressed: () => this.way === way,
     });
     return [
-      choice('smooth', 'Smooth it: take its noise off, and move no node by more than a tolerance', ['s']),
+      choice('smooth', 'Smooth it: take its noise off; the shape goes no further from any of its nodes than a tolerance', ['s']),
       choice('repair', 'Repair a part that you paint; all else stays as it is', ['j']),
       { id: 'start-pull', title: 'Pull a node; what is near goes along', keys: ['u'], enabled: opened, run: () => this.pull(), pressed: () => !this.way && this.tools().tool === 'pick' },
       choice('free', 'The fairest shape through what is held', [], () => isHeld(editor.held) && (this.way === 'free' || !isFree(editor.constraints))),
@@ -63,7 +85,7 @@ export class StartPanel {
     if (this.way && this.outOfDate) void this.attempt();
     this.panel.hidden = editor.shape === null;
     this.part('start-title').textContent = isUntouched(editor.constraints) && !editor.constraints.start ? 'It is as in the file. What now?' : 'What now?';
-    this.part('start-tolerance').hidden = this.way !== 'smooth';
+    this.part('start-smooth').hidden = this.way !== 'smooth';
     if (this.known) this.tolerance.show(this.tolerance.value);
     this.part('start-end').hidden = !this.way;
     this.part('start-free').textContent = this.freeSays;
@@ -193,7 +215,9 @@ export class StartPanel {
       this.known = { start, noise, own: await editor.cloudOf(start ?? shape!.input) };
       this.tolerance.show(suggestedTolerance(noise, 1 / shape!.scale));
     }
-    return this.tolerance.wrong ? null : smoothed(begun, this.known.own, this.tolerance.value);
+    if (this.tolerance.wrong) return null;
+    const sharp = this.angle < flat ? sharpNodes(shape!, start ?? shape!.input, this.angle) : [];
+    return smoothed(begun, this.known.own, this.tolerance.value, this.stay.value as Stay, (this.held = sharp), shape!.curve !== null);
   }
 
   private apply(): void {
@@ -209,16 +233,22 @@ export class StartPanel {
   private said(): string {
     const { editor, way } = this;
     if (!way) return '';
-    if (way === 'repair' && editor.picked.size === 0) return 'Paint over what is to be repaired. With Alt the brush takes away.';
+    if (way === 'repair' && editor.picked.size === 0) return 'Paint over what is to be repaired; what is hidden goes with what is painted around it. Erase, or Alt, takes away.';
     if (this.asking || editor.busy) return 'Trying it …';
     if (!editor.trying) return '';
-    const { report, shape } = editor;
+    const { report, shape, movedInTrial: { all, along }, steep } = editor;
     const size = 1 / shape!.scale;
     const noise = way === 'smooth' ? this.known!.noise : null;
     const why = noise === null ? '' : isNoisy(noise, size) ? ` Its noise seems to be ${rounded(noise)}.` : ' It has no noise to speak of.';
     if (editor.stopped) return 'Stopped before it was done. Go on, or take something else.';
     if (report?.movingNodes === 0) return `Nothing moves: all of it is held.${why}`;
-    const far = way === 'smooth' && report?.fit ? `within ${rounded(report.fit.greatest)}` : `at most by ${rounded(editor.movedInTrial)}`;
-    return `Moves ${counted(report?.movingNodes ?? 0, 'node')}, ${far}.${why}`;
+    if (all === 0) return 'Nothing that is better was found: see the warnings.';
+    const many = counted(report?.movingNodes ?? 0, 'node');
+    if (way !== 'smooth' || !report?.fit) return `Moves ${many}, at most by ${rounded(all)}.`;
+    const stay = this.stay.value;
+    const ways = stay === 'normal' ? `none by more than ${rounded(all)}, and none along the shape`
+      : `the shape by at most ${rounded(report.fit.greatest)}, ${stay ? `and each keeps its ${stay}${steep > 0 ? ` but ${steep}, where it is too steep` : ''}` : `nodes along it by up to ${rounded(along)}`}`;
+    const kept = this.held.length > 0 ? ` Keeps ${counted(this.held.length, 'node')} at ${shape!.curve ? 'corners' : 'sharp edges'}.` : '';
+    return `Moves ${many}: ${ways}.${kept}${why}`;
   }
 }

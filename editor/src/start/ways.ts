@@ -1,6 +1,7 @@
 // What may be done to a shape: the constraints of each way.
 
-import { heldPosition, type Constraints, type Held } from '../constraints/constraints';
+import type { Stay } from '../shape/stays';
+import { heldPosition, type Constraints, type Held, type Rule } from '../constraints/constraints';
 import type { Cloud } from '../constraints/points';
 
 export const ways = ['smooth', 'repair', 'free'] as const;
@@ -21,9 +22,10 @@ export function isNoisy(noise: number, size: number): boolean {
   return noise > noticeable * size;
 }
 
-/** own: the nodes of the shape as it starts. */
-export function smoothed(begun: Constraints, own: Cloud, tolerance: number): Constraints {
-  return { ...begun, region: null, fit: { cloud: own, kind: 'within', value: tolerance, outliers: 0 } };
+/** own: the nodes of the shape as it starts. stay: what they keep of their places along it. sharp: nodes of edges that stay. */
+export function smoothed(begun: Constraints, own: Cloud, tolerance: number, stay: Stay, sharp: readonly number[], isCurve: boolean): Constraints {
+  const region: Rule[] | null = sharp.length > 0 ? [{ nodes: sharp, position: 'fixed', ...(isCurve && { corner: true }) }] : null;
+  return { ...begun, region, fit: { cloud: own, kind: 'within', value: tolerance, outliers: 0, stay } };
 }
 
 export function freed(constraints: Constraints): Constraints {

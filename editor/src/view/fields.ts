@@ -28,10 +28,10 @@ export interface FieldEvents {
   failed: (message: string) => void;
 }
 
-function titleOf(name: FieldName): string {
+function titleOf(name: FieldName, fromInput: boolean): string {
   const unit = unitOf();
   if (name === 'mean') return `Mean curvature, 1 / ${unit || 'unit of the file'}`;
-  return name === 'gaussian' ? `Gaussian curvature, 1 / ${unit || 'unit'}²` : `Deviation from the input, ${unit || 'units of the file'}`;
+  return name === 'gaussian' ? `Gaussian curvature, 1 / ${unit || 'unit'}²` : `Deviation from ${fromInput ? 'the input' : 'what was applied last'}, ${unit || 'units of the file'}`;
 }
 // What may be asked of the library before the next shape of a drag, in milliseconds.
 const cheap = 12;
@@ -40,6 +40,8 @@ const cheap = 12;
 export class Fields {
   private name: FieldName | null = null;
   private shape: Shape | null = null;
+  /** What deviation is from, and its normals once they are asked for. */
+  private from: Float64Array = new Float64Array();
   private normals: Float32Array | null = null;
   private seen: Float64Array = new Float64Array();
   private result: Float64Array = new Float64Array();
@@ -47,13 +49,22 @@ export class Fields {
   private busy = false;
   private settled = true;
   private cost = 0;
-  private share = 0.96;
+  share = 0.96;
+  private field: Field | null = null;
+  private readonly waiting: (() => void)[] = [];
 
   constructor(private readonly events: FieldEvents) {}
 
   open(shape: Shape): void {
-    Object.assign(this, { shape, normals: null, seen: shape.input, result: shape.input, range: null, settled: true });
+    Object.assign(this, { shape, from: shape.input, normals: null, seen: shape.input, result: shape.input, range: null, settled: true });
     if (this.name) this.events.show(null);
+    void this.update();
+  }
+
+  /** Deviation is from there. */
+  compareWith(from: Float64Array): void {
+    if (from === this.from) return;
+    Object.assign(this, { from, normals: null, range: null });
     void this.update();
   }
 
@@ -77,8 +88,14 @@ export class Fields {
     void this.update();
   }
 
+  /** What is seen once all that was asked for has been told; null where no colours are. */
+  async rest(): Promise<Field | null> {
+    while (this.name && this.busy) await new Promise<void>((done) => this.waiting.push(done));
+    return this.name ? this.field : null;
+  }
+
   private async update(): Promise<void> {
-    const { name, shape, seen, result, settled } = this;
+    const { name, shape, seen, result, settled, from } = this;
     if (!name || !shape || shape.curve || this.busy || (!settled && name !== 'deviation' && this.cost > cheap)) return;
     this.busy = true;
     const begin = performance.now();
@@ -88,20 +105,22 @@ export class Fields {
       this.cost = performance.now() - begin;
       const known = this.range ?? rangeOf(name, seen === result ? values : await this.valuesOf(name, shape, result), 1 / shape.scale, share);
       if (name === this.name && shape === this.shape) {
-        if (result === this.result && share === this.share) this.range = known;
-        this.events.show({ name, title: titleOf(name), map: name === 'mean' ? sequential : diverging, range: known, values });
+        if (result === this.result && share === this.share && from === this.from) this.range = known;
+        this.field = { name, title: titleOf(name, from === shape.input), map: name === 'mean' ? sequential : diverging, range: known, values };
+        this.events.show(this.field);
       }
     } catch (error) {
       this.events.failed((error as Error).message);
     }
     this.busy = false;
-    if (name !== this.name || seen !== this.seen || result !== this.result || share !== this.share) void this.update();
+    if (name !== this.name || seen !== this.seen || result !== this.result || share !== this.share || from !== this.from) void this.update();
+    if (!this.busy) for (const done of this.waiting.splice(0)) done();
   }
 
   private async valuesOf(name: FieldName, shape: Shape, positions: Float64Array): Promise<Values> {
     if (name === 'deviation') {
-      this.normals ??= normalsOf(shape.faces, shape.input, shape.edges) as Float32Array;
-      return deviationsOf(positions, shape.input, this.normals) as Float32Array;
+      this.normals ??= normalsOf(shape.faces, this.from, shape.edges) as Float32Array;
+      return deviationsOf(positions, this.from, this.normals) as Float32Array;
     }
     const { k1, k2 } = await this.events.ask(positions);
     return k1.map((first, node) => (name === 'mean' ? (first + k2[node]) / 2 : first * k2[node]));

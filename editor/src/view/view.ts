@@ -4,6 +4,7 @@ import { Color, ColorManagement, LinearSRGBColorSpace, Matrix4, OrthographicCame
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import type { Vector } from '../base/vectors';
 import { nothing, placesOf, type Shape } from '../shape/shape';
+import { lying, standing, type Up } from '../shape/upright';
 import { assignButtons, bindArrows, bindWheel } from '../navigation/buttons';
 import { Gizmo } from '../navigation/gizmo';
 import { buttonsOf, keptPreset, type Preset } from '../navigation/presets';
@@ -43,7 +44,7 @@ export class View {
   private readonly scene = new Scene();
   private readonly camera = new OrthographicCamera(-1, 1, 1, -1, -50, 50);
   private readonly renderer: WebGLRenderer;
-  private readonly controls: OrbitControls;
+  private controls: OrbitControls;
   private shape: Shape | null = null;
   private places: Float32Array = new Float32Array();
   private asked = false;
@@ -60,6 +61,7 @@ export class View {
   private rest = 0;
   private preset: Preset = keptPreset();
   private taken = false;
+  private up: Up = 'z';
   private readonly gizmo = new Gizmo(document.getElementById('gizmo')!, (from) => this.lookFrom(from));
 
   /** panel: what may lie above the right end of the view. drawn: called after each picture. Throws where the browser has no WebGL 2. */
@@ -69,19 +71,35 @@ export class View {
     if (!context) throw new Error('no WebGL 2');
     this.renderer = new WebGLRenderer({ canvas, context });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
-    this.camera.up.set(0, 0, 1);
-    this.controls = new OrbitControls(this.camera, canvas);
-    this.leaveToTool(false);
+    this.controls = this.newControls();
     const events = { move: (across: number, down: number) => this.moveBy(across, down), turn: (across: number, down: number) => this.turnBy(across, down) };
     bindWheel(canvas, { ...events, turns: () => buttonsOf[this.preset].wheelTurns });
     bindArrows(canvas, events);
-    this.controls.zoomToCursor = true;
-    this.controls.minZoom = 0.05;
-    this.controls.maxZoom = 1e4;
-    this.controls.addEventListener('change', () => this.draw());
     this.scene.add(this.surface.object, this.wipe.object, this.grid, ...this.input.objects, ...this.curve.objects, ...this.section.objects, ...this.through.objects, ...this.sketch.objects, ...this.markers.objects, this.arrows.object, this.dots.object);
     this.scene.traverse((object) => { object.frustumCulled = false; });
     new ResizeObserver(() => this.resize()).observe(canvas);
+  }
+
+  /** They turn about what is upwards as they are made. */
+  private newControls(): OrbitControls {
+    this.camera.up.set(...lying([0, 0, 1], this.up));
+    const controls = new OrbitControls(this.camera, this.canvas);
+    Object.assign(controls, { zoomToCursor: true, minZoom: 0.05, maxZoom: 1e4 });
+    controls.addEventListener('change', () => this.draw());
+    assignButtons(controls, this.taken, this.preset);
+    return controls;
+  }
+
+  /** The shape stands up that way, and is seen from where it is seen first. */
+  setUp(up: Up): void {
+    if (up === this.up) return;
+    this.up = up;
+    this.gizmo.setUp(up);
+    const { target } = this.controls;
+    this.controls.dispose();
+    this.controls = this.newControls();
+    this.controls.target.copy(target);
+    this.fit(true);
   }
 
   /** stays: the view stays where it is in units of the file. */
@@ -149,7 +167,7 @@ export class View {
       this.canvas.style.color = `var(${name})`;
       return new Color().setStyle(style.color);
     };
-    this.renderer.setClearColor(colour('--stage'));
+    this.renderer.setClearColor(colour(this.look === 'zebra' ? '--behind-zebra' : '--stage'));
     this.surface.restyle(colour);
     this.wipe.restyle(this.look, this.surface.edges, colour);
     this.curve.restyle(colour);
@@ -168,7 +186,7 @@ export class View {
   /** The whole shape in the view; home: from the side that it is first seen from, of a plane curve down on its plane. */
   fit(home = false): void {
     const { camera, controls } = this;
-    const from = home ? new Vector3(...(this.shape?.curve?.plane ?? [0.45, -0.85, 0.75])) : camera.position.clone().sub(controls.target);
+    const from = home ? new Vector3(...(this.shape?.curve?.plane ?? lying([0.45, -0.85, 0.75], this.up))) : camera.position.clone().sub(controls.target);
     camera.position.copy(from.normalize().multiplyScalar(5));
     controls.target.set(0, 0, 0);
     controls.update();
@@ -211,21 +229,22 @@ export class View {
     this.leaveToTool(this.taken);
   }
 
-  /** From a side, all of the shape in the view; upwards is Z, and from above and below Y. */
-  lookFrom([x, y, z]: Vector): void {
+  /** From a side, all of the shape in the view; from above and below, its back is upwards. */
+  lookFrom(from: Vector): void {
     const { camera, controls } = this;
-    camera.position.copy(controls.target).add(new Vector3(x, x === 0 && y === 0 ? -1e-4 : y, z));
+    const [x, y, z] = standing(from, this.up);
+    camera.position.copy(controls.target).add(new Vector3(...lying([x, x === 0 && y === 0 ? -1e-4 : y, z], this.up)));
     this.fit();
   }
 
   private turnBy(across: number, down: number): void {
     const { camera, controls } = this;
     const perPixel = (2 * Math.PI) / this.canvas.clientHeight;
-    const from = camera.position.clone().sub(controls.target);
+    const from = new Vector3(...standing(camera.position.clone().sub(controls.target).toArray(), this.up));
     const around = Math.atan2(from.y, from.x) - across * perPixel;
     const above = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, Math.asin(Math.min(1, Math.max(-1, from.z / from.length()))) + down * perPixel));
     const flat = Math.max(1e-4, Math.cos(above));
-    camera.position.copy(controls.target).add(new Vector3(flat * Math.cos(around), flat * Math.sin(around), Math.sin(above)).multiplyScalar(from.length()));
+    camera.position.copy(controls.target).add(new Vector3(...lying([flat * Math.cos(around), flat * Math.sin(around), Math.sin(above)], this.up)).multiplyScalar(from.length()));
     controls.update();
     this.draw();
   }
@@ -316,6 +335,33 @@ export class View {
       renderer.render(scene, camera);
       renderer.setScissorTest(false);
     });
+  }
+
+  /** What is seen beside the panel, as finely as it is drawn at last, without a line between input and result. */
+  async picture(): Promise<HTMLCanvasElement> {
+    await new Promise(requestAnimationFrame);
+    const { share } = this.wipe;
+    this.wipe.set(null, this.shape);
+    this.setResolution(2);
+    this.paint();
+    const { width, height } = this.scaleOfPicture;
+    const copy = Object.assign(document.createElement('canvas'), { width, height });
+    copy.getContext('2d')!.drawImage(this.canvas, 0, 0);
+    this.wipe.set(share, this.shape);
+    this.draw();
+    return copy;
+  }
+
+  /** Pixels of such a picture, and how many a unit of the file has. */
+  get scaleOfPicture(): { width: number; height: number; perUnit: number } {
+    const ratio = 2 * window.devicePixelRatio;
+    const { clientWidth, clientHeight } = this.canvas;
+    return { width: Math.floor(ratio * (clientWidth - this.covered)), height: Math.floor(ratio * clientHeight), perUnit: (ratio * this.camera.zoom * clientHeight * (this.shape?.scale ?? 1)) / 2 };
+  }
+
+  /** Pixels of the view, left of what lies above it. */
+  get free(): number {
+    return this.canvas.clientWidth - this.covered;
   }
 
   /** What the panel covers of the width. */

@@ -1,0 +1,41 @@
+// Which way is up, as a choice: as the shape seems to stand, or as somebody says. The browser keeps it.
+
+import type { Shape } from '../shape/shape';
+import { guessedUp, ups, type Up } from '../shape/upright';
+
+const key = 'vspring-up';
+
+function kept(): string {
+  try {
+    return localStorage.getItem(key) ?? '';
+  } catch {
+    return '';  // where the browser keeps nothing
+  }
+}
+
+export class UpMenu {
+  private guessed: Up = 'z';
+
+  constructor(private readonly menu: HTMLSelectElement, chosen: (up: Up) => void) {
+    menu.value = ups.find((up) => up === kept()) ?? '';
+    menu.addEventListener('change', () => {
+      try {
+        localStorage.setItem(key, menu.value);
+      } catch {
+        // It then lasts as long as the page.
+      }
+      chosen(this.up);
+    });
+  }
+
+  /** Another shape is open. Returns its up. */
+  open(shape: Shape): Up {
+    this.guessed = guessedUp(shape);
+    this.menu.options[0].textContent = `seems ${this.guessed.toUpperCase()}`;
+    return this.up;
+  }
+
+  private get up(): Up {
+    return ups.find((up) => up === this.menu.value) ?? this.guessed;
+  }
+}

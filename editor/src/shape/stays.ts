@@ -1,0 +1,86 @@
+// Nodes that keep their place along a shape which has moved: each goes back along the new shape, until only the way across is left of its way.
+
+import { normalsOf } from '../../../page/mesh.js';
+import { dot, type Vector } from '../base/vectors';
+import type { Shape } from './shape';
+
+/** What a node keeps: nothing; its place along the shape, so that it moves straight across; or one coordinate. */
+export const stays = ['', 'normal', 'x', 'y', 'z'] as const;
+export type Stay = (typeof stays)[number];
+
+/** Cosine of the angle to an axis, from which on nodes would have to go far along the shape to keep that coordinate: they keep their place along it instead. */
+const least = 0.3;
+
+type Reads = ArrayLike<number>;
+
+const at = (all: Reads, node: number): Vector => [all[3 * node], all[3 * node + 1], all[3 * node + 2]];
+const minus = (a: Vector, b: Vector): Vector => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+const plus = (from: Vector, way: Vector, far: number): Vector => [from[0] + far * way[0], from[1] + far * way[1], from[2] + far * way[2]];
+
+/** Tangents of curves, normals of surfaces, three numbers a node. */
+export function directionsOf({ curve, faces, edges }: Shape, positions: Float64Array): Reads {
+  if (!curve) return normalsOf(faces, positions, edges) as Float32Array;
+  const tangents = new Float64Array(positions.length);
+  const { runs: { begin, nodes }, closed } = curve;
+  closed.forEach((loop, c) => {
+    const count = begin[c + 1] - begin[c];
+    for (let k = 0; k < count; ++k) {
+      const node = (n: number): number => nodes[begin[c] + ((n + count) % count)];
+      const [before, after] = [loop || k > 0 ? k - 1 : k, loop || k + 1 < count ? k + 1 : k];
+      const [u, v] = [minus(at(positions, node(k)), at(positions, node(before))), minus(at(positions, node(after)), at(positions, node(k)))];
+      const [long, next] = [Math.hypot(...u) || 1, Math.hypot(...v) || 1];
+      // Of the circle through the three.
+      const sum = u.map((part, i) => (part / long) * next + (v[i] / next) * long);
+      const length = Math.hypot(...sum) || 1;
+      tangents.set(sum.map((part) => part / length), 3 * node(k));
+    }
+  });
+  return tangents;
+}
+
+/** start: where nodes were, positions: where they are. limit: across the new shape no node goes further. steep: how many nodes keep their place along the shape in place of the coordinate. */
+export function stayed(shape: Shape, start: Float64Array, positions: Float64Array, stay: Exclude<Stay, ''>, limit: number): { positions: Float64Array; steep: number } {
+  const directions = directionsOf(shape, positions);
+  const axis = 'xyz'.indexOf(stay);
+  const unit: Vector = [0, 1, 2].map((i) => Number(i === axis)) as Vector;
+  const found = positions.slice();
+  let steep = 0;
+  for (let node = 0; node < positions.length / 3; ++node) {
+    const from = at(start, node);
+    const way = minus(at(positions, node), from);
+    if (way.every((part) => part === 0)) continue;
+    const direction = at(directions, node);
+    if (axis >= 0) {
+      // The way along the shape that changes the coordinate most.
+      const slope = partsOf(shape, unit, direction).along;
+      if (slope[axis] >= least ** 2) {
+        const place = plus(at(positions, node), slope, -way[axis] / slope[axis]);
+        place[axis] = from[axis];
+        found.set(place, 3 * node);
+        continue;
+      }
+      ++steep;
+    }
+    const { across } = partsOf(shape, way, direction);
+    found.set(plus(from, across, Math.min(1, limit / Math.hypot(...across))), 3 * node);
+  }
+  return { positions: found, steep };
+}
+
+/** A way as its parts along the shape and across it, where the shape has that tangent, of a curve, or else that normal. */
+function partsOf({ curve }: Shape, way: Vector, direction: Vector): { along: Vector; across: Vector } {
+  const part = plus([0, 0, 0], direction, dot(way, direction));
+  const rest = minus(way, part);
+  return curve ? { along: part, across: rest } : { along: rest, across: part };
+}
+
+/** How far a node has gone along the new shape, at most. */
+export function slid(shape: Shape, start: Float64Array, positions: Float64Array): number {
+  const directions = directionsOf(shape, positions);
+  let greatest = 0;
+  for (let node = 0; node < positions.length / 3; ++node) {
+    const way = minus(at(positions, node), at(start, node));
+    greatest = Math.max(greatest, Math.hypot(...partsOf(shape, way, at(directions, node)).along));
+  }
+  return greatest;
+}

@@ -1,6 +1,9 @@
 """The add-on beside Blender's own operators, on the same selections: figures and times. `run` starts it, as Sculpt Mode needs a window."""
+import argparse
+import importlib
 import json
 import os
+import pathlib
 import sys
 import time
 import traceback
@@ -11,6 +14,10 @@ import numpy as np
 import selections
 import support
 
+parser = argparse.ArgumentParser()
+parser.add_argument("names", nargs="*")
+parser.add_argument("--mesh-fairing", type=pathlib.Path)
+ASKED = parser.parse_args(sys.argv[sys.argv.index("--") + 1:])
 OUT = selections.ROOT / "out/blender"
 WAIT = 0.3
 
@@ -45,6 +52,20 @@ class Bench(support.Case):
             self.edit(thing, selected=[mask])
             begin = time.perf_counter()
             bpy.ops.mesh.vertices_smooth(factor=0.5, repeat=repeat)
+            seconds = time.perf_counter() - begin
+            bpy.ops.object.mode_set(mode='OBJECT')
+        return seconds
+
+    def mesh_fairing(self, thing, mask, continuity):
+        """What that add-on does in a thread, without one."""
+        sys.path.insert(0, str(ASKED.mesh_fairing.parent))
+        package = ASKED.mesh_fairing.name
+        operators, types, linalg = (importlib.import_module(f"{package}.{name}") for name in ("operators", "types", "linalg"))
+        linalg.init()
+        with self.area():
+            self.edit(thing, selected=[mask])
+            begin = time.perf_counter()
+            operators.MESH_OT_fair_vertices_internal.WorkerThread(thing.data, types.Continuity[continuity], False).run()
             seconds = time.perf_counter() - begin
             bpy.ops.object.mode_set(mode='OBJECT')
         return seconds
@@ -87,6 +108,9 @@ def figures(before, thing, mask):
 
 
 def ways(bench):
+    theirs = {} if ASKED.mesh_fairing is None else {
+        f"mesh-fairing, {name}": lambda thing, mask, continuity=continuity: bench.mesh_fairing(thing, mask, continuity)
+        for name, continuity in (("tangency", 'TAN'), ("curvature", 'CURV'))}
     return {
         "as it was": None,
         "Fair (vspring)": lambda thing, mask: bench.fair(thing, mask, boundary='TANGENT'),
@@ -95,6 +119,7 @@ def ways(bench):
         "Fair Positions": lambda thing, mask: bench.sculpt(thing, mask, 'FAIR_POSITIONS'),
         "Smooth Vertices × 10": lambda thing, mask: bench.smooth(thing, mask, 10),
         "Smooth Vertices × 100": lambda thing, mask: bench.smooth(thing, mask, 100),
+        **theirs,
     }
 
 
@@ -138,9 +163,8 @@ def loops(bench):
 def steps():
     bench = Bench()
     OUT.mkdir(parents=True, exist_ok=True)
-    names = sys.argv[sys.argv.index("--") + 1:]
     for title, make in SELECTIONS.items():
-        if names and title not in names:
+        if ASKED.names and title not in ASKED.names:
             continue
         kept = {}
         for name, run in ways(bench).items():

@@ -34,20 +34,27 @@ void check(const Constraints& constraints, const std::vector<Index>& nodes) {
   for (const Index node : nodes) (void)constraints.position_fixed(node);
 }
 
-RuleInput input_of(const SurfaceFile* file) {
-  return file == nullptr ? RuleInput{} : RuleInput{.groups = &file->groups, .normals = &file->normals};
+RuleInput input_of(const SurfaceFile* file, const Welded* welded) {
+  RuleInput input{.welded = welded};
+  if (file != nullptr) {
+    input.groups = &file->groups;
+    input.normals = &file->normals;
+  }
+  return input;
 }
-RuleInput input_of(const CurveFile* file) { return file == nullptr ? RuleInput{} : RuleInput{.groups = &file->groups}; }
+RuleInput input_of(const CurveFile* file, const Welded* /*of_surfaces*/) {
+  return file == nullptr ? RuleInput{} : RuleInput{.groups = &file->groups};
+}
 
 /// File: what the shape was read from; null where no file gave it.
 template <typename Shape, typename File>
 void add_rules(py::class_<Constraints>& type) {
   type.def(
       "apply_rules",
-      [](Constraints& self, const Shape& shape, const std::string& json, const File* file) {
-        apply_rules(self, shape, json, input_of(file));
+      [](Constraints& self, const Shape& shape, const std::string& json, const File* file, const Welded* welded) {
+        apply_rules(self, shape, json, input_of(file, welded));
       },
-      py::arg("shape"), py::arg("json"), py::arg("file").none(true));
+      py::arg("shape"), py::arg("json"), py::arg("file").none(true), py::arg("welded").none(true));
   type.def(
       "select",
       [](const Constraints& /*self*/, const Shape& shape, const std::string& region, const File* file) {

@@ -32,6 +32,34 @@ py::tuple fair_shape(const Shape& shape, const Constraints& constraints, const p
   return py::make_tuple(array_of(std::move(result.positions)), report_of(result.report), run.stopped_by());
 }
 
+/// What comes of a curve with new nodes: which nodes they were, and its chains.
+void tell_of_nodes(py::dict& fields, const Resampled& resampled) {
+  fields["origin"] = array_of(resampled.from);
+  py::list chains;
+  for (const PolygonCurve::Chain& chain : resampled.curve.chains()) chains.append(array_of(chain.nodes));
+  fields["chains"] = std::move(chains);
+}
+
+/// The same with new nodes.
+py::tuple fair_resampled(const PolygonCurve& curve, const Constraints& constraints, const py::dict& given,
+                         py::object progress) {
+  const Settings settings(given);
+  FairOptions options = fair_options(settings, {.is_curve = true});
+  Resampling how = resampling_of(settings).value();
+  if (const auto angle = settings.get<double>("sharp")) how.corners = find_corners(curve, *angle);
+  Run run(threads_of(settings), std::move(progress));
+  const Resampled resampled = resample(curve, constraints, how);
+  for (std::size_t k = 0; k < resampled.from.size(); ++k) {
+    if (std::ranges::find(how.corners, resampled.from[k]) != how.corners.end())
+      options.corners.push_back(static_cast<Index>(k));
+  }
+  FairResult result =
+      run([&](Context& context) { return fair(resampled.curve, resampled.constraints, options, context); });
+  py::dict fields = report_of(result.report);
+  tell_of_nodes(fields, resampled);
+  return py::make_tuple(array_of(std::move(result.positions)), std::move(fields), run.stopped_by());
+}
+
 void settle_moving(FitOptions& /*options*/, const Settings& /*settings*/, const SurfaceFile* /*file*/) {}
 
 /// file: whose columns are named.
@@ -63,6 +91,21 @@ py::tuple fit_shape(const Shape& shape, const Constraints& constraints, const st
   py::dict fields = report_of(result.report);
   fields["distances"] = array_of(std::move(result.distances));
   return py::make_tuple(array_of(std::move(result.positions)), std::move(fields), run.stopped_by());
+}
+
+/// A curve that is drawn to its own nodes, with new ones on it.
+py::tuple fit_with_new_nodes(const PolygonCurve& curve, const Constraints& constraints, const py::dict& given,
+                             const CurveFile* file, py::object progress) {
+  const Settings settings(given);
+  FitOptions options = fit_options(settings, {.is_curve = true, .own_nodes_pull = true});
+  settle_moving(options, settings, file);
+  const Resampling how = resampling_of(settings).value();
+  Run run(threads_of(settings), std::move(progress));
+  ResampledFit made = run([&](Context& context) { return fit_resampled(curve, constraints, how, options, context); });
+  py::dict fields = report_of(made.fit.report);
+  fields["distances"] = array_of(std::move(made.fit.distances));
+  tell_of_nodes(fields, made.resampled);
+  return py::make_tuple(array_of(std::move(made.fit.positions)), std::move(fields), run.stopped_by());
 }
 
 NoiseEstimate noise_of(const PolygonMesh& mesh, const Context& context) { return estimate_noise(mesh, context); }
@@ -132,6 +175,9 @@ void add_calls(py::module_& module) {
 void add_fairing(py::module_& module) {
   add_calls<PolygonMesh, SurfaceFile>(module);
   add_calls<PolygonCurve, CurveFile>(module);
+  module.def("fair_resampled", &fair_resampled);
+  module.def("fit_resampled", &fit_with_new_nodes, py::arg("curve"), py::arg("constraints"), py::arg("given"),
+             py::arg("file").none(true), py::arg("progress"));
   module.def("curvatures", &curvatures_of_surface);
 }
 

@@ -50,6 +50,8 @@ py::dict report_of(const FairReport& report) {
   py::list warnings;
   for (const Warning& warning : report.warnings) warnings.append(py::make_tuple(name(warning.code), warning.text));
   fields["warnings"] = std::move(warnings);
+  fields["origin"] = py::none();
+  fields["chains"] = py::none();
   fields["boundary"] = report.boundary ? py::object(report_of(*report.boundary)) : py::none();
   return fields;
 }

@@ -35,26 +35,33 @@ EquilibriumMethod equilibrium_of(const Settings& settings) {
   EquilibriumMethod method;
   take(settings.get<double>("tolerance"), method.tolerance);
   method.max_iterations = settings.get<int>("max_iterations");
+  method.fallbacks = !is_papers(settings);
   return method;
 }
 
 FairingMethod method_of(const Settings& settings) {
+  const bool paper = is_papers(settings);
+  const SweepOrder order = paper ? SweepOrder::file : SweepOrder::parallel;
   const auto kind = choose<Method>(
       settings, "method",
       {{"equilibrium", Method::equilibrium}, {"multigrid", Method::multigrid}, {"sweep", Method::sweep}});
-  switch (kind.value_or(Method::equilibrium)) {
+  switch (kind.value_or(paper ? Method::sweep : Method::equilibrium)) {
     case Method::multigrid: {
       MultigridMethod method;
       take(settings.get<double>("step_tolerance"), method.step_tolerance);
       method.max_iterations = settings.get<int>("max_iterations");
       method.levels = settings.get<int>("levels");
       take(settings.get<int>("pre_smoothing"), method.pre_smoothing);
+      method.order = order;
+      method.keep_last = paper;
       return method;
     }
     case Method::sweep: {
       SweepMethod method;
       take(settings.get<double>("step_tolerance"), method.step_tolerance);
       method.max_iterations = settings.get<int>("max_iterations");
+      method.order = order;
+      method.keep_last = paper;
       return method;
     }
     case Method::equilibrium:
@@ -65,8 +72,10 @@ FairingMethod method_of(const Settings& settings) {
 
 /// As on the command line: whoever asks for another one compares, and gets the shape as it was found.
 void settle_distribution(FairOptions& options, const Settings& settings, const Subject& subject) {
+  const bool paper = is_papers(settings);
   const bool papers_own = options.method_kind() != Method::equilibrium;
-  const Distribution usual = subject.own_nodes_pull           ? Distribution::keep
+  const Distribution usual = paper                            ? Distribution::even
+                             : subject.own_nodes_pull         ? Distribution::keep
                              : subject.is_curve || papers_own ? Distribution::even
                                                               : Distribution::smooth;
   const Distribution chosen =
@@ -74,8 +83,8 @@ void settle_distribution(FairOptions& options, const Settings& settings, const S
           settings, "distribution",
           {{"smooth", Distribution::smooth}, {"even", Distribution::even}, {"keep", Distribution::keep}})
           .value_or(usual);
-  options.as_found = chosen != usual || papers_own;
-  if (chosen != usual || subject.own_nodes_pull) options.distribution = chosen;
+  options.as_found = paper || chosen != usual || papers_own;
+  if (paper || chosen != usual || subject.own_nodes_pull) options.distribution = chosen;
 }
 
 /// The last steps of a fit are about k times their distance.
@@ -88,7 +97,33 @@ void shorten_steps(FitOptions& options) {
   std::visit(shorten, options.fair.method);
 }
 
+void take_papers_choices(FairOptions& options, const Settings& settings) {
+  for (const char* name : {"springs", "pseudo_normals", "normal_plane"}) {
+    if (settings.get<std::string>(name))
+      throw Error(ErrorCode::invalid_argument, std::string(name) + ": paper says which; leave one of the two out");
+  }
+  options.pseudo_normals = PseudoNormals::average;
+  options.springs = Springs::edge;
+  options.forces = Forces::printed;
+  options.curve = CurveRules::paper();
+}
+
 }  // namespace
+
+bool is_papers(const Settings& settings) { return settings.get<bool>("paper").value_or(false); }
+
+std::optional<Resampling> resampling_of(const Settings& settings) {
+  Resampling resampling;
+  resampling.nodes = settings.get<Index>("resample");
+  resampling.spacing = settings.get<double>("spacing");
+  take(
+      choose<ResamplingBy>(
+          settings, "resample_by",
+          {{"length", ResamplingBy::length}, {"cosine", ResamplingBy::cosine}, {"curvature", ResamplingBy::curvature}}),
+      resampling.by);
+  if (!resampling.nodes && !resampling.spacing) return std::nullopt;
+  return resampling;
+}
 
 FairOptions fair_options(const Settings& settings, const Subject& subject) {
   FairOptions options;
@@ -106,7 +141,10 @@ FairOptions fair_options(const Settings& settings, const Subject& subject) {
                            {{"full", NormalPlane::full}, {"principal", NormalPlane::principal}}),
        options.curve.normal_plane);
   take(settings.get<double>("strength"), options.strength);
-  if (settings.get<bool>("fair_boundary").value_or(false)) options.fair_boundary = equilibrium_of(settings);
+  const bool paper = is_papers(settings);
+  if (settings.get<bool>("fair_boundary").value_or(false))
+    options.fair_boundary = paper ? options.method : FairingMethod(equilibrium_of(settings));
+  if (paper) take_papers_choices(options, settings);
   settle_distribution(options, settings, subject);
   return options;
 }

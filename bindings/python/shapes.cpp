@@ -28,6 +28,17 @@ void add_shapes(py::module_& module) {
                     return PolygonMesh::from_arrays(span_of(positions), span_of(corners), sides);
                   })
       .def_property_readonly("node_count", &PolygonMesh::node_count);
+  py::class_<Welded>(module, "Welded", py::module_local())
+      .def_readonly("mesh", &Welded::mesh)
+      .def_property_readonly("representative", [](const Welded& self) { return array_of(self.representative); })
+      .def_readonly("joined", &Welded::joined)
+      .def("positions", [](const Welded& self, const Array<double>& of_mesh) {
+        return array_of(self.positions(vectors_of(of_mesh)));
+      });
+  module.def("weld", &weld);
+  module.def("order_along_curve", [](const Array<double>& points, bool closed) {
+    return array_of(order_along_curve(vectors_of(points), closed));
+  });
   py::class_<PolygonCurve>(module, "PlainCurve", py::module_local())
       .def(py::init(&curve_of))
       .def_property_readonly("node_count", &PolygonCurve::node_count);

@@ -17,7 +17,10 @@ class SameAsTheCommandLine(Case):
                                ({"pseudo_normals": "angle", "distribution": "even"}, ["--pseudo-normals", "angle", "--distribution", "even"]),
                                ({"method": "multigrid", "levels": 2, "pre_smoothing": 3}, ["--method", "multigrid", "--levels", 2, "--pre-smoothing", 3]),
                                ({"method": "sweep", "step_tolerance": 0.01}, ["--method", "sweep", "--step-tolerance", 0.01]),
-                               ({"max_iterations": 2}, ["--max-iterations", 2])]:
+                               ({"max_iterations": 2}, ["--max-iterations", 2]), ({"paper": True}, ["--paper"]),
+                               ({"paper": True, "method": "multigrid"}, ["--paper", "--method", "multigrid"]),
+                               ({"paper": True, "method": "equilibrium"}, ["--paper", "--method", "equilibrium"]),
+                               ({"paper": True, "weight": 0.1}, ["--paper", "--weight", 0.1])]:
             for faces in (quads, triangles):
                 with self.subTest(options=options, faces=faces.shape), warnings.catch_warnings():
                     warnings.simplefilter("ignore")
@@ -38,12 +41,19 @@ class SameAsTheCommandLine(Case):
 
     def test_curve(self):
         curve = wave()
-        for options, flags in [({}, []), ({"fix_normals": "boundary"}, ["--fix-normals", "boundary"]),
+        for options, flags in [({}, []), ({"fix_normals": "boundary"}, ["--fix-normals", "boundary"]), ({"paper": True}, ["--paper"]),
                                ({"normal_plane": "principal"}, ["--normal-plane", "principal"])]:
             with self.subTest(options=options), warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 self.assert_same_bits(vspring.fair_curve(curve, **options).positions,
                                       self.by_command_line("curve", curve, None, *flags))
+
+    def test_paper_says_what_others_would(self):
+        for options in ({"springs": "sphere"}, {"pseudo_normals": "angle"}):
+            with self.subTest(options=options), self.assertRaisesRegex(vspring.Error, "paper says which"):
+                vspring.fair(*patch(), paper=True, **options)
+        with self.assertRaisesRegex(vspring.Error, "normal_plane: paper says which"):
+            vspring.fair_curve(wave(), paper=True, normal_plane="full")
 
 
 class Arrays(Case):

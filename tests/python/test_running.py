@@ -55,6 +55,24 @@ class Told(Case):
         self.assertAlmostEqual(bar.n, 1)
 
 
+class TimeLimit(Case):
+    def test_ends_with_the_best_so_far(self):
+        with self.assertWarnsRegex(vspring.Warning, "time limit of 0.2 s"):
+            positions, report = vspring.fair_curve(wave(), time_limit=0.2, **ENDLESS)
+        self.assertEqual((report.outcome, report.converged), ("work-limit", False))
+        self.assertEqual(report.warnings[-1].code, "time-limit")
+        self.assertLess(report.iterations, ENDLESS["max_iterations"])
+        self.assertTrue(np.isfinite(positions).all())
+
+    def test_one_that_is_not_reached_changes_nothing(self):
+        curve = wave()
+        positions, report = vspring.fair_curve(curve, time_limit=1e6)
+        self.assertEqual((report.outcome, report.warnings), ("converged", ()))
+        self.assert_same_bits(positions, vspring.fair_curve(curve).positions)
+        with self.assertRaisesRegex(vspring.Error, "time_limit: seconds, more than 0"):
+            vspring.fair_curve(curve, time_limit=0)
+
+
 class Ended(Case):
     def assert_best_so_far(self, ended, curve):
         self.assertEqual(ended.report.outcome, "cancelled")

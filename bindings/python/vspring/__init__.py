@@ -5,7 +5,7 @@ gently as what is held allows.
 
 Arguments have the names of the command line. Lengths are in units of the input. See docs/python.md.
 """
-from ._chains import Chains, chains_of
+from ._chains import Chains, chains_of, order
 from ._curvature import Curvatures, colours, curvatures
 from ._errors import Error, Warning
 from ._fairing import fair, fair_curve, fit, measure
@@ -21,4 +21,4 @@ __version__: str = _version()
 
 __all__ = ["Bar", "Chains", "Curvatures", "Curve", "Distances", "Error", "Figure", "Figures", "FitReport", "Level", "Points", "Progress",
            "Report", "Result", "Session", "Surface", "Warning", "chains_of", "colours", "curvatures", "fair", "fair_curve", "fit",
-           "measure", "read", "read_points", "write"]
+           "measure", "order", "read", "read_points", "write"]

@@ -6,8 +6,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from . import _vspring
 from ._errors import Error
-from ._shapes import array_of, indices_of
+from ._shapes import array_of, in_space, indices_of, numbers_of
 
 
 class Chains(NamedTuple):
@@ -17,6 +18,19 @@ class Chains(NamedTuple):
     """Node numbers of each chain, in order."""
     closed: list[bool]
     """Whether the last node of each chain joins the first."""
+
+
+def order(points: ArrayLike, *, closed: bool = False) -> np.ndarray:
+    """Puts points that come in no order in one along the curve that they lie on: vspring.fair_curve(points[vspring.order(points)]).
+
+    points: (n, 2) or (n, 3). closed: whether the last one joins the first.
+
+    Returns their numbers, (n,). It is right where neighbours along the curve are nearer to each other than to other parts
+    of it. Raises vspring.Error naming a point that is not finite. Cost: n log n, 0.1 s for 20,000 points.
+
+    Source: I. K. Lee, Computer Aided Geometric Design 17 (2000), for the spanning tree; docs/curves.md.
+    """
+    return _vspring.order_along_curve(in_space(numbers_of(points, "points", (2, 3))), closed)
 
 
 def chains_of(edges: ArrayLike) -> Chains:

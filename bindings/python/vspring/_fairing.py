@@ -1,16 +1,17 @@
 """Fairing, fitting and measuring."""
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, Mapping, Sequence, TypeVar, Unpack
 
 from numpy.typing import ArrayLike
 
 from . import _vspring
-from ._errors import warn
+from ._errors import Error, Warning, warn
 from ._holding import constraints_of
 from ._options import CurveOptions, FitOptions, MeasureOptions, SurfaceOptions, spelled_out
 from ._points import Points, arrays_of, is_drawn, without_auto
-from ._progress import Teller, teller
+from ._progress import Teller, TimeIsUp, teller
 from ._reports import Figure, Figures, FitReport, Report, Result, fit_report_of, report_of
 from ._shapes import Faces, Given, curve_of, shape_of, surface_of
 
@@ -40,7 +41,7 @@ def fair(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None,
     Source: A. Yamada, K. Shimada, T. Furuhata, K.-H. Hou, "A Discrete Spring Model for Generating Fair Curves and
     Surfaces", Pacific Graphics 1999; docs/solver.md and docs/springs.md.
     """
-    return _fair(surface_of(vertices, faces), options)
+    return _fair(surface_of(vertices, faces).welded_by(options.get("weld")), options)
 
 
 @spelled_out(CurveOptions)
@@ -80,7 +81,7 @@ def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | 
 
     Source: § 4.5 and Eq. 9 of the paper; docs/fit.md.
     """
-    given = shape_of(vertices, faces, chains, closed)
+    given = shape_of(vertices, faces, chains, closed).welded_by(options.get("weld"))
     return _fit(given, OWN_NODES if points is None else arrays_of(points, weights, normals), options)
 
 
@@ -95,7 +96,7 @@ def measure(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Face
     Returns figures by their keys, each with name, unit and definition. Raises vspring.Error. Cost: n log n, some
     microseconds a node. Definitions and sources: docs/fairness.md.
     """
-    given = shape_of(vertices, faces, chains, closed)
+    given = shape_of(vertices, faces, chains, closed).welded_by(options.pop("weld", None))
     threads = options.pop("threads", None) or 0
     held = constraints_of(given, options) if options else None
     return Figures({key: Figure(value, name, unit, definition)
@@ -106,25 +107,46 @@ def _fair(given: Given, options: Mapping[str, Any]) -> Result[Report]:
     if is_drawn(options):
         return _fit(given, OWN_NODES, options)
     held = constraints_of(given, options)
-    tell = teller(options.get("progress"))
-    positions, fields, stopped_by = _vspring.fair(given.core, held, dict(options), tell)
+    tell = teller(options)
+    call = _vspring.fair_resampled if has_new_nodes(options) else _vspring.fair
+    positions, fields, stopped_by = call(given.core, held, dict(options), tell)
     return ended(given, positions, report_of(fields), tell, stopped_by)
 
 
 def _fit(given: Given, points: tuple[Any, Any, Any], options: Mapping[str, Any]) -> Result[FitReport]:
     settled = without_auto(options, given) if points[0] is None else dict(options)
+    if points[0] is None and given.welded is not None:
+        points = (None, given.weights_of_welded(), None)
     if isinstance(settled.get("move"), str):
         settled["move"] = [settled["move"]]
     settled["planar"] = given.array.shape[1] == 2
     held = constraints_of(given, options)
-    tell = teller(options.get("progress"))
-    positions, fields, stopped_by = _vspring.fit(given.core, held, *points, settled, given.file, tell)
+    tell = teller(options)
+    if has_new_nodes(options):
+        positions, fields, stopped_by = _vspring.fit_resampled(given.core, held, settled, given.file, tell)
+    else:
+        positions, fields, stopped_by = _vspring.fit(given.core, held, *points, settled, given.file, tell)
     return ended(given, positions, fit_report_of(fields), tell, stopped_by)
+
+
+def has_new_nodes(options: Mapping[str, Any]) -> bool:
+    asked = [name for name in ("resample", "spacing") if options.get(name) is not None]
+    if len(asked) > 1:
+        raise Error("invalid-argument", "only one of resample and spacing can be given")
+    if options.get("resample_by") is not None and not asked:
+        raise Error("invalid-argument", "resample_by is for resample and spacing")
+    return bool(asked)
 
 
 def ended(given: Given, positions: Any, report: SomeReport, tell: Teller | None,
           stopped_by: BaseException | None) -> Result[SomeReport]:
     """The result of a call, or what ended it before its time with the best shape so far."""
+    if tell is not None and isinstance(stopped_by, TimeIsUp):
+        stopped_by = None
+        if report.outcome == "cancelled":
+            told = Warning("time-limit", f"the time limit of {tell.time_limit:g} s has ended it: this is the best shape so far; allow "
+                           "more time, or let a smaller part move")
+            report = replace(report, outcome="work-limit", warnings=(*report.warnings, told))
     result = Result(given.like_given(positions), report)
     if stopped_by is not None:
         vars(stopped_by).update(positions=result.positions, report=result.report)

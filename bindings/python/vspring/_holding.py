@@ -20,15 +20,15 @@ def constraints_of(given: Given, options: Mapping[str, Any]) -> _vspring.Constra
     fix = options.get("fix")
     if fix is None:
         fix = "none" if options.get("fair_boundary") else "boundary"
-    _hold(fix, "fix", shape, held.fix_boundary, held.fix)
+    _hold(fix, "fix", given, held.fix_boundary, held.fix)
     directions = options.get("fix_normals")
-    _hold("none" if directions is None else directions, "fix_normals", shape, held.fix_boundary_directions,
+    _hold("none" if directions is None else directions, "fix_normals", given, held.fix_boundary_directions,
           held.fix_directions)
     if (rules := options.get("constraints")) is not None:
         _apply(rules, given, held)
     if (region := options.get("region")) is not None:
         nodes = (held.select(shape, region, given.file) if isinstance(region, str)
-                 else nodes_of(region, shape.node_count, "region"))
+                 else given.nodes_of(region, "region"))
         if options.get("fair_boundary"):
             held.restrict_boundary_to(shape, nodes)
         held.restrict_to(shape, nodes)
@@ -37,12 +37,12 @@ def constraints_of(given: Given, options: Mapping[str, Any]) -> _vspring.Constra
 
 def _apply(rules: Rules, given: Given, held: _vspring.Constraints) -> None:
     if not isinstance(rules, (str, os.PathLike)):
-        held.apply_rules(given.core, _json_of(rules, given.core.node_count), given.file)
+        held.apply_rules(given.core, _json_of(rules, given.core.node_count), given.file, given.welded)
         return
     path = os.fspath(rules)
     text = _vspring.read_file(path).decode(errors="surrogateescape")
     try:
-        held.apply_rules(given.core, text, given.file)
+        held.apply_rules(given.core, text, given.file, given.welded)
     except Error as error:
         raise Error(error.code, f"{path}: {error}") from None
 
@@ -62,11 +62,11 @@ def _plain_rule(rule: Any, count: int) -> Any:
     return {**rule, "nodes": nodes_of(nodes, count, "nodes").tolist()}
 
 
-def _hold(nodes: Any, name: str, shape: Any, boundary: Any, single: Any) -> None:
+def _hold(nodes: Any, name: str, given: Given, boundary: Any, single: Any) -> None:
     if isinstance(nodes, str):
         if nodes not in ("boundary", "none"):
             raise Error("invalid-argument", f"{name}: \"boundary\", \"none\", a mask or node numbers, not {nodes!r}")
         if nodes == "boundary":
-            boundary(shape)
+            boundary(given.core)
         return
-    single(shape, nodes_of(nodes, shape.node_count, name))
+    single(given.core, given.nodes_of(nodes, name))

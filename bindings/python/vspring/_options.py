@@ -40,7 +40,14 @@ class CurvePulling(TypedDict, total=False):
     move: str | Sequence[str]
 
 
+class Resampling(TypedDict, total=False):
+    resample: int
+    spacing: float
+    resample_by: Literal["length", "cosine", "curvature"]
+
+
 class Solving(TypedDict, total=False):
+    paper: bool
     method: Literal["equilibrium", "multigrid", "sweep"]
     tolerance: float
     step_tolerance: float
@@ -53,21 +60,26 @@ class Solving(TypedDict, total=False):
 
 class Running(TypedDict, total=False):
     threads: int
+    time_limit: float
     progress: Callable[[Progress], object] | Bar
 
 
-class SurfaceOptions(Holding, Pulling, Solving, Running, total=False):
+class Welding(TypedDict, total=False):
+    weld: float
+
+
+class SurfaceOptions(Holding, Pulling, Welding, Solving, Running, total=False):
     springs: Literal["sphere", "edge"]
     fair_by: Literal["curvature", "bending"]
     pseudo_normals: Literal["link", "average", "area", "angle"]
     fair_boundary: bool
 
 
-class CurveOptions(Holding, Pulling, CurvePulling, Solving, Running, total=False):
+class CurveOptions(Holding, Pulling, CurvePulling, Resampling, Solving, Running, total=False):
     normal_plane: Literal["full", "principal"]
 
 
-class FitOptions(Holding, Pulling, CurvePulling, Solving, Running, total=False):
+class FitOptions(Holding, Pulling, CurvePulling, Welding, Solving, Running, total=False):
     pass
 
 
@@ -80,7 +92,7 @@ class SessionOptions(Holding, Solving, total=False):
     normal_plane: Literal["full", "principal"]
 
 
-class MeasureOptions(Holding, total=False):
+class MeasureOptions(Holding, Welding, total=False):
     threads: int
 
 
@@ -103,6 +115,14 @@ MEANINGS = {
     "min_radius": "curves drawn to points: nowhere bent by a smaller radius than this, units of the input",
     "sharp": "curves: where they turn by more than this, corners stay; degrees, less than 180",
     "move": 'curves drawn to their own nodes: only these coordinates move, letters such as "y" or "yz", or names of columns',
+    "weld": "surfaces: nodes no further apart than this share of the diagonal of the box around the faces are one; 0: those at "
+            "the same place. Positions come back for all of them",
+    "resample": "curves: so many new nodes between those that are held; the report has their origin",
+    "spacing": "curves: new nodes about so far apart on average, units of the input",
+    "resample_by": 'where new nodes go: evenly by "length" (the default), by "cosine", close at the ends and the nose, or '
+                   'closer where "curvature" is greater',
+    "paper": "the paper's own choices throughout, its equations as printed, for comparison; with its sweep unless method says "
+             "another. It says what springs, pseudo_normals and normal_plane are",
     "method": '"equilibrium" (the default), or the paper\'s "multigrid" or "sweep"',
     "tolerance": "equilibrium: end when no node is expected to be further from its final place than this share of the "
                  "diagonal of the box around the moving nodes; 1e-5 by default",
@@ -120,6 +140,7 @@ MEANINGS = {
     "fair_boundary": "fair the boundary loops first, as curves, then the surface; in place of fix=\"boundary\"",
     "normal_plane": '"full" (the default): curves in space are sprung in the whole normal plane; "principal": along the '
                     "principal normal only, as in the paper",
+    "time_limit": "end after so many seconds with the best shape so far and a warning",
     "threads": "how many work; all cores by default. The same bits for every number",
     "progress": "called at most some 20 times a second with a vspring.Progress, or a bar such as tqdm(total=1); what it "
                 "raises ends the call, with positions and report of the best shape so far on the exception",

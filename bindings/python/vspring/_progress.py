@@ -1,7 +1,10 @@
 """How far a call has come."""
 from __future__ import annotations
 
-from typing import Any, Callable, NamedTuple, Protocol
+import time
+from typing import Any, Callable, Mapping, NamedTuple, Protocol
+
+from ._errors import Error
 
 
 class Progress(NamedTuple):
@@ -27,14 +30,24 @@ class Bar(Protocol):
         """Adds n to what the bar shows."""
 
 
+class TimeIsUp(Exception):
+    """The time limit has ended a call."""
+
+
 class Teller:
     """What the library calls."""
 
-    def __init__(self, progress: Callable[[Progress], object] | Bar) -> None:
+    def __init__(self, progress: Callable[[Progress], object] | Bar | None, time_limit: float | None) -> None:
         self._progress: Any = progress
         self._is_bar = hasattr(progress, "update")
+        self.time_limit = time_limit
+        self._begin = time.monotonic()
 
     def __call__(self, stage: str, fraction: float, iteration: int, residual: float) -> None:
+        if self.time_limit is not None and time.monotonic() - self._begin > self.time_limit:
+            raise TimeIsUp
+        if self._progress is None:
+            return
         if self._is_bar:
             self._progress.update(fraction * self._progress.total - self._progress.n)
         else:
@@ -46,5 +59,8 @@ class Teller:
             self._progress.update(self._progress.total - self._progress.n)
 
 
-def teller(progress: Callable[[Progress], object] | Bar | None) -> Teller | None:
-    return None if progress is None else Teller(progress)
+def teller(options: Mapping[str, Any]) -> Teller | None:
+    progress, limit = options.get("progress"), options.get("time_limit")
+    if limit is not None and not limit > 0:
+        raise Error("invalid-argument", f"time_limit: seconds, more than 0, not {limit!r}")
+    return None if progress is None and limit is None else Teller(progress, limit)

@@ -64,6 +64,10 @@ class Report:
     """Those that were given by Python's warnings, too."""
     boundary: Report | None
     """With fair_boundary: that of the boundary's own fairing."""
+    origin: np.ndarray | None
+    """With new nodes, for each of them the number that it had in the input; -1 for a new one. Else None."""
+    chains: list[np.ndarray] | None
+    """With new nodes, the numbers of each chain's nodes in order. Else None."""
 
     @property
     def converged(self) -> bool:

@@ -95,7 +95,7 @@ class Session:
         return None if positions is None else self._given.like_given(positions)
 
     def _solve(self, call: Callable[..., Any], progress: Callable[[Progress], object] | Bar | None, *more: float) -> Result[Report]:
-        tell = teller(progress)
+        tell = teller({"progress": progress})
         with self._lock:
             positions, fields, stopped_by = call(self._held, *more, self._threads, tell)
         return ended(self._given, positions, report_of(fields), tell, stopped_by)

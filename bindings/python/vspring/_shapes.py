@@ -27,6 +27,8 @@ class Given:
     """A Mesh or a PlainCurve."""
     array: np.ndarray
     file: _vspring.Surface | _vspring.Curve | None = None
+    welded: _vspring.Welded | None = None
+    """Of a surface whose core is welded; numbers stay."""
 
     @property
     def is_curve(self) -> bool:
@@ -35,7 +37,32 @@ class Given:
     def like_given(self, positions: np.ndarray) -> np.ndarray:
         """In as many columns, and in single precision where the input is."""
         dtype = np.float32 if self.array.dtype == np.float32 else np.float64
+        if self.welded is not None:
+            positions = self.welded.positions(positions)
         return np.ascontiguousarray(positions[:, :self.array.shape[1]], dtype)
+
+    def nodes_of(self, selection: ArrayLike, name: str) -> np.ndarray:
+        """The numbers of nodes that a mask or their numbers select; of welded ones those that stand for them."""
+        nodes = nodes_of(selection, self.core.node_count, name)
+        if self.welded is None:
+            return nodes
+        if len(nodes) and not 0 <= nodes.min() <= nodes.max() < self.core.node_count:
+            raise _refuse(f"{name}: nodes have the numbers 0 to {self.core.node_count - 1}")
+        return np.unique(self.welded.representative[nodes])
+
+    def weights_of_welded(self) -> np.ndarray:
+        """Of its nodes as points: 0 for those that another stands for."""
+        assert self.welded is not None
+        return (self.welded.representative == np.arange(self.core.node_count)).astype(np.float64)
+
+    def welded_by(self, tolerance: float | None) -> Given:
+        """With nodes made one that are no further apart than this share of the diagonal."""
+        if tolerance is None:
+            return self
+        if self.is_curve:
+            raise _refuse("weld: that is for surfaces; of curves, closed joins the ends")
+        welded = _vspring.weld(self.core, tolerance)
+        return Given(welded.mesh, self.array, self.file, welded)
 
 
 def array_of(values: Any, name: str) -> np.ndarray:

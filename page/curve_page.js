@@ -9,7 +9,8 @@ import {chainsOf} from './curve.js';
 export function makeCurvePage({canvas, form, charts}, scene, report, redraw) {
   const plane = {planar: scene.planar, towards: scene.view[2]};
   const shapes = scene.shapes.map((shape) => ({title: shape.title, chains: chainsOf(shape, plane)}));
-  addCurveCharts(charts, shapes, scene, report);
+  const {unit, leading, planar} = scene;
+  addCurveCharts(charts, shapes, {unit, leading, planar}, report);
   const view = new CurveView(canvas, shapes.map(({chains}) => chains), scene);
   const state = {shape: scene.leading, behind: true, comb: 1};
   const set = (change) => {

@@ -23,11 +23,6 @@ WAIT = 0.3
 
 
 class Bench(support.Case):
-    def area(self):
-        window = bpy.context.window_manager.windows[0]
-        area = next(area for area in window.screen.areas if area.type == 'VIEW_3D')
-        return bpy.context.temp_override(window=window, area=area, region=next(part for part in area.regions if part.type == 'WINDOW'))
-
     def look_at(self, place, normal, size):
         """Has the middle of the view show a place of a surface, and the mouse stand there."""
         with self.area():

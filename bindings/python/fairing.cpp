@@ -41,23 +41,17 @@ void tell_of_nodes(py::dict& fields, const Resampled& resampled) {
 }
 
 /// The same with new nodes.
-py::tuple fair_resampled(const PolygonCurve& curve, const Constraints& constraints, const py::dict& given,
-                         py::object progress) {
+py::tuple fair_with_new_nodes(const PolygonCurve& curve, const Constraints& constraints, const py::dict& given,
+                              py::object progress) {
   const Settings settings(given);
-  FairOptions options = fair_options(settings, {.is_curve = true});
+  const FairOptions options = fair_options(settings, {.is_curve = true});
   Resampling how = resampling_of(settings).value();
   if (const auto angle = settings.get<double>("sharp")) how.corners = find_corners(curve, *angle);
   Run run(threads_of(settings), std::move(progress));
-  const Resampled resampled = resample(curve, constraints, how);
-  for (std::size_t k = 0; k < resampled.from.size(); ++k) {
-    if (std::ranges::find(how.corners, resampled.from[k]) != how.corners.end())
-      options.corners.push_back(static_cast<Index>(k));
-  }
-  FairResult result =
-      run([&](Context& context) { return fair(resampled.curve, resampled.constraints, options, context); });
-  py::dict fields = report_of(result.report);
-  tell_of_nodes(fields, resampled);
-  return py::make_tuple(array_of(std::move(result.positions)), std::move(fields), run.stopped_by());
+  ResampledFair made = run([&](Context& context) { return fair_resampled(curve, constraints, how, options, context); });
+  py::dict fields = report_of(made.fair.report);
+  tell_of_nodes(fields, made.resampled);
+  return py::make_tuple(array_of(std::move(made.fair.positions)), std::move(fields), run.stopped_by());
 }
 
 void settle_moving(FitOptions& /*options*/, const Settings& /*settings*/, const SurfaceFile* /*file*/) {}
@@ -175,7 +169,7 @@ void add_calls(py::module_& module) {
 void add_fairing(py::module_& module) {
   add_calls<PolygonMesh, SurfaceFile>(module);
   add_calls<PolygonCurve, CurveFile>(module);
-  module.def("fair_resampled", &fair_resampled);
+  module.def("fair_resampled", &fair_with_new_nodes);
   module.def("fit_resampled", &fit_with_new_nodes, py::arg("curve"), py::arg("constraints"), py::arg("given"),
              py::arg("file").none(true), py::arg("progress"));
   module.def("curvatures", &curvatures_of_surface);

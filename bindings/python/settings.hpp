@@ -44,11 +44,10 @@ FairOptions fair_options(const Settings& settings, const Subject& subject);
 /// Throws Error(invalid_argument) unless one of these is given.
 FitOptions fit_options(const Settings& settings, const Subject& subject);
 
-/// As the paper has it throughout, for comparison.
+/// Whether all is to be as the paper has it, for comparison.
 bool is_papers(const Settings& settings);
 
-/// How many new nodes a curve gets, and where; empty where it keeps its own. Throws Error(invalid_argument) for `nodes`
-/// and `spacing` at a time.
+/// How many new nodes a curve gets, and where; empty where it keeps its own.
 std::optional<Resampling> resampling_of(const Settings& settings);
 
 /// The threads asked for; 0 for all cores.

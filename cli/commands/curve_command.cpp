@@ -62,15 +62,8 @@ Drawn resample_and_fair(const PolygonCurve& curve, const Constraints& constraint
     FairedOrFitted done = account_for(std::move(made.fit), curve, arguments, arguments.pull, context);
     return {std::move(made.resampled.curve), std::move(made.resampled.constraints), std::move(done)};
   }
-  Resampled resampled = resample(curve, constraints, arguments.resampling);
-  FairOptions options = arguments.options;
-  options.corners.clear();
-  for (std::size_t k = 0; k < resampled.from.size(); ++k) {
-    if (std::ranges::find(arguments.options.corners, resampled.from[k]) != arguments.options.corners.end())
-      options.corners.push_back(static_cast<Index>(k));
-  }
-  FairResult faired = fair(resampled.curve, resampled.constraints, options, context);
-  return {std::move(resampled.curve), std::move(resampled.constraints), {std::move(faired), std::nullopt}};
+  ResampledFair made = fair_resampled(curve, constraints, arguments.resampling, arguments.options, context);
+  return {std::move(made.resampled.curve), std::move(made.resampled.constraints), {std::move(made.fair), std::nullopt}};
 }
 
 /// Fairs a curve, or draws it to its own nodes.

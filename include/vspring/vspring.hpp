@@ -10,6 +10,7 @@
 #include "vspring/distance.hpp"
 #include "vspring/error.hpp"
 #include "vspring/fair.hpp"
+#include "vspring/fair_resampled.hpp"
 #include "vspring/fairing_session.hpp"
 #include "vspring/fairness.hpp"
 #include "vspring/figures.hpp"

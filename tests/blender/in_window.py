@@ -17,11 +17,6 @@ PATIENCE = 60
 
 
 class Window(support.Case):
-    def area(self):
-        window = bpy.context.window_manager.windows[0]
-        area = next(area for area in window.screen.areas if area.type == 'VIEW_3D')
-        return bpy.context.temp_override(window=window, area=area, region=next(part for part in area.regions if part.type == 'WINDOW'))
-
     def press_escape(self):
         window = bpy.context.window_manager.windows[0]
         for value in ('PRESS', 'RELEASE'):

@@ -72,6 +72,12 @@ class Case(unittest.TestCase):
         bpy.ops.preferences.addon_enable(module=ADDON)
         forget_results()
 
+    def area(self):
+        """Where there is a window: has operators run in its 3D view."""
+        window = bpy.context.window_manager.windows[0]
+        area = next(area for area in window.screen.areas if area.type == 'VIEW_3D')
+        return bpy.context.temp_override(window=window, area=area, region=next(part for part in area.regions if part.type == 'WINDOW'))
+
     def add(self, vertices, faces=(), edges=(), name="Part"):
         mesh = bpy.data.meshes.new(name)
         mesh.from_pydata(np.asarray(vertices).tolist(), np.asarray(edges).tolist(), [list(map(int, face)) for face in faces])

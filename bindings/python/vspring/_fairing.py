@@ -130,12 +130,10 @@ def _fit(given: Given, points: tuple[Any, Any, Any], options: Mapping[str, Any])
 
 
 def has_new_nodes(options: Mapping[str, Any]) -> bool:
-    asked = [name for name in ("resample", "spacing") if options.get(name) is not None]
-    if len(asked) > 1:
-        raise Error("invalid-argument", "only one of resample and spacing can be given")
+    asked = any(options.get(name) is not None for name in ("resample", "spacing"))
     if options.get("resample_by") is not None and not asked:
         raise Error("invalid-argument", "resample_by is for resample and spacing")
-    return bool(asked)
+    return asked
 
 
 def ended(given: Given, positions: Any, report: SomeReport, tell: Teller | None,

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "vspring/fair.hpp"
+#include "vspring/resample.hpp"
+
+namespace vspring {
+
+struct ResampledFair {
+  Resampled resampled;  ///< as resample() gives it
+  FairResult fair;      ///< positions of its nodes
+};
+
+/// Puts new nodes along a curve, as resample() does, and fairs it with these. Corners of `how` are corners of the new
+/// curve, too; those of the options have no say. Throws and costs what resample() and fair() do.
+[[nodiscard]] ResampledFair fair_resampled(const PolygonCurve& curve, const Constraints& constraints,
+                                           const Resampling& how, const FairOptions& options, Context& context);
+
+}  // namespace vspring

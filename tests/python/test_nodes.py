@@ -65,7 +65,7 @@ class WeldedNodes(Case):
         rules.write_text(f'{{"rules": [{{"nodes": [{len(vertices) - 4}], "position": "fixed"}}]}}')
         for options, flags in [({"weld": 0}, ["--weld", 0]), ({"weld": 1e-6, "fix_normals": "boundary"}, ["--weld", 1e-6, "--fix-normals", "boundary"]),
                                ({"weld": 0, "constraints": rules}, ["--weld", 0, "--constraints", rules]),
-                               ({"weld": 0, "weight": 0.1}, ["--weld", 0, "--weight", 0.1]), ({"weld": 0, "noise": 0.02}, ["--weld", 0, "--noise", 0.02])]:
+                               ({"weld": 0, "rms": 0.012}, ["--weld", 0, "--rms", 0.012]), ({"weld": 0, "noise": 0.02}, ["--weld", 0, "--noise", 0.02])]:
             with self.subTest(options=options), warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 positions, report = vspring.fair(vertices, quads, **options)

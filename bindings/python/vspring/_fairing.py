@@ -115,8 +115,6 @@ def _fair(given: Given, options: Mapping[str, Any]) -> Result[Report]:
 
 def _fit(given: Given, points: tuple[Any, Any, Any], options: Mapping[str, Any]) -> Result[FitReport]:
     settled = without_auto(options, given) if points[0] is None else dict(options)
-    if points[0] is None and given.welded is not None:
-        points = (None, given.weights_of_welded(), None)
     if isinstance(settled.get("move"), str):
         settled["move"] = [settled["move"]]
     settled["planar"] = given.array.shape[1] == 2

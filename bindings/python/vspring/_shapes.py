@@ -50,11 +50,6 @@ class Given:
             raise _refuse(f"{name}: nodes have the numbers 0 to {self.core.node_count - 1}")
         return np.unique(self.welded.representative[nodes])
 
-    def weights_of_welded(self) -> np.ndarray:
-        """Of its nodes as points: 0 for those that another stands for."""
-        assert self.welded is not None
-        return (self.welded.representative == np.arange(self.core.node_count)).astype(np.float64)
-
     def welded_by(self, tolerance: float | None) -> Given:
         """With nodes made one that are no further apart than this share of the diagonal."""
         if tolerance is None:

@@ -31,7 +31,6 @@ void add_shapes(py::module_& module) {
   py::class_<Welded>(module, "Welded", py::module_local())
       .def_readonly("mesh", &Welded::mesh)
       .def_property_readonly("representative", [](const Welded& self) { return array_of(self.representative); })
-      .def_readonly("joined", &Welded::joined)
       .def("positions", [](const Welded& self, const Array<double>& of_mesh) {
         return array_of(self.positions(vectors_of(of_mesh)));
       });

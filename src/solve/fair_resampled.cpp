@@ -12,7 +12,7 @@ ResampledFair fair_resampled(const PolygonCurve& curve, const Constraints& const
   FairOptions own = options;
   own.corners.clear();
   for (std::size_t k = 0; k < resampled.from.size(); ++k) {
-    if (std::ranges::find(how.corners, resampled.from[k]) != how.corners.end())
+    if (std::find(how.corners.begin(), how.corners.end(), resampled.from[k]) != how.corners.end())
       own.corners.push_back(static_cast<Index>(k));
   }
   result.fair = fair(resampled.curve, resampled.constraints, own, context);

@@ -4,6 +4,7 @@
 #include <exception>
 #include <new>
 #include <thread>
+#include <typeinfo>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,8 @@ constexpr int looks_before_sleep = 2000;
 #else
 constexpr int looks_before_sleep = 16000;  // without pauses
 #endif
+
+void (*watcher)(const std::type_info& work) = nullptr;
 
 /// Not a yield: that would hand the core to other programs for milliseconds.
 void pause() {
@@ -101,6 +104,8 @@ class WorkerPool {
   std::atomic<std::size_t> calls_so_far_ = 0;
 };
 
+void ThreadTeam::watch(void (*see)(const std::type_info& work)) noexcept { watcher = see; }
+
 std::size_t ThreadTeam::calls_for_help() noexcept { return WorkerPool::of_program().calls_so_far(); }
 
 ThreadTeam::~ThreadTeam() {
@@ -120,6 +125,7 @@ void ThreadTeam::run(std::size_t count, const std::function<void(std::size_t)>& 
     }
     return;
   }
+  if (watcher != nullptr) watcher(task.target_type());
   int missing = 0;
   {
     const std::lock_guard lock(mutex_);

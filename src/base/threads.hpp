@@ -7,6 +7,7 @@
 #include <exception>
 #include <functional>
 #include <mutex>
+#include <typeinfo>
 #include <vector>
 
 namespace vspring {
@@ -27,6 +28,10 @@ class ThreadTeam {
 
   /// How often teams of this program have called for helpers: whether something ran on several threads.
   [[nodiscard]] static std::size_t calls_for_help() noexcept;
+
+  /// From now on `see` is told of every kind of work, by the type of what does it, that a team shares out. For tests;
+  /// set before any team works.
+  static void watch(void (*see)(const std::type_info& work)) noexcept;
 
   /// Calls task(k) for k from 0 to count − 1 and returns when all are done. Where one throws, those that have not begun
   /// are left out, and what it threw, or another did, is thrown here when nobody works any more. Before each of its

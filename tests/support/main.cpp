@@ -1,33 +1,44 @@
-// Runs the tests of a program. With VSPRING_THREADED_TESTS=FILE the names of those that ran on several threads are
-// added to that file: these are for the thread sanitizer.
+// Runs the tests of a program. With VSPRING_SHARED_WORK=FILE a line is added to that file for each test that shared
+// work out to several threads: its name, how long it took in milliseconds, and the kinds of work.
 
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <fstream>
+#include <mutex>
+#include <set>
 #include <string>
+#include <typeinfo>
 #include <utility>
 
 #include "base/threads.hpp"
 
 namespace {
 
-class ThreadedTests : public ::testing::EmptyTestEventListener {
- public:
-  explicit ThreadedTests(std::string path) : path_(std::move(path)) {}
+std::mutex kinds_mutex;
+std::set<std::string> kinds;
 
-  void OnTestStart(const ::testing::TestInfo& /*test*/) override {
-    calls_before_ = vspring::ThreadTeam::calls_for_help();
-  }
+void note_kind(const std::type_info& work) {
+  const std::lock_guard lock(kinds_mutex);
+  kinds.insert(work.name());
+}
+
+class SharedWork : public ::testing::EmptyTestEventListener {
+ public:
+  explicit SharedWork(std::string path) : path_(std::move(path)) { vspring::ThreadTeam::watch(note_kind); }
+
+  void OnTestStart(const ::testing::TestInfo& /*test*/) override { kinds.clear(); }
 
   void OnTestEnd(const ::testing::TestInfo& test) override {
-    if (vspring::ThreadTeam::calls_for_help() == calls_before_) return;
-    std::ofstream(path_, std::ios::app) << test.test_suite_name() << '.' << test.name() << '\n';
+    if (kinds.empty()) return;
+    std::string line =
+        std::string(test.test_suite_name()) + '.' + test.name() + ' ' + std::to_string(test.result()->elapsed_time());
+    for (const std::string& kind : kinds) line += ' ' + kind;
+    std::ofstream(path_, std::ios::app) << line + '\n';
   }
 
  private:
   std::string path_;
-  std::size_t calls_before_ = 0;
 };
 
 }  // namespace
@@ -36,7 +47,7 @@ int main(int argc, char** argv) {
   // What properties are tried on is drawn from one seed, and not for long, unless whoever runs this says otherwise.
   setenv("RC_PARAMS", "seed=1 max_success=30", 0);
   ::testing::InitGoogleTest(&argc, argv);
-  if (const char* path = std::getenv("VSPRING_THREADED_TESTS"))
-    ::testing::UnitTest::GetInstance()->listeners().Append(new ThreadedTests(path));
+  if (const char* path = std::getenv("VSPRING_SHARED_WORK"))
+    ::testing::UnitTest::GetInstance()->listeners().Append(new SharedWork(path));
   return RUN_ALL_TESTS();
 }

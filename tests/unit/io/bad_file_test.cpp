@@ -170,9 +170,9 @@ TEST_F(BadFile, MayBeCutOffAnywhere) {
   }
 }
 
-TEST_F(BadFile, MayBeTenMillionZeros) {
+TEST_F(BadFile, MayBeAMillionZeros) {
   std::string zeros;
-  zeros.resize(10'000'000);
+  zeros.resize(1'000'000);
   for (const std::string name : {"a.obj", "a.off", "a.ply", "a.stl", "a.dat", "a"}) {
     const std::string message = message_of([&] { std::ignore = read_surface(put(name, zeros)); });
     EXPECT_LT(message.size(), 200U);

@@ -107,9 +107,9 @@ TEST_F(CurveBadFile, MayBeCutOffAnywhere) {
   }
 }
 
-TEST_F(CurveBadFile, MayBeTenMillionZeros) {
+TEST_F(CurveBadFile, MayBeAMillionZeros) {
   std::string zeros;
-  zeros.resize(10'000'000);
+  zeros.resize(1'000'000);
   for (const std::string name : {"a.obj", "a.csv", "a.dat", "a.xyz", "a.txt", "a"}) {
     const std::string message = message_of([&] { std::ignore = read_curve(put(name, zeros)); });
     EXPECT_LT(message.size(), 200U);

@@ -21,6 +21,7 @@ test('a node of a curve that is as in its file is pulled: it is fixed there, and
     await drag(page, node, 0, -60);
     await undo().and(page.locator(`[title*="Move node ${node.node}"]`)).waitFor();
     await settled(page);
+    assert.match(await page.locator('#status').textContent(), /^Done · the curve moved at most [\d.]+ \(/);
     const shape = placesOf((await saved(page)).path);
     const moved = input.flatMap((place, n) => (distance(place, shape[n]) > 1e-9 ? [distance(place, input[node.node])] : []));
     assert.ok(distance(shape[node.node], input[node.node]) > 0.3, 'it is where it was pulled to');

@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { compiled } from './support.mjs';
 
 const { shapeOf } = await compiled('shape/shape');
-const { stayed, slid } = await compiled('shape/stays');
+const { stayed, slid, strayed } = await compiled('shape/stays');
 const { sharpNodes } = await compiled('shape/sharp');
 
 // A sheet over a grid of so many cells a side.
@@ -91,4 +91,22 @@ test('an edge is sharp by its angle, but not where noise turns most edges as muc
   const square = [[0, 0], [1, 0], [2, 0], [2, 1], [2, 2], [1, 2], [0, 2], [0, 1]];
   const curve = (closed) => shapeOf({ positions: Float64Array.from(square.flatMap((place) => [...place, 0])), boundary: new Uint8Array(8), warnings: [], chainBegin: Int32Array.of(0, 8), chainNodes: Int32Array.from({ length: 8 }, (_, k) => k), closed: Uint8Array.of(closed), planar: true });
   assert.deepEqual([1, 0].map((closed) => sharpNodes(curve(closed), curve(closed).input, 40)), [[0, 2, 4, 6], [2, 4, 6]]);
+});
+
+test('nodes of a curve that slide along it have left it by nothing, those that go across by their way, closed and open', () => {
+  const count = 40;
+  for (const closed of [true, false]) {
+    const curve = { runs: { begin: Int32Array.from([0, count]), nodes: Int32Array.from({ length: count }, (_, k) => k) }, closed: [closed], planar: true, plane: [0, 0, 1] };
+    const at = (k, radius) => [radius * Math.cos((2 * Math.PI * k) / count), radius * Math.sin((2 * Math.PI * k) / count), 0];
+    const start = Float64Array.from(Array.from({ length: count }, (_, k) => at(k, 1)).flat());
+    // On edges, two and a half further; an open one ends in its last node.
+    const along = Float64Array.from(Array.from({ length: count }, (_, k) => {
+      const [before, after] = [2, 3].map((n) => at(closed ? k + n : Math.min(k + n, count - 1), 1));
+      return before.map((part, i) => (part + after[i]) / 2);
+    }).flat());
+    assert.ok(strayed(curve, start, along) < 1e-14);
+    const across = start.slice();
+    across.set(at(7, 1.1), 21);
+    assert.ok(Math.abs(strayed(curve, start, across) - 0.1) < 1e-12);
+  }
 });

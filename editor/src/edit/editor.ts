@@ -18,6 +18,7 @@ import type { Cloud, PointSource } from '../constraints/points';
 import { keepingAdded, keepsSome, restricted } from '../constraints/region';
 import { Drags } from '../pull/drags';
 import { near, within } from '../pull/reach';
+import { strayed } from '../shape/stays';
 import { FrameCounter } from './frames';
 import { begun, done, type History } from './history';
 import { Symmetry } from './symmetry';
@@ -128,9 +129,11 @@ export class Editor {
     return this.trial.moved(this.shape!, this.positions);
   }
 
-  /** How far what is seen is from the input. */
+  /** How far what is seen is from the input: nodes of a surface from where they were, those of a curve from what it was. */
   get moved(): number {
-    return this.shape ? furthest(this.seen, this.shape.input) : 0;
+    const { shape, seen } = this;
+    if (!shape) return 0;
+    return shape.curve ? strayed(shape.curve, shape.input, seen) : furthest(seen, shape.input);
   }
 
   get trying(): boolean {

@@ -34,7 +34,7 @@ function ofSolution({ report, dragging, busy, since, saved, showsInput, shape, m
   if (!report) return '';
   const what = dragging ? 'Following' : (words[report.outcome] ?? 'Not settled');
   if (report.movingNodes === 0 && moved === 0 && report.outcome === 'converged') return 'Nothing moves: all of it is held';
-  return `${what} · ${moved > 0 ? `nodes moved at most ${withUnit(short(Number(moved.toPrecision(2))))} (${share(moved * shape.scale)})` : 'moved nothing'}`;
+  return `${what} · ${moved > 0 ? `${shape.curve ? 'the curve' : 'nodes'} moved at most ${withUnit(short(Number(moved.toPrecision(2))))} (${share(moved * shape.scale)})` : 'moved nothing'}`;
 }
 
 /** Of what takes so long that somebody may ask whether it goes on. */

@@ -2,7 +2,7 @@
 
 import { normalsOf } from '../../../page/mesh.js';
 import { dot, type Vector } from '../base/vectors';
-import type { Shape } from './shape';
+import type { CurveParts, Shape } from './shape';
 
 /** What a node keeps: nothing; its place along the shape, so that it moves straight across; or one coordinate. */
 export const stays = ['', 'normal', 'x', 'y', 'z'] as const;
@@ -82,5 +82,32 @@ export function slid(shape: Shape, start: Float64Array, positions: Float64Array)
     const way = minus(at(positions, node), at(start, node));
     greatest = Math.max(greatest, Math.hypot(...partsOf(shape, way, at(directions, node)).along));
   }
+  return greatest;
+}
+
+/** How far nodes of a curve are from the polyline they were on, at most. The nearest place of it is looked for along the way that a node may have come on it. */
+export function strayed({ runs: { begin, nodes }, closed }: CurveParts, start: Float64Array, positions: Float64Array): number {
+  let greatest = 0;
+  closed.forEach((loop, c) => {
+    const count = begin[c + 1] - begin[c];
+    const was = (k: number): Vector => at(start, nodes[begin[c] + ((k + count) % count)]);
+    for (let k = 0; k < count; ++k) {
+      const place = at(positions, nodes[begin[c] + k]);
+      let nearest = Math.hypot(...minus(place, was(k)));
+      const reach = 2 * nearest;
+      for (const step of [1, -1]) {
+        const most = loop ? count : step > 0 ? count - 1 - k : k;
+        for (let n = 0, gone = 0; n < most && gone <= reach; ++n) {
+          const from = was(k + step * n);
+          const edge = minus(was(k + step * (n + 1)), from);
+          const length = Math.hypot(...edge);
+          const share = Math.min(1, Math.max(0, dot(minus(place, from), edge) / (length ** 2 || 1)));
+          nearest = Math.min(nearest, Math.hypot(...minus(place, plus(from, edge, share))));
+          gone += length;
+        }
+      }
+      greatest = Math.max(greatest, nearest);
+    }
+  });
   return greatest;
 }

@@ -23,8 +23,6 @@ constexpr double between_samples = 1.002;
 constexpr double most_places_on_edge = 32;
 // Of the least radius: what chords of an arc show of it.
 constexpr double share_of_radius = 0.99;
-// Of the distance from a node.
-constexpr double as_far_as_held = 1.001;
 
 std::vector<Vector3> held_places(const Resampled& nodes) {
   std::vector<Vector3> places;
@@ -34,9 +32,9 @@ std::vector<Vector3> held_places(const Resampled& nodes) {
   return places;
 }
 
-bool is_as_near(const std::vector<Vector3>& places, const Vector3& point, double distance) {
+bool is_as_near(const std::vector<Vector3>& places, const Vector3& point, double distance, double as_far) {
   return std::any_of(places.begin(), places.end(),
-                     [&](const Vector3& place) { return (place - point).norm() <= as_far_as_held * distance; });
+                     [&](const Vector3& place) { return (place - point).norm() <= as_far * distance; });
 }
 
 }  // namespace
@@ -112,19 +110,19 @@ double CurveMeasures::radius_kept(const SharpestNode& most) const {
   return most.radius < least ? most.radius / least : 1;
 }
 
-std::vector<double> CurveMeasures::movable_distances(const Resampled& nodes) const {
+std::vector<double> CurveMeasures::movable_distances(const Resampled& nodes, double as_far) const {
   std::vector<double> distances = this->distances(nodes.curve);
   const auto within = input_.options().within();
   const std::vector<Vector3> held = held_places(nodes);
   for (std::size_t j = 0; j < distances.size(); ++j) {
-    if (within && distances[j] > *within && is_as_near(held, input_.points().positions[j], distances[j]))
+    if (within && distances[j] > *within && is_as_near(held, input_.points().positions[j], distances[j], as_far))
       distances[j] = 0;
   }
   return distances;
 }
 
 bool CurveMeasures::is_at_held(std::size_t point, double distance, const Resampled& nodes) const {
-  return is_as_near(held_places(nodes), input_.points().positions[point], distance);
+  return is_as_near(held_places(nodes), input_.points().positions[point], distance, about_held);
 }
 
 double CurveMeasures::figure(const std::vector<double>& distances) const {

@@ -31,6 +31,10 @@ struct SharpestNode {
   double radius = std::numeric_limits<double>::infinity();
 };
 
+// How far points at a held node are from it, and those about it, in their distances from the curve.
+inline constexpr double at_held = 1.001;
+inline constexpr double about_held = 1.25;
+
 /// Measures nodes on the curve that was found for an input, by what was asked for. input, found: are looked at in each
 /// call, and have to outlive it.
 class CurveMeasures {
@@ -43,9 +47,9 @@ class CurveMeasures {
 
   /// Of the points: of nodes that keep coordinates, from where they were.
   [[nodiscard]] std::vector<double> distances(const PolygonCurve& from) const;
-  /// The same, 0 for points further than the tolerance that are nowhere nearer than at a node that is held: nothing can
-  /// be done about them.
-  [[nodiscard]] std::vector<double> movable_distances(const Resampled& nodes) const;
+  /// The same, 0 for points further than the tolerance that are nowhere nearer than at a node that is held, or are so
+  /// many times as far from one as from the curve: nothing can be done about them.
+  [[nodiscard]] std::vector<double> movable_distances(const Resampled& nodes, double as_far = at_held) const;
   [[nodiscard]] bool is_at_held(std::size_t point, double distance, const Resampled& nodes) const;
   /// What is to be within the tolerance.
   [[nodiscard]] double figure(const std::vector<double>& distances) const;

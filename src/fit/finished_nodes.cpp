@@ -97,7 +97,10 @@ bool FinishedNodes::draw_chords_in(MeasuredNodes& before, bool were_pulled) {
 void FinishedNodes::pull_to_rows(MeasuredNodes& found) {
   const auto within = input_.options().within();
   if (!within || !input_.own_nodes() || !found.nodes.from.empty()) return;
-  const auto points_off = [&](const Resampled& nodes) { return measures_.figure(measures_.movable_distances(nodes)); };
+  // Rows about a held node would only take the curve into their noise.
+  const auto points_off = [&](const Resampled& nodes) {
+    return measures_.figure(measures_.movable_distances(nodes, about_held));
+  };
   if (points_off(found.nodes) <= *within) return;
   MeasuredNodes now = found;
   for (int turn = 1; turn <= most_turns_of_pulling && now.figure > *within; ++turn) {

@@ -178,6 +178,27 @@ TEST(FitTracks, BetweenPointsThatAreNearEachOtherTheCurveDoesNotGoFar) {
   EXPECT_LT(measure_curve(PolygonCurve(result.positions)).length, measure_curve(PolygonCurve(rows)).length);
 }
 
+TEST(FitTracks, RowsOfAStopAboutAHeldEndLeaveTheCurveFair) {
+  Draw draw(22);
+  std::vector<Vector3> rows;
+  for (int k = 0; k < 160; ++k) {
+    Vector3 noise = draw.in_cube(0.013);
+    noise.z() = 0;
+    const double at = std::min(k, 119) / 40.0;
+    rows.emplace_back(Vector3(at, std::sin(at), 0) + noise);
+  }
+  // The end is held where noise has taken it.
+  rows.back() += Vector3(0.002, 0.008, 0);
+  const PolygonCurve curve(rows, false);
+  Constraints held(curve.node_count());
+  fix_boundary_positions(held, curve);
+  FitOptions options{.criterion = Within{0.015}};
+  options.fair.distribution = Distribution::keep;
+  const FitResult result = fit(curve, held, {.positions = rows}, options);
+  EXPECT_NE(result.positions, rows);
+  EXPECT_LT(turning(result.positions), 0.1 * turning(rows));
+}
+
 TEST(FitTracks, RowsOutOfOrderAcrossABendAreDrawnInTheirOrder) {
   Draw draw(3);
   for (int drawn = 0; drawn < 5; ++drawn) {

@@ -85,29 +85,41 @@ export function slid(shape: Shape, start: Float64Array, positions: Float64Array)
   return greatest;
 }
 
-/** How far nodes of a curve are from the polyline they were on, at most. The nearest place of it is looked for along the way that a node may have come on it. */
+/** How far nodes of a curve are from the polyline they were on, at most. The nearest place of it is looked for along the way that a node may have come on it, beginning where the last one's was, and no longer than until it is nearer than another node's. */
 export function strayed({ runs: { begin, nodes }, closed }: CurveParts, start: Float64Array, positions: Float64Array): number {
+  const away = (node: number): number => Math.hypot(...minus(at(positions, node), at(start, node)));
   let greatest = 0;
   closed.forEach((loop, c) => {
-    const count = begin[c + 1] - begin[c];
-    const was = (k: number): Vector => at(start, nodes[begin[c] + ((k + count) % count)]);
-    for (let k = 0; k < count; ++k) {
-      const place = at(positions, nodes[begin[c] + k]);
-      let nearest = Math.hypot(...minus(place, was(k)));
+    const run = nodes.subarray(begin[c], begin[c + 1]);
+    const count = run.length;
+    const edges = loop ? count : count - 1;
+    // How many edges further along the last node's nearest place is.
+    let ahead = 0;
+    const follow = (k: number): void => {
+      const place = at(positions, run[k]);
+      let nearest = away(run[k]);
       const reach = 2 * nearest;
-      for (const step of [1, -1]) {
-        const most = loop ? count : step > 0 ? count - 1 - k : k;
-        for (let n = 0, gone = 0; n < most && gone <= reach; ++n) {
-          const from = was(k + step * n);
-          const edge = minus(was(k + step * (n + 1)), from);
-          const length = Math.hypot(...edge);
-          const share = Math.min(1, Math.max(0, dot(minus(place, from), edge) / (length ** 2 || 1)));
-          nearest = Math.min(nearest, Math.hypot(...minus(place, plus(from, edge, share))));
-          gone += length;
-        }
-      }
+      const look = (further: number): number => {
+        const e = (k + further + 2 * count) % count;
+        if (e >= edges) return 0;
+        const from = at(start, run[e]);
+        const edge = minus(at(start, run[(e + 1) % count]), from);
+        const length = Math.hypot(...edge);
+        const share = Math.min(1, Math.max(0, dot(minus(place, from), edge) / (length ** 2 || 1)));
+        const distance = Math.hypot(...minus(place, plus(from, edge, share)));
+        if (distance < nearest) [nearest, ahead] = [distance, further];
+        return length;
+      };
+      for (const further of [ahead, ahead + 1, ahead - 1]) if (nearest > greatest) look(further);
+      for (let n = 0, gone = 0; n < (loop ? count : count - k) && gone <= reach && nearest > greatest; ++n) gone += look(n);
+      for (let n = 1, gone = 0; n <= (loop ? count : k) && gone <= reach && nearest > greatest; ++n) gone += look(-n);
       greatest = Math.max(greatest, nearest);
-    }
+    };
+    // The node that has gone furthest first: most others have not come so far in all.
+    let furthest = 0;
+    for (let k = 1; k < count; ++k) if (away(run[k]) > away(run[furthest])) furthest = k;
+    follow(furthest);
+    for (let k = 0; k < count; ++k) follow(k);
   });
   return greatest;
 }

@@ -14,6 +14,7 @@ struct Advice {
 constexpr Advice all_advice[] = {
     {"by a rule", "--constraints"},
     {"fix the boundary", "--fix boundary"},
+    {"make it fair by itself first", "fair --fair-boundary"},
     {"fix the ends", "--fix boundary"},
     {"let only a region move", "--region"},
     {"a greater weight", "--weight"},

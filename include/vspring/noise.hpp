@@ -39,7 +39,7 @@ struct NoiseEstimate {
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context = {});
 
 /// The same of a curve, across it, from seven nodes in a row, or as many more as it takes for them to be four times as
-/// long as they are wide.
+/// long as they are wide. Nodes in a row at one place count as one.
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonCurve& curve);
 
 /// The same in the coordinates that move, of x, y and z, over the length of the way in the others: of heights,

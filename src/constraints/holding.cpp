@@ -133,7 +133,8 @@ class Holding {
         throw Error(
             ErrorCode::unusable_constraint,
             fmt::format("the boundary loop through node {} is free: {} of its {} nodes are held, and it would shrink; "
-                        "fix the boundary, hold nodes of it by a rule, or let only a region move",
+                        "fix the boundary, make it fair by itself first, hold nodes of it by a rule, or let only a "
+                        "region move",
                         first, held, length));
       free_nodes += length - held;
       if (first_free < 0) first_free = first;

@@ -74,7 +74,7 @@ void CurveDescent<K>::go(int most_steps) {
   int sides_done = 0;
   bool is_undone = false;  // whether damping was, as no step was better with it
   double excess_at_look = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < most_steps && work_ < most_work_; ++step) {
+  for (int step = 0; step < most_steps && !is_out_of_work(); ++step) {
     end_if_cancelled();
     if (step % steps_per_look == 0) {
       // What is far beyond its bounds and comes no nearer stays so.
@@ -131,12 +131,14 @@ auto CurveDescent<K>::find_step() -> std::optional<Step> {
     const auto solve = [&](double left, double price) {
       program.emplace(this->program(left, price));
       solution = program->solve();
+      spent_ += found.curve.size() * static_cast<std::size_t>(std::max(1, solution.steps));
       found_ = solution.found;
       return found_;
     };
     // What was too much for one step is so for the next.
     bool met = solve(*left_, 0);
-    while (!met && task_.least_radius > 0 && left_ + 1 != std::end(curvature_left)) met = solve(*++left_, 0);
+    while (!met && task_.least_radius > 0 && left_ + 1 != std::end(curvature_left) && !is_out_of_work())
+      met = solve(*++left_, 0);
     if (program->blocks() == 0) {
       found.converged = true;
       return std::nullopt;
@@ -154,7 +156,7 @@ auto CurveDescent<K>::find_step() -> std::optional<Step> {
       found.converged = false;
       return std::nullopt;
     }
-    if (step.turn * least_share <= greatest_turn_of_step) break;
+    if (step.turn * least_share <= greatest_turn_of_step || is_out_of_work()) break;
     // Bounds have to be met, however much a step is damped.
     if (step.turn > no_less_for_damping * last_turn) break;
     last_turn = step.turn;

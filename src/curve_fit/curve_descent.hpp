@@ -27,7 +27,9 @@ class CurveDescent {
 
   /// To be called when the curve has got new nodes. grid: how often that was before.
   void begin_grid(int grid);
-  [[nodiscard]] bool is_out_of_work() const { return work_ >= most_work_; }
+  [[nodiscard]] bool is_out_of_work() const { return work_ >= most_work_ || spent_ >= task_.most_work; }
+  /// Nodes, each for every step in which programs were solved.
+  [[nodiscard]] std::size_t spent() const { return spent_; }
 
   /// Steps to the fairest curve for the weight of points as it is.
   void go(int most_steps = most_steps_on_grid);
@@ -82,6 +84,7 @@ class CurveDescent {
   double damping_ = 0;
   std::size_t work_ = 0;  ///< nodes, each for every step
   std::size_t most_work_ = 0;
+  std::size_t spent_ = 0;
   // Of the curve as it is.
   double energy_ = 0;
   double excess_ = 0;

@@ -175,7 +175,7 @@ class CurveFitter {
     double nearest = std::numeric_limits<double>::infinity();
     int without_gain = 0;
     CurveFound best = found_;
-    for (int trial = 0; trial < most_trials_of_weight; ++trial) {
+    for (int trial = 0; trial < most_trials_of_weight && !descent_.is_out_of_work(); ++trial) {
       descent_.go();
       const double figure = rms();
       if (figure <= wanted) {
@@ -222,6 +222,7 @@ class CurveFitter {
 
   void measure() {
     found_.rms = rms();
+    found_.work = descent_.spent();
     for (const CurvePoint& point : found_.points)
       found_.greatest = std::max(found_.greatest, found_.curve.offset(point.at, point.place).norm());
     found_.beyond = descent_.measured_excess();

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -21,7 +23,8 @@ struct CurveFound {
   double beyond = 0;     ///< the greatest share of its bound that a place of the curve is away from the polyline
   double smoothing = 0;  ///< the smoothing length, where one was given
   int steps = 0;
-  double error = 0;  ///< how far the last step went
+  std::size_t work = 0;  ///< nodes, each for every step in which a program was solved
+  double error = 0;      ///< how far the last step went
 };
 
 /// Chains and what they are drawn to, in coordinates in which all is of size 1.
@@ -58,8 +61,9 @@ struct CurveFitTask {
   double noise = 0;         ///< of the points, across
   double least_radius = 0;  ///< 0: any
   double sharp = 0;  ///< where the way of the points turns by more than this are corners, in radians; 0: none are
-  double tolerance = 1e-5;  ///< how near to the fairest, a share of the size
-  int most_steps = 120;     ///< of all programs
+  double tolerance = 1e-5;                                          ///< how near to the fairest, a share of the size
+  int most_steps = 120;                                             ///< of all programs
+  std::size_t most_work = std::numeric_limits<std::size_t>::max();  ///< then it ends with what it has
 };
 
 /// How far the points of a task are from a robust curve through them, by the order of the task's own nodes and then of

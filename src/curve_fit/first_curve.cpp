@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/threads.hpp"
@@ -12,6 +13,8 @@
 namespace vspring {
 
 namespace {
+
+using Node = DenseCurve::Node;
 
 // Of a tolerance, at the start, so that there is room to become fairer.
 constexpr double first_share = 0.95;
@@ -85,7 +88,10 @@ class FirstCurve {
     found_.curve = DenseCurve(false, task_.moving);
     for (const auto& chain : task_.chains) add_start(chain.nodes, chain.closed, scale, found_.curve, found_.points);
     find_scattered();
-    if (!task_.in_order) found_.way = way_of_scattered(found_.curve, found_.points, gap_of_way());
+    if (!task_.in_order) {
+      found_.way = way_of_scattered(found_.curve, found_.points, gap_of_way());
+      fit_ends();
+    }
     set_bounds(task_, found_);
   }
 
@@ -101,6 +107,7 @@ class FirstCurve {
   void find_all_places() {
     find_places(found_.curve, found_.points);
     find_places(found_.curve, found_.way);
+    fit_ends();
   }
 
   void smooth_out_at_first() {
@@ -161,6 +168,65 @@ class FirstCurve {
       point.at = {edges[static_cast<std::size_t>(nearest.item)], share(nearest.item)};
       found_.points.push_back(point);
     }
+  }
+
+  /// Nodes go across the curve, so that free ends have to be where the points end.
+  void fit_ends() {
+    const DenseCurve& curve = found_.curve;
+    DenseCurve fitted(false, curve.moving());
+    for (std::size_t c = 0; c < curve.chains().size(); ++c) {
+      const auto& chain = curve.chains()[c];
+      std::vector<Node> nodes;
+      for (std::uint32_t k = 0; k < chain.count; ++k) nodes.push_back(curve.node(chain.begin + k));
+      if (!chain.closed && nodes.size() > 2) {
+        // The last end first: what is cut off at the first one would change the numbers of nodes.
+        fit_end(c, true, nodes);
+        fit_end(c, false, nodes);
+      }
+      fitted.add_chain(nodes, chain.closed);
+    }
+    take_new_nodes(found_, std::move(fitted));
+  }
+
+  /// nodes: of the chain, up to its last end.
+  void fit_end(std::size_t c, bool at_last, std::vector<Node>& nodes) const {
+    const DenseCurve& curve = found_.curve;
+    const auto& chain = curve.chains()[c];
+    const std::uint32_t end = at_last ? chain.begin + chain.count - 1 : chain.begin;
+    if (curve.node(end).held || !curve.tangent(end, true).isZero(0)) return;
+    std::optional<CurvePlace> outermost;
+    const auto consider = [&](const CurvePoint& point) {
+      if (curve.chain_of(point.at.edge) != c) return;
+      const auto order = [](const CurvePlace& at) { return std::pair(at.edge, at.share); };
+      if (!outermost || (at_last ? order(point.at) > order(*outermost) : order(point.at) < order(*outermost)))
+        outermost = point.at;
+    };
+    for (const CurvePoint& point : found_.points) consider(point);
+    for (const CurvePoint& row : found_.way) consider(row);
+    if (!outermost) return;
+    const std::uint32_t edge = at_last ? curve.before(end) : end;
+    const bool reaches_end = outermost->edge == edge && outermost->share == (at_last ? 1 : 0);
+    if (reaches_end) {
+      const Vector3 out = (at_last ? 1 : -1) * curve.direction(*outermost);
+      double furthest = 0;
+      for (const CurvePoint& point : found_.points) {
+        if (point.at.edge == outermost->edge && point.at.share == outermost->share)
+          furthest = std::max(furthest, out.dot(point.place - curve.place(end)));
+      }
+      nodes[end - chain.begin].place += furthest * out;
+      return;
+    }
+    // Not what is held or a corner.
+    const std::uint32_t last = outermost->edge - chain.begin + (at_last ? 1 : 0);
+    for (std::uint32_t k = at_last ? last : 0; k < (at_last ? nodes.size() : last + 1); ++k) {
+      if (!nodes[k].dense) return;
+    }
+    nodes[last].place = curve.at(*outermost);
+    const auto place = nodes.begin() + static_cast<std::ptrdiff_t>(last);
+    if (at_last)
+      nodes.erase(place + 1, nodes.end());
+    else
+      nodes.erase(nodes.begin(), place);
   }
 
   const CurveFitTask& task_;

@@ -1,5 +1,7 @@
 #include "fairness/curve_runs.hpp"
 
+#include <utility>
+
 namespace vspring {
 
 namespace {
@@ -70,6 +72,23 @@ std::vector<CurveRun> curve_runs(const PolygonCurve& curve, const Constraints* c
   Cutting cutting(curve, constraints);
   for (const auto& chain : curve.chains()) cutting.cut(chain);
   return cutting.take();
+}
+
+PolygonCurve visible_part(const PolygonCurve& curve) {
+  std::vector<Vector3> positions = curve.positions();
+  bool all = true;
+  for (Vector3& position : positions) {
+    if (position.allFinite()) continue;
+    position.setZero();
+    all = false;
+  }
+  std::vector<PolygonCurve::Chain> chains;
+  for (CurveRun& run : curve_runs(curve, nullptr)) {
+    all = all && run.zero_length_edges == 0;
+    chains.push_back({.nodes = std::move(run.nodes), .closed = run.closed});
+  }
+  if (all) return curve;
+  return {std::move(positions), std::move(chains)};
 }
 
 }  // namespace vspring

@@ -17,4 +17,8 @@ struct CurveRun {
 /// nothing about what was done.
 std::vector<CurveRun> curve_runs(const PolygonCurve& curve, const Constraints* constraints);
 
+/// The same nodes, with those chains that go through them without an edge that has no length, or an end that is not
+/// finite; such nodes lie at the origin.
+PolygonCurve visible_part(const PolygonCurve& curve);
+
 }  // namespace vspring

@@ -21,26 +21,10 @@ Constraints at_present(const PolygonCurve& curve, const Constraints* constraints
   return present;
 }
 
-/// The curve without the edges at nodes with a coordinate that is not finite.
-PolygonCurve finite_part(const PolygonCurve& curve) {
-  std::vector<Vector3> positions = curve.positions();
-  bool all = true;
-  for (Vector3& position : positions) {
-    if (position.allFinite()) continue;
-    position.setZero();
-    all = false;
-  }
-  if (all) return curve;
-  std::vector<PolygonCurve::Chain> chains;
-  for (CurveRun& run : curve_runs(curve, nullptr))
-    chains.push_back({.nodes = std::move(run.nodes), .closed = run.closed});
-  return {std::move(positions), std::move(chains)};
-}
-
 }  // namespace
 
 Fairness measure(const PolygonCurve& whole_curve, const Constraints* constraints) {
-  const PolygonCurve curve = finite_part(whole_curve);
+  const PolygonCurve curve = visible_part(whole_curve);
   Net net = gather_net(curve, at_present(curve, constraints));
   ThreadTeam alone(1);
   update_directions(net, *curve_model({}), alone);

@@ -12,6 +12,7 @@
 #include "base/cancellation.hpp"
 #include "base/dense_algebra.hpp"
 #include "base/threads.hpp"
+#include "fairness/curve_runs.hpp"
 #include "shape/face_geometry.hpp"
 #include "shape/incidence.hpp"
 #include "shape/node_graph.hpp"
@@ -275,7 +276,9 @@ double greatest_of_noise(const NoiseEstimate& noise) {
   return high * noise.deviation;
 }
 
-NoiseEstimate estimate_noise(const PolygonCurve& curve) {
+NoiseEstimate estimate_noise(const PolygonCurve& whole_curve) {
+  // Rows that are there twice say nothing twice.
+  const PolygonCurve curve = visible_part(whole_curve);
   const int heights = plane_normal(curve.positions()) ? 1 : 2;
   std::vector<Place> found;
   std::vector<double> edges;

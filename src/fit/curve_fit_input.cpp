@@ -32,6 +32,14 @@ constexpr double on_a_line = 1e-9;
 // Of coordinates that stay along a chain: there and back round a nose, and steps that are out of order.
 constexpr std::size_t fewest_turns = 4;
 constexpr std::size_t rows_for_a_turn = 10;
+constexpr std::size_t rows_for_an_outlier = 20;
+
+std::string names_of(const std::vector<Index>& points) {
+  std::string names;
+  for (std::size_t k = 0; k < std::min(points.size(), most_named); ++k)
+    names += fmt::format("{}{}", k > 0 ? ", " : "", points[k]);
+  return names + (points.size() > most_named ? " and others" : "");
+}
 
 }  // namespace
 
@@ -104,45 +112,64 @@ void CurveFitInput::count_point(Index node, std::vector<Index>& points_of) {
   most_points_ = std::max(most_points_, count);
 }
 
+std::vector<Index> CurveFitInput::spikes(std::size_t most) const {
+  std::vector<Index> found;
+  for (const auto& chain : curve_.chains()) {
+    std::vector<Vector3> rows;
+    for (const Index node : chain.nodes) rows.push_back(frame_.to_local(place(node)));
+    const std::vector<std::uint8_t> spikes = find_spikes(rows, chain.closed, most - std::min(most, found.size()));
+    for (std::size_t k = 0; k < spikes.size(); ++k) {
+      if (spikes[k] != 0 && !is_said(chain.nodes[k])) found.push_back(chain.nodes[k]);
+    }
+  }
+  return found;
+}
+
+std::vector<Index> CurveFitInput::deviating() const {
+  std::vector<std::pair<Index, double>> deviations = robust_deviations(task());
+  std::stable_sort(deviations.begin(), deviations.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::vector<Index> found;
+  for (const auto& [point, deviation] : deviations) {
+    if (!(deviation > outlying)) break;
+    if (!own_nodes_ || !is_said(point)) found.push_back(point);
+  }
+  return found;
+}
+
 void CurveFitInput::leave_outliers_out() {
   const auto count = static_cast<std::size_t>(std::count(counted_.begin(), counted_.end(), 1));
   auto most = static_cast<std::size_t>(options_.outliers * static_cast<double>(count));
   if (own_nodes_) {
-    for (const auto& chain : curve_.chains()) {
-      std::vector<Vector3> rows;
-      for (const Index node : chain.nodes) rows.push_back(frame_.to_local(place(node)));
-      const std::vector<std::uint8_t> spikes = find_spikes(rows, chain.closed, most);
-      for (std::size_t k = 0; k < spikes.size(); ++k) {
-        const auto node = static_cast<std::size_t>(chain.nodes[k]);
-        if (spikes[k] == 0 || is_said(chain.nodes[k])) continue;
-        kept_[node] = 0;
-        --most;
-      }
-    }
+    const std::vector<Index> off = spikes(most);
+    for (const Index node : off) kept_[static_cast<std::size_t>(node)] = 0;
+    most -= off.size();
     make_frame();
   }
-  std::vector<std::pair<Index, double>> deviations = robust_deviations(task());
-  std::stable_sort(deviations.begin(), deviations.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
-  std::vector<Index> beyond;
-  for (const auto& [point, deviation] : deviations) {
-    if (!(deviation > outlying)) break;
-    if (own_nodes_ && is_said(point)) continue;
-    if (most > 0) {
-      kept_[static_cast<std::size_t>(point)] = 0;
-      --most;
-    } else {
-      beyond.push_back(point);
-    }
-  }
+  std::vector<Index> beyond = deviating();
+  const auto left_out = static_cast<std::ptrdiff_t>(std::min(most, beyond.size()));
+  std::for_each(beyond.begin(), beyond.begin() + left_out,
+                [&](Index point) { kept_[static_cast<std::size_t>(point)] = 0; });
+  beyond.erase(beyond.begin(), beyond.begin() + left_out);
   if (beyond.empty()) return;
-  std::string names;
-  for (std::size_t k = 0; k < std::min(beyond.size(), most_named); ++k)
-    names += fmt::format("{}{}", k > 0 ? ", " : "", beyond[k]);
   warnings_.push_back({WarningCode::outliers_changed,
-                       fmt::format("more points than {:g} of all seem to be off: {}{} too; leave out a larger share, "
+                       fmt::format("more points than {:g} of all seem to be off: {} too; leave out a larger share, "
                                    "or correct them",
-                                   options_.outliers, names, beyond.size() > most_named ? " and others" : "")});
+                                   options_.outliers, names_of(beyond))});
+}
+
+void CurveFitInput::name_outliers() {
+  const auto count = static_cast<std::size_t>(std::count(counted_.begin(), counted_.end(), 1));
+  const auto most = std::max<std::size_t>(1, count / rows_for_an_outlier);
+  std::vector<Index> off = own_nodes_ ? spikes(most) : std::vector<Index>();
+  if (off.empty()) off = deviating();
+  if (off.empty() || off.size() > most) return;
+  warnings_.push_back(
+      {WarningCode::outliers_changed,
+       fmt::format(
+           "{} to be off; correct what is wrong, or leave out a share of {:g} (outliers)",
+           off.size() > 1 ? fmt::format("points {} seem", names_of(off)) : fmt::format("point {} seems", off.front()),
+           std::ceil(1000 * static_cast<double>(off.size()) / static_cast<double>(count)) / 1000)});
 }
 
 void CurveFitInput::make_frame() {

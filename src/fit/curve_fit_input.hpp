@@ -23,6 +23,8 @@ class CurveFitInput {
   /// Which points are outliers: those far aside of the way first, then those far from a robust curve, as many as the
   /// options allow. Warns where there are more.
   void leave_outliers_out();
+  /// Warns of a few points that seem to be off, and leaves none out.
+  void name_outliers();
 
   [[nodiscard]] CurveFitTask task() const;
 
@@ -62,6 +64,10 @@ class CurveFitInput {
   [[nodiscard]] bool is_said(Index node) const {
     return constraints_.position_fixed(node) || constraints_.corner(node);
   }
+  /// Nodes of the chains, as many as there may be.
+  [[nodiscard]] std::vector<Index> spikes(std::size_t most) const;
+  /// Points far from a robust curve, the furthest first.
+  [[nodiscard]] std::vector<Index> deviating() const;
   void check(const Context& context);
   void count_point(Index node, std::vector<Index>& points_of);
   void make_frame();

@@ -218,6 +218,7 @@ double CurveMeasures::greatest_slide(const PolygonCurve& moved) const {
       const std::size_t before = k > 0 ? k - 1 : chain.closed ? count - 1 : 0;
       const std::size_t after = k + 1 < count ? k + 1 : chain.closed ? 0 : k;
       const Vector3 along = (moved.position(chain.nodes[after]) - moved.position(chain.nodes[before])).normalized();
+      if (input_.kept()[static_cast<std::size_t>(chain.nodes[k])] == 0) continue;
       const Vector3 way = moved.position(chain.nodes[k]) - input_.curve().position(chain.nodes[k]);
       greatest = std::max(greatest, std::abs(along.dot(way)));
     }

@@ -48,6 +48,12 @@ class NodePlaces {
       wanted[k] = length[e];
       stays[k] = 1;
     }
+    // Free ends that want nothing are where the curve ends.
+    for (const std::size_t k : {std::size_t{0}, nodes.size() - 1}) {
+      if (closed || !std::isnan(wanted[k])) continue;
+      wanted[k] = k == 0 ? 0 : whole;
+      stays[k] = 1;
+    }
     // From one that stays to the next; a closed chain without any from its first node, once around.
     std::size_t first = 0;
     while (first < nodes.size() && stays[first] == 0) ++first;

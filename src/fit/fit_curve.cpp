@@ -11,6 +11,7 @@
 #include "base/cancellation.hpp"
 #include "base/progress.hpp"
 #include "base/stopwatch.hpp"
+#include "fairness/curve_runs.hpp"
 #include "fit/curve_fit_input.hpp"
 #include "fit/curve_fit_report.hpp"
 #include "fit/curve_measures.hpp"
@@ -24,6 +25,12 @@ namespace vspring {
 
 namespace {
 
+/// Between two nodes at one place there is no curvature to be fair.
+bool has_equal_rows(const PolygonCurve& curve) {
+  const std::vector<CurveRun> runs = curve_runs(curve, nullptr);
+  return std::any_of(runs.begin(), runs.end(), [](const CurveRun& run) { return run.zero_length_edges > 0; });
+}
+
 // Of the tolerance: what chords may cut off for the curve to be drawn nearer, in all and at one point.
 constexpr double most_cut_off = 1.2;
 constexpr double most_spared = 0.7;
@@ -32,6 +39,9 @@ constexpr double well_used = 0.7;
 // How far the furthest point of a curve may be, in root mean squares of all.
 constexpr double furthest_of_rms = 3;
 constexpr int most_turns_nearer = 5;
+// Nodes times steps of programs, of all attempts: some seconds. Of ordinary logs 99 of 100 take less than a tenth.
+constexpr std::size_t least_work = 5'000'000;
+constexpr std::size_t work_of_row = 500;
 
 class CurveFit {
  public:
@@ -46,7 +56,7 @@ class CurveFit {
   std::optional<FitResult> plain_fairing() {
     const FitOptions& options = input_.options();
     // What keeps corners holds them where their points are.
-    if (!options.tolerance() || options.outliers > 0 || !options.moves_freely() ||
+    if (!options.tolerance() || options.outliers > 0 || !options.moves_freely() || has_equal_rows(input_.curve()) ||
         has_corners(options, input_.constraints()))
       return std::nullopt;
     FairResult plain;
@@ -92,6 +102,7 @@ class CurveFit {
     try {
       if (input_.options().outliers > 0) input_.leave_outliers_out();
       CurveFitTask task = input_.task();
+      task.most_work = least_work + work_of_row * input_.points().positions.size();
       const auto tolerance = input_.options().tolerance();
       // Where chords cut off too much, the curve is held nearer; where it is bent too much between its own nodes, to a
       // larger radius.
@@ -103,12 +114,13 @@ class CurveFit {
           task.start = &start;
         }
         for (const bool evenly : {false, true}) {
-          if (evenly && !tolerance) break;
+          if (evenly && (!tolerance || task.most_work == 0)) break;
           task.evenly = evenly;
           Attempt attempt = this->attempt(task, put);
+          task.most_work -= std::min(task.most_work, attempt.found.work);
           if (!now || is_better(attempt, *now)) now = std::move(attempt);
         }
-        const bool ends = !leave_room(*now, task);
+        const bool ends = !leave_room(*now, task) || task.most_work == 0;
         if (!best || is_nearer(*now, *best)) best = std::move(now);
         if (ends) break;
       }
@@ -118,6 +130,7 @@ class CurveFit {
     fitted_.found = std::move(best->found);
     FinishedNodes(input_, measures_, fitted_.found, context_).finish(*best);
     fitted_.way_beyond = best->way_beyond;
+    if (!fitted_.found.converged && input_.options().outliers == 0) name_outliers();
     fitted_.nodes = std::move(best->nodes);
     return true;
   }
@@ -136,6 +149,15 @@ class CurveFit {
   [[nodiscard]] const CurveFound& found() const { return fitted_.found; }
 
  private:
+  /// What may be why there is no fair curve.
+  void name_outliers() {
+    try {
+      const CancellationScope cancellation(context_);
+      input_.name_outliers();
+    } catch (const Cancelled&) {
+    }
+  }
+
   /// Near the polyline of the points and within the tolerance first, then with fewer inflections, fewer extremes of
   /// curvature, less variation.
   [[nodiscard]] bool is_better(const Attempt& a, const Attempt& b) const {

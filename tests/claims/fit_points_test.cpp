@@ -79,6 +79,31 @@ TEST(FitPoints, WhereThereAreNoneTheCurveGoesAsItCame) {
   }
 }
 
+TEST(FitPoints, FreeEndsGoToWhereThePointsEnd) {
+  const auto wave = [](double x) { return Vector3(x, 30 * std::sin(0.02 * x), 0); };
+  Draw draw(3);
+  std::vector<Vector3> points;
+  for (int k = 0; k < 200; ++k) {
+    Vector3 off = draw.in_cube(0.5);
+    off.z() = 0;
+    points.push_back(wave(5 * k) + off);
+  }
+  for (const double before_points : {0.0, 8.0, 30.0}) {
+    std::vector<Vector3> nodes;
+    for (int k = 0; k < 100; ++k) nodes.push_back(wave(before_points + (995 - 2 * before_points) * k / 99));
+    const PolygonCurve curve(nodes);
+    for (const FitCriterion& criterion : {FitCriterion(Within{2}), FitCriterion(RootMeanSquare{0.7}),
+                                          FitCriterion(SmoothingLength{20}), FitCriterion(Weight{0.01})}) {
+      const FitResult result =
+          fit(curve, Constraints(curve.node_count()), {.positions = points}, {.criterion = criterion});
+      EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+      EXPECT_LT(distance(points, PolygonCurve(result.positions)).greatest, 4);
+      EXPECT_LT((result.positions.front() - points.front()).norm(), 4);
+      EXPECT_LT((result.positions.back() - points.back()).norm(), 4);
+    }
+  }
+}
+
 TEST(FitPoints, SaysWhereTheyAreLeftBehindAndMakesNoBalloon) {
   // A slender loop with its ends held, most of which has no points: what hardly pulls at it lets it become a balloon.
   std::vector<Vector3> nodes;

@@ -76,6 +76,49 @@ TEST(FitTracks, AreFinishedAndNearBothWays) {
   }
 }
 
+TEST(FitTracks, RowsThatAreAllThereTwiceAreDrawnLikeThoseThatAreThereOnce) {
+  Draw draw(7);
+  std::vector<Vector3> rows;
+  for (int k = 0; k < 100; ++k)
+    rows.emplace_back(5 * k + draw.uniform(-0.5, 0.5), 30 * std::sin(0.1 * k) + draw.uniform(-0.5, 0.5), 0);
+  std::vector<Vector3> doubled;
+  for (const Vector3& row : rows) doubled.insert(doubled.end(), 2, row);
+  EXPECT_DOUBLE_EQ(measure(PolygonCurve(doubled)).greatest_turn, measure(PolygonCurve(rows)).greatest_turn);
+  EXPECT_DOUBLE_EQ(measure(PolygonCurve(doubled)).vspring_energy, measure(PolygonCurve(rows)).vspring_energy);
+  EXPECT_DOUBLE_EQ(estimate_noise(PolygonCurve(doubled)).deviation, estimate_noise(PolygonCurve(rows)).deviation);
+  for (const FitCriterion& criterion : {FitCriterion(Within{1.5}), FitCriterion(RootMeanSquare{0.4})}) {
+    FitOptions options{.criterion = criterion};
+    options.fair.distribution = Distribution::keep;
+    const FitResult result = fit(PolygonCurve(doubled), held_ends(doubled), {.positions = doubled}, options);
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+    EXPECT_LT(measure(PolygonCurve(result.positions)).greatest_turn, 10);
+    EXPECT_GT(measure(PolygonCurve(doubled)).greatest_turn, 15);
+  }
+}
+
+TEST(FitTracks, AReadingThatIsFarOffCostsBoundedWorkAndIsNamed) {
+  Draw draw(11);
+  std::vector<Vector3> rows;
+  for (int k = 0; k < 60; ++k)
+    rows.emplace_back(5 * k + draw.uniform(-0.8, 0.8), 30 * std::sin(0.1 * k) + draw.uniform(-0.8, 0.8), 0);
+  rows[15].y() += 400;
+  FitOptions options{.criterion = Within{tolerance}};
+  options.fair.distribution = Distribution::keep;
+  const FitResult result = fit(PolygonCurve(rows), held_ends(rows), {.positions = rows}, options);
+  ASSERT_NE(result.report.fair.outcome, Outcome::converged);
+  // Of some 3,500 nodes; without a bound it was 90 and more.
+  EXPECT_LT(result.report.fair.iterations, 40);
+  const auto& warnings = result.report.fair.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
+    return warning.code == WarningCode::outliers_changed && warning.text.find("point 15 ") != std::string::npos;
+  }));
+  options.outliers = 0.02;
+  const FitResult without = fit(PolygonCurve(rows), held_ends(rows), {.positions = rows}, options);
+  EXPECT_EQ(without.report.fair.outcome, Outcome::converged);
+  EXPECT_EQ(without.report.outliers, 1);
+  EXPECT_LT(without.report.greatest_slide, 10) << "of those that count";
+}
+
 TEST(FitTracks, RowsThatChangedPlacesDoNotFoldTheCurve) {
   Draw draw(8);
   std::vector<Vector3> rows;

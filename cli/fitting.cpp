@@ -14,8 +14,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of the points that hold a shape.
+// Of the points that hold a shape, or are left out.
 constexpr std::ptrdiff_t most_named = 1000;
+
+std::vector<Index> first_of(const std::vector<Index>& points) {
+  return {points.begin(), points.begin() + std::min<std::ptrdiff_t>(std::ssize(points), most_named)};
+}
 
 /// Empty where they were not measured.
 Json to_json(const PointDistances& distances) {
@@ -193,12 +197,11 @@ Json FitAccount::figures() const {
             {"normals", normals_},
             {"count", report_.points},
             {"outliers", report_.outliers},
+            {"outlying_points", first_of(report_.outlying_points)},
             {"outside",
              tells_who_is_outside() ? Json{{"count", report_.outside_points}, {"share", outside_share()}} : Json()},
             {"active", report_.active_points.size()},
-            {"active_points", std::vector(report_.active_points.begin(),
-                                          report_.active_points.begin() +
-                                              std::min<std::ptrdiff_t>(std::ssize(report_.active_points), most_named))},
+            {"active_points", first_of(report_.active_points)},
             {"pulling", report_.pulling_points},
             {"nodes_with_points", report_.pulled_nodes},
             {"most_on_a_node", report_.most_points},

@@ -63,6 +63,7 @@ py::dict report_of(const FitReport& report) {
   fields["pulled_nodes"] = report.pulled_nodes;
   fields["most_points"] = report.most_points;
   fields["outliers"] = report.outliers;
+  fields["outlying_points"] = array_of(report.outlying_points);
   fields["outside_points"] = report.outside_points;
   fields["active_points"] = array_of(report.active_points);
   fields["noise_leaves"] = report.noise_leaves;

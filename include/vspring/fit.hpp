@@ -131,7 +131,8 @@ struct FitReport {
   /// Moving nodes with points tied to them, at the end, and the most points on one of them.
   Index pulled_nodes = 0;
   Index most_points = 0;
-  Index outliers = 0;  ///< points left out; `after` does not count them
+  Index outliers = 0;                  ///< points left out; `after` does not count them
+  std::vector<Index> outlying_points;  ///< these, in order
   /// With Noise on curves: the root mean square distance that it leaves, at which the curve is.
   std::optional<double> noise_leaves = std::nullopt;
   /// The one given or, for a tolerance, found. Empty for the paper's k, and where plain fairing or what

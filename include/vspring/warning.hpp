@@ -25,6 +25,7 @@ enum class WarningCode : std::uint8_t {
   far_from_nodes,      ///< taking noise off moved nodes further than noise explains
   points_left_behind,  ///< points are much further from the shape than before
   outliers_changed,    ///< which points are outliers went on changing
+  outliers_left,       ///< points that count seem to be off; the text says which
   normals_reversed,    ///< normals of points are against the faces, and were taken the other way round
   time_limit           ///< the command line's; the shape is the best so far
 };

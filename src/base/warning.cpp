@@ -42,6 +42,8 @@ const char* name(WarningCode code) noexcept {
       return "points-left-behind";
     case WarningCode::outliers_changed:
       return "outliers-changed";
+    case WarningCode::outliers_left:
+      return "outliers-left";
     case WarningCode::normals_reversed:
       return "normals-reversed";
     case WarningCode::time_limit:

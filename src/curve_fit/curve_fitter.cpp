@@ -55,6 +55,7 @@ class CurveFitter {
       progress_(static_cast<double>(grid + 1) / most_grids);
       if (descent_.is_out_of_work() || grid + 1 == most_grids || (!refine() && found_.converged)) break;
     }
+    fit_ends(found_);
     measure();
     return std::move(found_);
   }

@@ -90,7 +90,7 @@ class FirstCurve {
     find_scattered();
     if (!task_.in_order) {
       found_.way = way_of_scattered(found_.curve, found_.points, gap_of_way());
-      fit_ends();
+      fit_ends(found_);
     }
     set_bounds(task_, found_);
   }
@@ -107,7 +107,7 @@ class FirstCurve {
   void find_all_places() {
     find_places(found_.curve, found_.points);
     find_places(found_.curve, found_.way);
-    fit_ends();
+    fit_ends(found_);
   }
 
   void smooth_out_at_first() {
@@ -170,68 +170,60 @@ class FirstCurve {
     }
   }
 
-  /// Nodes go across the curve, so that free ends have to be where the points end.
-  void fit_ends() {
-    const DenseCurve& curve = found_.curve;
-    DenseCurve fitted(false, curve.moving());
-    for (std::size_t c = 0; c < curve.chains().size(); ++c) {
-      const auto& chain = curve.chains()[c];
-      std::vector<Node> nodes;
-      for (std::uint32_t k = 0; k < chain.count; ++k) nodes.push_back(curve.node(chain.begin + k));
-      if (!chain.closed && nodes.size() > 2) {
-        // The last end first: what is cut off at the first one would change the numbers of nodes.
-        fit_end(c, true, nodes);
-        fit_end(c, false, nodes);
-      }
-      fitted.add_chain(nodes, chain.closed);
-    }
-    take_new_nodes(found_, std::move(fitted));
-  }
-
-  /// nodes: of the chain, up to its last end.
-  void fit_end(std::size_t c, bool at_last, std::vector<Node>& nodes) const {
-    const DenseCurve& curve = found_.curve;
-    const auto& chain = curve.chains()[c];
-    const std::uint32_t end = at_last ? chain.begin + chain.count - 1 : chain.begin;
-    if (curve.node(end).held || !curve.tangent(end, true).isZero(0)) return;
-    std::optional<CurvePlace> outermost;
-    const auto consider = [&](const CurvePoint& point) {
-      if (curve.chain_of(point.at.edge) != c) return;
-      const auto order = [](const CurvePlace& at) { return std::pair(at.edge, at.share); };
-      if (!outermost || (at_last ? order(point.at) > order(*outermost) : order(point.at) < order(*outermost)))
-        outermost = point.at;
-    };
-    for (const CurvePoint& point : found_.points) consider(point);
-    for (const CurvePoint& row : found_.way) consider(row);
-    if (!outermost) return;
-    const std::uint32_t edge = at_last ? curve.before(end) : end;
-    const bool reaches_end = outermost->edge == edge && outermost->share == (at_last ? 1 : 0);
-    if (reaches_end) {
-      const Vector3 out = (at_last ? 1 : -1) * curve.direction(*outermost);
-      double furthest = 0;
-      for (const CurvePoint& point : found_.points) {
-        if (point.at.edge == outermost->edge && point.at.share == outermost->share)
-          furthest = std::max(furthest, out.dot(point.place - curve.place(end)));
-      }
-      nodes[end - chain.begin].place += furthest * out;
-      return;
-    }
-    // Not what is held or a corner.
-    const std::uint32_t last = outermost->edge - chain.begin + (at_last ? 1 : 0);
-    for (std::uint32_t k = at_last ? last : 0; k < (at_last ? nodes.size() : last + 1); ++k) {
-      if (!nodes[k].dense) return;
-    }
-    nodes[last].place = curve.at(*outermost);
-    const auto place = nodes.begin() + static_cast<std::ptrdiff_t>(last);
-    if (at_last)
-      nodes.erase(place + 1, nodes.end());
-    else
-      nodes.erase(nodes.begin(), place);
-  }
-
   const CurveFitTask& task_;
   CurveFound found_;
 };
+
+bool is_free_end(const DenseCurve& curve, std::uint32_t node) {
+  const bool is_end = curve.before(node) == DenseCurve::none || curve.next(node) == DenseCurve::none;
+  return is_end && !curve.node(node).held && curve.tangent(node, true).isZero(0);
+}
+
+/// The place of a point or of the way that is nearest to an end of a chain.
+std::optional<CurvePlace> outermost_place(const CurveFound& found, std::size_t chain, bool at_last) {
+  std::optional<CurvePlace> outermost;
+  const auto order = [](const CurvePlace& at) { return std::pair(at.edge, at.share); };
+  for (const auto* points : {&found.points, &found.way}) {
+    for (const CurvePoint& point : *points) {
+      if (found.curve.chain_of(point.at.edge) != chain) continue;
+      const bool is_further =
+          !outermost || (at_last ? order(point.at) > order(*outermost) : order(point.at) < order(*outermost));
+      if (is_further) outermost = point.at;
+    }
+  }
+  return outermost;
+}
+
+/// How far points whose nearest place is an end lie ahead of it.
+Vector3 ahead_of_end(const CurveFound& found, const CurvePlace& end, bool at_last) {
+  const Vector3 out = (at_last ? 1 : -1) * found.curve.direction(end);
+  double furthest = 0;
+  for (const CurvePoint& point : found.points) {
+    if (point.at.edge == end.edge && point.at.share == end.share)
+      furthest = std::max(furthest, out.dot(point.place - found.curve.at(end)));
+  }
+  return furthest * out;
+}
+
+/// nodes: of the chain; those after its last end's new place may be missing.
+void fit_end(const CurveFound& found, std::size_t c, bool at_last, std::vector<Node>& nodes) {
+  const auto& chain = found.curve.chains()[c];
+  const std::uint32_t end = at_last ? chain.count - 1 : 0;
+  if (!is_free_end(found.curve, chain.begin + end)) return;
+  const auto outermost = outermost_place(found, c, at_last);
+  if (!outermost) return;
+  // The first node that stays, or the last.
+  const std::uint32_t first = outermost->edge - chain.begin + (at_last ? 1 : 0);
+  if (first == end && outermost->share == (at_last ? 1 : 0)) {
+    nodes[end].place += ahead_of_end(found, *outermost, at_last);
+    return;
+  }
+  const auto begin = nodes.begin() + static_cast<std::ptrdiff_t>(at_last ? first : 0);
+  const auto last = at_last ? nodes.end() : nodes.begin() + static_cast<std::ptrdiff_t>(first) + 1;
+  if (std::any_of(begin, last, [](const Node& node) { return !node.dense; })) return;
+  nodes[first].place = found.curve.at(*outermost);
+  at_last ? nodes.erase(begin + 1, last) : nodes.erase(begin, last - 1);
+}
 
 }  // namespace
 
@@ -242,6 +234,25 @@ double length_of(const DenseCurve& curve) {
 }
 
 double least_spacing(const CurveFitTask& task) { return least_spacing_in_tolerances * reach_of_way(task); }
+
+void fit_ends(CurveFound& found) {
+  bool any = false;
+  for (std::uint32_t i = 0; i < found.curve.size(); ++i) any = any || is_free_end(found.curve, i);
+  if (!any) return;
+  DenseCurve fitted(false, found.curve.moving());
+  for (std::size_t c = 0; c < found.curve.chains().size(); ++c) {
+    const auto& chain = found.curve.chains()[c];
+    std::vector<Node> nodes;
+    for (std::uint32_t k = 0; k < chain.count; ++k) nodes.push_back(found.curve.node(chain.begin + k));
+    if (!chain.closed && nodes.size() > 2) {
+      // The last end first: what is cut off at the first one changes the numbers of nodes.
+      fit_end(found, c, true, nodes);
+      fit_end(found, c, false, nodes);
+    }
+    fitted.add_chain(nodes, chain.closed);
+  }
+  take_new_nodes(found, std::move(fitted));
+}
 
 void set_bounds(const CurveFitTask& task, CurveFound& found) {
   for (CurvePoint& point : found.points) {

@@ -13,6 +13,10 @@ double least_spacing(const CurveFitTask& task);
 /// How far points may be from the curve.
 void set_bounds(const CurveFitTask& task, CurveFound& found);
 
+/// Nodes go across the curve, so free ends go to where the points and the way end: what is beyond is cut off, what is
+/// missing is added straight on.
+void fit_ends(CurveFound& found);
+
 /// Places of points, and of the way, are carried over.
 void take_new_nodes(CurveFound& found, DenseCurve now);
 

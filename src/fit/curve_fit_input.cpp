@@ -152,7 +152,7 @@ void CurveFitInput::leave_outliers_out() {
                 [&](Index point) { kept_[static_cast<std::size_t>(point)] = 0; });
   beyond.erase(beyond.begin(), beyond.begin() + left_out);
   if (beyond.empty()) return;
-  warnings_.push_back({WarningCode::outliers_changed,
+  warnings_.push_back({WarningCode::outliers_left,
                        fmt::format("more points than {:g} of all seem to be off: {} too; leave out a larger share, "
                                    "or correct them",
                                    options_.outliers, names_of(beyond))});
@@ -161,11 +161,11 @@ void CurveFitInput::leave_outliers_out() {
 void CurveFitInput::name_outliers() {
   const auto count = static_cast<std::size_t>(std::count(counted_.begin(), counted_.end(), 1));
   const auto most = std::max<std::size_t>(1, count / rows_for_an_outlier);
-  std::vector<Index> off = own_nodes_ ? spikes(most) : std::vector<Index>();
-  if (off.empty()) off = deviating();
+  // A robust curve cuts tips off.
+  const std::vector<Index> off = own_nodes_ ? spikes(most) : deviating();
   if (off.empty() || off.size() > most) return;
   warnings_.push_back(
-      {WarningCode::outliers_changed,
+      {WarningCode::outliers_left,
        fmt::format(
            "{} to be off; correct what is wrong, or leave out a share of {:g} (outliers)",
            off.size() > 1 ? fmt::format("points {} seem", names_of(off)) : fmt::format("point {} seems", off.front()),

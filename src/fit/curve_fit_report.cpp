@@ -130,7 +130,8 @@ FitResult result_of(const CurveFitInput& input, const CurveMeasures& measures, c
   report.shape = measures.way_off(moved);
   if (input.own_nodes() && curve.nodes.from.empty()) report.greatest_slide = measures.greatest_slide(moved);
   report.points = static_cast<Index>(std::count(input.counted().begin(), input.counted().end(), 1));
-  report.outliers = report.points - static_cast<Index>(std::count(kept.begin(), kept.end(), 1));
+  report.outlying_points = left_out(input.counted(), kept);
+  report.outliers = static_cast<Index>(report.outlying_points.size());
   report.pulling_points = input.pulling_points();
   report.pulled_nodes = input.pulled_nodes();
   report.most_points = input.most_points();

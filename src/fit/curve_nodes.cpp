@@ -48,9 +48,9 @@ class NodePlaces {
       wanted[k] = length[e];
       stays[k] = 1;
     }
-    // Free ends that want nothing are where the curve ends.
+    // Free ends are where the curve ends.
     for (const std::size_t k : {std::size_t{0}, nodes.size() - 1}) {
-      if (closed || !std::isnan(wanted[k])) continue;
+      if (closed || stays[k] != 0) continue;
       wanted[k] = k == 0 ? 0 : whole;
       stays[k] = 1;
     }

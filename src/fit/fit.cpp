@@ -93,7 +93,8 @@ class Fitting {
   void measure_distances() {
     FitResult& result = run_.result;
     FitReport& report = result.report;
-    report.outliers = report.points - static_cast<Index>(std::count(run_.kept.begin(), run_.kept.end(), 1));
+    report.outlying_points = left_out(run_.counted, run_.kept);
+    report.outliers = static_cast<Index>(report.outlying_points.size());
     if (run_.context.cancelled()) {
       if (report.fair.outcome == Outcome::converged) report.fair.outcome = Outcome::cancelled;
       const auto size = static_cast<std::size_t>(run_.subject.shape().node_count()) + run_.points.positions.size();

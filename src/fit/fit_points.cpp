@@ -82,6 +82,14 @@ std::vector<std::uint8_t> without_furthest(std::span<const double> distances, do
   return kept;
 }
 
+std::vector<Index> left_out(std::span<const std::uint8_t> counted, std::span<const std::uint8_t> kept) {
+  std::vector<Index> points;
+  for (std::size_t j = 0; j < counted.size(); ++j) {
+    if (counted[j] != 0 && kept[j] == 0) points.push_back(static_cast<Index>(j));
+  }
+  return points;
+}
+
 std::vector<Index> active_points(std::span<const double> distances, std::span<const std::uint8_t> counted,
                                  double distance) {
   std::vector<Index> active;

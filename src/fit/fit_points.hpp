@@ -20,6 +20,9 @@ bool has_corners(const FitOptions& options, const Constraints& constraints);
 /// One entry per point, 0 for the share of them that is furthest away, rounded down; of equals the first ones go.
 std::vector<std::uint8_t> without_furthest(std::span<const double> distances, double share);
 
+/// The numbers of the points that were counted and are not kept.
+std::vector<Index> left_out(std::span<const std::uint8_t> counted, std::span<const std::uint8_t> kept);
+
 /// The numbers of the points that count at that distance from the shape, to 1 %. counted: 1 for these, else 0; without,
 /// all count.
 std::vector<Index> active_points(std::span<const double> distances, std::span<const std::uint8_t> counted,

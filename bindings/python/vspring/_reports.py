@@ -124,6 +124,8 @@ class FitReport(Report):
     """The most points on one of these."""
     outliers: int
     """Points left out."""
+    outlying_points: np.ndarray
+    """Their numbers."""
     outside_points: int
     """With within and rms: those further away than that."""
     active_points: np.ndarray

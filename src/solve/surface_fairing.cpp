@@ -13,6 +13,7 @@
 #include "checks/new_crossings.hpp"
 #include "equilibrium/account.hpp"
 #include "equilibrium/equilibrium_method.hpp"
+#include "solve/carried.hpp"
 #include "solve/fair_boundary.hpp"
 #include "solve/papers_method.hpp"
 #include "solve/part_of_mesh.hpp"
@@ -103,7 +104,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
     const auto scatter = [&](const Net& one) {
       return scatter_positions(one, whole_->positions(), constraints, options_.strength);
     };
-    result.positions = is_of_use ? scatter(net) : scatter(gather_part(*whole_, part_, constraints));
+    result.positions = is_of_use ? scatter(net) : scatter(gather(constraints, false));
   } else {
     if (went_on) warn_of_crossings(net, constraints, context, result.report);
     finish(net, constraints, result);
@@ -147,12 +148,17 @@ std::optional<Net> SurfaceFairing::run(const Constraints& constraints, Context& 
   try {
     const CancellationScope cancellation(context);
     if (const auto* const method = std::get_if<EquilibriumMethod>(&options.method)) {
+      // Of other nodes, perhaps.
+      carrying_.reset();
+      carrying_moves_.clear();
+      carried_.reset();
+      (void)carry_along(constraints);
       run_to_equilibrium(constraints, {call, options, *method, looks_at_crossings});
       // It depends on these constraints. Where it was cancelled while it was made anew there is none.
       if (check_) check_->forget_start();
       return Net();
     }
-    Net net = gather_part(*whole_, part_, constraints);
+    Net net = gather(constraints, false);
     look_at_start(net, constraints);
     net = run_papers_method(std::move(net), *model_, *check_, options, call);
     check_->forget_start();
@@ -164,6 +170,42 @@ std::optional<Net> SurfaceFairing::run(const Constraints& constraints, Context& 
     report.outcome = Outcome::cancelled;
     return std::nullopt;
   }
+}
+
+bool SurfaceFairing::carry_along(const Constraints& constraints) {
+  std::vector<Vector3> moves = carrying_moves(*whole_, constraints);
+  if (moves == carrying_moves_) return false;
+  carrying_moves_ = std::move(moves);
+  carried_.reset();
+  if (carrying_moves_.empty()) return true;
+  const PolygonMesh& mesh = part_ ? part_->mesh : *whole_;
+  const std::vector<Vector3> there = part_ ? values_of(carrying_moves_, part_->node) : carrying_moves_;
+  if (!carrying_ || !carrying_->are_for(there))
+    carrying_.emplace(mesh, part_ ? part_->constraints : constraints, there, team_);
+  auto positions = carrying_->positions_with(there);
+  if (!positions) return true;
+  std::vector<Vector3> all = whole_->positions();
+  for (std::size_t k = 0; k < positions->size(); ++k)
+    all[part_ ? static_cast<std::size_t>(part_->node[k]) : k] = (*positions)[k];
+  carried_.emplace(*whole_).set_positions(std::move(all));
+  return true;
+}
+
+Net SurfaceFairing::gather(const Constraints& constraints, bool for_spheres) const {
+  if (!part_ || !carried_) return gather_part(input(), part_, constraints, for_spheres);
+  ActiveSubmesh part = *part_;
+  part.mesh.set_positions(values_of(carried_->positions(), part.node));
+  return gather_part(*carried_, part, constraints, for_spheres);
+}
+
+/// As make_levels() does it.
+void SurfaceFairing::space_as_carried() {
+  Net& net = hierarchy_->finest();
+  net.input.resize(net.node.size());
+  for (std::size_t i = 0; i < net.node.size(); ++i) net.input[i] = net.frame.to_local(input().position(net.node[i]));
+  Net spaced = net;
+  set_laplacian_weights(spaced, *model_, options_.distribution_taken(), team_);
+  hierarchy_->set_laplacian_weights(std::move(spaced.laplacian_weights));
 }
 
 void SurfaceFairing::look_at_start(Net& net, const Constraints& constraints) {
@@ -202,7 +244,7 @@ void SurfaceFairing::run_to_equilibrium(const Constraints& constraints, const Eq
 void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Constraints& constraints,
                                         const EquilibriumCall& call) {
   hierarchy_.reset();
-  make_levels(gather_part(*whole_, part_, constraints, true), constraints, call.options);
+  make_levels(gather(constraints, true), constraints, call.options);
   Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
   // As much again.
   call.report.most_work += call.report.work;
@@ -228,7 +270,7 @@ void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints&
   StartShape start;
   if (!last.is_final() || !last.fault.empty()) {
     if (last.places.empty()) keep_places(last);
-    net.positions = start_places(net, whole_->positions(), constraints);
+    net.positions = start_places(net, input().positions(), constraints);
     start.is_sound = check_->fault_of_places(net).empty();
     if (attempts.size() > 1 && !last.is_final()) {
       measure_bending(attempts);
@@ -260,7 +302,7 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
   if (result.outcome == Outcome::iteration_limit && !call.method.max_iterations) result.outcome = Outcome::work_limit;
   result.expected_error = call.report.expected_error.value_or(1);
   const bool was_cancelled = result.outcome == Outcome::cancelled;
-  if (was_cancelled && net.positions == start_places(net, whole_->positions(), constraints)) return result;
+  if (was_cancelled && net.positions == start_places(net, input().positions(), constraints)) return result;
   call.progress.report("checking", 0.5);
   try {
     result.fault = check_->fault(net, was_cancelled);
@@ -290,9 +332,9 @@ Attempt SurfaceFairing::go_from_coarse_levels(Springs springs, const Constraints
   const FairOptions& options = call.options;
   hierarchy_.reset();
   std::optional<Net> net;
-  if (springs == Springs::sphere) net = gather_part(*whole_, part_, constraints, true);
+  if (springs == Springs::sphere) net = gather(constraints, true);
   if (net && !suits_sphere_springs(*net)) net.reset();
-  if (!net) net = gather_part(*whole_, part_, constraints);
+  if (!net) net = gather(constraints, false);
   if (net->spheres.on() && options.fair_by == FairBy::bending) use_least_bending(*net);
   make_levels(std::move(*net), constraints, options);
   run_equilibrium(*hierarchy_, *model_, {call.method, options.distribution, options.as_found}, call, &*check_);
@@ -336,7 +378,7 @@ Attempt SurfaceFairing::bend_less(Relaxation& relaxation, const Constraints& con
 Attempt SurfaceFairing::go_with_spacing_of_input(const Constraints& constraints, const EquilibriumCall& call) {
   Relaxation relaxation(*hierarchy_, *model_, call.method, call, nullptr);
   Net& net = hierarchy_->finest();
-  net.positions = start_places(net, whole_->positions(), constraints);
+  net.positions = start_places(net, input().positions(), constraints);
   update_directions(net, *model_, team_);
   hierarchy_->set_laplacian_weights(model_->present_laplacian_weights(net));
   relaxation.set_strategy("from the input, with its spacing");
@@ -355,6 +397,7 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std
   report.threads = team_.size();
   auto method = std::get<EquilibriumMethod>(options_.method);
   if (tolerance) method.tolerance = *tolerance;
+  if (carry_along(constraints)) space_as_carried();
   hierarchy_->update(constraints, *model_, method.tolerance * diagonal(net));
   run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, method,
                             {team_, context, progress, report}, nullptr, &hierarchy_->memory(), tolerance.has_value());

@@ -13,6 +13,7 @@
 #include "equilibrium/solver_call.hpp"
 #include "equilibrium/surface_hierarchy.hpp"
 #include "solve/attempt.hpp"
+#include "solve/carried.hpp"
 #include "spring/model.hpp"
 #include "vspring/fair.hpp"
 
@@ -70,6 +71,13 @@ class SurfaceFairing {
   void keep_places(Attempt& attempt) const;
   /// The shape that was reached, looked at.
   Attempt attempt(const Constraints& constraints, const EquilibriumCall& call);
+  /// Makes the mesh that it starts from, and whose spacing it keeps: with what is put aside others go along. False
+  /// where that is as it was.
+  bool carry_along(const Constraints& constraints);
+  [[nodiscard]] Net gather(const Constraints& constraints, bool for_spheres) const;
+  /// The last shape, for that mesh.
+  void space_as_carried();
+  [[nodiscard]] const PolygonMesh& input() const { return carried_ ? *carried_ : *whole_; }
   void make_levels(Net net, const Constraints& constraints, const FairOptions& options);
   /// From the last shape. False where that leads nowhere.
   bool go_on(const Constraints& constraints, Context& context, std::optional<double> tolerance, FairReport& report);
@@ -84,6 +92,9 @@ class SurfaceFairing {
 
   const PolygonMesh* whole_;
   std::optional<ActiveSubmesh> part_;
+  std::vector<Vector3> carrying_moves_;
+  std::optional<CarriedNodes> carrying_;
+  std::optional<PolygonMesh> carried_;  ///< where it is not the mesh itself that is started from
   FairOptions options_;
   ThreadTeam team_;
   std::unique_ptr<const Model> model_;

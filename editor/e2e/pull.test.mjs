@@ -1,7 +1,7 @@
 // Free nodes that are pulled, how far that reaches, and the ways to turn the view.
 
 import assert from 'node:assert/strict';
-import { writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { drag, expectSameAsNative, find, native, open, page, picture, placesOf, rulesOf, saved, session, settled, useSession } from './support.mjs';
@@ -61,6 +61,39 @@ test('a picked free node of a surface is pulled, and the whole surface goes alon
   await drag(page, free, 0, -12);
   await undo().and(page.locator(`[title*="Move node ${free.node}"]`)).waitFor();
   await expectSameAsNative(session, page, input);
+});
+
+test('a node that is pulled along the surface takes those about it along: no needles, no folds, and no jump when it is let go', async () => {
+  const input = session.generated('saddle.obj', 'saddle', '--columns', '48', '--rows', '48', '--jitter', '0.2');
+  await open('?file=files/saddle.obj', { untouched: true });
+  const faces = readFileSync(input, 'utf8').split('\n').filter((line) => line.startsWith('f ')).map((line) => line.slice(2).trim().split(' ').map((corner) => parseInt(corner) - 1));
+  // The longest edge of a face over its least height, and whether all faces look upwards.
+  const look = (places) => {
+    const seen = { needle: 0, upwards: true };
+    for (const [a, b, c] of faces.map((face) => face.map((node) => places[node]))) {
+      const [u, v] = [b, c].map((place) => place.map((part, i) => part - a[i]));
+      const area = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
+      const longest = Math.max(distance(a, b), distance(b, c), distance(c, a));
+      seen.needle = Math.max(seen.needle, longest ** 2 / Math.hypot(...area));
+      seen.upwards &&= area[2] > 0;
+    }
+    return seen;
+  };
+  const before = placesOf((await saved(page)).path);
+  const node = await find(page, /free/, [0.45, 0.5], [0.55, 0.5]);
+  // With X it goes along that axis, which the saddle has nearly as a tangent there.
+  let dragged;
+  await drag(page, node, 60, 0, async () => {
+    await page.keyboard.press('x');
+    await page.mouse.move(node.x + 62, node.y);
+    await page.waitForTimeout(500);
+    dragged = await page.locator('#status').textContent();
+  });
+  assert.ok(dragged, 'the footer told of the drag');
+  const after = placesOf((await saved(page)).path);
+  assert.ok(distance(after[node.node], before[node.node]) > 0.1, 'by more than two edges');
+  const [was, is] = [look(before), look(after)];
+  assert.ok(is.upwards && is.needle < 1.5 * was.needle, `${was.needle}, ${is.needle}`);
 });
 
 test('the view is turned by arrow keys, looks from each side, and is turned by other buttons as other programs have it', async () => {

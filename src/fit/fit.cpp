@@ -166,6 +166,14 @@ class Fitting {
     std::string fault;
   };
 
+  /// Warnings of a shape that is not handed out.
+  static void forget_what_was_found(FairReport& report) {
+    std::erase_if(report.warnings, [](const Warning& warning) {
+      return warning.code == WarningCode::no_equilibrium || warning.code == WarningCode::other_fairness ||
+             warning.code == WarningCode::outside_tolerance || warning.code == WarningCode::maybe_not_fairest;
+    });
+  }
+
   /// Where the shape is worse than it came, it stays as it came, unless it is wanted as found.
   void stay_sound() {
     FairReport& report = run_.result.report.fair;
@@ -177,7 +185,10 @@ class Fitting {
     if (fault.empty()) return;
     const bool input_is_faulty = !shapes.check->fault_of_places(shapes.input).empty();
     const bool as_found = options_.fair.as_found || (input_is_faulty && shapes.check->misplaced(shapes.found).empty());
-    if (!as_found) run_.finish(shapes.input);
+    if (!as_found) {
+      run_.finish(shapes.input);
+      forget_what_was_found(report);
+    }
     if (report.outcome != Outcome::cancelled) report.outcome = Outcome::worse_than_input;
     report.warnings.push_back(
         {WarningCode::worse_than_input,

@@ -213,6 +213,14 @@ class Fair(Case):
         self.assertEqual(self.read_json("report.json")["outcome"], "iteration-limit")
         self.assertEqual(len(vertex_lines((self.folder / "out.obj").read_text())), 49)
 
+    def test_an_input_that_comes_back_is_not_said_to_be_another_shape_too(self):
+        run("generate", "genus", "--noise", "0.1", "--cells", "2", "-o", self.folder / "genus.obj")
+        self.fair("--weight", "1e-6", text=(self.folder / "genus.obj").read_text(), status=3)
+        again = run("fair", self.folder / "in.obj", "-o", self.folder / "out.obj", "--weight", "1e-6").stderr.decode()
+        self.assertEqual(again.count("this is "), 1, again)
+        self.assertIn("this is the input", again)
+        self.assertEqual((self.folder / "out.obj").read_text(), (self.folder / "in.obj").read_text())
+
     def test_a_time_limit_ends_with_a_shape_and_says_so(self):
         support.run("generate", "annulus", "--nodes", "60000", "--noise", "0.01", "-o", self.folder / "large.obj")
         text = (self.folder / "large.obj").read_text()

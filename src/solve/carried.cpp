@@ -17,8 +17,8 @@ namespace vspring {
 namespace {
 
 // Of the mean edge there: what goes less far takes nothing along, what goes further than the other all.
-constexpr double least_edges = 1;
-constexpr double enough_edges = 2;
+constexpr double edges_for_none = 1;
+constexpr double edges_for_all = 2;
 // Nodes that are some eighty edges away go along no more.
 constexpr std::size_t most_nodes = 20'000;
 
@@ -77,7 +77,7 @@ std::vector<Vector3> carrying_moves(const PolygonMesh& mesh, const Constraints& 
     const Vector3 normal = normals[place(i)].stableNormalized();
     const Vector3 aside = way - way.dot(normal) * normal;
     const double edge = edges[place(i)] / counts[place(i)];
-    const double share = std::min(1.0, (aside.norm() / edge - least_edges) / (enough_edges - least_edges));
+    const double share = std::min(1.0, (aside.norm() / edge - edges_for_none) / (edges_for_all - edges_for_none));
     if (!(share > 0)) continue;
     moves.resize(elsewhere.size(), Vector3::Zero());
     moves[place(i)] = share * aside;

@@ -83,6 +83,7 @@ TEST(FitPoints, FreeEndsGoToWhereThePointsEnd) {
   const auto wave = [](double x) { return Vector3(x, 30 * std::sin(0.02 * x), 0); };
   Draw draw(3);
   std::vector<Vector3> points;
+  points.reserve(200);
   for (int k = 0; k < 200; ++k) {
     Vector3 off = draw.in_cube(0.5);
     off.z() = 0;
@@ -90,6 +91,7 @@ TEST(FitPoints, FreeEndsGoToWhereThePointsEnd) {
   }
   for (const double before_points : {0.0, 8.0, 30.0}) {
     std::vector<Vector3> nodes;
+    nodes.reserve(100);
     for (int k = 0; k < 100; ++k) nodes.push_back(wave(before_points + (995 - 2 * before_points) * k / 99));
     const PolygonCurve curve(nodes);
     for (const FitCriterion& criterion : {FitCriterion(Within{2}), FitCriterion(RootMeanSquare{0.7}),

@@ -81,6 +81,7 @@ TEST(FitTracks, AreFinishedAndNearBothWays) {
 TEST(FitTracks, RowsThatAreAllThereTwiceAreDrawnLikeThoseThatAreThereOnce) {
   Draw draw(7);
   std::vector<Vector3> rows;
+  rows.reserve(100);
   for (int k = 0; k < 100; ++k)
     rows.emplace_back(5 * k + draw.uniform(-0.5, 0.5), 30 * std::sin(0.1 * k) + draw.uniform(-0.5, 0.5), 0);
   std::vector<Vector3> doubled;
@@ -104,6 +105,7 @@ TEST(FitTracks, FreeEndsAreWhereTheRowsEnd) {
     SCOPED_TRACE(turn);
     // A waterline with stations by the cosine: the first rows are nearer to each other than their noise.
     std::vector<Vector3> rows;
+    rows.reserve(21);
     for (int k = 0; k <= 20; ++k) {
       const double t = pi * (1 - std::cos(pi * k / 20)) / 2;
       rows.emplace_back(20 * t + draw.uniform(-0.02, 0.02), 4 * std::sin(t) + draw.uniform(-0.02, 0.02), 0);
@@ -143,6 +145,7 @@ TEST(FitTracks, TurnsOfAnyAngleAreWithinBothWays) {
 TEST(FitTracks, AReadingThatIsFarOffCostsBoundedWorkAndIsNamed) {
   Draw draw(11);
   std::vector<Vector3> rows;
+  rows.reserve(60);
   for (int k = 0; k < 60; ++k)
     rows.emplace_back(5 * k + draw.uniform(-0.8, 0.8), 30 * std::sin(0.1 * k) + draw.uniform(-0.8, 0.8), 0);
   rows[15].y() += 400;

@@ -68,7 +68,7 @@ export class Numbers {
   private readonly normal: Fields;
 
   constructor(private readonly section: HTMLElement, private readonly editor: Editor) {
-    const fields = (which: string, wanted: Wanted, part: () => Part): Fields => new Fields(section.querySelector(`[data-part=${which}]`)!, wanted, (vector) => this.apply(part(), vector));
+    const fields = (which: string, wanted: Wanted, part: () => Part): Fields => new Fields(section.querySelector(`[data-part=${which}]`)!, wanted, (vector) => void this.apply(part(), vector));
     this.position = fields('position', place, () => 'position');
     this.normal = fields('normal', direction, () => editor.direction);
   }
@@ -93,8 +93,8 @@ export class Numbers {
     return picked.size === 1 || (mirror !== null && picked.size === 2 && mirror.with([first]).length === 2 && mirror.with([first]).every((node) => picked.has(node)));
   }
 
-  /** What is picked is held there. Of the one node the fields have its place, of several how far they go. */
-  private apply(part: Part, vector: Vector): void {
+  /** What is picked is held there, and what is near goes along as with a pull. Of the one node the fields have its place, of several how far they go. */
+  private async apply(part: Part, vector: Vector): Promise<void> {
     const nodes = [...this.editor.picked];
     if (part !== 'position' && !vector.some(Boolean)) {
       this.editor.setFault('A normal or tangent has a direction: not all three numbers may be 0', 'file');
@@ -106,6 +106,7 @@ export class Numbers {
       const own = mirror?.mirrored(vector, nodes[0], node, false) ?? vector;
       return part !== 'position' || isOne ? own : this.editor.placeOf(node).map((place, i) => place + own[i]);
     });
-    this.editor.apply(labelOf(part, nodes), placed(this.editor.constraints, nodes, Float64Array.from(vectors), part));
+    const near = part === 'position' ? await this.editor.nearby(nodes)?.catch(() => null) : null;
+    this.editor.apply(labelOf(part, nodes), placed(near ?? this.editor.constraints, nodes, Float64Array.from(vectors), part));
   }
 }

@@ -176,7 +176,7 @@ class CurveFitter {
     double nearest = std::numeric_limits<double>::infinity();
     int without_gain = 0;
     CurveFound best = found_;
-    for (int trial = 0; trial < most_trials_of_weight && !descent_.is_out_of_work(); ++trial) {
+    for (int trial = 0; trial < most_trials_of_weight && descent_.spent() < task_.most_work; ++trial) {
       descent_.go();
       const double figure = rms();
       if (figure <= wanted) {

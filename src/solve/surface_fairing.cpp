@@ -104,7 +104,7 @@ FairResult SurfaceFairing::fair_again(const Constraints& constraints, Context& c
     const auto scatter = [&](const Net& one) {
       return scatter_positions(one, whole_->positions(), constraints, options_.strength);
     };
-    result.positions = is_of_use ? scatter(net) : scatter(gather(constraints, false));
+    result.positions = is_of_use ? scatter(net) : scatter(gather_part(*whole_, part_, constraints));
   } else {
     if (went_on) warn_of_crossings(net, constraints, context, result.report);
     finish(net, constraints, result);
@@ -270,7 +270,7 @@ void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints&
   StartShape start;
   if (!last.is_final() || !last.fault.empty()) {
     if (last.places.empty()) keep_places(last);
-    net.positions = start_places(net, input().positions(), constraints);
+    net.positions = start_places(net, whole_->positions(), constraints);
     start.is_sound = check_->fault_of_places(net).empty();
     if (attempts.size() > 1 && !last.is_final()) {
       measure_bending(attempts);

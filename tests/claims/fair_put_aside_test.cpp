@@ -93,6 +93,16 @@ TEST(FairPutAside, NodesAboutItGoAlong) {
   }
 }
 
+TEST(FairPutAside, WhatLeadsNowhereComesBackAsItWasAndNotFoldedAlong) {
+  Patch one = patch(generate::Faces::triangles);
+  one.constraints.fix_position(one.node, put_aside(one, 16, 0));
+  const FairResult result = fair(one.mesh, one.constraints);
+  ASSERT_EQ(result.report.outcome, Outcome::worse_than_input) << "over what is held";
+  std::vector<Vector3> expected = one.mesh.positions();
+  expected[static_cast<std::size_t>(one.node)] = one.constraints.position(one.node);
+  EXPECT_EQ(result.positions, expected);
+}
+
 TEST(FairPutAside, ADragThereIsFollowedAndEndsAsIfThereHadBeenNone) {
   Patch one = patch(generate::Faces::triangles);
   const FairOptions options{.method = equilibrium_alone(1e-6)};

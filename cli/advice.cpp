@@ -16,6 +16,8 @@ constexpr Advice all_advice[] = {
     {"fix the boundary", "--fix boundary"},
     {"make it fair by itself first", "fair --fair-boundary"},
     {"fix the ends", "--fix boundary"},
+    {"leave out a share", "--outliers"},
+    {"leave out a larger share", "--outliers"},
     {"let only a region move", "--region"},
     {"a greater weight", "--weight"},
     {"a shorter smoothing length", "--smoothing-length"},

@@ -167,7 +167,7 @@ void CurveFitInput::name_outliers() {
   warnings_.push_back(
       {WarningCode::outliers_left,
        fmt::format(
-           "{} to be off; correct what is wrong, or leave out a share of {:g} (outliers)",
+           "{} to be off; correct what is wrong, or leave out a share of {:g}",
            off.size() > 1 ? fmt::format("points {} seem", names_of(off)) : fmt::format("point {} seems", off.front()),
            std::ceil(1000 * static_cast<double>(off.size()) / static_cast<double>(count)) / 1000)});
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/threads.hpp"
 #include "curve_fit/scattered_way.hpp"
@@ -179,19 +180,22 @@ bool is_free_end(const DenseCurve& curve, std::uint32_t node) {
   return is_end && !curve.node(node).held && curve.tangent(node, true).isZero(0);
 }
 
-/// The place of a point or of the way that is nearest to an end of a chain.
-std::optional<CurvePlace> outermost_place(const CurveFound& found, std::size_t chain, bool at_last) {
-  std::optional<CurvePlace> outermost;
+/// The places of points and of the way that are nearest to the ends of a chain.
+struct Outermost {
+  std::optional<CurvePlace> first, last;
+};
+
+std::vector<Outermost> outermost_places(const CurveFound& found) {
+  std::vector<Outermost> of_chains(found.curve.chains().size());
   const auto order = [](const CurvePlace& at) { return std::pair(at.edge, at.share); };
   for (const auto* points : {&found.points, &found.way}) {
     for (const CurvePoint& point : *points) {
-      if (found.curve.chain_of(point.at.edge) != chain) continue;
-      const bool is_further =
-          !outermost || (at_last ? order(point.at) > order(*outermost) : order(point.at) < order(*outermost));
-      if (is_further) outermost = point.at;
+      auto& [first, last] = of_chains[found.curve.chain_of(point.at.edge)];
+      if (!first || order(point.at) < order(*first)) first = point.at;
+      if (!last || order(point.at) > order(*last)) last = point.at;
     }
   }
-  return outermost;
+  return of_chains;
 }
 
 /// How far points whose nearest place is an end lie ahead of it.
@@ -206,12 +210,10 @@ Vector3 ahead_of_end(const CurveFound& found, const CurvePlace& end, bool at_las
 }
 
 /// nodes: of the chain; those after its last end's new place may be missing.
-void fit_end(const CurveFound& found, std::size_t c, bool at_last, std::vector<Node>& nodes) {
-  const auto& chain = found.curve.chains()[c];
+void fit_end(const CurveFound& found, const DenseCurve::Chain& chain, const std::optional<CurvePlace>& outermost,
+             bool at_last, std::vector<Node>& nodes) {
   const std::uint32_t end = at_last ? chain.count - 1 : 0;
-  if (!is_free_end(found.curve, chain.begin + end)) return;
-  const auto outermost = outermost_place(found, c, at_last);
-  if (!outermost) return;
+  if (!is_free_end(found.curve, chain.begin + end) || !outermost) return;
   // The first node that stays, or the last.
   const std::uint32_t first = outermost->edge - chain.begin + (at_last ? 1 : 0);
   if (first == end && outermost->share == (at_last ? 1 : 0)) {
@@ -236,9 +238,12 @@ double length_of(const DenseCurve& curve) {
 double least_spacing(const CurveFitTask& task) { return least_spacing_in_tolerances * reach_of_way(task); }
 
 void fit_ends(CurveFound& found) {
+  // Stations that stay say where it ends.
+  if (!found.curve.moves_freely()) return;
   bool any = false;
   for (std::uint32_t i = 0; i < found.curve.size(); ++i) any = any || is_free_end(found.curve, i);
   if (!any) return;
+  const std::vector<Outermost> outermost = outermost_places(found);
   DenseCurve fitted(false, found.curve.moving());
   for (std::size_t c = 0; c < found.curve.chains().size(); ++c) {
     const auto& chain = found.curve.chains()[c];
@@ -246,8 +251,8 @@ void fit_ends(CurveFound& found) {
     for (std::uint32_t k = 0; k < chain.count; ++k) nodes.push_back(found.curve.node(chain.begin + k));
     if (!chain.closed && nodes.size() > 2) {
       // The last end first: what is cut off at the first one changes the numbers of nodes.
-      fit_end(found, c, true, nodes);
-      fit_end(found, c, false, nodes);
+      fit_end(found, chain, outermost[c].last, true, nodes);
+      fit_end(found, chain, outermost[c].first, false, nodes);
     }
     fitted.add_chain(nodes, chain.closed);
   }

@@ -173,16 +173,15 @@ std::optional<Net> SurfaceFairing::run(const Constraints& constraints, Context& 
 }
 
 bool SurfaceFairing::carry_along(const Constraints& constraints) {
-  std::vector<Vector3> moves = carrying_moves(*whole_, constraints);
+  const PolygonMesh& mesh = part_ ? part_->mesh : *whole_;
+  const Constraints& held = part_ ? part_->constraints : constraints;
+  std::vector<Vector3> moves = carrying_moves(mesh, held);
   if (moves == carrying_moves_) return false;
   carrying_moves_ = std::move(moves);
   carried_.reset();
   if (carrying_moves_.empty()) return true;
-  const PolygonMesh& mesh = part_ ? part_->mesh : *whole_;
-  const std::vector<Vector3> there = part_ ? values_of(carrying_moves_, part_->node) : carrying_moves_;
-  if (!carrying_ || !carrying_->are_for(there))
-    carrying_.emplace(mesh, part_ ? part_->constraints : constraints, there, team_);
-  auto positions = carrying_->positions_with(there);
+  if (!carrying_ || !carrying_->are_for(carrying_moves_)) carrying_.emplace(mesh, held, carrying_moves_, team_);
+  auto positions = carrying_->positions_with(carrying_moves_);
   if (!positions) return true;
   std::vector<Vector3> all = whole_->positions();
   for (std::size_t k = 0; k < positions->size(); ++k)
@@ -199,13 +198,14 @@ Net SurfaceFairing::gather(const Constraints& constraints, bool for_spheres) con
 }
 
 /// As make_levels() does it.
-void SurfaceFairing::space_as_carried() {
+void SurfaceFairing::space_as_carried(const Constraints& constraints) {
   Net& net = hierarchy_->finest();
   net.input.resize(net.node.size());
   for (std::size_t i = 0; i < net.node.size(); ++i) net.input[i] = net.frame.to_local(input().position(net.node[i]));
-  Net spaced = net;
-  set_laplacian_weights(spaced, *model_, options_.distribution_taken(), team_);
-  hierarchy_->set_laplacian_weights(std::move(spaced.laplacian_weights));
+  std::vector<Vector3> now = std::exchange(net.positions, start_places(net, input().positions(), constraints));
+  set_laplacian_weights(net, *model_, options_.distribution_taken(), team_);
+  net.positions = std::move(now);
+  hierarchy_->set_laplacian_weights(std::move(net.laplacian_weights));
 }
 
 void SurfaceFairing::look_at_start(Net& net, const Constraints& constraints) {
@@ -397,7 +397,7 @@ bool SurfaceFairing::go_on(const Constraints& constraints, Context& context, std
   report.threads = team_.size();
   auto method = std::get<EquilibriumMethod>(options_.method);
   if (tolerance) method.tolerance = *tolerance;
-  if (carry_along(constraints)) space_as_carried();
+  if (carry_along(constraints)) space_as_carried(constraints);
   hierarchy_->update(constraints, *model_, method.tolerance * diagonal(net));
   run_equilibrium_from_near(*hierarchy_, hierarchy_->kept_preconditioner(), *model_, method,
                             {team_, context, progress, report}, nullptr, &hierarchy_->memory(), tolerance.has_value());

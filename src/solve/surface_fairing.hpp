@@ -76,7 +76,7 @@ class SurfaceFairing {
   bool carry_along(const Constraints& constraints);
   [[nodiscard]] Net gather(const Constraints& constraints, bool for_spheres) const;
   /// The last shape, for that mesh.
-  void space_as_carried();
+  void space_as_carried(const Constraints& constraints);
   [[nodiscard]] const PolygonMesh& input() const { return carried_ ? *carried_ : *whole_; }
   void make_levels(Net net, const Constraints& constraints, const FairOptions& options);
   /// From the last shape. False where that leads nowhere.
@@ -92,7 +92,7 @@ class SurfaceFairing {
 
   const PolygonMesh* whole_;
   std::optional<ActiveSubmesh> part_;
-  std::vector<Vector3> carrying_moves_;
+  std::vector<Vector3> carrying_moves_;  ///< of the nodes of the part, or of all
   std::optional<CarriedNodes> carrying_;
   std::optional<PolygonMesh> carried_;  ///< where it is not the mesh itself that is started from
   FairOptions options_;

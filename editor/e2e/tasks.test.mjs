@@ -35,6 +35,17 @@ async function begin(name) {
 const button = (name) => page.getByRole('button', { name });
 const says = (text) => page.locator('#start-says', { hasText: text }).waitFor();
 
+async function smoothInMetres(name, text) {
+  await act(() => choose(page, 'Open…', { name, text }));
+  await page.locator('#name', { hasText: name }).waitFor();
+  await settled(page);
+  await act(() => page.getByLabel('Unit').selectOption('m'));
+  await act(() => button('Zebra').click());
+  await picture(1);
+  await act(() => button('Smooth it').click());
+  await says('Its noise seems to be');
+}
+
 // Returns the path of the file that is saved, under that name.
 async function done(what, name) {
   const { path } = await act(() => downloaded(page, () => page.getByRole('button', { name: 'Save as' }).click()));
@@ -86,14 +97,7 @@ const unrest = (path) => figure(path, 'mean_curvature_variation');
 test('a hull is faired within 2 mm, from its file to the saved one', async () => {
   await begin('hull');
   const text = hull(0.002);
-  await act(() => choose(page, 'Open…', { name: 'hull.obj', text }));
-  await page.locator('#name', { hasText: 'hull.obj' }).waitFor();
-  await settled(page);
-  await act(() => page.getByLabel('Unit').selectOption('m'));
-  await act(() => button('Zebra').click());
-  await picture(1);
-  await act(() => button('Smooth it').click());
-  await says('Its noise seems to be');
+  await smoothInMetres('hull.obj', text);
   await act(async () => {
     await page.getByLabel('Tolerance', { exact: true }).fill('0.002');
     await page.getByLabel('Tolerance', { exact: true }).press('Enter');
@@ -268,14 +272,7 @@ function bonnet() {
 test('a bonnet is smoothed and gets more crown on both sides', async () => {
   await begin('bonnet');
   const text = bonnet();
-  await act(() => choose(page, 'Open…', { name: 'bonnet.obj', text }));
-  await page.locator('#name', { hasText: 'bonnet.obj' }).waitFor();
-  await settled(page);
-  await act(() => page.getByLabel('Unit').selectOption('m'));
-  await act(() => button('Zebra').click());
-  await picture(1);
-  await act(() => button('Smooth it').click());
-  await says('Its noise seems to be');
+  await smoothInMetres('bonnet.obj', text);
   await settled(page);
   await picture(2);
   await act(() => button('Apply').click());

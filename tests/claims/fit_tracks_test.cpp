@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <numbers>
@@ -22,6 +23,16 @@ using namespace support;
 
 constexpr double pi = std::numbers::pi;
 constexpr double tolerance = 1.5;
+
+/// A row every 5 along a wave, up to so far off in x and y.
+std::vector<Vector3> noisy_wave(std::uint64_t seed, int count, double noise) {
+  Draw draw(seed);
+  std::vector<Vector3> rows;
+  rows.reserve(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k)
+    rows.emplace_back(5 * k + draw.uniform(-noise, noise), 30 * std::sin(0.1 * k) + draw.uniform(-noise, noise), 0);
+  return rows;
+}
 
 struct Track {
   std::string name;
@@ -79,11 +90,7 @@ TEST(FitTracks, AreFinishedAndNearBothWays) {
 }
 
 TEST(FitTracks, RowsThatAreAllThereTwiceAreDrawnLikeThoseThatAreThereOnce) {
-  Draw draw(7);
-  std::vector<Vector3> rows;
-  rows.reserve(100);
-  for (int k = 0; k < 100; ++k)
-    rows.emplace_back(5 * k + draw.uniform(-0.5, 0.5), 30 * std::sin(0.1 * k) + draw.uniform(-0.5, 0.5), 0);
+  const std::vector<Vector3> rows = noisy_wave(7, 100, 0.5);
   std::vector<Vector3> doubled;
   for (const Vector3& row : rows) doubled.insert(doubled.end(), 2, row);
   EXPECT_DOUBLE_EQ(measure(PolygonCurve(doubled)).greatest_turn, measure(PolygonCurve(rows)).greatest_turn);
@@ -143,11 +150,7 @@ TEST(FitTracks, TurnsOfAnyAngleAreWithinBothWays) {
 }
 
 TEST(FitTracks, AReadingThatIsFarOffCostsBoundedWorkAndIsNamed) {
-  Draw draw(11);
-  std::vector<Vector3> rows;
-  rows.reserve(60);
-  for (int k = 0; k < 60; ++k)
-    rows.emplace_back(5 * k + draw.uniform(-0.8, 0.8), 30 * std::sin(0.1 * k) + draw.uniform(-0.8, 0.8), 0);
+  std::vector<Vector3> rows = noisy_wave(11, 60, 0.8);
   rows[15].y() += 400;
   FitOptions options{.criterion = Within{tolerance}};
   options.fair.distribution = Distribution::keep;

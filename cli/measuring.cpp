@@ -52,6 +52,15 @@ std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape, const 
                                            : "none, for the same reason",
                      greatest_of_noise(noise), false});
   figures.push_back({"noise_in_edges", "noise in edges", "", "the same in median edges", noise.edges, false});
+  if constexpr (std::is_same_v<Shape, PolygonCurve>) {
+    constexpr const char* keys[] = {"noise_x", "noise_y", "noise_z"};
+    constexpr const char* names[] = {"noise in x", "noise in y", "noise in z"};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      figures.push_back({keys[axis], names[axis], "units",
+                         noise.by_coordinate[axis] > 0 ? "standard deviation in this coordinate alone"
+                                                       : "not known: the curve runs along it, or has too few nodes",
+                         noise.by_coordinate[axis], false});
+  }
   return figures;
 }
 

@@ -211,11 +211,18 @@ MUTATIONS = {
         ("area-per-point", "a node's share of n-gons", "area += face.norm() / nodes;", "area += face.norm();"),
     ],
     "src/fairness/noise.cpp": [
-        ("noise-freedom", "noise: squares over degrees of freedom", "std::sqrt(squares / freedom), freedom, extent(1)", "std::sqrt(squares), freedom, extent(1)"),
+        ("noise-slopes", "noise across the surface", "std::sqrt(squares / static_cast<double>(nodes.size()))", "1.0"),
+    ],
+    "src/fairness/noise_of_curve.cpp": [
+        ("noise-quartic", "noise by coordinate is over a quartic", "{.axes = 1, .degree = 4, .directions = directions}", "{.axes = 1, .degree = 2, .directions = directions}"),
+        ("noise-seen", "noise of one coordinate, seen beside others", "stretch.across.row(axis).cwiseAbs2().dot(variances) / variances[axis]", "1.0"),
+        ("noise-repeats", "rows that come twice count once", "if (auto fewer = without_repeats(curve, found.steps, directions)) found = std::move(*fewer);", ""),
+    ],
+    "src/fairness/noisy_places.cpp": [
+        ("noise-freedom", "noise: squares over degrees of freedom", "size * std::sqrt(squares / heights.freedom)", "size * std::sqrt(squares)"),
         ("noise-expected", "noise: chi-square at a share", "1 - spread + quantile * std::sqrt(spread)", "1 - spread"),
         ("noise-quadratic", "noise over a quadratic", "matrix.row(k) << 1, u, v, u * u, u * v, v * v;", "matrix.row(k) << 1, u, v, u * u, 0, v * v;"),
-        ("noise-slopes", "noise across the surface", "std::sqrt(squares / static_cast<double>(nodes.size()))", "1.0"),
-        ("noise-extent", "noise is seen along a direction that places have", "place.extent >= widest * result.deviation", "true"),
+        ("noise-extent", "noise is seen along a direction that places have", "place.extent >= narrowest * result.deviation", "true"),
     ],
     "src/scan/low_pass.cpp": [
         ("low-pass-response", "low pass: 1/(1 + (e/half)^order)", "(1 - std::cos(angle)) / band.half", "(1 + std::cos(angle)) / band.half"),

@@ -16,6 +16,11 @@ struct NoiseEstimate {
   double edges = 0;    ///< the same in median edges
   Index nodes = 0;     ///< from how many nodes it was estimated
   int directions = 1;  ///< across the shape: 2 of curves in space, where distances are so many times as large squared
+  /// Curves: the standard deviation in x, y and z each; 0 of what they run along, and where there are too few nodes to
+  /// tell (some 70).
+  std::array<double, 3> by_coordinate = {};
+  /// By more than a factor of two, as those of heights and places do: `deviation` is the root mean square across.
+  bool coordinates_differ = false;
   /// Surfaces of voxels, where noise is what their steps are: see voxel_size().
   std::optional<Vector3> voxel = std::nullopt;
 };
@@ -27,7 +32,7 @@ struct NoiseEstimate {
 
 /// How far from its shape noise brings the furthest node, in the units of the input: half of all shapes with as many
 /// nodes stay within. At least what 3 nodes of 1,000 are beyond: three standard deviations, or 3.44 in two directions.
-/// Cost: constant.
+/// Where the noise of coordinates differs, it is taken to be the largest in all. Cost: constant.
 [[nodiscard]] double greatest_of_noise(const NoiseEstimate& noise);
 
 /// Estimates the noise of a surface. Over each node, its neighbours and theirs, the best quadratic leaves heights,
@@ -39,7 +44,8 @@ struct NoiseEstimate {
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonMesh& mesh, const Context& context = {});
 
 /// The same of a curve, across it, from seven nodes in a row, or as many more as it takes for them to be four times as
-/// long as they are wide. Nodes in a row at one place count as one.
+/// long as they are wide. Nodes in a row that are nearer together than a quarter of the noise count as one where a
+/// fifth of all are.
 [[nodiscard]] NoiseEstimate estimate_noise(const PolygonCurve& curve);
 
 /// The same in the coordinates that move, of x, y and z, over the length of the way in the others: of heights,

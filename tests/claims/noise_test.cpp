@@ -84,6 +84,53 @@ TEST(Noise, OfCurvesIsEstimatedInThePlaneAndInSpace) {
   }
 }
 
+/// A circle, or a helix, with that much noise in x, y and z.
+std::vector<Vector3> winding(int count, double rise, const Vector3& noise, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> normal;
+  std::vector<Vector3> nodes;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 6 * std::numbers::pi * k / count;
+    Vector3& node = nodes.emplace_back(std::cos(angle), std::sin(angle), rise * angle);
+    for (int axis = 0; axis < 3; ++axis) node[axis] += noise[axis] * normal(generator);
+  }
+  return nodes;
+}
+
+TEST(Noise, OfOneCoordinateIsNotHiddenWhereTheCurveRunsAlongIt) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const NoiseEstimate noise = estimate_noise(PolygonCurve(winding(600, 0, {0, 0.01, 0}, seed)));
+    EXPECT_TRUE(noise.coordinates_differ);
+    EXPECT_NEAR(noise.by_coordinate[1], 0.01, 0.002);
+    EXPECT_LT(noise.by_coordinate[0], 0.002);
+    EXPECT_EQ(noise.by_coordinate[2], 0);
+    EXPECT_NEAR(noise.deviation, 0.01 / std::numbers::sqrt2, 0.0015);
+    EXPECT_GT(greatest_of_noise(noise), 0.025);
+
+    const NoiseEstimate heights = estimate_noise(PolygonCurve(winding(600, 0.1, {0.01, 0.01, 0.03}, seed)));
+    EXPECT_TRUE(heights.coordinates_differ);
+    EXPECT_NEAR(heights.by_coordinate[0], 0.01, 0.003);
+    EXPECT_NEAR(heights.by_coordinate[1], 0.01, 0.003);
+    EXPECT_NEAR(heights.by_coordinate[2], 0.03, 0.004);
+
+    const NoiseEstimate same = estimate_noise(PolygonCurve(winding(600, 0, {0.01, 0.01, 0}, seed)));
+    EXPECT_FALSE(same.coordinates_differ);
+    // Three standard deviations of the estimate.
+    EXPECT_NEAR(same.by_coordinate[0], 0.01, 0.004);
+    EXPECT_NEAR(same.by_coordinate[1], 0.01, 0.004);
+  }
+}
+
+TEST(Noise, OfRowsThatComeTwiceALittleApartIsThatOfTheirPlaces) {
+  for (const int times : {2, 3}) {
+    std::vector<Vector3> rows;
+    for (const Vector3& place : winding(300, 0, {0.01, 0.01, 0}, 7)) {
+      for (int k = 0; k < times; ++k) rows.push_back(place + 2e-4 * k * Vector3(0.6, k == 1 ? 0.8 : -0.8, 0));
+    }
+    EXPECT_NEAR(estimate_noise(PolygonCurve(rows)).deviation, 0.01, 0.002) << times;
+  }
+}
+
 TEST(Noise, OfHeightsIsVertical) {
   for (const bool in_space : {false, true}) {
     std::vector<Vector3> nodes;
@@ -105,6 +152,7 @@ TEST(Noise, OfHeightsIsVertical) {
     EXPECT_NEAR(noise.deviation, 0.01, 0.002);
     EXPECT_NEAR(noise.edges, noise.deviation / 0.05, 0.01 * noise.edges);
     EXPECT_EQ(noise.directions, 1);
+    EXPECT_NEAR(noise.by_coordinate[axis], 0.01, 0.002);
   }
 }
 

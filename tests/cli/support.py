@@ -129,6 +129,18 @@ def tube(rings, sides, length):
     return "\n".join(lines) + "\n"
 
 
+def parsed(text):
+    """Positions and faces (numbers from 0) of OBJ."""
+    nodes, faces = [], []
+    for line in text.splitlines():
+        words = line.split("#")[0].split()
+        if words and words[0] == "v":
+            nodes.append(tuple(map(float, words[1:4])))
+        if words and words[0] == "f":
+            faces.append([int(word.split("/")[0]) - 1 for word in words[1:]])
+    return nodes, faces
+
+
 def vertex_lines(text):
     return [line for line in text.splitlines() if line.startswith("v ")]
 

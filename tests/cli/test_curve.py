@@ -4,6 +4,7 @@ import json
 import math
 import random
 
+from polylines import distances, places_on
 from support import Case, run
 
 
@@ -23,13 +24,6 @@ def read(path):
     """Rows of numbers; a header is passed over."""
     lines = [line for line in path.read_text().splitlines() if line.strip()]
     return [tuple(float(v) for v in line.split(",")) for line in lines[1 if lines[0][0].isalpha() else 0:]]
-
-
-def from_segment(place, a, b):
-    along = (b[0] - a[0], b[1] - a[1])
-    share = ((place[0] - a[0]) * along[0] + (place[1] - a[1]) * along[1]) / (along[0] ** 2 + along[1] ** 2)
-    share = min(1, max(0, share))
-    return math.hypot(a[0] + share * along[0] - place[0], a[1] + share * along[1] - place[1])
 
 
 class Curve(Case):
@@ -94,8 +88,7 @@ class Curve(Case):
             rows += [(85.8 + 2.2 * k * math.cos(math.radians(150)) + noise(), 2.2 * k * math.sin(math.radians(150)) + noise()) for k in range(1, 40)]
             self.curve(csv(rows), "--within", "1.5", "--resample", "45")
             nodes = read(self.folder / "out.csv")
-            places = [tuple(a + part / 16 * (b - a) for a, b in zip(*edge)) for edge in zip(nodes, nodes[1:]) for part in range(17)]
-            self.assertLessEqual(max(min(from_segment(place, *edge) for edge in zip(rows, rows[1:])) for place in places), 1.5 * 1.0001)
+            self.assertLessEqual(max(distances(places_on(nodes, 16), rows)), 1.5 * 1.0001)
 
     def test_only_the_columns_that_are_named_move(self):
         generator = random.Random(3)

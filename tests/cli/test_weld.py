@@ -2,21 +2,9 @@
 import random
 import struct
 
-from support import Case, bumps, grid, run, vertex_lines
+from support import Case, bumps, grid, parsed, run, vertex_lines
 
 SIZE = 8
-
-
-def parsed(text):
-    """Positions and faces (numbers from 0) of OBJ."""
-    nodes, faces = [], []
-    for line in text.splitlines():
-        words = line.split("#")[0].split()
-        if words and words[0] == "v":
-            nodes.append(tuple(map(float, words[1:4])))
-        if words and words[0] == "f":
-            faces.append([int(word.split("/")[0]) - 1 for word in words[1:]])
-    return nodes, faces
 
 
 def moved(node, generator, share):

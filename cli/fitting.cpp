@@ -102,15 +102,21 @@ void settle_options(FairingArguments& arguments, bool is_curve, bool own_nodes_p
   options.curve = CurveRules::paper();
 }
 
+std::array<bool, 3> moving_axes(const CurveFile& file, const std::vector<std::string>& names) {
+  if (names.empty()) return {true, true, true};
+  std::array<bool, 3> axes = choose_axes(file, names);
+  // Of a plane nothing is left to keep then.
+  if (file.planar && axes[0] && axes[1]) axes[2] = true;
+  return axes;
+}
+
 void settle_moving(PullArguments& arguments, const CurveFile& file) {
   if (arguments.moving.empty()) return;
   if (!asks_to_fit(arguments))
     throw Error(
         ErrorCode::invalid_argument,
         "--move: how near to the rows is the curve to stay? give --within, --rms, --noise or --smoothing-length");
-  arguments.moving_axes = choose_axes(file, arguments.moving);
-  // Of a plane nothing is left to keep then.
-  if (file.planar && arguments.moving_axes[0] && arguments.moving_axes[1]) arguments.moving_axes[2] = true;
+  arguments.moving_axes = moving_axes(file, arguments.moving);
 }
 
 NoiseEstimate at_least_rounding(NoiseEstimate noise, double rounding) {

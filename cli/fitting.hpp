@@ -56,8 +56,11 @@ void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context
                     std::is_same_v<Shape, PolygonCurve>);
 }
 
-/// Finds the coordinates that are to move in a file that was read. Throws Error(invalid_argument) where it has none of
-/// a name, or no points pull.
+/// The coordinates of a curve that --move names, all of them where it names none. Throws what choose_axes() does.
+[[nodiscard]] std::array<bool, 3> moving_axes(const CurveFile& file, const std::vector<std::string>& names);
+
+/// Finds the coordinates that are to move in a file that was read. Throws what moving_axes() does, and
+/// Error(invalid_argument) where no points pull.
 void settle_moving(PullArguments& arguments, const CurveFile& file);
 
 /// Throws Error(invalid_argument) where more than one of the five is given, or --outliers or --min-radius without any.

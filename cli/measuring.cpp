@@ -5,8 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "fitting.hpp"
-
 namespace vspring::cli {
 
 namespace {
@@ -35,11 +33,10 @@ Json to_json(const Apart& apart) {
 
 template <typename Shape>
 std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape, const std::optional<Constraints>& held,
-                                       double rounding, bool shown, const Context& context) {
+                                       const NoiseEstimate& noise, bool shown, const Context& context) {
   const bool fits = held && held->node_count() == shape.shape().node_count();
   std::vector<Figure> figures = figures_of(shape, fits ? &*held : nullptr, shown, context);
   // Noise is nobody's measure of fairness, so it is none of those figures.
-  const NoiseEstimate noise = at_least_rounding(noise_of(shape.shape(), {}, context), rounding);
   figures.push_back(
       {"noise", "noise", "units",
        noise.voxel           ? "of steps of voxels, standard deviation in each coordinate: --noise auto takes them off"
@@ -90,9 +87,9 @@ std::string distance_lines(const Apart& apart, const Terminal& terminal) {
 }
 
 template std::vector<Figure> figures_with_noise(const MeasuredShape<PolygonMesh>&, const std::optional<Constraints>&,
-                                                double, bool, const Context&);
+                                                const NoiseEstimate&, bool, const Context&);
 template std::vector<Figure> figures_with_noise(const MeasuredShape<PolygonCurve>&, const std::optional<Constraints>&,
-                                                double, bool, const Context&);
+                                                const NoiseEstimate&, bool, const Context&);
 template nlohmann::ordered_json report_of(const std::array<std::string, 2>&, std::span<const ShownShape<PolygonMesh>>,
                                           const std::optional<Apart>&);
 template nlohmann::ordered_json report_of(const std::array<std::string, 2>&, std::span<const ShownShape<PolygonCurve>>,

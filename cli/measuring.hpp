@@ -12,6 +12,7 @@
 #include "vspring/constraints.hpp"
 #include "vspring/context.hpp"
 #include "vspring/distance.hpp"
+#include "vspring/noise.hpp"
 
 namespace vspring::cli {
 
@@ -33,10 +34,10 @@ Apart distances_between(const Shape& first, const Shape& second, const Context& 
 }
 
 /// What measure_surface() or measure_curve() measure, and the noise that the shape seems to have. held: may be of
-/// another shape, and is then left out of account. rounding: rounding_of() the file. shown: see figures_of().
+/// another shape, and is then left out of account. shown: see figures_of().
 template <typename Shape>
 [[nodiscard]] std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape,
-                                                     const std::optional<Constraints>& held, double rounding,
+                                                     const std::optional<Constraints>& held, const NoiseEstimate& noise,
                                                      bool shown, const Context& context);
 
 /// What the report says of a shape, and of another one and how far they lie apart. names: of their files.

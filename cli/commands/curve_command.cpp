@@ -257,9 +257,9 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
   add_node_options(command, *arguments);
   add_pull_options(command, arguments->pull, pull_of_own_nodes);
   add_curve_bounds(command, arguments->pull, pull_of_own_nodes);
-  add_names(command, "--move", arguments->pull.moving,
-            "Only these coordinates move; rows keep the others to the last digit, and distances are those in the ones "
-            "that move: letters, such as y or yz, or names of columns (default: all)")
+  add_moving(command, arguments->pull.moving,
+             "Only these coordinates move; rows keep the others to the last digit, and distances are those in the ones "
+             "that move")
       ->group(pull_of_own_nodes);
   add_curve_method(command, *arguments, words);
   add_run_options(command, *arguments);

@@ -79,6 +79,10 @@ CLI::Option* add_names(CLI::App& command, const std::string& flag, std::vector<s
       ->type_name("COLUMNS");
 }
 
+CLI::Option* add_moving(CLI::App& command, std::vector<std::string>& names, const std::string& text) {
+  return add_names(command, "--move", names, text + ": letters, such as y or yz, or names of columns (default: all)");
+}
+
 void add_weld_option(CLI::App& command, FairingArguments& arguments) {
   command
       .add_option("--weld", arguments.weld,

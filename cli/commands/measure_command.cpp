@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <initializer_list>
@@ -23,6 +24,7 @@
 #include "degrees.hpp"
 #include "exit_status.hpp"
 #include "figures.hpp"
+#include "fitting.hpp"
 #include "framing.hpp"
 #include "holding.hpp"
 #include "idle_options.hpp"
@@ -42,6 +44,7 @@ struct MeasureArguments : FairingArguments {
   std::optional<AnyFormat> format;
   std::string compare;
   ColumnChoice columns;
+  std::vector<std::string> moving;  ///< names of coordinates that noise is looked for in; empty: all
   bool curve = false;
   bool closed = false;
 };
@@ -81,6 +84,24 @@ std::optional<Constraints> held_in(const MeasureArguments& arguments, const Weld
   return make_constraints(arguments, input.shape(), input.welding.rules(input.file));
 }
 
+/// In which coordinates a shape has the noise that --noise auto and --within auto see.
+std::array<bool, 3> noisy_axes(const MeasureArguments& arguments, const CurveFile& file) {
+  return moving_axes(file, arguments.moving);
+}
+std::array<bool, 3> noisy_axes(const MeasureArguments& /*arguments*/, const SurfaceFile& /*file*/) {
+  return {true, true, true};
+}
+
+/// The noise of a file's nodes, as they are welded.
+template <typename File>
+NoiseEstimate noise_in(const WeldedFile<File>& file, const std::array<bool, 3>& axes, const Context& context) {
+  PullArguments pull;
+  pull.moving_axes = axes;
+  double rounding = 0;
+  if constexpr (std::is_same_v<File, SurfaceFile>) rounding = rounding_of(file.file);
+  return at_least_rounding(noise_of(file.shape(), pull, context), rounding);
+}
+
 /// The names of the files; both with their folders where they have the same.
 std::vector<std::string> titles(const MeasureArguments& arguments) {
   const std::string first = input_name(arguments.input);
@@ -99,6 +120,7 @@ std::vector<std::string> warnings_of(const MeasureArguments& arguments, const We
     std::ranges::move(file.welding.with_warnings(file.file.warnings), std::back_inserter(warnings));
   RunFacts facts;
   look_at(facts, arguments);
+  facts.moves_freely = noisy_axes(arguments, files[0].file) == std::array{true, true, true};
   look_at(facts, files[0].shape(), held.value_or(Constraints(files[0].shape().node_count())));
   std::ranges::move(idle_options(facts), std::back_inserter(warnings));
   return warnings;
@@ -133,13 +155,13 @@ int measure_files(const MeasureArguments& arguments, std::vector<File> read) {
   Context context;
   context.threads = arguments.threads;
   const std::optional<Constraints> held = held_in(arguments, files);
+  const std::array<bool, 3> axes = noisy_axes(arguments, files[0].file);
   const std::vector<std::string> names = titles(arguments);
   std::vector<ShownShape<Shape>> shapes;
   for (std::size_t k = 0; k < files.size(); ++k) {
     ShownShape<Shape>& shape = shapes.emplace_back(ShownShape<Shape>{{names[k], {}}, MeasuredShape(files[k].shape())});
-    double rounding = 0;
-    if constexpr (std::is_same_v<File, SurfaceFile>) rounding = rounding_of(files[k].file);
-    shape.figures = figures_with_noise(shape.measured, held, rounding, arguments.shows_shapes(), context);
+    shape.figures =
+        figures_with_noise(shape.measured, held, noise_in(files[k], axes, context), arguments.shows_shapes(), context);
   }
   std::optional<Apart> apart;
   if (files.size() > 1) apart = distances_between(files[0].shape(), files[1].shape(), context);
@@ -151,6 +173,7 @@ int measure_files(const MeasureArguments& arguments, std::vector<File> read) {
     json = report_of<Shape>({arguments.input, arguments.compare}, shapes, apart);
     json.update(files[0].welding.figures());
     json.update(figures_of(plane));
+    if (!arguments.moving.empty()) json["moving"] = arguments.moving;
     json["warnings"] = warnings;
     json["seconds"] = seconds.count();
     json["threads"] = context.thread_count();
@@ -220,6 +243,9 @@ void add_shape_options(CLI::App& command, MeasureArguments& arguments) {
   command.add_flag("--closed", arguments.closed,
                    "Curves: the last node of every chain joins the first (default: from the file)");
   add_columns(command, "--columns", arguments.columns, columns_of_curves);
+  add_moving(command, arguments.moving,
+             "Curves: noise, and what --within auto takes for it, in these coordinates alone, as vspring curve --move "
+             "sees them");
 }
 
 }  // namespace

@@ -39,6 +39,8 @@ void add_columns(CLI::App& command, const std::string& flag, std::vector<std::st
 /// An option for names between commas, at least one.
 CLI::Option* add_names(CLI::App& command, const std::string& flag, std::vector<std::string>& names,
                        const std::string& text);
+/// --move of a curve. text: what comes of the coordinates that it names.
+CLI::Option* add_moving(CLI::App& command, std::vector<std::string>& names, const std::string& text);
 void add_run_options(CLI::App& command, FairingArguments& arguments);
 
 /// How points pull. heading: of the options in the help text.

@@ -1,6 +1,7 @@
 """What `vspring measure` says."""
 import json
 import math
+import random
 
 import support
 from support import Case, grid, hat, run
@@ -56,6 +57,28 @@ class Measure(Case):
         self.assertLess(exact["noise_in_edges"], 0.02)
         self.assertGreater(noisy["figures"]["noise"], 5 * exact["noise"])
         self.assertEqual(noisy["definitions"]["noise"]["unit"], "units")
+
+    def test_noise_in_the_coordinates_that_are_to_move_is_what_a_curve_takes(self):
+        draw = random.Random(3)
+        rows = [(k, 40 * math.sin(k / 9) + draw.gauss(0, 0.5)) for k in range(150)]
+        path = self.write("in.csv", "dist,ele\n" + "".join(f"{x!r},{y!r}\n" for x, y in rows))
+        columns = ("--columns", "dist,ele")
+        reports = {}
+        for move in ((), ("--move", "ele")):
+            found = self.report(path, *columns, *move)
+            reports[move] = found["figures"]
+            self.assertEqual(found.get("moving"), ["ele"] if move else None)
+            run("curve", path, "-o", self.folder / "out.csv", *columns, *move, "--within", "auto", "--report", self.folder / "r.json")
+            points = self.read_json("r.json")["points"]
+            self.assertEqual((points["estimated_noise"], points["within"]), (found["figures"]["noise"], found["figures"]["within_auto"]))
+        self.assertAlmostEqual(reports["--move", "ele"]["noise"], 0.5, delta=0.1)
+        self.assertLess(reports[()]["noise"], 0.35, "across a steep way")
+        self.assertEqual(self.report(path, *columns, "--move", "y")["figures"], reports["--move", "ele"])
+        self.assertEqual(self.report(path, *columns, "--move", "ele", "--compare", path)["compared_with"]["figures"], reports["--move", "ele"])
+        self.assertIn("'high' is no coordinate of this curve", self.assert_one_line(self.measure(path, *columns, "--move", "high", status=1)))
+        for shape, why in ((path, "these are all coordinates that there are"), (self.write("in.obj", hat()), "it is for curves")):
+            told = self.measure(shape, *(columns if shape == path else ()), "--move", "xy").stderr.decode()
+            self.assertIn(f"--move has no effect here: {why}", told)
 
     def test_a_curve_by_its_extension(self):
         path = self.write("circle.csv", circle())

@@ -4,6 +4,8 @@
 #include "fit/voxel_fit.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -49,6 +51,33 @@ constexpr double least_share_of_area = 0.05;
 // Of cosines.
 constexpr double unseen = 1e-9;
 
+/// Of what marching cubes and tetrahedra make of a mask, at each node of faces: a bit for each axis along which it is
+/// half way between middles of voxels.
+std::vector<std::uint8_t> axes_halfway(const PolygonMesh& mesh, const Vector3& size) {
+  std::vector<std::uint8_t> halfway(mesh.positions().size(), 0);
+  if (mesh.corners().empty()) return halfway;
+  const Vector3& origin = mesh.position(mesh.corners().front());
+  for (const Index node : mesh.corners()) {
+    const Vector3 steps = (mesh.position(node) - origin).cwiseQuotient(size / 2);
+    unsigned bits = 0;
+    for (int axis = 0; axis < 3; ++axis) bits |= static_cast<unsigned>(std::llround(steps[axis]) & 1) << axis;
+    halfway[static_cast<std::size_t>(node)] = static_cast<std::uint8_t>(bits);
+  }
+  // Where the origin is. No node is at a middle, and of several grids of middles like that the edges between those of
+  // the right one are shortest: the others have diagonals where marching cubes have none.
+  const double at_middle = 4 * static_cast<double>(mesh.corners().size());
+  std::array<double, 8> sums{};
+  for (const Index node : mesh.corners()) {
+    for (unsigned base = 0; base < sums.size(); ++base) {
+      const int axes = std::popcount(halfway[static_cast<std::size_t>(node)] ^ base);
+      sums[base] += axes > 0 ? axes : at_middle;
+    }
+  }
+  const auto base = static_cast<unsigned>(std::min_element(sums.begin(), sums.end()) - sums.begin());
+  for (std::uint8_t& bits : halfway) bits = static_cast<std::uint8_t>(bits ^ base);
+  return halfway;
+}
+
 class VoxelFit {
  public:
   VoxelFit(const PolygonMesh& mesh, const Constraints& constraints, Vector3 size, bool of_sides)
@@ -56,6 +85,7 @@ class VoxelFit {
         constraints_(constraints),
         size_(std::move(size)),
         of_sides_(of_sides),
+        halfway_(of_sides ? std::vector<std::uint8_t>() : axes_halfway(mesh, size_)),
         flat_(nodes_of_flat_ends(mesh, size_)),
         stays_(mesh.positions().size(), 0) {
     for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -122,10 +152,15 @@ class VoxelFit {
   }
 
   /// As far as a plane may be from a corner of the voxels that it goes between; from the middle of an edge between two
-  /// middles of voxels, where marching cubes have their nodes.
+  /// middles of voxels, where marching cubes have their nodes, or of a diagonal, where marching tetrahedra have others.
   [[nodiscard]] double half(std::size_t node, const Vector3& normal) const {
     const Vector3 halves = normal.cwiseAbs().cwiseProduct(size_) / 2;
-    return (flat_[node] != 0 ? share_of_flat : 1) * (of_sides_ ? halves.sum() : halves.maxCoeff());
+    double far = of_sides_ ? halves.sum() : 0;
+    if (!of_sides_) {
+      for (int axis = 0; axis < 3; ++axis) far += (halfway_[node] >> axis & 1) != 0 ? halves[axis] : 0;
+      far = std::max(far, halves.maxCoeff());
+    }
+    return (flat_[node] != 0 ? share_of_flat : 1) * far;
   }
 
   /// Of nodes that go, along normals, for the volume that was there; 0 where the surface is open or nearly all of it
@@ -163,7 +198,8 @@ class VoxelFit {
   const PolygonMesh& mesh_;
   const Constraints& constraints_;
   Vector3 size_;
-  bool of_sides_;  // of voxels, rather than what marching cubes make of them
+  bool of_sides_;                      // of voxels, rather than what marching cubes make of them
+  std::vector<std::uint8_t> halfway_;  // axes along which a node is between middles of voxels, a bit each
   std::vector<std::uint8_t> flat_;
   std::vector<std::uint8_t> stays_;  // where the volume is put back: what is held, next to that, or went back
 };

@@ -251,7 +251,7 @@ class Surfaces(Case):
         off = lambda places: root_mean_square([math.hypot(*place) - 6 for place in places])
         # Of what was off, and of the turns, what is left at most.
         for kind, text, options in (("sides of voxels", voxels(ball, 7), {"--within auto": 0.15, "--smoothing-length 1": 0.2}),
-                                    ("marching tetrahedra", staircase(ball, 7), {"--noise auto": 0.75, "--smoothing-length 1": 0.35})):
+                                    ("marching tetrahedra", staircase(ball, 7), {"--noise auto": 0.4, "--smoothing-length 1": 0.4})):
             for option, share in options.items():
                 with self.subTest(kind, option=option):
                     done, faces, before, after, report = self.fair(text, *option.split())

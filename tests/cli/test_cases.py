@@ -115,6 +115,7 @@ class Curves(Case):
         self.assertEqual((report["outcome"], points["outlying_points"]), ("converged", list(outliers)))
         self.assertAlmostEqual(points["distance"]["after"]["greatest"] / max(off), 1, 6)
         self.assertAlmostEqual(points["distance"]["after"]["rms"] / rms, 1, 6)
+        # That one looks at other places, and takes rows in their order along the curve.
         self.assertAlmostEqual(points["shape"]["greatest"] / max(astray), 1, delta=0.1)
         self.assertAlmostEqual(report["fairness"]["after"]["greatest_turn"], max(angles), 5)
 

@@ -1,4 +1,4 @@
-# cmake --install: headers, library, program, and a package that find_package(vspring) finds.
+# cmake --install: headers, library, program, and what find_package(vspring) and pkg-config find.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS vspring EXPORT vspringTargets
@@ -10,4 +10,17 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/vspringConfig.cmake.in
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/vspringConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/vspringConfig.cmake ${PROJECT_BINARY_DIR}/vspringConfigVersion.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vspring)
+
+# A static library alone leaves what it needs to whoever links it.
+if(BUILD_SHARED_LIBS)
+  set(requires_private " fmt")
+  set(libs_private " -pthread")
+else()
+  set(requires_public ", fmt")
+  set(libs_public " -pthread")
+endif()
+file(RELATIVE_PATH prefix_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" prefix_from_pc ${prefix_from_pc})
+configure_file(${PROJECT_SOURCE_DIR}/cmake/vspring.pc.in ${PROJECT_BINARY_DIR}/vspring.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/vspring.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

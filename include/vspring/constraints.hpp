@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "vspring/export.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 #include "vspring/warning.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// The sides of a node of a curve, in the order of its chain.
 enum class NodeSide : std::uint8_t { before, after };

@@ -4,7 +4,9 @@
 #include <functional>
 #include <string_view>
 
-namespace vspring {
+#include "vspring/export.hpp"
+
+namespace VSPRING_API vspring {
 
 /// How far a long call has come.
 struct Progress {

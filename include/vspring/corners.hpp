@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include "vspring/export.hpp"
 #include "vspring/polygon_curve.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// The corners of a curve: nodes inside its chains, or anywhere on closed ones, at which successive edges turn by more
 /// than an angle, in degrees, more than 0 and less than 180. Of several at one place, the first. In the order of the

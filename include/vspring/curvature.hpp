@@ -3,10 +3,11 @@
 #include <vector>
 
 #include "vspring/context.hpp"
+#include "vspring/export.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// How a surface bends at a node. Curvatures are positive where the surface bends away from its normal, as on a sphere
 /// with outward normals.

@@ -11,11 +11,12 @@
 #include <vector>
 
 #include "vspring/column_choice.hpp"
+#include "vspring/export.hpp"
 #include "vspring/local_plane.hpp"
 #include "vspring/output_file.hpp"
 #include "vspring/polygon_curve.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 enum class CurveFormat { obj, csv, dat, xyz, gpx, svg };
 

@@ -4,10 +4,11 @@
 #include <vector>
 
 #include "vspring/context.hpp"
+#include "vspring/export.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// How far points lie from a shape or from other points, in units of the input.
 struct Distance {

@@ -3,7 +3,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace vspring {
+#include "vspring/export.hpp"
+
+namespace VSPRING_API vspring {
 
 enum class ErrorCode {
   invalid_argument,    ///< an option or argument outside its range

@@ -8,12 +8,13 @@
 
 #include "vspring/constraints.hpp"
 #include "vspring/context.hpp"
+#include "vspring/export.hpp"
 #include "vspring/model.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 #include "vspring/warning.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 enum class Method { equilibrium, multigrid, sweep };
 

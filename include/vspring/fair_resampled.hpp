@@ -1,9 +1,10 @@
 #pragma once
 
+#include "vspring/export.hpp"
 #include "vspring/fair.hpp"
 #include "vspring/resample.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 struct ResampledFair {
   Resampled resampled;  ///< as resample() gives it

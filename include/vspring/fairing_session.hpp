@@ -4,9 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "vspring/export.hpp"
 #include "vspring/fair.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// Fairs one shape again and again while its constraints move, as in an editor. Of surfaces, levels, equations and
 /// their factors are kept between calls, and each call starts from the last shape. Curves are faired anew each time,

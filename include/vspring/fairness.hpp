@@ -4,10 +4,11 @@
 
 #include "vspring/constraints.hpp"
 #include "vspring/context.hpp"
+#include "vspring/export.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// The shortest account of how fair a shape is. All figures are free of scale. Definitions of these and others:
 /// docs/fairness.md.

@@ -9,11 +9,12 @@
 #include "vspring/constraints.hpp"
 #include "vspring/context.hpp"
 #include "vspring/curvature.hpp"
+#include "vspring/export.hpp"
 #include "vspring/fairness.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 // All that is measured of a shape. A, D: its area and the diagonal of the box around it; κ1 ≥ κ2, H, K: principal, mean
 // and Gaussian curvature by curvatures(), positive where the surface bends away from its normal; e1, e2: principal

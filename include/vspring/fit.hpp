@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "vspring/distance.hpp"
+#include "vspring/export.hpp"
 #include "vspring/fair.hpp"
 #include "vspring/point_file.hpp"
 #include "vspring/resample.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// The paper's k (Eq. 9), for points of weight 1: 0 to 1e50. Small ones smooth, large ones interpolate. On an evenly
 /// spaced curve with one point per node, waves of angular frequency ω keep 1/(1 + (λω)⁴) of their height, where k =

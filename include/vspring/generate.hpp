@@ -3,9 +3,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "vspring/export.hpp"
 #include "vspring/polygon_mesh.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// Shapes for examples, tests and benchmarks. Lengths are in the units of their arguments, between 1e-100 and 1e100;
 /// angles are in degrees. Faces run counter-clockwise seen from outside (closed and tubular shapes) or from above (+z;

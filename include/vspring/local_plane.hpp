@@ -1,8 +1,9 @@
 #pragma once
 
+#include "vspring/export.hpp"
 #include "vspring/types.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// A plane in place of the earth's surface (WGS 84) around an origin: x is metres east, y metres north of it.
 ///

@@ -1,6 +1,8 @@
 #pragma once
 
-namespace vspring {
+#include "vspring/export.hpp"
+
+namespace VSPRING_API vspring {
 
 /// How the normal of a node follows from the nodes around it (§4.2).
 enum class PseudoNormals {

@@ -4,10 +4,11 @@
 #include <optional>
 
 #include "vspring/context.hpp"
+#include "vspring/export.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// How noisy a shape seems to be.
 struct NoiseEstimate {

@@ -3,9 +3,10 @@
 #include <span>
 #include <vector>
 
+#include "vspring/export.hpp"
 #include "vspring/types.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// Puts points of a curve that came in no order in one along it: their numbers, from one end of the curve to the other,
 /// or round it where it is closed. The order is meant to be the shortest way through all points.

@@ -4,7 +4,9 @@
 #include <string_view>
 #include <vector>
 
-namespace vspring {
+#include "vspring/export.hpp"
+
+namespace VSPRING_API vspring {
 
 /// A file that is made, and not written yet.
 struct FileBytes {

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "vspring/column_choice.hpp"
+#include "vspring/export.hpp"
 #include "vspring/local_plane.hpp"
 #include "vspring/types.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// Points that a shape is drawn to, in no order and without connectivity.
 struct ScatteredPoints {

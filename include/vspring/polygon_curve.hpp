@@ -4,9 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "vspring/export.hpp"
 #include "vspring/types.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// A polygonal curve: node positions and the chains of nodes that run through them. Most curves are one chain, open or
 /// closed; a drawing has many, which may meet at nodes that stay in place.

@@ -5,9 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "vspring/export.hpp"
 #include "vspring/types.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// A polygonal surface: node positions and faces of any number of nodes (triangles, quads, n-gons, mixed).
 ///

@@ -5,9 +5,10 @@
 #include <variant>
 #include <vector>
 
+#include "vspring/export.hpp"
 #include "vspring/types.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// Nodes by the names that a file gives them, ascending.
 using Groups = std::map<std::string, std::vector<Index>>;

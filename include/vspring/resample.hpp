@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "vspring/constraints.hpp"
+#include "vspring/export.hpp"
 #include "vspring/polygon_curve.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// How new nodes are spaced between kept ones.
 enum class ResamplingBy {

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "vspring/constraints.hpp"
+#include "vspring/export.hpp"
 #include "vspring/region.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 struct Welded;
 

@@ -6,11 +6,12 @@
 #include <string_view>
 #include <vector>
 
+#include "vspring/export.hpp"
 #include "vspring/output_file.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// A number for every node.
 struct NodeScalar {

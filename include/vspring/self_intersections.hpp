@@ -4,9 +4,10 @@
 #include <vector>
 
 #include "vspring/context.hpp"
+#include "vspring/export.hpp"
 #include "vspring/polygon_mesh.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// The pairs of faces that cross: each reaches from one side of the other to its other side, along some length. Faces
 /// that only touch, to within the rounding of coordinates, do not count, nor do two that share an edge (flipped faces

@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "vspring/context.hpp"
+#include "vspring/export.hpp"
 #include "vspring/output_file.hpp"
 #include "vspring/polygon_mesh.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 enum class SurfaceFormat { obj, off, ply, stl };
 

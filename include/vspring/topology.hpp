@@ -3,10 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "vspring/export.hpp"
 #include "vspring/polygon_curve.hpp"
 #include "vspring/polygon_mesh.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// 1 for each node with an edge that belongs to one face only, else 0; one entry per node. Cost: linear.
 [[nodiscard]] std::vector<std::uint8_t> boundary_nodes(const PolygonMesh& mesh);

@@ -5,7 +5,9 @@
 #include <span>
 #include <vector>
 
-namespace vspring {
+#include "vspring/export.hpp"
+
+namespace VSPRING_API vspring {
 
 /// Number of a node or a face: 0-based, in the order of the input.
 using Index = std::int32_t;

@@ -1,6 +1,8 @@
 #pragma once
 
-namespace vspring {
+#include "vspring/export.hpp"
+
+namespace VSPRING_API vspring {
 
 /// "major.minor.patch" of the library that runs.
 [[nodiscard]] const char* version() noexcept;

@@ -9,6 +9,7 @@
 #include "vspring/curve_file.hpp"
 #include "vspring/distance.hpp"
 #include "vspring/error.hpp"
+#include "vspring/export.hpp"
 #include "vspring/fair.hpp"
 #include "vspring/fair_resampled.hpp"
 #include "vspring/fairing_session.hpp"

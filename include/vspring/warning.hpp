@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <string>
 
-namespace vspring {
+#include "vspring/export.hpp"
+
+namespace VSPRING_API vspring {
 
 /// What a warning is about.
 enum class WarningCode : std::uint8_t {

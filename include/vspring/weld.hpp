@@ -2,9 +2,10 @@
 
 #include <vector>
 
+#include "vspring/export.hpp"
 #include "vspring/polygon_mesh.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// A mesh in which nodes at about the same place are one. Nodes and faces keep their numbers, so constraints, regions,
 /// messages and reports use those of the input.

@@ -22,7 +22,7 @@ FairOptions with_tolerance(FairOptions options, double tolerance) {
 
 }  // namespace
 
-class FairingSession::Session {
+class [[gnu::visibility("hidden")]] FairingSession::Session {
  public:
   Session() = default;
   virtual ~Session() = default;
@@ -34,7 +34,7 @@ class FairingSession::Session {
   virtual std::optional<std::vector<Vector3>> predict(const Constraints& constraints, double tolerance) = 0;
 };
 
-class FairingSession::SurfaceSession final : public Session {
+class [[gnu::visibility("hidden")]] FairingSession::SurfaceSession final : public Session {
  public:
   SurfaceSession(const PolygonMesh& mesh, const FairOptions& options, int threads)
       : slivers_(mesh), threads_(threads), mesh_(mesh), options_(options), immovable_(mesh), sheets_(mesh) {
@@ -96,7 +96,7 @@ class FairingSession::SurfaceSession final : public Session {
   std::optional<SurfaceFairing> fairing_;
 };
 
-class FairingSession::CurveSession final : public Session {
+class [[gnu::visibility("hidden")]] FairingSession::CurveSession final : public Session {
  public:
   CurveSession(PolygonCurve curve, const FairOptions& options) : curve_(std::move(curve)), options_(options) {}
 

@@ -1,56 +1,9 @@
 // The library in WebAssembly as the worker sees it: see docs/webassembly.md.
 
-import type { Curvatures, HeldNormals, Opened, OpenedCurve, Region, Report } from './protocol';
+import type { Core, Curve as CoreCurve, Points as CorePoints, Shape as CoreShape, Surface as CoreSurface } from '../../../bindings/wasm/package/vspring_core';
+import type { Opened, OpenedCurve } from './protocol';
 
-/** What surfaces and curves have in common. */
-export interface CoreShape {
-  positions(): Float64Array;
-  boundary(): Uint8Array;
-  warnings(): string[];
-  setRules(json: string): void;
-  holdPosition(node: number, x: number, y: number, z: number): void;
-  fair(progress: ((fraction: number) => boolean) | null): Report;
-  update(progress: ((fraction: number) => boolean) | null): Report;
-  fit(points: CorePoints, settings: object, progress: (fraction: number) => boolean): Report;
-  region(nodes: Int32Array, positions: Float64Array): Region;
-  noise(): number;
-  setPositions(positions: Float64Array): void;
-  write(name: string): Uint8Array;
-  delete(): void;
-}
-
-export interface CoreSurface extends CoreShape {
-  predict(): Float64Array | null;
-  holdNormal(node: number, x: number, y: number, z: number): void;
-  heldNormals(): HeldNormals;
-  faceCount(): number;
-  faceBegin(): Int32Array;
-  corners(): Int32Array;
-  curvatures(positions: Float64Array): Curvatures;
-  setFairBoundary(first: boolean): void;
-}
-
-export interface CorePoints {
-  positions(): Float64Array;
-  delete(): void;
-}
-
-export interface CoreCurve extends CoreShape {
-  chainBegin(): Int32Array;
-  chainNodes(): Int32Array;
-  closed(): Uint8Array;
-  planar(): boolean;
-  holdTangent(node: number, x: number, y: number, z: number): void;
-  heldTangents(): { nodes: Int32Array; tangents: Float64Array };
-  resample(nodes: number): Int32Array;
-  setNodes(positions: Float64Array, chainBegin: Int32Array, chainNodes: Int32Array, closed: Uint8Array, from: Int32Array): void;
-}
-
-export interface Core {
-  Points: (new (bytes: Uint8Array, name: string) => CorePoints) & { at(positions: Float64Array): CorePoints };
-  Surface: new (bytes: Uint8Array, name: string) => CoreSurface;
-  Curve: (new (bytes: Uint8Array, name: string) => CoreCurve) & { through(places: Float64Array, closed: boolean): CoreCurve };
-}
+export type { Core, CoreCurve, CorePoints, CoreShape, CoreSurface };
 
 /** A surface or a curve, by the rule of the command line: by the extension, and an OBJ file without faces is a curve. */
 export function openShape(core: Core, name: string, bytes: Uint8Array): CoreSurface | CoreCurve {
@@ -72,7 +25,7 @@ export function describe(shape: CoreSurface | CoreCurve): Opened {
   return 'faceBegin' in shape ? { ...common(shape), faceBegin: shape.faceBegin(), corners: shape.corners() } : describeCurve(shape);
 }
 
-declare const vspringCore: (options: { locateFile: (name: string) => string; mainScriptUrlOrBlob: string; threads: number }) => Promise<Core>;
+declare const vspringCore: typeof import('../../../bindings/wasm/package/vspring_core');
 declare function importScripts(address: string): void;
 
 /** The library from the folder of that address. One thread has memory of its own, more of them share theirs. */

@@ -1,7 +1,10 @@
 // What the page asks of the worker, and what it answers. Arrays are handed over, not copied.
 
+import type { Curvatures, HeldNormals, Region, Report } from '../../../bindings/wasm/package/vspring_core';
 import type { NamedBytes } from '../base/files';
 import type { Vector } from '../base/vectors';
+
+export type { Curvatures, HeldNormals, Region, Report };
 
 /** What may be held of a node; tangents are those of curves. */
 export const parts = ['position', 'normal', 'tangent'] as const;
@@ -36,20 +39,6 @@ export interface CurveNodes {
   chainNodes: Int32Array;
   closed: Uint8Array;
   from: Int32Array;
-}
-
-export interface Report {
-  outcome: string;
-  iterations: number;
-  seconds: number;
-  threads: number;
-  expectedError: number | null;
-  movingNodes: number;
-  warnings: string[];
-  /** Of a fit: distances in units of the file, outliers left out. */
-  fit?: { points: number; outliers: number; smoothingLength: number | null; greatest: number; rms: number };
-  /** Of all points. */
-  distances?: Float64Array;
 }
 
 /** Places of held nodes, or their normals, three numbers each. */
@@ -88,33 +77,11 @@ export interface Job {
   drag?: Drag;
 }
 
-/** Normals, of curves tangents, that are held, three numbers each. */
-export interface HeldNormals {
-  nodes: Int32Array;
-  normals: Float64Array;
-}
-
 export interface Solved {
   positions: Float64Array;
   report: Report;
-  /** Where rules came with the job. */
+  /** Where rules came with the job; of curves tangents. */
   normals?: HeldNormals;
-}
-
-/** The principal curvatures at the nodes, in units of the file; k1 is not less than k2. */
-export interface Curvatures {
-  k1: Float64Array;
-  k2: Float64Array;
-}
-
-/** What must hold besides for only some nodes to move: nodes that stay, and the rim with its normals, three numbers each. */
-export interface Region {
-  fixed: Int32Array;
-  rim: Int32Array;
-  /** Of surfaces. */
-  normals?: Float64Array;
-  /** Of curves. */
-  tangents?: Float64Array;
 }
 
 export interface Requests {

@@ -27,7 +27,8 @@ class BuildByCMake(build_ext):
                            env={"CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count()), **os.environ})
         built = pathlib.Path(self.get_ext_fullpath(extension.name))
         built.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(folder / "python/vspring" / built.name, built)
+        for path in [folder / "python/vspring" / built.name, *(folder / "python/vspring").glob("libfmt*")]:
+            shutil.copy(path, built.parent)
 
 
 version = re.search(r"^project\(vspring VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE).group(1)

@@ -31,8 +31,8 @@ constexpr double noticed_rise = 3;
 // Of a curve, that is bent more too.
 constexpr double noticed_rise_of_curves = 1.5;
 constexpr double unseen_turn = 1e-3;
-// Where normals or tangents are held, which may ask for a shape that is bent more: of the energy, in which they count,
-// of what is bent more too.
+// Where tangents are held, which may ask for a curve that is bent more: of the energy, in which they count, of what is
+// bent more too.
 constexpr double risen_energy_if_bent = 1.3;
 // Of the bending, of a surface or a curve, which hardly changes where nodes slide. Springs may ask for more of it than
 // a fair shape has where a rim is free to turn.
@@ -247,8 +247,18 @@ std::string ResultCheck::fault_of_places(const Net& now) const {
 }
 
 std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const {
-  if (!looks_at_agreement_ || !now.spheres.differences.empty()) return {};
+  if (!looks_at_agreement_) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
+  if (is_surface_) {
+    // Springs would call a shape fair that bulges to meet normals which are a little off.
+    const BendingEnergy bending(now);
+    const double before = bending.of(start_.of(now), *team_);
+    const double after = bending.of(now.positions, *team_);
+    if (after <= risen_bending * before + unseen) return {};
+    return fmt::format("it is bent more, by {:.3g} in place of {:.3g}, with what leaves the given normals", after,
+                       before);
+  }
+  if (!now.spheres.differences.empty()) return {};
   model_->prepare(now);
   update_directions(now, *model_, *team_);
   const double energy = spring_energy(now).sum;

@@ -211,6 +211,11 @@ Json FitAccount::figures() const {
             {"pulling", report_.pulling_points},
             {"nodes_with_points", report_.pulled_nodes},
             {"most_on_a_node", report_.most_points},
+            {"boundary", report_.boundary ? Json{{"points", report_.boundary->points},
+                                                 {"nodes_at_ends", report_.boundary->ends},
+                                                 {"nodes_inside", report_.boundary->inside},
+                                                 {"nodes_kept", report_.boundary->kept}}
+                                          : Json()},
             {"distance", {{"before", to_json(report_.before)}, {"after", to_json(report_.after)}}},
             {"shape", report_.shape.count > 0 ? Json{{"greatest", report_.shape.greatest},
                                                      {"rms", report_.shape.rms},
@@ -231,6 +236,9 @@ std::string FitAccount::lines() const {
       fmt::format("{} points{}{}, of which {} pull at {} nodes\n", report_.points,
                   weights_ ? fmt::format(" of weights {:.4g} to {:.4g}", weights_->first, weights_->second) : "",
                   normals_ > 0 ? ", with normals" : "", report_.pulling_points, report_.pulled_nodes);
+  if (const auto& boundary = report_.boundary)
+    text += fmt::format("boundary         {} nodes go to {} points at which these end, {} to points that go on, {} stay\n",
+                        boundary->ends, boundary->points, boundary->inside, boundary->kept);
   const auto line = [&](const char* name, double before, double after) {
     text += fmt::format("{}{:.4g} → {:.4g} units\n", name, before, after);
   };

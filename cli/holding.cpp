@@ -24,7 +24,8 @@ void fix_boundary_directions(Constraints& constraints, const PolygonCurve& curve
 /// A boundary that is faired goes on smoothly outside the region.
 void restrict_boundary(Constraints& constraints, const PolygonMesh& mesh, const std::vector<Index>& region,
                        const FairingArguments& arguments) {
-  if (arguments.fair_boundary) restrict_to_region(constraints, boundary_curve(mesh), region);
+  const bool follows_points = arguments.fix == Hold::none && arguments.options.fair_boundary;
+  if (arguments.fair_boundary || follows_points) restrict_to_region(constraints, boundary_curve(mesh), region);
 }
 
 /// With the nodes that are one with some of the region, and those that belong to no face any more, which stay anyway.

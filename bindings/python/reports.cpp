@@ -71,6 +71,12 @@ py::dict report_of(const FitReport& report) {
   fields["least_radius"] = report.least_radius;
   fields["sharpest_node"] = report.sharpest_node;
   fields["greatest_slide"] = report.greatest_slide;
+  fields["boundary_of_points"] = py::none();
+  if (const auto& boundary = report.boundary) {
+    using namespace pybind11::literals;
+    fields["boundary_of_points"] = py::dict("points"_a = boundary->points, "ends"_a = boundary->ends,
+                                            "inside"_a = boundary->inside, "kept"_a = boundary->kept);
+  }
   fields["before"] = distances_of(report.before);
   fields["after"] = distances_of(report.after);
   return fields;

@@ -132,6 +132,7 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
   const FairingWords words = {.shape = "surface",
                               .input = ".obj, .off, .ply or .stl",
                               .ends = "Boundary nodes",
+                              .unfixed = "",
                               .directions = "normals",
                               .rules = "positions and normals"};
   const auto arguments = std::make_shared<FairArguments>();

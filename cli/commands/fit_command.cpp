@@ -158,7 +158,11 @@ int run_fit(FitArguments arguments) {
   check_options(arguments);
   Fairing fairing(arguments);
   auto shape = read_shape(arguments.input, arguments.format, arguments.curve, arguments.columns);
-  settle_options(arguments, std::holds_alternative<CurveFile>(shape), false);
+  const bool is_curve = std::holds_alternative<CurveFile>(shape);
+  settle_options(arguments, is_curve, false);
+  // Boundaries that nothing holds follow the points; by the paper's own methods they are refused.
+  if (!is_curve && !arguments.paper && arguments.options.method_kind() == Method::equilibrium)
+    arguments.options.fair_boundary = arguments.options.method;
   return std::visit([&](auto&& file) { return fit_file(arguments, std::forward<decltype(file)>(file), fairing); },
                     std::move(shape));
 }
@@ -214,6 +218,7 @@ void add_fit_command(CLI::App& app, std::function<int()>& run) {
                                   "a surface (.obj, .off, .ply, .stl) or a curve (.obj with l elements and no "
                                   "faces, .csv, .dat, .xyz, .gpx)",
                               .ends = "Boundary or end nodes",
+                              .unfixed = "; none: they go to where the points end",
                               .directions = "normals (curves: tangents)",
                               .rules = "positions and normals"};
   const auto arguments = std::make_shared<FitArguments>();
@@ -226,8 +231,9 @@ void add_fit_command(CLI::App& app, std::function<int()>& run) {
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, true);
   command.footer(
-      "Example: a mesh drawn onto a scan, its boundary held\n"
-      "  vspring fit mesh.obj --points scan.ply -o fitted.obj --weight 0.01 --report report.json\n\n"
+      "Examples: a mesh drawn onto a scan, its boundary held; its boundary drawn to where the scan ends\n"
+      "  vspring fit mesh.obj --points scan.ply -o fitted.obj --weight 0.01 --report report.json\n"
+      "  vspring fit mesh.obj --points scan.ply -o fitted.obj --within 0.1 --fix none\n\n"
       "Exit status: 0 converged; 1 wrong use; 2 unusable input or output; 3 written, but not converged; 130 "
       "interrupted.");
   when_given(command, arguments, run, run_fit);

@@ -23,6 +23,7 @@ struct FairingWords {
   std::string shape;       ///< "surface" or "curve"
   std::string input;       ///< what files the input may be
   std::string ends;        ///< "Boundary nodes" or "End nodes"
+  std::string unfixed;     ///< what becomes of those that are not fixed
   std::string directions;  ///< what --fix-normals fixes
   std::string rules;       ///< what rules speak of
 };

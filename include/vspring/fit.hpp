@@ -76,8 +76,9 @@ struct FitOptions {
   FitCriterion criterion = Weight{};
   /// As for fair(). Fallbacks, where no equilibrium is found and max_iterations is not given: on surfaces one of
   /// least bending near the points, with a warning; on curves one with nodes of its own, on which the
-  /// curve's are put (docs/curves.md). With fair_boundary, for a surface whose own nodes are the points, the boundary
-  /// is fitted to its nodes first, as a curve, and the surface then holds it.
+  /// curve's are put (docs/curves.md). With fair_boundary the boundary of a surface is fitted first, as a curve, and
+  /// the surface then holds it: to its own nodes, where these are the points; else to where the points end near it, by
+  /// EquilibriumMethod only (BoundaryOfPoints).
   FairOptions fair = {};
   /// The share of the points, from 0 to less than 1, that may be left out. Surfaces: so many, those furthest from the
   /// shape; shape and outliers are found in turns. Curves drawn to a tolerance: at most so many, found before that:
@@ -124,8 +125,18 @@ struct PointDistances {
   double percentile99 = 0;
 };
 
+/// What points tell of the boundary of a surface, where it is fitted to them: with FairOptions::fair_boundary.
+struct BoundaryOfPoints {
+  Index points = 0;  ///< those at which the points end, near the boundary
+  // Of its nodes with a free position:
+  Index ends = 0;    ///< near which the points end: they go there
+  Index inside = 0;  ///< beyond which the points go on: they go to the points across these, and fair along them
+  Index kept = 0;    ///< without points near enough to tell: they stay, with a warning
+};
+
 struct FitReport {
   FairReport fair;
+  std::optional<BoundaryOfPoints> boundary = std::nullopt;
   Index points = 0;
   /// Points tied to a node that moves, at the end. The others are nearest to nodes that stay, or have no weight.
   Index pulling_points = 0;
@@ -180,7 +191,7 @@ struct FitResult {
 ///
 /// Constraints hold as in fair(). If no point has weight, the result is that of fair(), bit for bit. A closed shape may
 /// be held by points alone, though its nodes can then slide (docs/fit.md); boundaries and ends must be held all the
-/// same. Nodes without points are fair between those that have some.
+/// same, or be fitted first (FairOptions::fair_boundary). Nodes without points are fair between those that have some.
 ///
 /// Surfaces: where more than two faces meet at edges, or several fans at a node, nodes are held, and each sheet goes by
 /// its own faces. With EquilibriumMethod and points that are the surface's own nodes, lines of edges of three faces are

@@ -12,6 +12,7 @@ enum class WarningCode : std::uint8_t {
   immovable_nodes,     ///< nodes that cannot move are held: at edges of more than two faces (of four or more with all
                        ///< nodes of these), where several fans meet
   free_boundary,       ///< boundary nodes are free and are drawn in
+  untold_boundary,     ///< boundary nodes are free, and no points are near enough to tell where they should be
   family_of_shapes,    ///< what holds the shape leaves more than one sphere, plane or circle
   other_springs,       ///< edge springs took the place of sphere springs
   other_fairness,      ///< no shape was found that is fair as asked for: by curvature, this is of least bending

@@ -12,6 +12,8 @@ const char* name(WarningCode code) noexcept {
       return "immovable-nodes";
     case WarningCode::free_boundary:
       return "free-boundary";
+    case WarningCode::untold_boundary:
+      return "untold-boundary";
     case WarningCode::family_of_shapes:
       return "family-of-shapes";
     case WarningCode::other_springs:

@@ -1,5 +1,7 @@
 #include "fit/fit_lines.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -10,11 +12,13 @@
 #include <variant>
 #include <vector>
 
+#include "base/cancellation.hpp"
 #include "base/threads.hpp"
 #include "checks/new_crossings.hpp"
 #include "constraints/holding.hpp"
 #include "constraints/immovable_nodes_fixed.hpp"
 #include "curve_fit/way_corners.hpp"
+#include "fit/boundary_trace.hpp"
 #include "fit/measure_again.hpp"
 #include "fit/turned_edges.hpp"
 #include "shape/incidence.hpp"
@@ -36,6 +40,10 @@ constexpr double times_noise = 3;
 // Rings of neighbours that go along with lines, each about as the mean of its neighbours after so many turns.
 constexpr int rings_along = 4;
 constexpr int turns_along = 20;
+// Of a tolerance: what a boundary at scattered points uses.
+constexpr double share_of_boundary = 0.5;
+// Of its smoothing length.
+constexpr int most_doublings = 10;
 
 /// Half the diagonal.
 double reach_of_voxels(const Vector3& size) { return size.norm() / 2; }
@@ -47,15 +55,16 @@ double reach_of_noise(const FitOptions& options) {
   return times_noise * options.noise().value_or(options.rms().value_or(0));
 }
 
-/// Corners of loops whose nodes are not held in a direction stay corners: they are more than noise.
-void keep_corners(const std::vector<PolygonCurve::Chain>& loops, const std::vector<Vector3>& positions, double reach,
-                  Constraints& constraints) {
-  for (const auto& loop : loops) {
+/// Corners of lines whose nodes are not held in a direction stay corners: they are more than noise.
+void keep_corners(LinesOfSurface& lines, const FitOptions& options) {
+  const double reach = reach_of_noise(options);
+  if (!(reach > 0)) return;
+  for (const auto& line : lines.curve.chains()) {
     std::vector<Vector3> way;
-    for (const Index node : loop.nodes) way.push_back(positions[static_cast<std::size_t>(node)]);
+    for (const Index node : line.nodes) way.push_back(lines.curve.position(node));
     for (const std::size_t k :
-         corners_of_way(way, loop.closed, least_turn_of_corner, reach, {}, least_edges_to_corner)) {
-      if (!constraints.tangent_fixed(loop.nodes[k])) constraints.make_corner(loop.nodes[k]);
+         corners_of_way(way, line.closed, least_turn_of_corner, reach, {}, least_edges_to_corner)) {
+      if (!lines.of_curve.tangent_fixed(line.nodes[k])) lines.of_curve.make_corner(line.nodes[k]);
     }
   }
 }
@@ -70,8 +79,8 @@ FitCriterion criterion_of_lines(const FitOptions& options) {
   return options.criterion;
 }
 
-/// Fits lines to their own nodes; has the surface hold them there.
-FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const ScatteredPoints& points,
+/// Fits lines to their own nodes; has the surface hold them there. weights: of all nodes, or none.
+FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const std::vector<double>& weights,
                     const FitOptions& options, Context& context) {
   FitOptions of_curve = options;
   of_curve.fair.fair_boundary.reset();
@@ -88,14 +97,13 @@ FitResult fit_lines(const PolygonMesh& mesh, LinesOfSurface& lines, const Scatte
         number[i] = static_cast<Index>(node_of.size());
         node_of.push_back(node);
         on_lines.positions.push_back(mesh.position(node));
-        if (!points.weights.empty()) on_lines.weights.push_back(points.weights[i]);
+        if (!weights.empty()) on_lines.weights.push_back(weights[i]);
       }
       node = number[i];
     }
   }
   Constraints held(static_cast<Index>(node_of.size()));
   for (std::size_t k = 0; k < node_of.size(); ++k) held.hold_as(static_cast<Index>(k), lines.of_curve, node_of[k]);
-  if (const double reach = reach_of_noise(options); reach > 0) keep_corners(chains, on_lines.positions, reach, held);
   FitResult curve = fit(PolygonCurve(on_lines.positions, std::move(chains)), held, on_lines, of_curve, context);
   std::vector<Vector3> positions = mesh.positions();
   for (std::size_t k = 0; k < node_of.size(); ++k) positions[static_cast<std::size_t>(node_of[k])] = curve.positions[k];
@@ -143,19 +151,92 @@ std::vector<Vector3> with_lines(const PolygonMesh& mesh, const Constraints& cons
 
 }  // namespace
 
+namespace {
+
+/// Makes a boundary that lies at scattered points fair, with a smoothing length: that of the surface or, for a
+/// tolerance, one that takes it no further than half of that, so that what is beside it has room. The surface then holds
+/// it. It is that of the edges already.
+FitResult fair_traced_boundary(const PolygonMesh& mesh, LinesOfSurface& boundary, double of_edges, FitOptions options,
+                               Context& context) {
+  options.outliers = 0;
+  options.fair.distribution = Distribution::keep;
+  const auto tolerance = options.tolerance();
+  if (!tolerance) return fit_lines(mesh, boundary, {}, options, context);
+  std::optional<FitResult> fairest;
+  for (int doublings = 0; doublings < most_doublings; ++doublings) {
+    FitOptions smoothed = options;
+    smoothed.criterion = SmoothingLength{std::ldexp(of_edges, doublings)};
+    FitResult found = fit_lines(mesh, boundary, {}, smoothed, context);
+    const Distance& off = found.report.after.all;
+    const bool is_near = (options.within() ? off.greatest : off.rms) <= share_of_boundary * *tolerance;
+    if (fairest && !(is_near && found.report.fair.outcome == Outcome::converged)) break;
+    fairest = std::move(found);
+  }
+  boundary.hold(fairest->positions);
+  return *std::move(fairest);
+}
+
+void warn_of_kept(const std::vector<Index>& kept, std::size_t free, FairReport& report) {
+  if (kept.empty()) return;
+  report.warnings.push_back(
+      {WarningCode::untold_boundary,
+       fmt::format("{} of {} free boundary nodes stay where they were, node {} first: no points are within two edges, "
+                   "or too few to tell where the boundary is; bring the shape nearer, or fix the boundary",
+                   kept.size(), free, kept.front())});
+}
+
+/// The boundary is drawn to where scattered points end, made fair, and held.
+FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                              LinesOfSurface boundary, FitOptions options, Context& context) {
+  const double strength = std::exchange(options.fair.strength, 1);
+  TracedBoundary traced;
+  try {
+    traced = trace_boundary(mesh, boundary, points, context);
+  } catch (const Cancelled&) {
+    return fit(mesh, boundary.of_surface, points, options, context);
+  }
+  PolygonMesh at_points = mesh;
+  at_points.set_positions(traced.positions);
+  for (const Index node : traced.corners) boundary.of_curve.make_corner(node);
+  for (const Index node : traced.kept) boundary.of_curve.fix_position(node, mesh.position(node));
+  boundary.hold(traced.positions);
+  std::optional<FairReport> of_curve;
+  if (traced.kept.size() < boundary.free.size()) {
+    boundary.curve.set_positions(traced.positions);
+    of_curve = fair_traced_boundary(at_points, boundary, traced.smoothing, options, context).report.fair;
+  }
+  PolygonMesh start = mesh;
+  start.set_positions(with_lines(mesh, constraints, boundary));
+  FitResult result = fit(start, boundary.of_surface, points, options, context);
+  FairReport& report = result.report.fair;
+  warn_of_kept(traced.kept, boundary.free.size(), report);
+  if (of_curve) {
+    join(*of_curve, report);
+    report.boundary = std::make_shared<const FairReport>(*std::move(of_curve));
+  }
+  result.report.boundary = traced.told;
+  account_for_moves(mesh, constraints, strength, result.positions, report);
+  measure_again(mesh, constraints, points, strength, result, context.threads);
+  return result;
+}
+
+}  // namespace
+
 FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                              FitOptions options, Context& context) {
-  if (points.positions != mesh.positions())
-    throw Error(ErrorCode::invalid_argument,
-                "the boundary can be fitted first only where the points are the nodes of the shape; else fair it "
-                "before, and hold it");
   LinesOfSurface boundary(mesh, constraints, boundary_curve(mesh));
   options.fair.fair_boundary.reset();
   if (boundary.free.empty()) return fit(mesh, constraints, points, options, context);
+  const bool are_nodes = points.positions == mesh.positions();
+  if (!are_nodes && !std::holds_alternative<EquilibriumMethod>(options.fair.method))
+    throw Error(ErrorCode::invalid_argument,
+                "the boundary can be fitted to scattered points by the method equilibrium only; fix the boundary");
   boundary.hold(mesh.positions());
   (void)check_constraints(mesh, boundary.of_surface, std::vector<std::uint8_t>(mesh.positions().size(), 1));
+  if (!are_nodes) return fit_traced_boundary(mesh, constraints, points, std::move(boundary), options, context);
 
-  FitResult curve = fit_lines(mesh, boundary, points, options, context);
+  keep_corners(boundary, options);
+  FitResult curve = fit_lines(mesh, boundary, points.weights, options, context);
   FitResult result = fit(mesh, boundary.of_surface, points, options, context);
   FairReport& report = result.report.fair;
   join(curve.report.fair, report);
@@ -210,7 +291,8 @@ class SheetFit {
     if (!pull_at_home() || !std::holds_alternative<EquilibriumMethod>(options_.fair.method)) return start_;
     LinesOfSurface lines(mesh_, held, junction_lines(mesh_));
     if (lines.free.empty()) return start_;
-    FitResult curve = fit_lines(mesh_, lines, points_, options_, context_);
+    keep_corners(lines, options_);
+    FitResult curve = fit_lines(mesh_, lines, points_.weights, options_, context_);
     const Outcome outcome = curve.report.fair.outcome;
     if (outcome == Outcome::worse_than_input || outcome == Outcome::cancelled) return start_;
     of_lines_ = std::move(curve.report.fair);

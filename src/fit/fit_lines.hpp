@@ -6,8 +6,8 @@
 
 namespace vspring {
 
-/// Boundary first, then the surface: a fit to the surface's own nodes with fair_boundary. Throws
-/// Error(invalid_argument) for other points.
+/// Boundary first, then the surface: a fit with fair_boundary. Throws Error(invalid_argument) for points that are not
+/// the surface's own nodes by another method than equilibrium.
 FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                              FitOptions options, Context& context);
 

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "fit/fit_points.hpp"
+#include "spring/net.hpp"
 #include "vspring/distance.hpp"
 
 namespace vspring {
@@ -31,6 +33,25 @@ void measure_again(const PolygonMesh& mesh, const Constraints& constraints, FitR
     squares += move * move;
   }
   report.fair.rms_move = std::sqrt(squares / std::max<double>(1, report.fair.moving_nodes));
+}
+
+void measure_again(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
+                   double strength, FitResult& found, int threads) {
+  if (found.distances.empty()) return;
+  Context measuring;
+  measuring.threads = threads;
+  const auto distances_at = [&](std::vector<Vector3> positions) {
+    PolygonMesh shape = mesh;
+    shape.set_positions(std::move(positions));
+    return point_distances(points.positions, shape, measuring);
+  };
+  std::vector<std::uint8_t> counted(points.positions.size(), 1);
+  FitReport& report = found.report;
+  report.before = summary(distances_at(positions_as_held(mesh.positions(), constraints)), counted);
+  if (strength == 1) return;
+  for (const Index point : report.outlying_points) counted[static_cast<std::size_t>(point)] = 0;
+  found.distances = distances_at(found.positions);
+  report.after = summary(found.distances, counted);
 }
 
 }  // namespace vspring

@@ -81,6 +81,16 @@ void PointTree::nearest(Index point, std::size_t count, std::vector<Near>& found
   std::sort_heap(found.begin(), found.end());
 }
 
+void PointTree::within(const Vector3& place, double radius, std::vector<Index>& found) const {
+  found.clear();
+  const double bound = radius * radius;
+  visit(
+      place, bound, [](const Box&) { return false; },
+      [&](Index other) {
+        if ((points_[static_cast<std::size_t>(other)] - place).squaredNorm() <= bound) found.push_back(other);
+      });
+}
+
 void PointTree::set_groups(std::span<const Index> groups) {
   groups_ = groups;
   for (std::size_t number = boxes_.size(); number-- > 0;) {

@@ -28,6 +28,9 @@ class PointTree {
   /// smallest numbers. Fewer where there are fewer.
   void nearest(Index point, std::size_t count, std::vector<Near>& found) const;
 
+  /// Those no further than `radius` from a place, in an order of the tree's own.
+  void within(const Vector3& place, double radius, std::vector<Index>& found) const;
+
   /// Says which points belong together. groups: one number per point. Cost: linear.
   void set_groups(std::span<const Index> groups);
 

@@ -12,13 +12,13 @@ from ._fairing import fair, fair_curve, fit, measure
 from ._files import read, write
 from ._points import Points, read_points
 from ._progress import Bar, Progress
-from ._reports import Distances, Figure, Figures, FitReport, Level, Report, Result
+from ._reports import BoundaryOfPoints, Distances, Figure, Figures, FitReport, Level, Report, Result
 from ._session import Session
 from ._vspring import Curve, Surface
 from ._vspring import version as _version
 
 __version__: str = _version()
 
-__all__ = ["Bar", "Chains", "Curvatures", "Curve", "Distances", "Error", "Figure", "Figures", "FitReport", "Level", "Points", "Progress",
-           "Report", "Result", "Session", "Surface", "Warning", "chains_of", "colours", "curvatures", "fair", "fair_curve", "fit",
-           "measure", "order", "read", "read_points", "write"]
+__all__ = ["Bar", "BoundaryOfPoints", "Chains", "Curvatures", "Curve", "Distances", "Error", "Figure", "Figures", "FitReport", "Level",
+           "Points", "Progress", "Report", "Result", "Session", "Surface", "Warning", "chains_of", "colours", "curvatures", "fair",
+           "fair_curve", "fit", "measure", "order", "read", "read_points", "write"]

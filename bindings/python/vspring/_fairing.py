@@ -77,7 +77,8 @@ def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | 
 
     One of weight, smoothing_length, within, rms and noise says how points pull. Returns new positions and a report with
     distances of the points. Raises what fair() does. Cost: that of fair(), and linear in the points for every iteration;
-    within and rms find the equilibrium of a surface some ten to a hundred times.
+    within and rms find the equilibrium of a surface some ten to a hundred times. With fix="none" the boundary of a surface
+    goes to where the points end; the report's boundary_of_points says how many nodes could.
 
     Source: § 4.5 and Eq. 9 of the paper; docs/fit.md.
     """
@@ -118,6 +119,11 @@ def _fit(given: Given, points: tuple[Any, Any, Any], options: Mapping[str, Any])
     if isinstance(settled.get("move"), str):
         settled["move"] = [settled["move"]]
     settled["planar"] = given.array.shape[1] == 2
+    if points[0] is not None and not given.is_curve and options.get("method") in (None, "equilibrium") and not options.get("paper"):
+        # A boundary that is free goes to where the points end.
+        settled["fair_boundary"] = True
+        if isinstance(fix := options.get("fix"), str) and fix == "none":
+            options = {**options, "fair_boundary": True}
     held = constraints_of(given, options)
     tell = teller(options)
     if has_new_nodes(options):

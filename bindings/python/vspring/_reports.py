@@ -111,6 +111,20 @@ class Distances:
     percentile99: float
 
 
+@dataclass(frozen=True)
+class BoundaryOfPoints:
+    """What points tell of the boundary of a surface that is not held."""
+
+    points: int
+    """Those at which the points end, near the boundary."""
+    ends: int
+    """Nodes of the boundary near which the points end: they go there."""
+    inside: int
+    """Nodes beyond which the points go on: they go to the points across these, and fair along them."""
+    kept: int
+    """Nodes without points near enough to tell: they stay, with a warning."""
+
+
 @dataclass(frozen=True, repr=False)
 class FitReport(Report):
     """How a run ended that drew a shape to points."""
@@ -140,6 +154,8 @@ class FitReport(Report):
     """The node that has it; -1 without."""
     greatest_slide: float
     """The greatest way of a node along the shape, where the points are its own nodes."""
+    boundary_of_points: BoundaryOfPoints | None
+    """Where the boundary of a surface is drawn to points of its own, not to its nodes."""
     before: Distances | None
     after: Distances | None
     distances: np.ndarray
@@ -154,7 +170,9 @@ class FitReport(Report):
 
 def fit_report_of(fields: Mapping[str, Any]) -> FitReport:
     distances = {name: None if fields[name] is None else Distances(**fields[name]) for name in ("before", "after")}
-    return FitReport(**{**_typed(fields), **distances})
+    told = fields["boundary_of_points"]
+    boundary = None if told is None else BoundaryOfPoints(**told)
+    return FitReport(**{**_typed(fields), **distances, "boundary_of_points": boundary})
 
 
 AnyReport = TypeVar("AnyReport", bound=Report, covariant=True)

@@ -1,0 +1,401 @@
+#include "fit/boundary_trace.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "base/cancellation.hpp"
+#include "base/threads.hpp"
+#include "points/nearest_nodes.hpp"
+#include "points/point_sheet.hpp"
+#include "shape/box_tree.hpp"
+#include "shape/frame.hpp"
+#include "shape/incidence.hpp"
+#include "shape/segment.hpp"
+
+namespace vspring {
+
+namespace {
+
+// In edges: how near points have to be to tell of a boundary, how far those about them may be, and what is looked at
+// of these.
+constexpr double reach_of_boundary = 2;
+constexpr double reach_around = 2;
+constexpr double radius_in_edges = 0.5;
+// Beyond it the plane that is nearest to points lies off where they bend.
+constexpr double flat_in_edges = 1;
+// In edges: waves of two go, which edges cannot follow.
+constexpr double smoothing_in_edges = 1.0 / 3;
+// Corners turn by so much more, within three nodes, than what is beside them, in loops of so many nodes at least.
+constexpr double least_turn = 40 * std::numbers::pi / 180;
+constexpr std::size_t fewest_nodes = 8;
+// Edges whose directions differ by less do not meet.
+constexpr double least_sine2 = 0.1;
+constexpr int turns_of_corners = 2;
+// Edges become as long as those beside them on average, so many times.
+constexpr int turns_of_spacing = 8;
+
+/// An edge of the boundary.
+struct BoundaryEdge {
+  std::size_t loop;
+  Vector3 from, to;
+
+  [[nodiscard]] double square_to(const Vector3& place) const {
+    return (place - from - nearest_share(place, from, to) * (to - from)).squaredNorm();
+  }
+};
+
+/// Of edges that are finite.
+class EdgeTree {
+ public:
+  EdgeTree(std::vector<BoundaryEdge> edges, ThreadTeam& team) : edges_(std::move(edges)), tree_(boxes_of(edges_), team) {}
+
+  [[nodiscard]] BoxTree::Nearest nearest(const Vector3& place, double within) const {
+    return tree_.nearest(
+        place, [&](Index k) { return edges_[static_cast<std::size_t>(k)].square_to(place); }, within * within);
+  }
+  [[nodiscard]] std::size_t loop_of(Index edge) const { return edges_[static_cast<std::size_t>(edge)].loop; }
+
+ private:
+  static std::vector<Box> boxes_of(const std::vector<BoundaryEdge>& edges) {
+    std::vector<Box> boxes(edges.size());
+    for (std::size_t k = 0; k < edges.size(); ++k) boxes[k].extend(edges[k].from).extend(edges[k].to);
+    return boxes;
+  }
+
+  std::vector<BoundaryEdge> edges_;
+  BoxTree tree_;
+};
+
+class BoundaryTrace {
+ public:
+  BoundaryTrace(const PolygonMesh& mesh, const LinesOfSurface& boundary, const ScatteredPoints& points,
+                Context& context)
+      : mesh_(mesh),
+        boundary_(boundary),
+        points_(points),
+        context_(context),
+        team_(context.thread_count()),
+        frame_(box_of(boundary)),
+        incidence_(mesh),
+        is_free_(mesh.positions().size(), 0) {
+    for (const Index i : boundary.free) is_free_[static_cast<std::size_t>(i)] = 1;
+    traced_.positions = mesh.positions();
+  }
+
+  TracedBoundary run() {
+    const CancellationScope cancellation(context_);
+    const auto& loops = boundary_.curve.chains();
+    std::vector<BoundaryEdge> edges;
+    for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+      const auto of_loop = edges_of(loop);
+      edges.insert(edges.end(), of_loop.begin(), of_loop.end());
+    }
+    const EdgeTree all(std::move(edges), team_);
+    for (std::size_t loop = 0; loop < loops.size(); ++loop) {
+      const auto& nodes = loops[loop].nodes;
+      if (std::any_of(nodes.begin(), nodes.end(), [&](Index i) { return is_free(i); })) trace(loop, all);
+    }
+    std::sort(traced_.kept.begin(), traced_.kept.end());
+    traced_.told.kept = static_cast<Index>(traced_.kept.size());
+    return std::move(traced_);
+  }
+
+ private:
+  static Eigen::AlignedBox<double, 3> box_of(const LinesOfSurface& boundary) {
+    Eigen::AlignedBox<double, 3> box;
+    for (const auto& loop : boundary.curve.chains()) {
+      for (const Index i : loop.nodes) {
+        if (boundary.curve.position(i).allFinite()) box.extend(boundary.curve.position(i));
+      }
+    }
+    return box;
+  }
+
+  [[nodiscard]] bool is_free(Index node) const { return is_free_[static_cast<std::size_t>(node)] != 0; }
+
+  /// Where a node is as the surface begins.
+  [[nodiscard]] Vector3 place(Index node) const {
+    return boundary_.of_curve.position_fixed(node) ? boundary_.of_curve.position(node) : mesh_.position(node);
+  }
+
+  [[nodiscard]] std::vector<BoundaryEdge> edges_of(std::size_t loop) const {
+    const auto& nodes = boundary_.curve.chains()[loop].nodes;
+    std::vector<BoundaryEdge> edges;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const BoundaryEdge edge{loop, frame_.to_local(place(nodes[k])),
+                              frame_.to_local(place(nodes[(k + 1) % nodes.size()]))};
+      if (edge.from.allFinite() && edge.to.allFinite()) edges.push_back(edge);
+    }
+    return edges;
+  }
+
+  void trace(std::size_t loop, const EdgeTree& all) {
+    const auto& nodes = boundary_.curve.chains()[loop].nodes;
+    std::vector<BoundaryEdge> edges = edges_of(loop);
+    std::vector<double> lengths;
+    for (const BoundaryEdge& edge : edges) lengths.push_back((edge.to - edge.from).norm());
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    const double edge = lengths.empty() ? 0 : *middle;
+    ScatteredPoints told;
+    if (edge > 0) told = listen(loop, edge, EdgeTree(std::move(edges), team_), all);
+    if (!told.positions.empty()) {
+      draw(nodes, edge / frame_.scale(), told);
+      return;
+    }
+    for (const Index i : nodes) {
+      if (is_free(i)) keep(i);
+    }
+  }
+
+  void keep(Index node) {
+    traced_.kept.push_back(node);
+    is_free_[static_cast<std::size_t>(node)] = 0;
+  }
+
+  /// Where a loop is, as the points tell, in units of the input.
+  ScatteredPoints listen(std::size_t loop, double edge, const EdgeTree& of_loop, const EdgeTree& all) {
+    std::vector<Index> number;
+    std::vector<Vector3> places;
+    std::vector<Vector3> normals;
+    std::vector<std::uint8_t> is_near;
+    const double furthest = (reach_of_boundary + reach_around) * edge;
+    for (std::size_t j = 0; j < points_.positions.size(); ++j) {
+      end_if_cancelled_at(j);
+      if (!points_.weights.empty() && !(points_.weights[j] > 0)) continue;
+      const Vector3 local = frame_.to_local(points_.positions[j]);
+      const auto nearest = of_loop.nearest(local, furthest);
+      if (nearest.item < 0) continue;
+      number.push_back(static_cast<Index>(j));
+      places.push_back(local);
+      if (!points_.normals.empty()) normals.push_back(points_.normals[j]);
+      const auto of_all = all.nearest(local, furthest);
+      is_near.push_back(std::sqrt(nearest.square) <= reach_of_boundary * edge && of_all.item >= 0 &&
+                        all.loop_of(of_all.item) == loop);
+    }
+    ScatteredPoints told;
+    const PointSheet sheet(places, normals, radius_in_edges * edge);
+    if (places.empty() || sheet.radius() > reach_around * edge) return told;
+    std::vector<Vector3> border;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      end_if_cancelled_at(k);
+      if (is_near[k] == 0) continue;
+      const auto about = sheet.about(static_cast<Index>(k));
+      if (!about || !about->ends) continue;
+      border.push_back(places[k]);
+      add_foot(number[k], places[k], places[k], *about, sheet.radius() <= flat_in_edges * edge, told);
+    }
+    traced_.told.points += static_cast<Index>(border.size());
+    listen_at_nodes(loop, edge, border, places, number, sheet, told);
+    return told;
+  }
+
+  void listen_at_nodes(std::size_t loop, double edge, const std::vector<Vector3>& border,
+                       const std::vector<Vector3>& places, const std::vector<Index>& number, const PointSheet& sheet,
+                       ScatteredPoints& told) {
+    std::vector<Index> free;
+    std::vector<Vector3> of_free;
+    for (const Index i : boundary_.curve.chains()[loop].nodes) {
+      if (!is_free(i)) continue;
+      free.push_back(i);
+      of_free.push_back(frame_.to_local(mesh_.position(i)));
+    }
+    const auto nearest_of = [&](const std::vector<Vector3>& those) {
+      return nearest_places(of_free, those, std::vector<std::uint8_t>(those.size(), 1), team_);
+    };
+    const std::vector<Index> at_border = nearest_of(border);
+    const std::vector<Index> at_points = nearest_of(places);
+    const auto in_reach = [&](std::size_t n, const std::vector<Vector3>& those, Index k) {
+      return k >= 0 && (of_free[n] - those[static_cast<std::size_t>(k)]).norm() <= reach_of_boundary * edge;
+    };
+    for (std::size_t n = 0; n < free.size(); ++n) {
+      if (in_reach(n, border, at_border[n])) {
+        ++traced_.told.ends;
+        continue;
+      }
+      const Index k = at_points[n];
+      const auto about = in_reach(n, places, k) ? sheet.about(k) : std::nullopt;
+      if (!about || about->ends) {
+        keep(free[n]);
+        continue;
+      }
+      ++traced_.told.inside;
+      add_foot(number[static_cast<std::size_t>(k)], of_free[n], places[static_cast<std::size_t>(k)], *about, true, told);
+    }
+  }
+
+  /// Of a place, at a distance that is that of a point's. is_flat: about the point.
+  void add_foot(Index point, const Vector3& place, const Vector3& of_point, const PointSheet::About& about,
+                bool is_flat, ScatteredPoints& told) const {
+    const auto j = static_cast<std::size_t>(point);
+    const Vector3 foot = is_flat ? about.foot(place) : place;
+    told.positions.emplace_back(points_.positions[j] + (foot - of_point) / frame_.scale());
+    if (!points_.weights.empty()) told.weights.push_back(points_.weights[j]);
+  }
+
+  /// A loop to what was told of it. edge: in units of the input.
+  void draw(const std::vector<Index>& nodes, double edge, const ScatteredPoints& told) {
+    const double smoothing = smoothing_in_edges * edge;
+    traced_.smoothing = traced_.smoothing > 0 ? std::min(traced_.smoothing, smoothing) : smoothing;
+    Constraints held(static_cast<Index>(nodes.size()));
+    std::vector<Vector3> way;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      const auto node = static_cast<Index>(k);
+      held.hold_as(node, boundary_.of_curve, nodes[k]);
+      way.push_back(place(nodes[k]));
+      if (!is_free(nodes[k])) held.fix_position(node, way.back());
+    }
+    const auto fitted = [&] {
+      FitOptions options{.criterion = SmoothingLength{smoothing}};
+      options.fair.distribution = Distribution::keep;
+      FitResult result = fit(PolygonCurve(way, true), held, told, options, context_);
+      end_if_cancelled();
+      return std::move(result.positions);
+    };
+    way = fitted();
+    // So that no square overflows.
+    for (Vector3& place : way) place *= frame_.scale();
+    for (const std::size_t k : corners_of(nodes, way)) {
+      const auto node = static_cast<Index>(k);
+      if (held.tangent_fixed(node)) continue;
+      held.make_corner(node);
+      if (is_free(nodes[k])) traced_.corners.push_back(nodes[k]);
+    }
+    space_out(held, way);
+    for (Vector3& place : way) place /= frame_.scale();
+    // A corner that begins far off takes two.
+    for (int turn = 0; turn < turns_of_corners; ++turn) way = fitted();
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (is_free(nodes[k])) traced_.positions[static_cast<std::size_t>(nodes[k])] = way[k];
+    }
+  }
+
+  /// Places of a closed way that has been smoothed, so that a corner turns within about three nodes. They go to the
+  /// corners.
+  [[nodiscard]] std::vector<std::size_t> corners_of(const std::vector<Index>& nodes, std::vector<Vector3>& way) const {
+    const std::size_t count = way.size();
+    if (count < fewest_nodes) return {};
+    const auto edge = [&](std::size_t k) -> Vector3 { return way[(k + 1) % count] - way[k % count]; };
+    const auto turn = [&](std::size_t k, std::size_t l) {
+      return std::atan2(edge(k).cross(edge(l)).norm(), edge(k).dot(edge(l)));
+    };
+    std::vector<double> excess(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      // Three nodes, and two to either side of them.
+      const double beside = turn(k + count - 4, k + count - 2) + turn(k + 1, k + 3);
+      excess[k] = turn(k + count - 2, k + 1) - 0.75 * beside;
+    }
+    std::vector<std::size_t> corners;
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto is_less = [&](std::size_t step) {
+        const std::size_t other = (k + step) % count;
+        return std::pair(excess[other], other) < std::pair(excess[k], k);
+      };
+      if (!(excess[k] > least_turn) || !is_less(1) || !is_less(2) || !is_less(count - 1) || !is_less(count - 2)) continue;
+      corners.push_back(put_at_corner(nodes, k, way));
+    }
+    return corners;
+  }
+
+  /// Where the edges about three places of a way would meet: that of them which is nearest goes there, or one beside it
+  /// that has fewer faces, as others would have straight angles in theirs.
+  std::size_t put_at_corner(const std::vector<Index>& nodes, std::size_t about, std::vector<Vector3>& way) const {
+    const std::size_t count = way.size();
+    const auto step = [&](std::size_t k, std::size_t by) { return (k + by) % count; };
+    const Vector3& before = way[step(about, count - 1)];
+    const Vector3& after = way[step(about, 1)];
+    const Vector3 in = (before - way[step(about, count - 2)]).normalized();
+    const Vector3 out = (after - way[step(about, 2)]).normalized();
+    // The middle between two lines, where these are nearest to each other.
+    const double cosine = in.dot(out);
+    const double sine2 = 1 - cosine * cosine;
+    if (!(sine2 > least_sine2)) return about;
+    const Vector3 gap = after - before;
+    const double way_in = (gap.dot(in) - cosine * gap.dot(out)) / sine2;
+    const double way_out = (cosine * gap.dot(in) - gap.dot(out)) / sine2;
+    const Vector3 corner = (before + way_in * in + after + way_out * out) / 2;
+    const auto distance = [&](std::size_t k) { return (way[k] - corner).squaredNorm(); };
+    std::size_t nearest = about;
+    for (const std::size_t by : {count - 1, std::size_t{1}}) {
+      if (distance(step(about, by)) < distance(nearest)) nearest = step(about, by);
+    }
+    std::size_t chosen = nearest;
+    const auto faces = [&](std::size_t k) { return incidence_.corners(nodes[k]).size(); };
+    for (const std::size_t by : {count - 1, std::size_t{1}}) {
+      if (faces(step(nearest, by)) >= faces(chosen)) continue;
+      chosen = step(nearest, by);
+      // The nearest one makes room.
+      way[nearest] = (corner + way[step(nearest, count - by)]) / 2;
+    }
+    way[chosen] = corner;
+    return chosen;
+  }
+
+  /// Takes the noise out of the distances along a closed way, between nodes that are held or corners.
+  static void space_out(const Constraints& held, std::vector<Vector3>& way) {
+    const std::size_t count = way.size();
+    const auto stays = [&](std::size_t k) {
+      const auto node = static_cast<Index>(k % count);
+      return held.position_fixed(node) || held.corner(node);
+    };
+    std::size_t first = 0;
+    while (first < count && !stays(first)) ++first;
+    if (first == count) first = 0;
+    const std::vector<Vector3> before = way;
+    for (std::size_t begin = first; begin < first + count;) {
+      std::size_t end = begin + 1;
+      while (end < first + count && !stays(end)) ++end;
+      space_out_between(before, begin, end, way);
+      begin = end;
+    }
+  }
+
+  static void space_out_between(const std::vector<Vector3>& before, std::size_t begin, std::size_t end,
+                                std::vector<Vector3>& way) {
+    const auto at = [&](std::size_t k) { return before[k % before.size()]; };
+    std::vector<double> lengths;
+    for (std::size_t k = begin; k < end; ++k) lengths.push_back((at(k + 1) - at(k)).norm());
+    std::vector<double> even = lengths;
+    for (int turn = 0; turn < turns_of_spacing; ++turn) {
+      const std::vector<double> last = even;
+      for (std::size_t k = 0; k < even.size(); ++k)
+        even[k] = (last[k > 0 ? k - 1 : k] + last[k] + last[std::min(k + 1, even.size() - 1)]) / 3;
+    }
+    // The sum stays.
+    double wanted = 0;
+    double passed = 0;
+    std::size_t edge = 0;
+    for (std::size_t k = 0; k + 1 < even.size(); ++k) {
+      wanted += even[k];
+      while (edge + 1 < lengths.size() && passed + lengths[edge] < wanted) passed += lengths[edge++];
+      const double share = lengths[edge] > 0 ? std::clamp((wanted - passed) / lengths[edge], 0.0, 1.0) : 0;
+      way[(begin + k + 1) % way.size()] = at(begin + edge) + share * (at(begin + edge + 1) - at(begin + edge));
+    }
+  }
+
+  const PolygonMesh& mesh_;
+  const LinesOfSurface& boundary_;
+  const ScatteredPoints& points_;
+  Context& context_;
+  ThreadTeam team_;
+  Frame frame_;
+  Incidence incidence_;
+  std::vector<std::uint8_t> is_free_;
+  TracedBoundary traced_;
+};
+
+}  // namespace
+
+TracedBoundary trace_boundary(const PolygonMesh& mesh, const LinesOfSurface& boundary, const ScatteredPoints& points,
+                              Context& context) {
+  return BoundaryTrace(mesh, boundary, points, context).run();
+}
+
+}  // namespace vspring

@@ -1,0 +1,117 @@
+#include "points/point_sheet.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <tuple>
+
+#include "base/cancellation.hpp"
+#include "points/facing.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Points about a point, and of how many these are counted.
+constexpr std::size_t points_about = 24;
+constexpr std::size_t most_counted = 1000;
+// So few do not make a surface.
+constexpr std::size_t fewest_about = 6;
+// In radii, for points that stand for the others in their cell.
+constexpr double cell_of_few = 0.25;
+// Without a point in the plane: where a surface ends in a line, a little less than on one side of that.
+constexpr double widest_gap = 150 * std::numbers::pi / 180;
+
+}  // namespace
+
+PointSheet::PointSheet(std::span<const Vector3> points, std::span<const Vector3> normals, double least_radius)
+    : points_(points), normals_(normals), tree_(points), radius_(least_radius) {
+  std::vector<double> reaches;
+  std::vector<PointTree::Near> near;
+  const std::size_t step = points.size() / most_counted + 1;
+  for (std::size_t j = 0; j < points.size(); j += step) {
+    end_if_cancelled_at(j);
+    tree_.nearest(static_cast<Index>(j), points_about, near);
+    if (near.size() == points_about) reaches.push_back(std::sqrt(near.back().square));
+  }
+  if (reaches.empty()) return;
+  const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
+  std::nth_element(reaches.begin(), middle, reaches.end());
+  radius_ = std::max(radius_, *middle);
+  few_ = thinned(cell_of_few * radius_);
+  for (const Index j : few_) places_of_few_.push_back(points_[static_cast<std::size_t>(j)]);
+  tree_of_few_.emplace(places_of_few_);
+}
+
+/// The first point of every cell of a cubic grid.
+std::vector<Index> PointSheet::thinned(double cell) const {
+  std::vector<std::tuple<std::array<double, 3>, Index>> cells;
+  cells.reserve(points_.size());
+  for (std::size_t j = 0; j < points_.size(); ++j) {
+    const Vector3 place = (points_[j] / cell).array().floor();
+    cells.push_back({{place.x(), place.y(), place.z()}, static_cast<Index>(j)});
+  }
+  std::sort(cells.begin(), cells.end());
+  std::vector<Index> first;
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    if (k == 0 || std::get<0>(cells[k]) != std::get<0>(cells[k - 1])) first.push_back(std::get<1>(cells[k]));
+  }
+  std::sort(first.begin(), first.end());
+  return first;
+}
+
+bool PointSheet::face_alike(Index a, Index b) const {
+  return normals_.empty() ||
+         vspring::face_alike(normals_[static_cast<std::size_t>(a)], normals_[static_cast<std::size_t>(b)]);
+}
+
+std::optional<PointSheet::About> PointSheet::about(Index point) const {
+  if (!tree_of_few_) return std::nullopt;
+  const Vector3& place = points_[static_cast<std::size_t>(point)];
+  std::vector<Index> found;
+  tree_of_few_->within(place, radius_, found);
+  std::vector<Vector3> others;
+  for (const Index k : found) {
+    if (face_alike(point, few_[static_cast<std::size_t>(k)])) others.push_back(places_of_few_[static_cast<std::size_t>(k)]);
+  }
+  if (others.size() < fewest_about) return std::nullopt;
+  About about;
+  about.centre = Vector3::Zero();
+  for (const Vector3& other : others) about.centre += other;
+  about.centre /= static_cast<double>(others.size());
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const Vector3& other : others) squares += (other - about.centre) * (other - about.centre).transpose();
+  about.normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>().computeDirect(squares).eigenvectors().col(0);
+  about.ends = ends(point, about, others);
+  if (!about.ends) return about;
+  // Others may lie where those few do not.
+  tree_.within(place, radius_, found);
+  others.clear();
+  for (const Index k : found) {
+    if (face_alike(point, k)) others.push_back(points_[static_cast<std::size_t>(k)]);
+  }
+  about.ends = ends(point, about, others);
+  return about;
+}
+
+bool PointSheet::ends(Index point, const About& about, const std::vector<Vector3>& others) const {
+  const Vector3& place = points_[static_cast<std::size_t>(point)];
+  const Vector3 first = about.normal.unitOrthogonal();
+  const Vector3 second = about.normal.cross(first);
+  std::vector<double> angles;
+  for (const Vector3& other : others) {
+    const Vector3 way = other - place;
+    if (way.isZero(0)) continue;
+    angles.push_back(std::atan2(way.dot(second), way.dot(first)));
+  }
+  if (angles.empty()) return false;
+  std::sort(angles.begin(), angles.end());
+  double gap = angles.front() + 2 * std::numbers::pi - angles.back();
+  for (std::size_t k = 1; k < angles.size(); ++k) gap = std::max(gap, angles[k] - angles[k - 1]);
+  return gap > widest_gap;
+}
+
+}  // namespace vspring

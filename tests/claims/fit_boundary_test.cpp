@@ -1,0 +1,295 @@
+// What a fit to scattered points makes of a boundary that nothing holds.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "support/fits.hpp"
+#include "vspring/vspring.hpp"
+
+namespace vspring::fit_boundary_test {
+namespace {
+
+using namespace support;
+
+using Height = std::function<double(double x, double y)>;
+
+double saddle_height(double x, double y) { return 0.4 * (x * x - y * y); }
+
+/// A square of this many cells a side, from −1 to 1, under a height.
+PolygonMesh over_square(int cells, generate::Faces faces, const Height& height = saddle_height) {
+  PolygonMesh mesh = generate::plane({.columns = cells, .rows = cells, .faces = faces}, 2, 2);
+  std::vector<Vector3> positions = mesh.positions();
+  for (Vector3& p : positions) p = {p.x() - 1, p.y() - 1, height(p.x() - 1, p.y() - 1)};
+  mesh.set_positions(std::move(positions));
+  return mesh;
+}
+
+/// Points over the square of this half side, evenly or at random, with noise of this standard deviation in each
+/// coordinate, about.
+ScatteredPoints points_over_square(int side, double noise = 0, double half = 1, bool evenly = true) {
+  Draw draw(7);
+  ScatteredPoints points;
+  for (int i = 0; i < side; ++i) {
+    for (int j = 0; j < side; ++j) {
+      const double x = evenly ? 2.0 * i / (side - 1) - 1 : draw.uniform(-1, 1);
+      const double y = evenly ? 2.0 * j / (side - 1) - 1 : draw.uniform(-1, 1);
+      // A sum of three has about the shape of the bell.
+      const Vector3 off = draw.in_cube(1) + draw.in_cube(1) + draw.in_cube(1);
+      points.positions.push_back(Vector3(half * x, half * y, saddle_height(half * x, half * y)) + noise * off);
+    }
+  }
+  return points;
+}
+
+std::vector<Index> boundary_of(const PolygonMesh& mesh) {
+  std::vector<Index> nodes;
+  const std::vector<std::uint8_t> is_of_boundary = boundary_nodes(mesh);
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (is_of_boundary[static_cast<std::size_t>(i)] != 0) nodes.push_back(i);
+  }
+  return nodes;
+}
+
+/// Of the nodes, from the outline of the square under the saddle: aside of it in x and y, and from the saddle.
+struct OffSquare {
+  OffSquare(const std::vector<Vector3>& positions, const std::vector<Index>& nodes) {
+    for (const Index i : nodes) {
+      const Vector3& p = positions[static_cast<std::size_t>(i)];
+      const double aside = std::abs(std::max(std::abs(p.x()), std::abs(p.y())) - 1);
+      const double off = std::hypot(aside, p.z() - saddle_height(p.x(), p.y()));
+      greatest = std::max(greatest, off);
+      rms += off * off;
+    }
+    rms = std::sqrt(rms / static_cast<double>(nodes.size()));
+  }
+  double rms = 0;
+  double greatest = 0;
+};
+
+/// Of all nodes from the saddle, root mean square.
+double off_saddle(const std::vector<Vector3>& positions) {
+  double squares = 0;
+  for (const Vector3& p : positions) squares += std::pow(p.z() - saddle_height(p.x(), p.y()), 2);
+  return std::sqrt(squares / static_cast<double>(positions.size()));
+}
+
+FitOptions boundary_first(const FitCriterion& criterion) {
+  FitOptions options{.criterion = criterion};
+  options.fair.fair_boundary.emplace();
+  return options;
+}
+
+FitResult fit_free(const PolygonMesh& mesh, const ScatteredPoints& points, const FitCriterion& criterion) {
+  return fit(mesh, Constraints(mesh.node_count()), points, boundary_first(criterion));
+}
+
+constexpr int cells = 12;
+constexpr double edge = 2.0 / cells;
+
+/// Noise of a third of an edge in each coordinate, of the boundary too.
+PolygonMesh disturbed(const PolygonMesh& mesh, double length = edge, std::uint64_t seed = 1) {
+  return generate::add_noise(mesh, std::sqrt(5) / 3 * length, seed, true);
+}
+
+TEST(FitBoundary, GoesToWhereThePointsEnd) {
+  const ScatteredPoints points = points_over_square(6 * cells + 1);
+  for (const auto faces : {generate::Faces::quads, generate::Faces::triangles, generate::Faces::hexagons}) {
+    const PolygonMesh truth = over_square(cells, faces);
+    const PolygonMesh mesh = disturbed(truth);
+    const std::vector<Index> boundary = boundary_of(truth);
+    const double before = OffSquare(mesh.positions(), boundary).rms;
+    constexpr double within = 0.1 * edge;
+    std::vector<FitCriterion> criteria = {Within{within}};
+    if (faces == generate::Faces::quads)
+      criteria.insert(criteria.end(), {RootMeanSquare{0.03 * edge}, SmoothingLength{edge / 2}, Weight{0.1}});
+    for (const FitCriterion& criterion : criteria) {
+      const std::string which = std::to_string(static_cast<int>(faces)) + ' ' + std::to_string(criterion.index());
+      const FitResult result = fit_free(mesh, points, criterion);
+      EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << which;
+      EXPECT_TRUE(result.report.fair.warnings.empty()) << which;
+      EXPECT_EQ(result.report.fair.moving_nodes, mesh.node_count()) << which;
+      const OffSquare after(result.positions, boundary);
+      EXPECT_LT(after.rms, before / 15) << which;
+      EXPECT_LT(after.greatest, within) << which;
+      ASSERT_TRUE(result.report.boundary.has_value()) << which;
+      EXPECT_EQ(result.report.boundary->points, 4 * 6 * cells) << which;
+      EXPECT_EQ(result.report.boundary->ends, std::ssize(boundary)) << which;
+      EXPECT_EQ(result.report.boundary->inside + result.report.boundary->kept, 0) << which;
+      // Corners stay corners, and what lies between does not crowd.
+      for (const Vector3& corner : {Vector3(1, 1, 0), Vector3(-1, 1, 0), Vector3(1, -1, 0), Vector3(-1, -1, 0)}) {
+        double nearest = 2;
+        for (const Index i : boundary)
+          nearest = std::min(nearest, (corner - result.positions[static_cast<std::size_t>(i)]).norm());
+        EXPECT_LT(nearest, 0.15 * edge) << which;
+      }
+      const std::vector<Index> loop = boundary_loops(mesh).at(0);
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const Vector3& here = result.positions[static_cast<std::size_t>(loop[k])];
+        const Vector3& next = result.positions[static_cast<std::size_t>(loop[(k + 1) % loop.size()])];
+        EXPECT_GT((next - here).norm(), 0.4 * edge) << which;
+      }
+    }
+  }
+}
+
+TEST(FitBoundary, LeavesTheSurfaceAsGoodAsOneThatIsHeldWhereItBelongs) {
+  const PolygonMesh truth = over_square(cells, generate::Faces::quads);
+  const PolygonMesh mesh = disturbed(truth);
+  const ScatteredPoints points = points_over_square(6 * cells + 1);
+  for (const FitCriterion& criterion : {FitCriterion(Within{0.1 * edge}), FitCriterion(RootMeanSquare{0.03 * edge})}) {
+    const FitResult result = fit_free(mesh, points, criterion);
+    Constraints held(mesh.node_count());
+    for (const Index i : boundary_of(truth)) held.fix_position(i, truth.position(i));
+    const FitResult in_place = fit(mesh, held, points, {.criterion = criterion});
+    EXPECT_LT(off_saddle(result.positions), 1.2 * off_saddle(in_place.positions)) << criterion.index();
+    EXPECT_LT(result.report.after.all.greatest, 1.2 * in_place.report.after.all.greatest) << criterion.index();
+  }
+}
+
+TEST(FitBoundary, FollowsNoisyPointsAtRandom) {
+  const PolygonMesh truth = over_square(cells, generate::Faces::triangles);
+  const std::vector<Index> boundary = boundary_of(truth);
+  for (const std::uint64_t seed : {1, 2}) {
+    const PolygonMesh mesh = disturbed(truth, edge, seed);
+    constexpr double noise = 0.05 * edge;
+    const ScatteredPoints points = points_over_square(6 * cells, noise, 1, false);
+    const FitResult result = fit_free(mesh, points, Within{4.5 * noise});
+    EXPECT_EQ(result.report.fair.outcome, Outcome::converged) << seed;
+    EXPECT_LT(OffSquare(result.positions, boundary).rms, OffSquare(mesh.positions(), boundary).rms / 6) << seed;
+    EXPECT_LT(off_saddle(result.positions), off_saddle(mesh.positions()) / 6) << seed;
+  }
+}
+
+TEST(FitBoundary, HasAsManyLoopsAsThereAre) {
+  // Circles have no corners. The points are those of a fine ring of the same shape.
+  const auto ring = [](Index nodes) {
+    return generate::annulus({.nodes = nodes, .inner_radius = 0.4, .profile = generate::Profile::flat});
+  };
+  const PolygonMesh truth = ring(600);
+  const PolygonMesh fine = ring(12000);
+  const double length = (truth.position(truth.face(0)[0]) - truth.position(truth.face(0)[1])).norm();
+  const PolygonMesh mesh = disturbed(truth, length);
+  const FitResult result = fit_free(mesh, {.positions = fine.positions()}, SmoothingLength{length / 2});
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  const auto loops = boundary_loops(truth);
+  ASSERT_EQ(loops.size(), 2);
+  for (const auto& loop : loops) {
+    const double radius = truth.position(loop[0]).head<2>().norm();
+    const auto off = [&](const std::vector<Vector3>& positions) {
+      double squares = 0;
+      for (const Index i : loop) {
+        const Vector3& p = positions[static_cast<std::size_t>(i)];
+        squares += std::pow(p.head<2>().norm() - radius, 2) + p.z() * p.z();
+      }
+      return std::sqrt(squares / static_cast<double>(loop.size()));
+    };
+    EXPECT_LT(off(result.positions), off(mesh.positions()) / 10) << radius;
+  }
+}
+
+TEST(FitBoundary, WherePointsGoOnItGoesAcrossThemAlone) {
+  const PolygonMesh truth = over_square(cells, generate::Faces::quads);
+  PolygonMesh mesh = truth;
+  std::vector<Vector3> positions = truth.positions();
+  Draw draw(1);
+  for (Vector3& p : positions) p.z() += draw.uniform(-0.5, 0.5) * edge;
+  mesh.set_positions(std::move(positions));
+  const std::vector<Index> boundary = boundary_of(truth);
+  const FitResult result = fit_free(mesh, points_over_square(9 * cells + 1, 0, 1.6), SmoothingLength{edge / 2});
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.boundary->points, 0);
+  EXPECT_EQ(result.report.boundary->inside, std::ssize(boundary));
+  EXPECT_LT(off_saddle(result.positions), off_saddle(mesh.positions()) / 20);
+  EXPECT_LT(OffSquare(result.positions, boundary).greatest, 0.1 * edge);
+}
+
+TEST(FitBoundary, StaysWhereThereAreNoPoints) {
+  const PolygonMesh mesh = disturbed(over_square(cells, generate::Faces::quads));
+  ScatteredPoints points = points_over_square(6 * cells + 1);
+  std::erase_if(points.positions, [](const Vector3& p) { return p.x() > 0; });
+  FitOptions few_steps = boundary_first(SmoothingLength{edge / 2});
+  few_steps.fair.method = EquilibriumMethod{.max_iterations = 5};
+  const Constraints free(mesh.node_count());
+  const FitResult result = fit(mesh, free, points, few_steps);
+  ASSERT_TRUE(result.report.boundary.has_value());
+  EXPECT_GT(result.report.boundary->kept, cells);
+  EXPECT_GT(result.report.boundary->ends, cells);
+  const auto& warnings = result.report.fair.warnings;
+  const auto untold = std::find_if(warnings.begin(), warnings.end(), [](const Warning& warning) {
+    return warning.code == WarningCode::untold_boundary;
+  });
+  ASSERT_NE(untold, warnings.end());
+  Index stayed = 0;
+  for (const Index i : boundary_of(mesh)) {
+    const Vector3& before = mesh.position(i);
+    if (before.x() > 3 * edge) EXPECT_EQ(result.positions[static_cast<std::size_t>(i)], before) << i;
+    stayed += result.positions[static_cast<std::size_t>(i)] == before ? 1 : 0;
+  }
+  EXPECT_EQ(stayed, result.report.boundary->kept);
+
+  // Nowhere near any.
+  for (Vector3& p : points.positions) p.z() += 10;
+  const FitResult far = fit(mesh, free, points, few_steps);
+  EXPECT_EQ(far.report.boundary->kept, std::ssize(boundary_of(mesh)));
+  EXPECT_EQ(far.report.fair.boundary, nullptr);
+}
+
+TEST(FitBoundary, GoesOnFromWhatIsHeld) {
+  const PolygonMesh truth = over_square(cells, generate::Faces::quads);
+  const PolygonMesh mesh = disturbed(truth);
+  Constraints held(mesh.node_count());
+  std::vector<Index> free;
+  for (const Index i : boundary_of(truth)) {
+    if (truth.position(i).x() == -1)
+      held.fix_position(i, truth.position(i));
+    else
+      free.push_back(i);
+  }
+  const FitResult result =
+      fit(mesh, held, points_over_square(6 * cells + 1), boundary_first(Within{0.1 * edge}));
+  EXPECT_EQ(result.report.fair.outcome, Outcome::converged);
+  for (Index i = 0; i < mesh.node_count(); ++i) {
+    if (held.position_fixed(i)) EXPECT_EQ(result.positions[static_cast<std::size_t>(i)], held.position(i)) << i;
+  }
+  EXPECT_EQ(result.report.boundary->ends, std::ssize(free));
+  EXPECT_LT(OffSquare(result.positions, free).rms, OffSquare(mesh.positions(), free).rms / 10);
+}
+
+TEST(FitBoundary, HasTheSameBitsOnAnyNumberOfThreadsAndAtAnySize) {
+  const PolygonMesh mesh = disturbed(over_square(cells, generate::Faces::triangles));
+  const ScatteredPoints points = points_over_square(6 * cells, 0.03 * edge, 1, false);
+  const Constraints free(mesh.node_count());
+  const auto run = [&](int threads) {
+    Context context;
+    context.threads = threads;
+    return fit(mesh, free, points, boundary_first(SmoothingLength{edge / 2}), context).positions;
+  };
+  const std::vector<Vector3> alone = run(1);
+  EXPECT_EQ(alone, run(3));
+
+  constexpr double huge = 0x1p500;
+  PolygonMesh large = mesh;
+  std::vector<Vector3> positions = mesh.positions();
+  for (Vector3& p : positions) p *= huge;
+  large.set_positions(std::move(positions));
+  ScatteredPoints as_large = points;
+  for (Vector3& p : as_large.positions) p *= huge;
+  std::vector<Vector3> at_size = fit_free(large, as_large, SmoothingLength{huge * edge / 2}).positions;
+  for (Vector3& p : at_size) p /= huge;
+  EXPECT_LT(greatest_distance(alone, at_size), 1e-9);
+}
+
+TEST(FitBoundary, IsForTheMethodEquilibrium) {
+  const PolygonMesh mesh = over_square(cells, generate::Faces::quads);
+  FitOptions options = boundary_first(Weight{1});
+  options.fair.method = SweepMethod{};
+  EXPECT_THROW((void)fit(mesh, Constraints(mesh.node_count()), points_over_square(20), options), Error);
+}
+
+}  // namespace
+}  // namespace vspring::fit_boundary_test

@@ -237,8 +237,9 @@ std::string FitAccount::lines() const {
                   weights_ ? fmt::format(" of weights {:.4g} to {:.4g}", weights_->first, weights_->second) : "",
                   normals_ > 0 ? ", with normals" : "", report_.pulling_points, report_.pulled_nodes);
   if (const auto& boundary = report_.boundary)
-    text += fmt::format("boundary         {} nodes go to {} points at which these end, {} to points that go on, {} stay\n",
-                        boundary->ends, boundary->points, boundary->inside, boundary->kept);
+    text +=
+        fmt::format("boundary         {} nodes go to {} points at which these end, {} to points that go on, {} stay\n",
+                    boundary->ends, boundary->points, boundary->inside, boundary->kept);
   const auto line = [&](const char* name, double before, double after) {
     text += fmt::format("{}{:.4g} → {:.4g} units\n", name, before, after);
   };

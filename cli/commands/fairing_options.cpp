@@ -38,7 +38,8 @@ void add_files(CLI::App& command, FairingArguments& arguments, const FairingWord
 }
 
 void add_constraint_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words) {
-  add_choice(command, "--fix", arguments.fix, holds, words.ends + " whose positions are fixed" + words.unfixed + " (default: boundary)")
+  add_choice(command, "--fix", arguments.fix, holds,
+             words.ends + " whose positions are fixed" + words.unfixed + " (default: boundary)")
       ->group(holding_group);
   add_choice(command, "--fix-normals", arguments.fix_directions, holds,
              fmt::format("{} whose {} are fixed as they are in the input, to second order (default: none)", words.ends,

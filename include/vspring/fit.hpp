@@ -130,7 +130,7 @@ struct BoundaryOfPoints {
   Index points = 0;  ///< those at which the points end, near the boundary
   // Of its nodes with a free position:
   Index ends = 0;    ///< near which the points end: they go there
-  Index inside = 0;  ///< beyond which the points go on: they go to the points across these, and fair along them
+  Index inside = 0;  ///< beyond which the points go on: they go across to the points, and no further
   Index kept = 0;    ///< without points near enough to tell: they stay, with a warning
 };
 

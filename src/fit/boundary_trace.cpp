@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "base/cancellation.hpp"
@@ -18,6 +17,7 @@
 #include "shape/frame.hpp"
 #include "shape/incidence.hpp"
 #include "shape/segment.hpp"
+#include "vspring/error.hpp"
 
 namespace vspring {
 
@@ -30,6 +30,11 @@ constexpr double reach_around = 2;
 constexpr double radius_in_edges = 0.5;
 // Beyond it the plane that is nearest to points lies off where they bend.
 constexpr double flat_in_edges = 1;
+// Of the directions in which points and the surface end; it is that of so many edges to either side.
+constexpr double least_cosine_outwards = 0.3;
+constexpr std::size_t edges_about = 2;
+// So many times as many are in the loop, as those all around it tell nothing.
+constexpr std::size_t least_loop_in_edges = 6;
 // In edges: waves of two go, which edges cannot follow.
 constexpr double smoothing_in_edges = 1.0 / 3;
 // Corners turn by so much more, within three nodes, than what is beside them, in loops of so many nodes at least.
@@ -45,6 +50,7 @@ constexpr int turns_of_spacing = 8;
 struct BoundaryEdge {
   std::size_t loop;
   Vector3 from, to;
+  Vector3 out = Vector3::Zero();  ///< away from the surface about there, of unit length; zero where that is not known
 
   [[nodiscard]] double square_to(const Vector3& place) const {
     return (place - from - nearest_share(place, from, to) * (to - from)).squaredNorm();
@@ -54,13 +60,14 @@ struct BoundaryEdge {
 /// Of edges that are finite.
 class EdgeTree {
  public:
-  EdgeTree(std::vector<BoundaryEdge> edges, ThreadTeam& team) : edges_(std::move(edges)), tree_(boxes_of(edges_), team) {}
+  EdgeTree(std::vector<BoundaryEdge> edges, ThreadTeam& team)
+      : edges_(std::move(edges)), tree_(boxes_of(edges_), team) {}
 
   [[nodiscard]] BoxTree::Nearest nearest(const Vector3& place, double within) const {
     return tree_.nearest(
         place, [&](Index k) { return edges_[static_cast<std::size_t>(k)].square_to(place); }, within * within);
   }
-  [[nodiscard]] std::size_t loop_of(Index edge) const { return edges_[static_cast<std::size_t>(edge)].loop; }
+  [[nodiscard]] const BoundaryEdge& edge(Index k) const { return edges_[static_cast<std::size_t>(k)]; }
 
  private:
   static std::vector<Box> boxes_of(const std::vector<BoundaryEdge>& edges) {
@@ -122,33 +129,64 @@ class BoundaryTrace {
 
   /// Where a node is as the surface begins.
   [[nodiscard]] Vector3 place(Index node) const {
-    return boundary_.of_curve.position_fixed(node) ? boundary_.of_curve.position(node) : mesh_.position(node);
+    return boundary_.of_curve.position_fixed(node) ? boundary_.of_curve.position(node)
+                                                   : traced_.positions[static_cast<std::size_t>(node)];
   }
 
   [[nodiscard]] std::vector<BoundaryEdge> edges_of(std::size_t loop) const {
     const auto& nodes = boundary_.curve.chains()[loop].nodes;
+    const std::size_t count = nodes.size();
     std::vector<BoundaryEdge> edges;
-    for (std::size_t k = 0; k < nodes.size(); ++k) {
-      const BoundaryEdge edge{loop, frame_.to_local(place(nodes[k])),
-                              frame_.to_local(place(nodes[(k + 1) % nodes.size()]))};
-      if (edge.from.allFinite() && edge.to.allFinite()) edges.push_back(edge);
+    for (std::size_t k = 0; k < count; ++k) {
+      BoundaryEdge edge{loop, frame_.to_local(place(nodes[k])), frame_.to_local(place(nodes[(k + 1) % count]))};
+      if (!edge.from.allFinite() || !edge.to.allFinite()) continue;
+      // Of more edges than one, as noise turns each.
+      Vector3 out = Vector3::Zero();
+      const std::size_t about = std::min(edges_about, count / least_loop_in_edges);
+      const std::size_t first = k + count - about;
+      const std::size_t last = k + count + about;
+      for (std::size_t other = first; other <= last; ++other)
+        out += out_of(nodes[other % count], nodes[(other + 1) % count]);
+      const Vector3 along =
+          frame_.to_local(place(nodes[(last + 1) % count])) - frame_.to_local(place(nodes[first % count]));
+      if (along.squaredNorm() > 0) out -= out.dot(along) / along.squaredNorm() * along;
+      if (out.allFinite() && out.squaredNorm() > 0) edge.out = out.normalized();
+      edges.push_back(edge);
     }
     return edges;
+  }
+
+  /// From the middle of the face at an edge of the boundary to that of the edge.
+  [[nodiscard]] Vector3 out_of(Index from, Index to) const {
+    for (const Corner corner : incidence_.corners(from)) {
+      const auto face = mesh_.face(corner.face);
+      const auto at = static_cast<std::size_t>(corner.place);
+      if (face[(at + 1) % face.size()] != to && face[(at + face.size() - 1) % face.size()] != to) continue;
+      Vector3 middle = Vector3::Zero();
+      for (const Index i : face) middle += frame_.to_local(mesh_.position(i));
+      return (frame_.to_local(mesh_.position(from)) + frame_.to_local(mesh_.position(to))) / 2 -
+             middle / static_cast<double>(face.size());
+    }
+    return Vector3::Zero();
   }
 
   void trace(std::size_t loop, const EdgeTree& all) {
     const auto& nodes = boundary_.curve.chains()[loop].nodes;
     std::vector<BoundaryEdge> edges = edges_of(loop);
     std::vector<double> lengths;
+    lengths.reserve(edges.size());
     for (const BoundaryEdge& edge : edges) lengths.push_back((edge.to - edge.from).norm());
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());
     const double edge = lengths.empty() ? 0 : *middle;
     ScatteredPoints told;
     if (edge > 0) told = listen(loop, edge, EdgeTree(std::move(edges), team_), all);
-    if (!told.positions.empty()) {
-      draw(nodes, edge / frame_.scale(), told);
-      return;
+    try {
+      if (!told.positions.empty()) return draw(nodes, edge / frame_.scale(), told);
+    } catch (const Error&) {
+      // No curve, as where nodes lie at one place.
+      traced_.told.ends -=
+          static_cast<Index>(std::count_if(nodes.begin(), nodes.end(), [&](Index i) { return is_free(i); }));
     }
     for (const Index i : nodes) {
       if (is_free(i)) keep(i);
@@ -157,6 +195,12 @@ class BoundaryTrace {
 
   void keep(Index node) {
     traced_.kept.push_back(node);
+    hold(node);
+  }
+
+  /// Where it is.
+  void hold(Index node) {
+    traced_.held.push_back(node);
     is_free_[static_cast<std::size_t>(node)] = 0;
   }
 
@@ -166,6 +210,7 @@ class BoundaryTrace {
     std::vector<Vector3> places;
     std::vector<Vector3> normals;
     std::vector<std::uint8_t> is_near;
+    std::vector<Vector3> out;
     const double furthest = (reach_of_boundary + reach_around) * edge;
     for (std::size_t j = 0; j < points_.positions.size(); ++j) {
       end_if_cancelled_at(j);
@@ -173,12 +218,12 @@ class BoundaryTrace {
       const Vector3 local = frame_.to_local(points_.positions[j]);
       const auto nearest = of_loop.nearest(local, furthest);
       if (nearest.item < 0) continue;
+      out.push_back(of_loop.edge(nearest.item).out);
       number.push_back(static_cast<Index>(j));
       places.push_back(local);
       if (!points_.normals.empty()) normals.push_back(points_.normals[j]);
-      const auto of_all = all.nearest(local, furthest);
-      is_near.push_back(std::sqrt(nearest.square) <= reach_of_boundary * edge && of_all.item >= 0 &&
-                        all.loop_of(of_all.item) == loop);
+      is_near.push_back(std::sqrt(nearest.square) <= reach_of_boundary * edge &&
+                        all.edge(all.nearest(local, furthest).item).loop == loop);
     }
     ScatteredPoints told;
     const PointSheet sheet(places, normals, radius_in_edges * edge);
@@ -188,18 +233,21 @@ class BoundaryTrace {
       end_if_cancelled_at(k);
       if (is_near[k] == 0) continue;
       const auto about = sheet.about(static_cast<Index>(k));
-      if (!about || !about->ends) continue;
+      // Where points have gaps they end as well.
+      if (!about || !about->ends || about->out.dot(out[k]) < least_cosine_outwards) continue;
       border.push_back(places[k]);
-      add_foot(number[k], places[k], places[k], *about, sheet.radius() <= flat_in_edges * edge, told);
+      const auto j = static_cast<std::size_t>(number[k]);
+      const bool is_flat = sheet.radius() <= flat_in_edges * edge;
+      told.positions.push_back(is_flat ? with_foot(number[k], places[k], places[k], *about) : points_.positions[j]);
+      if (!points_.weights.empty()) told.weights.push_back(points_.weights[j]);
     }
     traced_.told.points += static_cast<Index>(border.size());
-    listen_at_nodes(loop, edge, border, places, number, sheet, told);
+    listen_at_nodes(loop, edge, border, places, number, sheet);
     return told;
   }
 
   void listen_at_nodes(std::size_t loop, double edge, const std::vector<Vector3>& border,
-                       const std::vector<Vector3>& places, const std::vector<Index>& number, const PointSheet& sheet,
-                       ScatteredPoints& told) {
+                       const std::vector<Vector3>& places, const std::vector<Index>& number, const PointSheet& sheet) {
     std::vector<Index> free;
     std::vector<Vector3> of_free;
     for (const Index i : boundary_.curve.chains()[loop].nodes) {
@@ -227,17 +275,16 @@ class BoundaryTrace {
         continue;
       }
       ++traced_.told.inside;
-      add_foot(number[static_cast<std::size_t>(k)], of_free[n], places[static_cast<std::size_t>(k)], *about, true, told);
+      traced_.positions[static_cast<std::size_t>(free[n])] =
+          with_foot(number[static_cast<std::size_t>(k)], of_free[n], places[static_cast<std::size_t>(k)], *about);
+      hold(free[n]);
     }
   }
 
-  /// Of a place, at a distance that is that of a point's. is_flat: about the point.
-  void add_foot(Index point, const Vector3& place, const Vector3& of_point, const PointSheet::About& about,
-                bool is_flat, ScatteredPoints& told) const {
-    const auto j = static_cast<std::size_t>(point);
-    const Vector3 foot = is_flat ? about.foot(place) : place;
-    told.positions.emplace_back(points_.positions[j] + (foot - of_point) / frame_.scale());
-    if (!points_.weights.empty()) told.weights.push_back(points_.weights[j]);
+  /// Of a place near a point, across to the plane about that; in units of the input.
+  [[nodiscard]] Vector3 with_foot(Index point, const Vector3& place, const Vector3& of_point,
+                                  const PointSheet::About& about) const {
+    return points_.positions[static_cast<std::size_t>(point)] + (about.foot(place) - of_point) / frame_.scale();
   }
 
   /// A loop to what was told of it. edge: in units of the input.
@@ -256,7 +303,7 @@ class BoundaryTrace {
       FitOptions options{.criterion = SmoothingLength{smoothing}};
       options.fair.distribution = Distribution::keep;
       FitResult result = fit(PolygonCurve(way, true), held, told, options, context_);
-      end_if_cancelled();
+      if (context_.cancelled()) throw Cancelled();
       return std::move(result.positions);
     };
     way = fitted();
@@ -264,16 +311,16 @@ class BoundaryTrace {
     for (Vector3& place : way) place *= frame_.scale();
     for (const std::size_t k : corners_of(nodes, way)) {
       const auto node = static_cast<Index>(k);
-      if (held.tangent_fixed(node)) continue;
-      held.make_corner(node);
-      if (is_free(nodes[k])) traced_.corners.push_back(nodes[k]);
+      if (!held.tangent_fixed(node)) held.make_corner(node);
     }
     space_out(held, way);
     for (Vector3& place : way) place /= frame_.scale();
     // A corner that begins far off takes two.
     for (int turn = 0; turn < turns_of_corners; ++turn) way = fitted();
     for (std::size_t k = 0; k < nodes.size(); ++k) {
-      if (is_free(nodes[k])) traced_.positions[static_cast<std::size_t>(nodes[k])] = way[k];
+      if (!is_free(nodes[k])) continue;
+      traced_.positions[static_cast<std::size_t>(nodes[k])] = way[k];
+      if (held.corner(static_cast<Index>(k))) traced_.corners.push_back(nodes[k]);
     }
   }
 
@@ -298,7 +345,8 @@ class BoundaryTrace {
         const std::size_t other = (k + step) % count;
         return std::pair(excess[other], other) < std::pair(excess[k], k);
       };
-      if (!(excess[k] > least_turn) || !is_less(1) || !is_less(2) || !is_less(count - 1) || !is_less(count - 2)) continue;
+      if (!(excess[k] > least_turn) || !is_less(1) || !is_less(2) || !is_less(count - 1) || !is_less(count - 2))
+        continue;
       corners.push_back(put_at_corner(nodes, k, way));
     }
     return corners;
@@ -321,6 +369,7 @@ class BoundaryTrace {
     const double way_in = (gap.dot(in) - cosine * gap.dot(out)) / sine2;
     const double way_out = (cosine * gap.dot(in) - gap.dot(out)) / sine2;
     const Vector3 corner = (before + way_in * in + after + way_out * out) / 2;
+    if (!((corner - way[about]).squaredNorm() < gap.squaredNorm())) return about;
     const auto distance = [&](std::size_t k) { return (way[k] - corner).squaredNorm(); };
     std::size_t nearest = about;
     for (const std::size_t by : {count - 1, std::size_t{1}}) {

@@ -154,8 +154,8 @@ std::vector<Vector3> with_lines(const PolygonMesh& mesh, const Constraints& cons
 namespace {
 
 /// Makes a boundary that lies at scattered points fair, with a smoothing length: that of the surface or, for a
-/// tolerance, one that takes it no further than half of that, so that what is beside it has room. The surface then holds
-/// it. It is that of the edges already.
+/// tolerance, one that takes it no further than half of that, so that what is beside it has room. The surface then
+/// holds it. It is that of the edges already.
 FitResult fair_traced_boundary(const PolygonMesh& mesh, LinesOfSurface& boundary, double of_edges, FitOptions options,
                                Context& context) {
   options.outliers = 0;
@@ -198,10 +198,10 @@ FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constr
   PolygonMesh at_points = mesh;
   at_points.set_positions(traced.positions);
   for (const Index node : traced.corners) boundary.of_curve.make_corner(node);
-  for (const Index node : traced.kept) boundary.of_curve.fix_position(node, mesh.position(node));
+  for (const Index node : traced.held) boundary.of_curve.fix_position(node, at_points.position(node));
   boundary.hold(traced.positions);
   std::optional<FairReport> of_curve;
-  if (traced.kept.size() < boundary.free.size()) {
+  if (traced.held.size() < boundary.free.size()) {
     boundary.curve.set_positions(traced.positions);
     of_curve = fair_traced_boundary(at_points, boundary, traced.smoothing, options, context).report.fair;
   }
@@ -226,8 +226,9 @@ FitResult fit_boundary_first(const PolygonMesh& mesh, const Constraints& constra
                              FitOptions options, Context& context) {
   LinesOfSurface boundary(mesh, constraints, boundary_curve(mesh));
   options.fair.fair_boundary.reset();
-  if (boundary.free.empty()) return fit(mesh, constraints, points, options, context);
   const bool are_nodes = points.positions == mesh.positions();
+  const bool tell_nothing = !are_nodes && options.weight() && !(*options.weight() > 0);
+  if (boundary.free.empty() || tell_nothing) return fit(mesh, constraints, points, options, context);
   if (!are_nodes && !std::holds_alternative<EquilibriumMethod>(options.fair.method))
     throw Error(ErrorCode::invalid_argument,
                 "the boundary can be fitted to scattered points by the method equilibrium only; fix the boundary");

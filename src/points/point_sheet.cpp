@@ -75,17 +75,18 @@ std::optional<PointSheet::About> PointSheet::about(Index point) const {
   tree_of_few_->within(place, radius_, found);
   std::vector<Vector3> others;
   for (const Index k : found) {
-    if (face_alike(point, few_[static_cast<std::size_t>(k)])) others.push_back(places_of_few_[static_cast<std::size_t>(k)]);
+    if (face_alike(point, few_[static_cast<std::size_t>(k)]))
+      others.push_back(places_of_few_[static_cast<std::size_t>(k)]);
   }
   if (others.size() < fewest_about) return std::nullopt;
   About about;
-  about.centre = Vector3::Zero();
+  about.centre = about.out = Vector3::Zero();
   for (const Vector3& other : others) about.centre += other;
   about.centre /= static_cast<double>(others.size());
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (const Vector3& other : others) squares += (other - about.centre) * (other - about.centre).transpose();
   about.normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>().computeDirect(squares).eigenvectors().col(0);
-  about.ends = ends(point, about, others);
+  look_for_end(point, others, about);
   if (!about.ends) return about;
   // Others may lie where those few do not.
   tree_.within(place, radius_, found);
@@ -93,25 +94,31 @@ std::optional<PointSheet::About> PointSheet::about(Index point) const {
   for (const Index k : found) {
     if (face_alike(point, k)) others.push_back(points_[static_cast<std::size_t>(k)]);
   }
-  about.ends = ends(point, about, others);
+  look_for_end(point, others, about);
   return about;
 }
 
-bool PointSheet::ends(Index point, const About& about, const std::vector<Vector3>& others) const {
+void PointSheet::look_for_end(Index point, const std::vector<Vector3>& others, About& about) const {
   const Vector3& place = points_[static_cast<std::size_t>(point)];
   const Vector3 first = about.normal.unitOrthogonal();
   const Vector3 second = about.normal.cross(first);
   std::vector<double> angles;
   for (const Vector3& other : others) {
     const Vector3 way = other - place;
-    if (way.isZero(0)) continue;
-    angles.push_back(std::atan2(way.dot(second), way.dot(first)));
+    if (!way.isZero(0)) angles.push_back(std::atan2(way.dot(second), way.dot(first)));
   }
-  if (angles.empty()) return false;
+  about.ends = false;
+  if (angles.empty()) return;
   std::sort(angles.begin(), angles.end());
-  double gap = angles.front() + 2 * std::numbers::pi - angles.back();
-  for (std::size_t k = 1; k < angles.size(); ++k) gap = std::max(gap, angles[k] - angles[k - 1]);
-  return gap > widest_gap;
+  double begin = angles.back();
+  double gap = angles.front() + 2 * std::numbers::pi - begin;
+  for (std::size_t k = 1; k < angles.size(); ++k) {
+    if (angles[k] - angles[k - 1] <= gap) continue;
+    begin = angles[k - 1];
+    gap = angles[k] - begin;
+  }
+  about.ends = gap > widest_gap;
+  about.out = std::cos(begin + gap / 2) * first + std::sin(begin + gap / 2) * second;
 }
 
 }  // namespace vspring

@@ -15,8 +15,9 @@ class PointSheet {
  public:
   /// What the points about one of them say.
   struct About {
-    bool ends = false;     ///< in some direction of the surface there are none within 75° of it
-    Vector3 centre;        ///< of the plane that is nearest to them
+    bool ends = false;  ///< in some direction of the surface there are none within 75° of it
+    Vector3 out;        ///< that direction, of unit length, where it ends
+    Vector3 centre;     ///< of the plane that is nearest to them
     Vector3 normal;
     [[nodiscard]] Vector3 foot(const Vector3& place) const { return place - (place - centre).dot(normal) * normal; }
   };
@@ -36,7 +37,7 @@ class PointSheet {
  private:
   [[nodiscard]] bool face_alike(Index a, Index b) const;
   [[nodiscard]] std::vector<Index> thinned(double cell) const;
-  [[nodiscard]] bool ends(Index point, const About& about, const std::vector<Vector3>& others) const;
+  void look_for_end(Index point, const std::vector<Vector3>& others, About& about) const;
 
   std::span<const Vector3> points_;
   std::span<const Vector3> normals_;

@@ -41,6 +41,44 @@ class Fit(Case):
         self.assertIn("rms distance", result.stdout.decode())
         self.assertIn("rms_turn", report["fairness"]["after"])
 
+    def test_a_boundary_that_is_not_fixed_goes_to_where_the_points_end(self):
+        generator = random.Random(2)
+
+        def off():
+            return generator.uniform(-0.03, 0.03)
+
+        def outside(path):
+            """Of boundary nodes from the unit square, the furthest."""
+            rows = [[float(word) for word in line.split()[1:]] for line in vertex_lines(path.read_text())]
+            rim = [row for k, row in enumerate(rows) if k // 13 in (0, 12) or k % 13 in (0, 12)]
+            return max(max(abs(max(abs(x - 0.5), abs(y - 0.5)) - 0.5), abs(z)) for x, y, z in rim)
+
+        flat = grid(12, lambda x, y: 0).splitlines()
+        shape = self.write("noisy.obj", "".join(
+            f"v {float(words[1]) + off()} {float(words[2]) + off()} {off()}\n" if words[0] == "v" else line + "\n"
+            for line in flat for words in [line.split()]))
+        self.assertGreater(outside(shape), 0.02)
+        points = self.write("points.xyz", xyz((i / 60, j / 60, 0) for i in range(61) for j in range(61)))
+        result = self.fit(shape, points, "--within", "0.01", "--fix", "none", "--report", self.folder / "r.json")
+        self.assertEqual(result.stderr, b"")
+        self.assertIn("boundary         48 nodes go to 240 points", result.stdout.decode())
+        report = self.read_json("r.json")
+        self.assertEqual(report["points"]["boundary"], {"points": 240, "nodes_at_ends": 48, "nodes_inside": 0, "nodes_kept": 0})
+        self.assertEqual((report["outcome"], report["moving_nodes"], report["boundary"]["outcome"]), ("converged", 169, "converged"))
+        self.assertLess(outside(self.folder / "out.obj"), 0.005)
+
+        # Where there are none it stays, and says so.
+        half = self.write("half.xyz", xyz((i / 60, j / 60, 0) for i in range(31) for j in range(61)))
+        result = self.fit(shape, half, "--smoothing-length", "0.05", "--fix", "none", "--report", self.folder / "r.json")
+        self.assertIn("stay where they were", result.stderr.decode())
+        self.assertIn("(--fix boundary)", result.stderr.decode())
+        report = self.read_json("r.json")
+        self.assertEqual(report["warning_codes"], ["untold-boundary"])
+        self.assertGreater(report["points"]["boundary"]["nodes_kept"], 12)
+        # Unless it is to be held.
+        self.fit(shape, half, "--smoothing-length", "0.05", "--report", self.folder / "r.json")
+        self.assertIsNone(self.read_json("r.json")["points"]["boundary"])
+
     def test_a_time_limit_leaves_deviations_of_many_points_to_who_asks_for_them(self):
         shape, cloud = self.write("flat.obj", grid(150, lambda x, y: 0)), self.cloud(20000)
         points = self.write("points.xyz", xyz(cloud))
@@ -372,7 +410,8 @@ class Fit(Case):
                                         ([shape, "--points", shape, "--weight", "1", "--columns", "1,2"], 1, "--columns"),
                                         ([shape, "--points", shape, "--weight", "1", "--point-columns", "1,2"], 1, "columns"),
                                         ([ball, "--points", points, "--weight", "0"], 2, "nothing holds"),
-                                        ([shape, "--points", points, "--weight", "1", "--fix", "none"], 2, "boundary")):
+                                        ([shape, "--points", points, "--weight", "0", "--fix", "none"], 2, "boundary"),
+                                        ([shape, "--points", points, "--weight", "1", "--fix", "none", "--paper"], 2, "boundary")):
             with self.subTest(arguments=arguments):
                 result = run("fit", *arguments, "-o", out)
                 self.assertEqual(result.returncode, status, result.stderr)

@@ -56,6 +56,19 @@ class Fits(Case):
         for less in ({"weights": weights}, {"normals": normals}):
             self.assertTrue((vspring.fit(vertices, faces, points, weight=0.01, **less).positions != expected).any())
 
+    def test_a_free_boundary_as_the_command_line(self):
+        vertices, faces = patch()
+        line = np.linspace(-1, 1, 61)
+        x, y = (one.ravel() for one in np.meshgrid(line, line))
+        points = np.column_stack([x, y, (x * x - y * y) / 2])
+        positions, report = vspring.fit(vertices, faces, points, smoothing_length=0.1, fix="none")
+        self.assert_same_bits(positions, self.by_command_line("fit", vertices, faces, "--points", self.points_file(points),
+                                                              "--smoothing-length", 0.1, "--fix", "none"))
+        told = report.boundary_of_points
+        self.assertEqual((told.points, told.ends, told.inside, told.kept), (240, 48, 0, 0))
+        self.assertTrue(report.boundary.converged)
+        self.assertIsNone(vspring.fit(vertices, faces, points, smoothing_length=0.1).report.boundary_of_points)
+
     def test_own_nodes_as_the_command_line(self):
         vertices, faces = patch(cells=20, noise=0.004)
         for options, flags in [({"noise": 0.004}, ["--noise", 0.004]), ({"noise": "auto"}, ["--noise", "auto"]),

@@ -120,7 +120,7 @@ class BoundaryOfPoints:
     ends: int
     """Nodes of the boundary near which the points end: they go there."""
     inside: int
-    """Nodes beyond which the points go on: they go to the points across these, and fair along them."""
+    """Nodes beyond which the points go on: they go across to the points, and no further."""
     kept: int
     """Nodes without points near enough to tell: they stay, with a warning."""
 

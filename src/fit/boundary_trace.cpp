@@ -17,6 +17,7 @@
 #include "shape/frame.hpp"
 #include "shape/incidence.hpp"
 #include "shape/segment.hpp"
+#include "vspring/distance.hpp"
 #include "vspring/error.hpp"
 
 namespace vspring {
@@ -40,9 +41,12 @@ constexpr double smoothing_in_edges = 1.0 / 3;
 // Corners turn by so much more, within three nodes, than what is beside them, in loops of so many nodes at least.
 constexpr double least_turn = 40 * std::numbers::pi / 180;
 constexpr std::size_t fewest_nodes = 8;
+constexpr double turn_of_few = std::numbers::pi / 3;
 // Edges whose directions differ by less do not meet.
 constexpr double least_sine2 = 0.1;
 constexpr int turns_of_corners = 2;
+// In edges, root mean square: a loop that is further away from where points end than that, and than it was, has failed.
+constexpr double far_in_edges = 0.25;
 // Edges become as long as those beside them on average, so many times.
 constexpr int turns_of_spacing = 8;
 
@@ -181,10 +185,12 @@ class BoundaryTrace {
     const double edge = lengths.empty() ? 0 : *middle;
     ScatteredPoints told;
     if (edge > 0) told = listen(loop, edge, EdgeTree(std::move(edges), team_), all);
-    try {
-      if (!told.positions.empty()) return draw(nodes, edge / frame_.scale(), told);
-    } catch (const Error&) {
-      // No curve, as where nodes lie at one place.
+    if (!told.positions.empty()) {
+      try {
+        if (draw(nodes, edge / frame_.scale(), told)) return;
+      } catch (const Error&) {
+        // No curve, as where nodes lie at one place.
+      }
       traced_.told.ends -=
           static_cast<Index>(std::count_if(nodes.begin(), nodes.end(), [&](Index i) { return is_free(i); }));
     }
@@ -287,8 +293,8 @@ class BoundaryTrace {
     return points_.positions[static_cast<std::size_t>(point)] + (about.foot(place) - of_point) / frame_.scale();
   }
 
-  /// A loop to what was told of it. edge: in units of the input.
-  void draw(const std::vector<Index>& nodes, double edge, const ScatteredPoints& told) {
+  /// A loop to what was told of it. edge: in units of the input. False where it is away from that then.
+  bool draw(const std::vector<Index>& nodes, double edge, const ScatteredPoints& told) {
     const double smoothing = smoothing_in_edges * edge;
     traced_.smoothing = traced_.smoothing > 0 ? std::min(traced_.smoothing, smoothing) : smoothing;
     Constraints held(static_cast<Index>(nodes.size()));
@@ -306,7 +312,8 @@ class BoundaryTrace {
       if (context_.cancelled()) throw Cancelled();
       return std::move(result.positions);
     };
-    way = fitted();
+    const std::vector<Vector3> start = way;
+    if (way.size() >= fewest_nodes) way = fitted();
     // So that no square overflows.
     for (Vector3& place : way) place *= frame_.scale();
     for (const std::size_t k : corners_of(nodes, way)) {
@@ -317,29 +324,37 @@ class BoundaryTrace {
     for (Vector3& place : way) place /= frame_.scale();
     // A corner that begins far off takes two.
     for (int turn = 0; turn < turns_of_corners; ++turn) way = fitted();
+    const auto off = [&](const std::vector<Vector3>& loop) {
+      return distance(told.positions, PolygonCurve(loop, true), context_).rms;
+    };
+    if (!(off(way) <= std::max(off(start), far_in_edges * edge))) return false;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (!is_free(nodes[k])) continue;
       traced_.positions[static_cast<std::size_t>(nodes[k])] = way[k];
       if (held.corner(static_cast<Index>(k))) traced_.corners.push_back(nodes[k]);
     }
+    return true;
   }
 
   /// Places of a closed way that has been smoothed, so that a corner turns within about three nodes. They go to the
-  /// corners.
+  /// corners. Of one of few nodes, which has not been smoothed, those where it turns by over 60°.
   [[nodiscard]] std::vector<std::size_t> corners_of(const std::vector<Index>& nodes, std::vector<Vector3>& way) const {
     const std::size_t count = way.size();
-    if (count < fewest_nodes) return {};
     const auto edge = [&](std::size_t k) -> Vector3 { return way[(k + 1) % count] - way[k % count]; };
     const auto turn = [&](std::size_t k, std::size_t l) {
       return std::atan2(edge(k).cross(edge(l)).norm(), edge(k).dot(edge(l)));
     };
+    std::vector<std::size_t> corners;
+    for (std::size_t k = 0; k < count && count < fewest_nodes; ++k) {
+      if (turn(k + count - 1, k) > turn_of_few) corners.push_back(k);
+    }
+    if (count < fewest_nodes) return corners;
     std::vector<double> excess(count);
     for (std::size_t k = 0; k < count; ++k) {
       // Three nodes, and two to either side of them.
       const double beside = turn(k + count - 4, k + count - 2) + turn(k + 1, k + 3);
       excess[k] = turn(k + count - 2, k + 1) - 0.75 * beside;
     }
-    std::vector<std::size_t> corners;
     for (std::size_t k = 0; k < count; ++k) {
       const auto is_less = [&](std::size_t step) {
         const std::size_t other = (k + step) % count;

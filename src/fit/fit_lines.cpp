@@ -181,7 +181,7 @@ void warn_of_kept(const std::vector<Index>& kept, std::size_t free, FairReport& 
   report.warnings.push_back(
       {WarningCode::untold_boundary,
        fmt::format("{} of {} free boundary nodes stay where they were, node {} first: no points are within two edges, "
-                   "or too few to tell where the boundary is; bring the shape nearer, or fix the boundary",
+                   "or they do not tell where the boundary is; bring the shape nearer, or fix the boundary",
                    kept.size(), free, kept.front())});
 }
 

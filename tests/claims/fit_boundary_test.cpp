@@ -192,6 +192,20 @@ TEST(FitBoundary, HasAsManyLoopsAsThereAre) {
   }
 }
 
+TEST(FitBoundary, OfFewNodesKeepsItsCorners) {
+  // Three faces around one node, and points on their triangle.
+  const PolygonMesh mesh({{0.1, 0.05, 0.1}, {0.9, 0.1, 0.1}, {0, 1, -0.1}, {0.4, 0.3, 0.2}}, {0, 3, 6, 9},
+                         {0, 1, 3, 1, 2, 3, 2, 0, 3});
+  ScatteredPoints points;
+  for (int i = 0; i <= 20; ++i) {
+    for (int j = 0; i + j <= 20; ++j) points.positions.emplace_back(0.05 * i, 0.05 * j, 0);
+  }
+  const FitResult result = fit_free(mesh, points, SmoothingLength{0.1});
+  EXPECT_EQ(result.report.boundary->ends, 3);
+  const Vector3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_LT((result.positions[i] - corners[i]).norm(), 0.05) << i;
+}
+
 TEST(FitBoundary, WherePointsGoOnItGoesAcrossThemAlone) {
   const PolygonMesh truth = over_square(cells, generate::Faces::quads);
   PolygonMesh mesh = truth;

@@ -249,6 +249,12 @@ TEST(FitBoundary, StaysWhereThereAreNoPoints) {
     stayed += result.positions[static_cast<std::size_t>(i)] == before ? 1 : 0;
   }
   EXPECT_EQ(stayed, result.report.boundary->kept);
+  // Nor is it drawn in along the end of the points.
+  const PolygonMesh truth = over_square(cells, generate::Faces::quads);
+  for (const Index i : boundary_of(truth)) {
+    if (std::abs(truth.position(i).y()) == 1 && truth.position(i).x() < 1)
+      EXPECT_GT(std::abs(result.positions[static_cast<std::size_t>(i)].y()), 1 - edge) << i;
+  }
 
   // Nowhere near any.
   for (Vector3& p : points.positions) p.z() += 10;

@@ -244,7 +244,6 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
                                   ".obj (l elements), .csv, .dat (aerofoils), .xyz or .gpx (tracks: "
                                   "tolerances and all other lengths are metres)",
                               .ends = "End nodes",
-                              .unfixed = "",
                               .directions = "tangents",
                               .rules = "positions, tangents and normals"};
   const auto arguments = std::make_shared<CurveArguments>();

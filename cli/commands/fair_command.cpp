@@ -85,7 +85,6 @@ int run_fair(FairArguments arguments) {
 }
 
 const std::map<std::string, Springs> springs = {{"edge", Springs::edge}, {"sphere", Springs::sphere}};
-const std::map<std::string, FairBy> goals = {{"curvature", FairBy::curvature}, {"bending", FairBy::bending}};
 const std::map<std::string, PseudoNormals> pseudo_normals = {{"link", PseudoNormals::link},
                                                              {"average", PseudoNormals::average},
                                                              {"area", PseudoNormals::area},
@@ -105,11 +104,7 @@ void add_surface_method(CLI::App& command, FairArguments& arguments, const Fairi
       "lengths along every edge, as in the paper (default: sphere; edge with points, with the other methods, with "
       "--paper, and where spheres would not see what is held)")
       ->group(fairing_group);
-  add_choice(
-      command, "--fair-by", options.fair_by, goals,
-      "What sphere springs make of the surface: mean curvature that changes as evenly as it can, or least bending "
-      "energy, which may bulge (default: curvature)")
-      ->group(fairing_group);
+  add_fair_by_option(command, arguments);
   CLI::Option* kind = add_choice(command, "--pseudo-normals", options.pseudo_normals, pseudo_normals,
                                  "Normals of nodes: Max's weights around the link; the paper's plain average of face "
                                  "normals; weighted by area; by angle (default: link)")
@@ -132,7 +127,6 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
   const FairingWords words = {.shape = "surface",
                               .input = ".obj, .off, .ply or .stl",
                               .ends = "Boundary nodes",
-                              .unfixed = "",
                               .directions = "normals",
                               .rules = "positions and normals"};
   const auto arguments = std::make_shared<FairArguments>();

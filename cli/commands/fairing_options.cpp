@@ -17,6 +17,7 @@ namespace {
 const std::map<std::string, Hold> holds = {{"boundary", Hold::boundary}, {"none", Hold::none}};
 const std::map<std::string, Distribution> distributions = {
     {"smooth", Distribution::smooth}, {"even", Distribution::even}, {"keep", Distribution::keep}};
+const std::map<std::string, FairBy> goals = {{"curvature", FairBy::curvature}, {"bending", FairBy::bending}};
 const std::map<std::string, Colour> colours = {
     {"auto", Colour::automatic}, {"always", Colour::always}, {"never", Colour::never}};
 
@@ -27,12 +28,13 @@ void add_files(CLI::App& command, FairingArguments& arguments, const FairingWord
   for (char& c : type) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   command
       .add_option(words.shape, arguments.input,
-                  fmt::format("The {} to fair: {}; - for standard input", words.shape, words.input))
+                  fmt::format("The {} to {}: {}; - for standard input", words.shape, words.to, words.input))
       ->required()
       ->type_name(type);
   command
-      .add_option("-o,--output", arguments.output,
-                  fmt::format("Where the fair {} goes, format by extension; - for standard output", words.shape))
+      .add_option(
+          "-o,--output", arguments.output,
+          fmt::format("Where the {} {} goes, format by extension; - for standard output", words.done, words.shape))
       ->required()
       ->type_name("OUT");
 }
@@ -95,8 +97,8 @@ void add_weld_option(CLI::App& command, FairingArguments& arguments) {
       ->group(holding_group);
 }
 
-void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& default_step) {
-  command
+CLI::Option* add_tolerance_option(CLI::App& command, FairingArguments& arguments) {
+  return command
       .add_option("--tolerance", arguments.tolerance,
                   fmt::format("equilibrium: stop when no node is expected to be further from its final place than "
                               "this share of the diagonal of the box around the moving nodes (default: {})",
@@ -104,6 +106,18 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments, const 
       ->type_name("X")
       ->check(positive_number())
       ->group(fairing_group);
+}
+
+CLI::Option* add_fair_by_option(CLI::App& command, FairingArguments& arguments) {
+  return add_choice(
+             command, "--fair-by", arguments.options.fair_by, goals,
+             "What sphere springs make of the surface: mean curvature that changes as evenly as it can, or least "
+             "bending energy, which may bulge (default: curvature)")
+      ->group(fairing_group);
+}
+
+void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& default_step) {
+  add_tolerance_option(command, arguments);
   command
       .add_option("--step-tolerance", arguments.step_tolerance,
                   "multigrid, sweep: stop when no node moves further in an iteration than this share of its mean edge "

@@ -20,18 +20,22 @@ struct PullArguments;
 
 /// How help texts call things.
 struct FairingWords {
-  std::string shape;       ///< "surface" or "curve"
-  std::string input;       ///< what files the input may be
-  std::string ends;        ///< "Boundary nodes" or "End nodes"
-  std::string unfixed;     ///< what becomes of those that are not fixed
-  std::string directions;  ///< what --fix-normals fixes
-  std::string rules;       ///< what rules speak of
+  std::string shape;          ///< "surface" or "curve"
+  std::string input;          ///< what files the input may be
+  std::string ends;           ///< "Boundary nodes" or "End nodes"
+  std::string unfixed = "";   ///< what becomes of those that are not fixed
+  std::string directions;     ///< what --fix-normals fixes
+  std::string rules;          ///< what rules speak of
+  std::string to = "fair";    ///< what is done to it
+  std::string done = "fair";  ///< what it is then
 };
 
 // Options by their groups in the help text. `arguments` must outlive the command.
 void add_files(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 void add_constraint_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 void add_weld_option(CLI::App& command, FairingArguments& arguments);
+CLI::Option* add_tolerance_option(CLI::App& command, FairingArguments& arguments);
+CLI::Option* add_fair_by_option(CLI::App& command, FairingArguments& arguments);
 void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& default_step);
 void add_shaping_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
 /// An option for the columns of tables. whose: of which files, and else.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "vspring/context.hpp"
@@ -21,8 +22,19 @@ enum class SurfaceFormat { obj, off, ply, stl };
 
 class SurfaceSource;  // the bytes of a file and where its coordinates and normals are; private to the library
 
+/// What came to a surface behind the nodes and faces that its file gave, such as patches of holes.
+struct AddedElements {
+  /// Per new node the one of the file whose other values it gets in the file's own format, such as a colour.
+  std::vector<Index> node_like;
+  /// The same of new faces: numbers alone; lists, as of texture coordinates, are empty.
+  std::vector<Index> face_like;
+  /// OBJ: groups that begin at new faces, by these, ascending.
+  std::vector<std::pair<Index, std::string>> groups;
+};
+
 /// A mesh and everything else that its file carried.
 struct SurfaceFile {
+  /// The nodes and faces of the file, and behind them those of `added`.
   PolygonMesh mesh;
   /// Nodes of each named group (OBJ `g` and `o`: all nodes of the faces that follow), ascending. Other formats have
   /// none.
@@ -32,6 +44,7 @@ struct SurfaceFile {
   SurfaceFormat format = SurfaceFormat::obj;
   /// For people: what was skipped, welded or repaired while reading.
   std::vector<std::string> warnings;
+  AddedElements added;
   /// Keeps what the format carried besides positions, for writing; null for a mesh that no file gave.
   std::shared_ptr<const SurfaceSource> source;
 };
@@ -59,12 +72,15 @@ struct SurfaceFile {
 /// nodes and faces, and node normals where the source has them; PLY is then binary in double precision, STL binary, of
 /// triangles cut from the first node of each face.
 ///
+/// Nodes and faces that were added come behind those of the file, in its own way; its normals at other nodes stay.
+///
 /// Returns what the source carried and the output does not, one line each; empty when nothing is lost. The file appears
 /// whole or not at all, see write_file().
 ///
 /// Throws Error(unusable_file) when it cannot be written; Error(invalid_argument) unless there is one position per
 /// node, finite where it is not the one that was read, and within the range of the number type of the file; also for a
-/// mesh without triangles as STL. Cost: linear.
+/// mesh without triangles as STL, and Error(unusable_file) where faces were added to a file that has no place for them:
+/// strips of triangles, OFF whose lines have no say. Cost: linear.
 std::vector<std::string> write_surface(const std::string& path, const SurfaceFile& surface,
                                        const std::vector<Vector3>& positions,
                                        std::optional<SurfaceFormat> format = std::nullopt);

@@ -15,6 +15,7 @@
 #include "vspring/fairing_session.hpp"
 #include "vspring/fairness.hpp"
 #include "vspring/figures.hpp"
+#include "vspring/fill.hpp"
 #include "vspring/fit.hpp"
 #include "vspring/generate.hpp"
 #include "vspring/input_file.hpp"

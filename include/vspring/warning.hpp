@@ -30,6 +30,8 @@ enum class WarningCode : std::uint8_t {
   outliers_changed,    ///< which points are outliers went on changing
   outliers_left,       ///< points that count seem to be off; the text says which
   normals_reversed,    ///< normals of points are against the faces, and were taken the other way round
+  unfilled_hole,       ///< no faces can fill a hole; the text says why
+  patch_crosses,       ///< the patch of a hole crosses other faces, such as of another part within the hole
   time_limit           ///< the command line's; the shape is the best so far
 };
 

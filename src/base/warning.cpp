@@ -48,6 +48,10 @@ const char* name(WarningCode code) noexcept {
       return "outliers-left";
     case WarningCode::normals_reversed:
       return "normals-reversed";
+    case WarningCode::unfilled_hole:
+      return "unfilled-hole";
+    case WarningCode::patch_crosses:
+      return "patch-crosses";
     case WarningCode::time_limit:
       return "time-limit";
   }

@@ -175,6 +175,21 @@ NewNormals compute_normals(const PolygonMesh& mesh, std::span<const Index> corne
   return result;
 }
 
+std::vector<Vector3> normals_of_added(const PolygonMesh& mesh, std::span<const Vector3> before,
+                                      const std::vector<Vector3>& positions, std::span<const Index> like) {
+  std::vector<Vector3> normals(before.begin(), before.end());
+  normals.resize(positions.size(), Vector3::Zero());
+  std::vector<std::uint8_t> is_new(positions.size(), 1);
+  std::fill_n(is_new.begin(), before.size(), std::uint8_t{0});
+  const NewNormals fresh = compute_normals(mesh, mesh.corners(), normals, positions, positions, is_new);
+  std::vector<Vector3> result;
+  for (std::size_t k = 0; k < like.size(); ++k) {
+    const std::size_t node = before.size() + k;
+    result.push_back(fresh.due[node] != 0 ? fresh.normals[node] : before[static_cast<std::size_t>(like[k])]);
+  }
+  return result;
+}
+
 std::vector<Vector3> node_normals(const PolygonMesh& mesh, std::span<const Index> corner_normals,
                                   std::span<const Vector3> normals) {
   std::vector<Vector3> sums(mesh.positions().size(), Vector3::Zero());

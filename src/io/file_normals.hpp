@@ -26,6 +26,11 @@ NewNormals compute_normals(const PolygonMesh& mesh, std::span<const Index> corne
                            std::span<const Vector3> before, std::span<const Vector3> old_positions,
                            std::span<const Vector3> positions, std::span<const std::uint8_t> moved);
 
+/// Of every node that came to a mesh behind those with `before`, as compute_normals() does it from all faces there, in
+/// their sense; where that gives no direction, the normal of its node of `like`. Cost: n log n.
+std::vector<Vector3> normals_of_added(const PolygonMesh& mesh, std::span<const Vector3> before,
+                                      const std::vector<Vector3>& positions, std::span<const Index> like);
+
 /// Sums file normals at nodes: one unit vector per node, zero where the corners have none.
 std::vector<Vector3> node_normals(const PolygonMesh& mesh, std::span<const Index> corner_normals,
                                   std::span<const Vector3> normals);

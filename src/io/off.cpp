@@ -33,6 +33,11 @@ class OffSource : public SurfaceSource {
   std::vector<std::size_t> rows;  ///< offset of the first coordinate of each node
   bool in_stream = false;         ///< its lines have no say in where a node begins
   int normal_column = 0;  ///< of the normal's first component in the words of a node; 0 where there are no normals
+  std::size_t nodes_begin = 0;  ///< where the numbers of nodes and of faces stand
+  std::size_t faces_begin = 0;
+
+ private:
+  [[nodiscard]] std::string added_nodes(const Rewrite& rewrite) const;
 };
 
 enum class NodeLayout {
@@ -246,6 +251,8 @@ SurfaceFile OffBody::take(InputFile file) {
   source->rows = std::move(rows_);
   source->in_stream = in_stream_;
   source->normal_column = normal_column_;
+  source->nodes_begin = header_.nodes_begin;
+  source->faces_begin = header_.faces_begin;
   source->carried.assign(carried.begin(), carried.end());
   surface.mesh = source->mesh = faces_.take(std::move(positions_));
   source->file = std::move(file);
@@ -272,15 +279,25 @@ bool reads_as(const std::string& text, const PolygonMesh& mesh, const Rewrite& r
   }
 }
 
-}  // namespace
-
 std::string OffSource::rewritten(Rewrite& rewrite) const {
   const SurfaceFile& surface = rewrite.surface;
   NewNormals fresh;
   if (normal_column > 0 && surface.normals.size() == rows.size())
-    fresh = compute_normals(surface.mesh, surface.mesh.corners(), surface.normals, mesh.positions(), rewrite.positions,
-                            rewrite.moved);
+    fresh = compute_normals(mesh, mesh.corners(), surface.normals, mesh.positions(), rewrite.positions, rewrite.moved);
+  const bool is_longer = !surface.added.face_like.empty();
+  if (is_longer && in_stream)
+    file.refuse(
+        "its lines do not say where nodes end, so that none can be added; write it in another format, such as "
+        "PLY");
   TextRewriter out(file.bytes, /*commented=*/true);
+  const auto replace_count = [&](std::size_t begin, Index count) {
+    const std::size_t digits = file.bytes.find_first_not_of("+0123456789", begin);
+    out.replace(begin, std::min(digits, file.bytes.size()), std::to_string(count));
+  };
+  if (is_longer) {
+    replace_count(nodes_begin, surface.mesh.node_count());
+    replace_count(faces_begin, surface.mesh.face_count());
+  }
   std::vector<NewNumber> numbers;
   for (std::size_t node = 0; node < rows.size(); ++node) {
     numbers.clear();
@@ -292,7 +309,20 @@ std::string OffSource::rewritten(Rewrite& rewrite) const {
     }
     if (!numbers.empty()) out.replace_words(rows[node], numbers);
   }
+  if (is_longer) {
+    const std::size_t end = std::min(file.bytes.find_first_of("\r\n", rows.back()), file.bytes.size());
+    out.replace(end, end, added_nodes(rewrite));
+  }
   std::string text = out.finish();
+  if (is_longer) {
+    text += missing_line_end(text);
+    for (Index f = mesh.face_count(); f < surface.mesh.face_count(); ++f) {
+      const auto face = surface.mesh.face(f);
+      append_whole(text, face.size());
+      for (const Index node : face) append_whole(text += ' ', static_cast<std::size_t>(node));
+      text += line_ending(file.bytes);
+    }
+  }
   if (in_stream && !reads_as(text, surface.mesh, rewrite))
     file.refuse(
         "with other coordinates its lines and numbers could be read in another way; write it in another format, such "
@@ -300,6 +330,30 @@ std::string OffSource::rewritten(Rewrite& rewrite) const {
         "PLY");
   return text;
 }
+
+/// Lines, each behind a line end.
+std::string OffSource::added_nodes(const Rewrite& rewrite) const {
+  const SurfaceFile& surface = rewrite.surface;
+  const std::vector<Index>& like = surface.added.node_like;
+  std::vector<Vector3> normals;
+  if (normal_column > 0 && surface.normals.size() == rows.size())
+    normals = normals_of_added(surface.mesh, surface.normals, rewrite.positions, like);
+  std::string text;
+  for (std::size_t k = 0; k < like.size(); ++k) {
+    std::string row = "0 0 0 ";
+    row += behind_words(file.bytes, rows[static_cast<std::size_t>(like[k])], 3);
+    while (row.back() == ' ') row.pop_back();
+    TextRewriter out(row);
+    std::vector<NewNumber> numbers;
+    for (int c = 0; c < 3; ++c) numbers.push_back({c, rewrite.positions[rows.size() + k][c]});
+    for (int c = 0; c < 3 && !normals.empty(); ++c) numbers.push_back({normal_column + c, normals[k][c]});
+    out.replace_words(0, numbers);
+    (text += line_ending(file.bytes)) += out.finish();
+  }
+  return text;
+}
+
+}  // namespace
 
 SurfaceFile read_off(InputFile file) {
   OffCursor cursor(file);

@@ -38,6 +38,8 @@ struct OffHeader {
   bool edges = false;          ///< the number of edges stands behind that of faces
   std::int64_t nodes = 0;
   std::int64_t faces = 0;
+  std::size_t nodes_begin = 0;  ///< where their numbers stand
+  std::size_t faces_begin = 0;
 };
 
 /// Reads the keyword, if there is one, and the counts up to the end of their line.

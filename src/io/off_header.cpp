@@ -47,7 +47,11 @@ void read_keyword(OffCursor& cursor, OffHeader& header) {
 }
 
 void read_counts(OffCursor& cursor, OffHeader& header) {
+  cursor.skip_to_word();
+  header.nodes_begin = cursor.offset();
   header.nodes = cursor.count("the number of nodes");
+  cursor.skip_to_word();
+  header.faces_begin = cursor.offset();
   header.faces = cursor.count("the number of faces");
   header.edges = !cursor.skip_to_row_end();
   if (header.edges) static_cast<void>(cursor.count("the number of edges"));

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ struct PlyProperty {
 struct PlyElement {
   std::string name;
   std::uint64_t count = 0;
+  std::size_t count_begin = 0;  ///< where the count stands in the header
+  std::size_t count_end = 0;
   std::vector<PlyProperty> properties;
 
   [[nodiscard]] bool has_lists() const;
@@ -90,7 +93,13 @@ class PlySource : public SurfaceSource {
   /// Whether numbers are in the other order than this machine's.
   [[nodiscard]] bool swapped() const;
   /// The header, and plain data with these positions.
-  [[nodiscard]] std::string with_plain_data(const std::vector<Vector3>& new_positions) const;
+  [[nodiscard]] std::string with_plain_data(std::span<const Vector3> new_positions) const;
+  /// With other positions and normals of the file's own nodes.
+  [[nodiscard]] std::string moved(Rewrite& rewrite) const;
+  /// Such a file with what was added.
+  [[nodiscard]] std::string extended(std::string bytes, const Rewrite& rewrite) const;
+  template <typename Data>
+  [[nodiscard]] std::string extended_by(const InputFile& grown, const Rewrite& rewrite) const;
   void widen_header(TextRewriter& out) const;
   [[nodiscard]] std::string patched(const Rewrite& rewrite, const NewNormals& normals) const;
   [[nodiscard]] std::string rebuilt(const Rewrite& rewrite, const NewNormals& normals) const;

@@ -9,6 +9,19 @@
 
 namespace vspring {
 
+/// Appends a whole number as a binary file has it.
+inline void append_whole_number(std::string& out, PlyType type, std::int64_t number, bool swapped) {
+  // Both signs have the same bytes.
+  switch (size_of(type)) {
+    case 1:
+      return append_bytes(out, static_cast<std::uint8_t>(number), swapped);
+    case 2:
+      return append_bytes(out, static_cast<std::uint16_t>(number), swapped);
+    default:
+      return append_bytes(out, static_cast<std::uint32_t>(number), swapped);
+  }
+}
+
 /// Which element of which kind is being read, for messages.
 struct PlyPlace {
   const PlyElement* element = nullptr;

@@ -111,6 +111,8 @@ void HeaderReader::read_element() {
     refuse(fmt::format("{} stands where the number of elements belongs; correct the line", in_quotes(count)));
   if (header_.find(element.name) != nullptr)
     refuse(fmt::format("a second element {}; rename or remove it", in_quotes(element.name)));
+  element.count_begin = static_cast<std::size_t>(count.data() - file_.bytes.data());
+  element.count_end = element.count_begin + count.size();
   header_.elements.push_back(std::move(element));
 }
 

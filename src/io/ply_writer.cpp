@@ -18,22 +18,6 @@
 
 namespace vspring {
 
-namespace {
-
-void append_whole_number(std::string& out, PlyType type, std::int64_t number, bool swapped) {
-  // Both signs have the same bytes.
-  switch (size_of(type)) {
-    case 1:
-      return append_bytes(out, static_cast<std::uint8_t>(number), swapped);
-    case 2:
-      return append_bytes(out, static_cast<std::uint16_t>(number), swapped);
-    default:
-      return append_bytes(out, static_cast<std::uint32_t>(number), swapped);
-  }
-}
-
-}  // namespace
-
 std::array<int, 6> PlySource::places_in(std::size_t row) const {
   const PlyElement& element = node_element();
   const bool text = header.encoding == PlyEncoding::text;
@@ -95,7 +79,7 @@ void PlySource::forget_plain_data() {
   if (!is_plain) std::swap(file.bytes, header_alone);
 }
 
-std::string PlySource::with_plain_data(const std::vector<Vector3>& new_positions) const {
+std::string PlySource::with_plain_data(std::span<const Vector3> new_positions) const {
   const bool is_swapped = swapped();
   const std::vector<PlyProperty>& coordinates = node_element().properties;
   const PlyProperty& list = header.elements[1].properties.front();
@@ -129,7 +113,12 @@ bool PlySource::has_single_precision() const {
 }
 
 std::string PlySource::rewritten(Rewrite& rewrite) const {
-  if (is_plain) return with_plain_data(rewrite.positions);
+  std::string bytes = moved(rewrite);
+  return rewrite.surface.added.face_like.empty() ? bytes : extended(std::move(bytes), rewrite);
+}
+
+std::string PlySource::moved(Rewrite& rewrite) const {
+  if (is_plain) return with_plain_data(std::span(rewrite.positions).first(mesh.positions().size()));
   const SurfaceFile& surface = rewrite.surface;
   const bool any_moved = std::any_of(rewrite.moved.begin(), rewrite.moved.end(), [](auto moved) { return moved != 0; });
   if (!any_moved) return file.bytes;
@@ -137,8 +126,8 @@ std::string PlySource::rewritten(Rewrite& rewrite) const {
   if (has_normals() && any_whole(3))
     rewrite.remarks.emplace_back("normals that fit the moved nodes: the file holds whole numbers, kept as they were");
   else if (has_normals() && surface.normals.size() == mesh.positions().size())
-    normals = compute_normals(surface.mesh, surface.mesh.corners(), surface.normals, mesh.positions(),
-                              rewrite.positions, rewrite.moved);
+    normals =
+        compute_normals(mesh, mesh.corners(), surface.normals, mesh.positions(), rewrite.positions, rewrite.moved);
   if (any_whole(0))
     rewrite.remarks.emplace_back("the whole-number type of the coordinates: they are written in double precision");
   return header.encoding == PlyEncoding::text || any_whole(0) ? rebuilt(rewrite, normals) : patched(rewrite, normals);

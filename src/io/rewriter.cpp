@@ -89,10 +89,32 @@ std::string TextRewriter::finish() {
   return std::move(text_);
 }
 
+std::string_view behind_words(std::string_view bytes, std::size_t row, int words) {
+  std::string_view line = bytes.substr(row);
+  line = line.substr(0, std::min(line.find_first_of("#\n\r\\"), line.size()));
+  for (; words > 0; --words) {
+    const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+    line.remove_prefix(std::min(line.find_first_of(" \t", begin), line.size()));
+  }
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  while (!line.empty() && is_space(line.back())) line.remove_suffix(1);
+  return line;
+}
+
+std::string_view line_ending(std::string_view bytes) {
+  const std::size_t end = bytes.find_first_of("\r\n");
+  if (end == std::string_view::npos || bytes[end] == '\n') return "\n";
+  return bytes.substr(end, 2) == "\r\n" ? "\r\n" : "\r";
+}
+
+std::string_view missing_line_end(std::string_view text) {
+  return text.ends_with('\n') || text.ends_with('\r') ? "" : line_ending(text);
+}
+
 std::vector<std::uint8_t> moved_nodes(const std::vector<Vector3>& before, const std::vector<Vector3>& positions) {
   std::vector<std::uint8_t> moved(positions.size(), 0);
   for (std::size_t node = 0; node < positions.size(); ++node) {
-    if (same_bits(before[node], positions[node])) continue;
+    if (node < before.size() && same_bits(before[node], positions[node])) continue;
     moved[node] = 1;
     if (!positions[node].allFinite())
       throw Error(ErrorCode::invalid_argument,

@@ -54,8 +54,15 @@ class TextRewriter {
   std::size_t copied_ = 0;
 };
 
-/// Marks the nodes whose position is not the one in `before`, to the bit. Throws Error(invalid_argument) for one that
-/// moved to nowhere.
+/// What stands in the line of a row behind its first `words`, up to a comment, without blanks around it.
+[[nodiscard]] std::string_view behind_words(std::string_view bytes, std::size_t row, int words);
+/// How the lines of a text end: as the first one does.
+[[nodiscard]] std::string_view line_ending(std::string_view bytes);
+/// A line end where text does not end with one.
+[[nodiscard]] std::string_view missing_line_end(std::string_view text);
+
+/// Marks the nodes whose position is not the one in `before`, to the bit, and those that `before` has not. Throws
+/// Error(invalid_argument) for one that moved to nowhere.
 std::vector<std::uint8_t> moved_nodes(const std::vector<Vector3>& before, const std::vector<Vector3>& positions);
 
 }  // namespace vspring

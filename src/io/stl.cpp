@@ -44,6 +44,11 @@ Vector3 facet_normal(const Vector3& a, const Vector3& b, const Vector3& c) {
   return unit_or_zero(unit_or_zero(b - a).cross(unit_or_zero(c - a)));
 }
 
+bool same_word(std::string_view word, std::string_view wanted) {
+  return std::equal(word.begin(), word.end(), wanted.begin(), wanted.end(),
+                    [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+}
+
 /// An STL file: where its facets are and which node each of their corners is.
 class StlSource : public SurfaceSource {
  public:
@@ -54,6 +59,8 @@ class StlSource : public SurfaceSource {
   std::vector<std::size_t> rows;    ///< text: offset of the first number of each facet's normal
 
  private:
+  /// The corners of the facets that were added.
+  [[nodiscard]] static std::vector<std::array<Vector3, 3>> added_facets(const Rewrite& rewrite);
   [[nodiscard]] std::string rewritten_text(const Rewrite& rewrite) const;
   [[nodiscard]] std::string rewritten_binary(const Rewrite& rewrite) const;
 };
@@ -81,7 +88,38 @@ std::string StlSource::rewritten_text(const Rewrite& rewrite) const {
     numbers.insert(numbers.begin(), {{0, normal.x()}, {1, normal.y()}, {2, normal.z()}});
     out.replace_words(rows[facet], numbers);
   }
+  // Behind the last facet, which ends with the next such word.
+  const std::string_view text = file.bytes;
+  constexpr std::string_view word = "facet";
+  std::size_t end = rows.back();
+  while (!same_word(text.substr(end, word.size()), word)) ++end;
+  end += word.size();
+  std::string added;
+  const auto line = [&](const char* keyword, const Vector3& vector) {
+    ((added += line_ending(text)) += keyword) += ' ';
+    append_numbers(added, vector);
+  };
+  for (const auto& [a, b, c] : added_facets(rewrite)) {
+    line("facet normal", facet_normal(a, b, c));
+    (added += line_ending(text)) += "outer loop";
+    for (const Vector3& corner : {a, b, c}) line("vertex", corner);
+    (added += line_ending(text)) += "endloop";
+    (added += line_ending(text)) += "endfacet";
+  }
+  out.replace(end, end, added);
   return out.finish();
+}
+
+std::vector<std::array<Vector3, 3>> StlSource::added_facets(const Rewrite& rewrite) {
+  const PolygonMesh& mesh = rewrite.surface.mesh;
+  std::vector<std::array<Vector3, 3>> facets;
+  for (auto f = mesh.face_count() - static_cast<Index>(rewrite.surface.added.face_like.size()); f < mesh.face_count();
+       ++f) {
+    const auto face = mesh.face(f);
+    const auto corner = [&](std::size_t k) { return rewrite.positions[static_cast<std::size_t>(face[k])]; };
+    for (std::size_t k = 2; k < face.size(); ++k) facets.push_back({corner(0), corner(k - 1), corner(k)});
+  }
+  return facets;
 }
 
 std::string StlSource::rewritten_binary(const Rewrite& rewrite) const {
@@ -103,6 +141,20 @@ std::string StlSource::rewritten_binary(const Rewrite& rewrite) const {
     }
     if (any_moved) put(0, facet_normal(corners[0], corners[1], corners[2]), 0);
   }
+  std::string added;
+  const auto append = [&](const Vector3& vector) {
+    for (const double value : vector) append_bytes(added, single(value, 0), little_swapped);
+  };
+  const auto facets = added_facets(rewrite);
+  for (const auto& [a, b, c] : facets) {
+    append(facet_normal(a, b, c));
+    for (const Vector3& corner : {a, b, c}) append(corner);
+    added.append(2, '\0');
+  }
+  const std::size_t count = corner_nodes.size() / 3;
+  if (!facets.empty())
+    store(out.data() + header_size, static_cast<std::uint32_t>(count + facets.size()), little_swapped);
+  out.insert(facets_begin + facet_size * count, added);
   return out;
 }
 
@@ -250,11 +302,6 @@ SurfaceFile read_binary(InputFile file) {
     surface.warnings.push_back(fmt::format("{}: {} bytes come behind the {} triangles; they are kept and not looked at",
                                            surface.source->file.name, behind, facets));
   return surface;
-}
-
-bool same_word(std::string_view word, std::string_view wanted) {
-  return std::equal(word.begin(), word.end(), wanted.begin(), wanted.end(),
-                    [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
 }
 
 /// Reads the words of a text file.

@@ -24,13 +24,17 @@ constexpr Formats<SurfaceFormat> surface_formats(surface_format_names);
 std::string converted(SurfaceFormat format, const Rewrite& rewrite, std::vector<std::string>& losses) {
   const SurfaceFile& surface = rewrite.surface;
   std::vector<Vector3> normals;
-  if (surface.normals.size() == rewrite.positions.size()) {
+  const PolygonMesh& given = surface.source ? surface.source->mesh : surface.mesh;
+  if (surface.normals.size() == given.positions().size()) {
     normals = surface.normals;
-    const std::vector<Vector3>& before = (surface.source ? surface.source->mesh : surface.mesh).positions();
-    const NewNormals fresh = compute_normals(surface.mesh, surface.mesh.corners(), surface.normals, before,
-                                             rewrite.positions, rewrite.moved);
+    const NewNormals fresh =
+        compute_normals(given, given.corners(), surface.normals, given.positions(), rewrite.positions, rewrite.moved);
     for (std::size_t node = 0; node < normals.size(); ++node) {
       if (fresh.due[node] != 0) normals[node] = fresh.normals[node];
+    }
+    if (const auto& like = surface.added.node_like; !like.empty()) {
+      const std::vector<Vector3> more = normals_of_added(surface.mesh, normals, rewrite.positions, like);
+      normals.insert(normals.end(), more.begin(), more.end());
     }
   }
   if (surface.source)
@@ -57,6 +61,17 @@ SurfaceFile surface_of(InputFile file, std::optional<SurfaceFormat> format) {
   return surface;
 }
 
+/// Whether the mesh is that of the source, with what was added behind it.
+bool is_of(const SurfaceSource& source, const SurfaceFile& surface) {
+  const PolygonMesh& given = source.mesh;
+  const PolygonMesh& mesh = surface.mesh;
+  const AddedElements& added = surface.added;
+  return static_cast<std::size_t>(mesh.node_count()) == given.positions().size() + added.node_like.size() &&
+         static_cast<std::size_t>(mesh.face_count()) ==
+             static_cast<std::size_t>(given.face_count()) + added.face_like.size() &&
+         static_cast<std::size_t>(mesh.face_begin(given.face_count())) == given.corners().size();
+}
+
 }  // namespace
 
 std::optional<SurfaceFormat> surface_format(std::string_view extension) {
@@ -78,8 +93,7 @@ FileBytes surface_bytes(const std::string& name, const SurfaceFile& surface, con
                 fmt::format("{} positions given for {} nodes", positions.size(), surface.mesh.node_count()));
   const SurfaceFormat target = surface_formats.to_write(name, format, surface.format);
   const SurfaceSource* source = surface.source.get();
-  if (source != nullptr && (source->mesh.node_count() != surface.mesh.node_count() ||
-                            source->mesh.corners().size() != surface.mesh.corners().size()))
+  if (source != nullptr && !is_of(*source, surface))
     throw Error(ErrorCode::invalid_argument,
                 fmt::format("the mesh is not the one that {} gave; reset the source to write it on its own",
                             source->file.name));

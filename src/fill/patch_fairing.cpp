@@ -1,0 +1,268 @@
+#include "fill/patch_fairing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/disjoint_sets.hpp"
+#include "vspring/constraints.hpp"
+#include "vspring/self_intersections.hpp"
+
+namespace vspring {
+
+namespace {
+
+using Holes = std::vector<std::size_t>;
+
+/// While it lives, calls tell of their progress as of a part of a longer one.
+class PartOfProgress {
+ public:
+  explicit PartOfProgress(Context& context) : context_(&context), whole_(std::move(context.on_progress)) {
+    if (!whole_) return;
+    context.on_progress = [this](Progress progress) {
+      progress.fraction = begin_ + share_ * progress.fraction;
+      whole_(progress);
+    };
+  }
+  ~PartOfProgress() { context_->on_progress = std::move(whole_); }
+  PartOfProgress(const PartOfProgress&) = delete;
+  PartOfProgress& operator=(const PartOfProgress&) = delete;
+
+  /// The next part, a share of the whole.
+  void next(double share) {
+    begin_ += share_;
+    share_ = share;
+  }
+
+ private:
+  Context* context_;
+  std::function<void(const Progress&)> whole_;
+  double begin_ = 0;
+  double share_ = 0;
+};
+
+/// Filled holes with new nodes, those together whose rims share a node or a face.
+std::vector<Holes> touching(const FilledHoles& filled, const PolygonMesh& input, const Incidence& incidence) {
+  const std::size_t count = filled.holes.size();
+  DisjointSets sets(count);
+  std::vector<std::size_t> hole_at(static_cast<std::size_t>(input.node_count()), count);
+  for (std::size_t h = 0; h < count; ++h) {
+    if (filled.holes[h].state != HoleState::filled) continue;
+    for (const Index node : filled.holes[h].rim) {
+      for (const Corner corner : incidence.corners(node)) {
+        for (const Index other : input.face(corner.face)) {
+          if (const std::size_t there = hole_at[static_cast<std::size_t>(other)]; there != count) sets.join(h, there);
+        }
+      }
+      hole_at[static_cast<std::size_t>(node)] = h;
+    }
+  }
+  std::vector<Holes> groups(count);
+  for (std::size_t h = 0; h < count; ++h) {
+    if (filled.holes[h].node_count > 0) groups[sets.find(h)].push_back(h);
+  }
+  std::erase_if(groups, [](const Holes& group) { return group.empty(); });
+  return groups;
+}
+
+/// Patches and the faces around them.
+struct Part {
+  PolygonMesh mesh;
+  std::vector<Index> node;    ///< number in the whole of every node, ascending
+  std::vector<Index> region;  ///< the new ones
+};
+
+void sort_and_unite(std::vector<Index>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+}
+
+Part part_around(const FilledHoles& filled, const Holes& group, const PolygonMesh& input, const Incidence& incidence) {
+  std::vector<Index> nodes;
+  for (const std::size_t h : group) nodes.insert(nodes.end(), filled.holes[h].rim.begin(), filled.holes[h].rim.end());
+  std::vector<Index> faces;
+  // The solver looks at the faces around the rim, estimates of normals at boundaries there at those around them.
+  for (int ring = 0; ring < 2; ++ring) {
+    faces.clear();
+    for (const Index node : nodes) {
+      for (const Corner corner : incidence.corners(node)) faces.push_back(corner.face);
+    }
+    sort_and_unite(faces);
+    for (const Index face : faces) {
+      const auto corners = input.face(face);
+      nodes.insert(nodes.end(), corners.begin(), corners.end());
+    }
+    sort_and_unite(nodes);
+  }
+  Part part;
+  part.node = std::move(nodes);
+  for (const std::size_t h : group) {
+    const Hole& hole = filled.holes[h];
+    for (Index k = 0; k < hole.face_count; ++k) faces.push_back(hole.first_face + k);
+    for (Index k = 0; k < hole.node_count; ++k) {
+      part.region.push_back(static_cast<Index>(part.node.size()));
+      part.node.push_back(hole.first_node + k);
+    }
+  }
+  MeshBuilder builder;
+  for (const Index node : part.node) builder.add_node(filled.mesh.position(node));
+  std::vector<Index> corners;
+  for (const Index face : faces) {
+    corners.clear();
+    for (const Index node : filled.mesh.face(face))
+      corners.push_back(
+          static_cast<Index>(std::lower_bound(part.node.begin(), part.node.end(), node) - part.node.begin()));
+    builder.add_face(corners);
+  }
+  part.mesh = builder.take();
+  return part;
+}
+
+std::string called(const FilledHoles& filled, const Holes& group) {
+  constexpr std::size_t most = 5;
+  std::string text = group.size() == 1 ? "the hole at node" : "the holes at nodes";
+  for (std::size_t k = 0; k < std::min(most, group.size()); ++k)
+    text += fmt::format("{} {}", k == 0 ? "" : ",", filled.holes[group[k]].rim.front());
+  return text + (group.size() > most ? fmt::format(" and {} more", group.size() - most) : "");
+}
+
+/// How much worse an outcome is than others.
+int rank(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::converged:
+      return 0;
+    case Outcome::iteration_limit:
+      return 1;
+    case Outcome::work_limit:
+      return 2;
+    case Outcome::stalled:
+      return 3;
+    case Outcome::worse_than_input:
+      return 4;
+    case Outcome::cancelled:
+      return 5;
+  }
+  return 0;
+}
+
+void worsen(Outcome& outcome, Outcome other) {
+  if (rank(other) > rank(outcome)) outcome = other;
+}
+
+/// Adds the report of some patches to that of all. most: moving nodes of the largest so far.
+void add(FairReport& all, const FairReport& part, const std::string& name, Index& most) {
+  worsen(all.outcome, part.outcome);
+  all.method = part.method;
+  if (part.moving_nodes > most) {
+    most = part.moving_nodes;
+    all.springs = part.springs;
+    all.fair_by = part.fair_by;
+  }
+  all.iterations += part.iterations;
+  all.residual = std::max(all.residual, part.residual);
+  all.history.insert(all.history.end(), part.history.begin(), part.history.end());
+  if (part.expected_error) all.expected_error = std::max(all.expected_error.value_or(0), *part.expected_error);
+  all.levels.insert(all.levels.end(), part.levels.begin(), part.levels.end());
+  all.work += part.work;
+  all.most_work += part.most_work;
+  const Index moving = all.moving_nodes + part.moving_nodes;
+  if (moving > 0)
+    all.rms_move = std::sqrt(
+        (all.rms_move * all.rms_move * all.moving_nodes + part.rms_move * part.rms_move * part.moving_nodes) / moving);
+  all.moving_nodes = moving;
+  all.greatest_move = std::max(all.greatest_move, part.greatest_move);
+  for (const Warning& warning : part.warnings)
+    all.warnings.emplace_back(warning.code, fmt::format("{}: {}", name, warning.text));
+}
+
+/// Which of the pairs of faces that cross have a face of each group; pairs of others are left out.
+std::vector<std::vector<std::pair<Index, Index>>> crossings(const FilledHoles& filled, const PolygonMesh& mesh,
+                                                            const std::vector<Holes>& groups, const Context& context) {
+  std::vector<std::size_t> group_of(filled.face_like.size(), groups.size());
+  const auto first = static_cast<std::size_t>(mesh.face_count()) - filled.face_like.size();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const std::size_t h : groups[g]) {
+      const Hole& hole = filled.holes[h];
+      for (Index k = 0; k < hole.face_count; ++k) group_of[static_cast<std::size_t>(hole.first_face + k) - first] = g;
+    }
+  }
+  std::vector<std::vector<std::pair<Index, Index>>> result(groups.size());
+  for (const auto& pair : self_intersections(mesh, context)) {
+    std::size_t last = groups.size();
+    for (const Index face : {pair.first, pair.second}) {
+      if (static_cast<std::size_t>(face) < first) continue;
+      const std::size_t g = group_of[static_cast<std::size_t>(face) - first];
+      if (g == groups.size() || g == last) continue;
+      result[g].push_back(pair);
+      last = g;
+    }
+  }
+  return result;
+}
+
+/// Makes patches flat again that cross more faces than flat ones, and warns of those that cross any.
+void look_for_crossings(FilledHoles& filled, const std::vector<Holes>& groups, Context& context) {
+  PolygonMesh fair_mesh = filled.mesh;
+  fair_mesh.set_positions(filled.positions);
+  const auto now = crossings(filled, fair_mesh, groups, context);
+  const bool any = std::any_of(now.begin(), now.end(), [](const auto& pairs) { return !pairs.empty(); });
+  if (!any || context.cancelled()) return;
+  const auto flat = crossings(filled, filled.mesh, groups, context);
+  if (context.cancelled()) return;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const bool is_worse = now[g].size() > flat[g].size();
+    const auto& left = is_worse ? flat[g] : now[g];
+    const std::string name = called(filled, groups[g]);
+    if (is_worse) {
+      for (const std::size_t h : groups[g]) {
+        Hole& hole = filled.holes[h];
+        worsen(hole.outcome.emplace(hole.outcome.value_or(Outcome::converged)), Outcome::worse_than_input);
+        std::copy_n(filled.mesh.positions().begin() + hole.first_node, hole.node_count,
+                    filled.positions.begin() + hole.first_node);
+      }
+      worsen(filled.report.outcome, Outcome::worse_than_input);
+      filled.report.warnings.emplace_back(
+          WarningCode::worse_than_input,
+          fmt::format("{}: a fair patch would cross {} faces or more ({} and {}, for one), so it stays flat", name,
+                      now[g].size(), now[g].front().first, now[g].front().second));
+    }
+    if (left.empty()) continue;
+    filled.report.warnings.emplace_back(
+        WarningCode::patch_crosses,
+        fmt::format("{}: its patch crosses other faces ({} and {}, for one), as where another part lies in the hole",
+                    name, left.front().first, left.front().second));
+  }
+}
+
+}  // namespace
+
+void fair_patches(FilledHoles& filled, const PolygonMesh& input, const Incidence& incidence, const FairOptions& options,
+                  Context& context) {
+  const std::vector<Holes> groups = touching(filled, input, incidence);
+  {
+    PartOfProgress progress(context);
+    Index most = 0;
+    for (const Holes& group : groups) {
+      const Part part = part_around(filled, group, input, incidence);
+      progress.next(static_cast<double>(part.region.size()) / static_cast<double>(filled.node_like.size()));
+      Constraints constraints(part.mesh.node_count());
+      restrict_to_region(constraints, part.mesh, part.region);
+      const FairResult result = fair(part.mesh, constraints, options, context);
+      for (const Index k : part.region) {
+        const auto local = static_cast<std::size_t>(k);
+        filled.positions[static_cast<std::size_t>(part.node[local])] = result.positions[local];
+      }
+      for (const std::size_t h : group) filled.holes[h].outcome = result.report.outcome;
+      add(filled.report, result.report, called(filled, group), most);
+    }
+  }
+  if (!groups.empty() && !context.cancelled()) look_for_crossings(filled, groups, context);
+}
+
+}  // namespace vspring

@@ -1,0 +1,190 @@
+// Patches as dense as what is around (P. Liepa, Filling holes in meshes, 2003, §3).
+#include "fill/refinement.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <unordered_set>
+#include <utility>
+
+#include "base/cancellation.hpp"
+#include "shape/direction.hpp"
+
+namespace vspring {
+
+namespace {
+
+// Liepa's α: a triangle is split where its centroid is further than the spacing over this from all corners.
+constexpr double density = 1.4142135623730951;
+// Opposite angles whose sine sums up to less, of lengths 1, are as good as 180°.
+constexpr double as_good = 1e-9;
+// Swaps of one edge, on average, after which edges are left as they are: in space they might be swapped in circles.
+constexpr std::size_t most_swaps = 20;
+
+class Refiner {
+ public:
+  Refiner(Patch& patch, const std::vector<std::vector<Index>>& joined) : patch_(patch) {
+    for (std::size_t a = 0; a < joined.size(); ++a) {
+      for (const Index b : joined[a]) edges_.insert(key(static_cast<Index>(a), b));
+    }
+    find_neighbours();
+  }
+
+  void run() {
+    for (std::size_t t = 0; t < triangles().size(); ++t) touched_.push_back(static_cast<Index>(t));
+    swap_edges();
+    while (split_triangles()) swap_edges();
+  }
+
+ private:
+  using Corners = std::array<Index, 3>;
+
+  [[nodiscard]] std::vector<Corners>& triangles() { return patch_.triangles; }
+  [[nodiscard]] Corners& triangle(Index t) { return patch_.triangles[static_cast<std::size_t>(t)]; }
+  /// Of a triangle, beyond the edge opposite to each corner; −1 at the rim.
+  [[nodiscard]] Corners& neighbours(Index t) { return neighbours_[static_cast<std::size_t>(t)]; }
+  [[nodiscard]] const Vector3& place(Index node) const { return patch_.places[static_cast<std::size_t>(node)]; }
+  [[nodiscard]] static std::uint64_t key(Index a, Index b) {
+    return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | static_cast<std::uint64_t>(std::max(a, b));
+  }
+
+  void find_neighbours() {
+    neighbours_.assign(triangles().size(), {-1, -1, -1});
+    std::map<std::pair<Index, Index>, std::pair<Index, std::size_t>> sides;
+    for (std::size_t t = 0; t < triangles().size(); ++t) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const Index a = triangles()[t][(c + 1) % 3];
+        const Index b = triangles()[t][(c + 2) % 3];
+        edges_.insert(key(a, b));
+        sides[{a, b}] = {static_cast<Index>(t), c};
+        const auto other = sides.find({b, a});
+        if (other == sides.end()) continue;
+        neighbours_[t][c] = other->second.first;
+        neighbours(other->second.first)[other->second.second] = static_cast<Index>(t);
+      }
+    }
+  }
+
+  void replace_neighbour(Index t, Index before, Index now) {
+    if (t < 0) return;
+    Corners& around = neighbours(t);
+    *std::find(around.begin(), around.end(), before) = now;
+  }
+
+  [[nodiscard]] bool is_coarse(const Corners& corners, const Vector3& centroid, double spacing) const {
+    return std::all_of(corners.begin(), corners.end(), [&](Index node) {
+      return density * (place(node) - centroid).norm() >
+             std::max(spacing, patch_.spacing[static_cast<std::size_t>(node)]);
+    });
+  }
+
+  /// Whether there were any to split.
+  bool split_triangles() {
+    const auto count = static_cast<Index>(triangles().size());
+    for (Index t = 0; t < count; ++t) {
+      end_if_cancelled_at(static_cast<std::size_t>(t));
+      const auto [a, b, c] = triangle(t);
+      const Vector3 centroid = (place(a) + place(b) + place(c)) / 3;
+      const auto spacing_at = [&](Index node) { return patch_.spacing[static_cast<std::size_t>(node)]; };
+      const double spacing = (spacing_at(a) + spacing_at(b) + spacing_at(c)) / 3;
+      if (is_coarse({a, b, c}, centroid, spacing)) split(t, centroid, spacing);
+    }
+    return static_cast<Index>(triangles().size()) > count;
+  }
+
+  void split(Index t, const Vector3& centroid, double spacing) {
+    const auto [a, b, c] = triangle(t);
+    const auto [beyond_a, beyond_b, beyond_c] = neighbours(t);
+    const auto node = static_cast<Index>(patch_.places.size());
+    patch_.places.push_back(centroid);
+    patch_.spacing.push_back(spacing);
+    const auto nearer = [&](Index i, Index j) { return (place(i) - centroid).norm() < (place(j) - centroid).norm(); };
+    patch_.like.push_back(patch_.like[static_cast<std::size_t>(std::min({a, b, c}, nearer))]);
+    const auto second = static_cast<Index>(triangles().size());
+    const Index third = second + 1;
+    triangle(t) = {a, b, node};
+    neighbours(t) = {second, third, beyond_c};
+    triangles().push_back({b, c, node});
+    neighbours_.push_back({third, t, beyond_a});
+    triangles().push_back({c, a, node});
+    neighbours_.push_back({t, second, beyond_b});
+    replace_neighbour(beyond_a, t, second);
+    replace_neighbour(beyond_b, t, third);
+    for (const Index corner : {a, b, c}) edges_.insert(key(corner, node));
+    touched_.insert(touched_.end(), {t, second, third});
+  }
+
+  void swap_edges() {
+    std::size_t swaps_left = most_swaps * triangles().size();
+    for (std::size_t step = 0; !touched_.empty() && swaps_left > 0; ++step) {
+      end_if_cancelled_at(step);
+      const Index t = touched_.back();
+      touched_.pop_back();
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (!swap(t, c)) continue;
+        --swaps_left;
+        break;
+      }
+    }
+    touched_.clear();
+  }
+
+  /// Puts the other diagonal into the quad around the edge opposite to a corner, where that is better.
+  bool swap(Index t, std::size_t c) {
+    const Index s = neighbours(t)[c];
+    if (s < 0) return false;
+    const Corners& around = neighbours(s);
+    const auto d = static_cast<std::size_t>(std::find(around.begin(), around.end(), t) - around.begin());
+    const Index p = triangle(t)[c];
+    const Index u = triangle(t)[(c + 1) % 3];
+    const Index w = triangle(t)[(c + 2) % 3];
+    const Index q = triangle(s)[d];
+    if (!is_better(p, u, q, w) || !edges_.insert(key(p, q)).second) return false;
+    edges_.erase(key(u, w));
+    const Index beyond_pu = neighbours(t)[(c + 2) % 3];
+    const Index beyond_wp = neighbours(t)[(c + 1) % 3];
+    const Index beyond_qw = neighbours(s)[(d + 2) % 3];
+    const Index beyond_uq = neighbours(s)[(d + 1) % 3];
+    triangle(t) = {p, u, q};
+    neighbours(t) = {beyond_uq, s, beyond_pu};
+    triangle(s) = {q, w, p};
+    neighbours(s) = {beyond_wp, t, beyond_qw};
+    replace_neighbour(beyond_uq, s, t);
+    replace_neighbour(beyond_wp, t, s);
+    touched_.insert(touched_.end(), {s, t});
+    return true;
+  }
+
+  /// Whether the edge from p to q is better than that from u to w.
+  [[nodiscard]] bool is_better(Index p, Index u, Index q, Index w) const {
+    const auto angle_at = [&](Index tip) {
+      const Vector3 to_u = (place(u) - place(tip)).normalized();
+      const Vector3 to_w = (place(w) - place(tip)).normalized();
+      return std::pair(to_u.dot(to_w), to_u.cross(to_w).norm());
+    };
+    const auto [cos_p, sin_p] = angle_at(p);
+    const auto [cos_q, sin_q] = angle_at(q);
+    if (!(sin_p * cos_q + cos_p * sin_q < -as_good)) return false;
+    const auto vector = [&](Index a, Index b, Index c) -> Vector3 {
+      return (place(b) - place(a)).cross(place(c) - place(a));
+    };
+    const Vector3 before = vector(p, u, w) + vector(q, w, u);
+    const Vector3 first = vector(p, u, q);
+    const Vector3 second = vector(q, w, p);
+    return first.dot(before) > 0 && second.dot(before) > 0 && first.dot(second) > 0;
+  }
+
+  Patch& patch_;
+  std::vector<Corners> neighbours_;
+  std::unordered_set<std::uint64_t> edges_;  ///< all that there are, outside between nodes of the rim as well
+  std::vector<Index> touched_;               ///< triangles whose edges may have to be swapped
+};
+
+}  // namespace
+
+void refine(Patch& patch, const std::vector<std::vector<Index>>& joined) { Refiner(patch, joined).run(); }
+
+}  // namespace vspring

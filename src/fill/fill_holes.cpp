@@ -16,6 +16,9 @@ namespace vspring {
 
 namespace {
 
+// Of the work of fairing, for progress: what the first patches take.
+constexpr double first_share = 0.6;
+
 /// Per node, whether it is asked for.
 std::vector<std::uint8_t> asked_for(const FillOptions& options, const std::vector<Hole>& holes, Index node_count) {
   std::vector<std::uint8_t> at_hole(static_cast<std::size_t>(node_count), 0);
@@ -52,16 +55,33 @@ void fill_all(Filling& filling, const FillOptions& options, ProgressReporter& pr
   const auto asked = asked_for(options, holes, filling.input().node_count());
   for (Hole& hole : holes) hole.state = state_to_be(hole, options, asked);
   try {
-    for (Hole& hole : holes) {
-      if (hole.state != HoleState::open) continue;
+    for (std::size_t h = 0; h < holes.size(); ++h) {
+      if (holes[h].state != HoleState::open) continue;
       progress.report("triangulating", 0);
-      filling.fill(hole);
+      filling.fill(h);
     }
   } catch (const Cancelled&) {
     for (Hole& hole : holes) {
       if (hole.state == HoleState::open) hole.state = HoleState::cancelled;
     }
   }
+}
+
+/// Fairs flat patches, refines them again where they have become larger, and fairs them so.
+void fair_patches(Filling& filling, FilledHoles& filled, const FairOptions& given, Context& context) {
+  FairOptions options = given;
+  // The shares of the flat patch turn no face over.
+  if (!options.distribution) options.distribution = Distribution::keep;
+  PatchFairing fairing(filling.input(), filling.incidence(), options, context);
+  fairing.run(filled, std::vector<std::uint8_t>(filled.holes.size(), 1), 0, first_share);
+  if (!context.cancelled()) {
+    const std::vector<std::uint8_t> changed = filling.refine_again(filled);
+    const std::vector<Hole> before = std::move(filled.holes);
+    filled = filling.filled();
+    for (std::size_t h = 0; h < before.size(); ++h) filled.holes[h].outcome = before[h].outcome;
+    fairing.run(filled, changed, first_share, 1 - first_share);
+  }
+  fairing.finish(filled);
 }
 
 void count(FilledHoles& filled) {
@@ -103,10 +123,10 @@ FilledHoles fill_holes(const PolygonMesh& mesh, const FillOptions& options, Cont
     const CancellationScope cancellation(context);
     fill_all(filling, options, progress);
   }
-  FilledHoles filled = filling.take();
+  FilledHoles filled = filling.filled();
+  if (!options.flat) fair_patches(filling, filled, options.fair, context);
   filled.report.method = options.fair.method_kind();
   filled.report.threads = context.thread_count();
-  if (!options.flat) fair_patches(filled, mesh, filling.incidence(), options.fair, context);
   if (context.cancelled()) filled.report.outcome = Outcome::cancelled;
   for (const Hole& hole : filled.holes) {
     if (hole.state == HoleState::unfillable)

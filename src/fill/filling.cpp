@@ -28,22 +28,20 @@ Filling::Filling(const PolygonMesh& mesh)
     : mesh_(mesh),
       incidence_(mesh),
       holes_(find_holes(mesh, incidence_)),
-      place_in_rim_(static_cast<std::size_t>(mesh.node_count()), -1),
-      positions_(mesh.positions()),
-      face_begin_(mesh.face_begin()),
-      corners_(mesh.corners()) {}
+      patches_(holes_.size()),
+      place_in_rim_(static_cast<std::size_t>(mesh.node_count()), -1) {}
 
-void Filling::fill(Hole& hole) {
+void Filling::fill(std::size_t number) {
+  Hole& hole = holes_[number];
   const std::vector<Index>& nodes = hole.rim;
   Rim rim;
-  std::vector<Index> faces;
-  Patch patch;
+  PatchOfHole made;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
-    faces.push_back(face_beside(mesh_, incidence_, nodes[k], nodes[(k + 1) % nodes.size()]));
+    made.face_beside.push_back(face_beside(mesh_, incidence_, nodes[k], nodes[(k + 1) % nodes.size()]));
     rim.places.push_back(mesh_.position(nodes[k]));
-    rim.normals.push_back(unit_normal(mesh_.face(faces.back()), mesh_.positions()));
-    patch.spacing.push_back(spacing_at(nodes[k]));
-    patch.like.push_back(static_cast<Index>(k));
+    rim.normals.push_back(unit_normal(mesh_.face(made.face_beside.back()), mesh_.positions()));
+    made.patch.spacing.push_back(spacing_at(nodes[k]));
+    made.patch.like.push_back(static_cast<Index>(k));
   }
   rim.joined = joined(nodes);
   Triangulation triangulation = triangulate(rim);
@@ -52,10 +50,25 @@ void Filling::fill(Hole& hole) {
     hole.fault = triangulation.is_folded ? HoleFault::folded : HoleFault::no_triangulation;
     return;
   }
-  patch.places = rim.places;
-  patch.triangles = std::move(triangulation.triangles);
-  refine(patch, rim.joined);
-  put(hole, patch, faces);
+  made.patch.places = made.patch.flat = std::move(rim.places);
+  made.patch.triangles = std::move(triangulation.triangles);
+  made.joined = std::move(rim.joined);
+  refine(made.patch, made.joined);
+  note_new_edges(nodes, made.patch);
+  patches_[number] = std::move(made);
+  hole.state = HoleState::filled;
+}
+
+std::vector<std::uint8_t> Filling::refine_again(const FilledHoles& now) {
+  std::vector<std::uint8_t> changed(holes_.size(), 0);
+  for (std::size_t h = 0; h < holes_.size(); ++h) {
+    const Hole& hole = now.holes[h];
+    auto& [patch, joined, beside] = patches_[h];
+    std::copy_n(now.positions.begin() + std::max<Index>(hole.first_node, 0), hole.node_count,
+                patch.places.begin() + static_cast<std::ptrdiff_t>(patch.places.size()) - hole.node_count);
+    if (hole.outcome == Outcome::converged) changed[h] = refine(patch, joined) ? 1 : 0;
+  }
+  return changed;
 }
 
 std::vector<std::vector<Index>> Filling::joined(const std::vector<Index>& rim) {
@@ -89,43 +102,51 @@ double Filling::spacing_at(Index node) const {
   return sum / count;
 }
 
-void Filling::put(Hole& hole, const Patch& patch, const std::vector<Index>& face_beside_rim) {
-  const auto rim_size = hole.rim.size();
-  hole.state = HoleState::filled;
-  hole.first_node = static_cast<Index>(positions_.size());
-  hole.node_count = static_cast<Index>(patch.places.size() - rim_size);
-  hole.first_face = static_cast<Index>(face_begin_.size()) - 1;
-  hole.face_count = static_cast<Index>(patch.triangles.size());
-  const auto node_of = [&](Index node) {
-    const auto k = static_cast<std::size_t>(node);
-    return k < rim_size ? hole.rim[k] : hole.first_node + static_cast<Index>(k - rim_size);
-  };
-  const auto like = [&](Index node) { return static_cast<std::size_t>(patch.like[static_cast<std::size_t>(node)]); };
-  for (std::size_t k = rim_size; k < patch.places.size(); ++k) {
-    positions_.push_back(patch.places[k]);
-    node_like_.push_back(hole.rim[like(static_cast<Index>(k))]);
-  }
+void Filling::note_new_edges(const std::vector<Index>& rim, const Patch& patch) {
+  const auto count = static_cast<Index>(rim.size());
   for (const auto& triangle : patch.triangles) {
     for (std::size_t c = 0; c < 3; ++c) {
-      const Index node = node_of(triangle[c]);
-      const Index next = node_of(triangle[(c + 1) % 3]);
-      corners_.push_back(node);
-      if (node >= hole.first_node || next >= hole.first_node) continue;
-      new_joined_[node].push_back(next);
-      new_joined_[next].push_back(node);
+      const Index a = triangle[c];
+      const Index b = triangle[(c + 1) % 3];
+      if (a >= count || b >= count) continue;
+      new_joined_[rim[static_cast<std::size_t>(a)]].push_back(rim[static_cast<std::size_t>(b)]);
+      new_joined_[rim[static_cast<std::size_t>(b)]].push_back(rim[static_cast<std::size_t>(a)]);
     }
-    face_begin_.push_back(static_cast<Index>(corners_.size()));
-    face_like_.push_back(face_beside_rim[like(triangle[0])]);
   }
 }
 
-FilledHoles Filling::take() {
+FilledHoles Filling::filled() const {
   FilledHoles result;
-  result.mesh = PolygonMesh(std::move(positions_), std::move(face_begin_), std::move(corners_));
-  result.positions = result.mesh.positions();
-  result.node_like = std::move(node_like_);
-  result.face_like = std::move(face_like_);
-  result.holes = std::move(holes_);
+  result.holes = holes_;
+  result.positions = mesh_.positions();
+  std::vector<Vector3> flat = mesh_.positions();
+  std::vector<Index> face_begin = mesh_.face_begin();
+  std::vector<Index> corners = mesh_.corners();
+  for (std::size_t h = 0; h < holes_.size(); ++h) {
+    Hole& hole = result.holes[h];
+    if (hole.state != HoleState::filled) continue;
+    const auto& [patch, joined, beside] = patches_[h];
+    const std::size_t rim = hole.rim.size();
+    hole.first_node = static_cast<Index>(flat.size());
+    hole.node_count = static_cast<Index>(patch.places.size() - rim);
+    hole.first_face = static_cast<Index>(face_begin.size()) - 1;
+    hole.face_count = static_cast<Index>(patch.triangles.size());
+    const auto like = [&](Index node) { return static_cast<std::size_t>(patch.like[static_cast<std::size_t>(node)]); };
+    for (std::size_t k = rim; k < patch.places.size(); ++k) {
+      flat.push_back(patch.flat[k]);
+      result.positions.push_back(patch.places[k]);
+      result.node_like.push_back(hole.rim[like(static_cast<Index>(k))]);
+    }
+    for (const auto& triangle : patch.triangles) {
+      for (const Index node : triangle) {
+        const auto k = static_cast<std::size_t>(node);
+        corners.push_back(k < rim ? hole.rim[k] : hole.first_node + static_cast<Index>(k - rim));
+      }
+      face_begin.push_back(static_cast<Index>(corners.size()));
+      result.face_like.push_back(beside[like(triangle[0])]);
+    }
+  }
+  result.mesh = PolygonMesh(std::move(flat), std::move(face_begin), std::move(corners));
   return result;
 }
 

@@ -23,7 +23,8 @@ using Holes = std::vector<std::size_t>;
 /// While it lives, calls tell of their progress as of a part of a longer one.
 class PartOfProgress {
  public:
-  explicit PartOfProgress(Context& context) : context_(&context), whole_(std::move(context.on_progress)) {
+  PartOfProgress(Context& context, double begin)
+      : context_(&context), whole_(std::move(context.on_progress)), begin_(begin) {
     if (!whole_) return;
     context.on_progress = [this](Progress progress) {
       progress.fraction = begin_ + share_ * progress.fraction;
@@ -43,33 +44,9 @@ class PartOfProgress {
  private:
   Context* context_;
   std::function<void(const Progress&)> whole_;
-  double begin_ = 0;
+  double begin_;
   double share_ = 0;
 };
-
-/// Filled holes with new nodes, those together whose rims share a node or a face.
-std::vector<Holes> touching(const FilledHoles& filled, const PolygonMesh& input, const Incidence& incidence) {
-  const std::size_t count = filled.holes.size();
-  DisjointSets sets(count);
-  std::vector<std::size_t> hole_at(static_cast<std::size_t>(input.node_count()), count);
-  for (std::size_t h = 0; h < count; ++h) {
-    if (filled.holes[h].state != HoleState::filled) continue;
-    for (const Index node : filled.holes[h].rim) {
-      for (const Corner corner : incidence.corners(node)) {
-        for (const Index other : input.face(corner.face)) {
-          if (const std::size_t there = hole_at[static_cast<std::size_t>(other)]; there != count) sets.join(h, there);
-        }
-      }
-      hole_at[static_cast<std::size_t>(node)] = h;
-    }
-  }
-  std::vector<Holes> groups(count);
-  for (std::size_t h = 0; h < count; ++h) {
-    if (filled.holes[h].node_count > 0) groups[sets.find(h)].push_back(h);
-  }
-  std::erase_if(groups, [](const Holes& group) { return group.empty(); });
-  return groups;
-}
 
 /// Patches and the faces around them.
 struct Part {
@@ -111,7 +88,7 @@ Part part_around(const FilledHoles& filled, const Holes& group, const PolygonMes
     }
   }
   MeshBuilder builder;
-  for (const Index node : part.node) builder.add_node(filled.mesh.position(node));
+  for (const Index node : part.node) builder.add_node(filled.positions[static_cast<std::size_t>(node)]);
   std::vector<Index> corners;
   for (const Index face : faces) {
     corners.clear();
@@ -155,6 +132,15 @@ void worsen(Outcome& outcome, Outcome other) {
   if (rank(other) > rank(outcome)) outcome = other;
 }
 
+/// Adds what was done before, or elsewhere.
+void add_work(FairReport& all, const FairReport& other) {
+  all.iterations += other.iterations;
+  all.history.insert(all.history.begin(), other.history.begin(), other.history.end());
+  all.levels.insert(all.levels.begin(), other.levels.begin(), other.levels.end());
+  all.work += other.work;
+  all.most_work += other.most_work;
+}
+
 /// Adds the report of some patches to that of all. most: moving nodes of the largest so far.
 void add(FairReport& all, const FairReport& part, const std::string& name, Index& most) {
   worsen(all.outcome, part.outcome);
@@ -164,19 +150,10 @@ void add(FairReport& all, const FairReport& part, const std::string& name, Index
     all.springs = part.springs;
     all.fair_by = part.fair_by;
   }
-  all.iterations += part.iterations;
+  add_work(all, part);
   all.residual = std::max(all.residual, part.residual);
-  all.history.insert(all.history.end(), part.history.begin(), part.history.end());
   if (part.expected_error) all.expected_error = std::max(all.expected_error.value_or(0), *part.expected_error);
-  all.levels.insert(all.levels.end(), part.levels.begin(), part.levels.end());
-  all.work += part.work;
-  all.most_work += part.most_work;
-  const Index moving = all.moving_nodes + part.moving_nodes;
-  if (moving > 0)
-    all.rms_move = std::sqrt(
-        (all.rms_move * all.rms_move * all.moving_nodes + part.rms_move * part.rms_move * part.moving_nodes) / moving);
-  all.moving_nodes = moving;
-  all.greatest_move = std::max(all.greatest_move, part.greatest_move);
+  all.moving_nodes += part.moving_nodes;
   for (const Warning& warning : part.warnings)
     all.warnings.emplace_back(warning.code, fmt::format("{}: {}", name, warning.text));
 }
@@ -235,34 +212,73 @@ void look_for_crossings(FilledHoles& filled, const std::vector<Holes>& groups, C
     if (left.empty()) continue;
     filled.report.warnings.emplace_back(
         WarningCode::patch_crosses,
-        fmt::format("{}: its patch crosses other faces ({} and {}, for one), as where another part lies in the hole",
-                    name, left.front().first, left.front().second));
+        fmt::format("{}: its patch crosses other faces ({} and {}, for one); look at it there", name,
+                    left.front().first, left.front().second));
   }
 }
 
 }  // namespace
 
-void fair_patches(FilledHoles& filled, const PolygonMesh& input, const Incidence& incidence, const FairOptions& options,
-                  Context& context) {
-  const std::vector<Holes> groups = touching(filled, input, incidence);
-  {
-    PartOfProgress progress(context);
-    Index most = 0;
-    for (const Holes& group : groups) {
-      const Part part = part_around(filled, group, input, incidence);
-      progress.next(static_cast<double>(part.region.size()) / static_cast<double>(filled.node_like.size()));
-      Constraints constraints(part.mesh.node_count());
-      restrict_to_region(constraints, part.mesh, part.region);
-      const FairResult result = fair(part.mesh, constraints, options, context);
-      for (const Index k : part.region) {
-        const auto local = static_cast<std::size_t>(k);
-        filled.positions[static_cast<std::size_t>(part.node[local])] = result.positions[local];
+std::vector<PatchFairing::Holes> PatchFairing::touching(const FilledHoles& filled) const {
+  const std::size_t count = filled.holes.size();
+  DisjointSets sets(count);
+  std::vector<std::size_t> hole_at(input_.positions().size(), count);
+  for (std::size_t h = 0; h < count; ++h) {
+    if (filled.holes[h].state != HoleState::filled) continue;
+    for (const Index node : filled.holes[h].rim) {
+      for (const Corner corner : incidence_.corners(node)) {
+        for (const Index other : input_.face(corner.face)) {
+          if (const std::size_t there = hole_at[static_cast<std::size_t>(other)]; there != count) sets.join(h, there);
+        }
       }
-      for (const std::size_t h : group) filled.holes[h].outcome = result.report.outcome;
-      add(filled.report, result.report, called(filled, group), most);
+      hole_at[static_cast<std::size_t>(node)] = h;
     }
   }
-  if (!groups.empty() && !context.cancelled()) look_for_crossings(filled, groups, context);
+  std::vector<Holes> groups(count);
+  for (std::size_t h = 0; h < count; ++h) {
+    if (filled.holes[h].node_count > 0) groups[sets.find(h)].push_back(h);
+  }
+  std::erase_if(groups, [](const Holes& group) { return group.empty(); });
+  return groups;
+}
+
+void PatchFairing::run(FilledHoles& filled, const std::vector<std::uint8_t>& due, double begin, double share) {
+  PartOfProgress progress(context_, begin);
+  for (const Holes& group : touching(filled)) {
+    if (std::none_of(group.begin(), group.end(), [&](std::size_t h) { return due[h] != 0; })) continue;
+    const Part part = part_around(filled, group, input_, incidence_);
+    progress.next(share * static_cast<double>(part.region.size()) / static_cast<double>(filled.node_like.size()));
+    Constraints constraints(part.mesh.node_count());
+    restrict_to_region(constraints, part.mesh, part.region);
+    FairResult result = fair(part.mesh, constraints, options_, context_);
+    for (const Index k : part.region) {
+      const auto local = static_cast<std::size_t>(k);
+      filled.positions[static_cast<std::size_t>(part.node[local])] = result.positions[local];
+    }
+    for (const std::size_t h : group) filled.holes[h].outcome = result.report.outcome;
+    const auto [known, is_new] = reports_.emplace(group.front(), result.report);
+    if (is_new) continue;
+    const FairReport before = std::exchange(known->second, std::move(result.report));
+    add_work(known->second, before);
+  }
+}
+
+void PatchFairing::finish(FilledHoles& filled) {
+  const std::vector<Holes> groups = touching(filled);
+  Index most = 0;
+  for (const Holes& group : groups) {
+    const auto report = reports_.find(group.front());
+    if (report != reports_.end()) add(filled.report, report->second, called(filled, group), most);
+  }
+  if (!groups.empty() && !context_.cancelled()) look_for_crossings(filled, groups, context_);
+  double squares = 0;
+  for (std::size_t k = input_.positions().size(); k < filled.positions.size(); ++k) {
+    const double move = (filled.positions[k] - filled.mesh.positions()[k]).norm();
+    filled.report.greatest_move = std::max(filled.report.greatest_move, move);
+    squares += move * move;
+  }
+  if (!filled.node_like.empty())
+    filled.report.rms_move = std::sqrt(squares / static_cast<double>(filled.node_like.size()));
 }
 
 }  // namespace vspring

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <unordered_set>
 #include <utility>
 
@@ -30,13 +31,25 @@ class Refiner {
     for (std::size_t a = 0; a < joined.size(); ++a) {
       for (const Index b : joined[a]) edges_.insert(key(static_cast<Index>(a), b));
     }
+    rim_ = static_cast<Index>(joined.size());
     find_neighbours();
   }
 
-  void run() {
+  bool run() {
+    const std::size_t count = patch_.places.size();
+    // A patch that has been refined before has none.
+    keeps_off_rim_ = static_cast<Index>(count) > rim_;
     for (std::size_t t = 0; t < triangles().size(); ++t) touched_.push_back(static_cast<Index>(t));
     swap_edges();
     while (split_triangles()) swap_edges();
+    if (static_cast<Index>(patch_.places.size()) > rim_) {
+      keeps_off_rim_ = true;
+      for (Index t = 0; t < static_cast<Index>(triangles().size()); ++t) {
+        for (std::size_t c = 0; c < 3; ++c) cut(t, c);
+      }
+      swap_edges();
+    }
+    return has_swapped_ || patch_.places.size() > count;
   }
 
  private:
@@ -86,23 +99,75 @@ class Refiner {
     const auto count = static_cast<Index>(triangles().size());
     for (Index t = 0; t < count; ++t) {
       end_if_cancelled_at(static_cast<std::size_t>(t));
-      const auto [a, b, c] = triangle(t);
-      const Vector3 centroid = (place(a) + place(b) + place(c)) / 3;
-      const auto spacing_at = [&](Index node) { return patch_.spacing[static_cast<std::size_t>(node)]; };
-      const double spacing = (spacing_at(a) + spacing_at(b) + spacing_at(c)) / 3;
-      if (is_coarse({a, b, c}, centroid, spacing)) split(t, centroid, spacing);
+      const Corners corners = triangle(t);
+      if (is_coarse(corners, mean(patch_.places, corners), mean(patch_.spacing, corners))) split(t);
     }
     return static_cast<Index>(triangles().size()) > count;
   }
 
-  void split(Index t, const Vector3& centroid, double spacing) {
+  template <typename Value>
+  static Value mean(const std::vector<Value>& values, std::span<const Index> nodes) {
+    Value sum = values[static_cast<std::size_t>(nodes[0])];
+    for (const Index node : nodes.subspan(1)) sum += values[static_cast<std::size_t>(node)];
+    return sum / static_cast<double>(nodes.size());
+  }
+
+  /// In the middle of others.
+  Index add_node(std::span<const Index> around) {
+    const Vector3 middle = mean(patch_.places, around);
+    const auto nearer = [&](Index i, Index j) { return (place(i) - middle).norm() < (place(j) - middle).norm(); };
+    patch_.like.push_back(
+        patch_.like[static_cast<std::size_t>(*std::min_element(around.begin(), around.end(), nearer))]);
+    patch_.flat.push_back(mean(patch_.flat, around));
+    patch_.spacing.push_back(mean(patch_.spacing, around));
+    patch_.places.push_back(middle);
+    return static_cast<Index>(patch_.places.size()) - 1;
+  }
+
+  /// The triangle beyond the edge opposite to a corner, and its corner there.
+  [[nodiscard]] std::pair<Index, std::size_t> beyond(Index t, std::size_t c) {
+    const Index s = neighbours(t)[c];
+    if (s < 0) return {s, 0};
+    const Corners& around = neighbours(s);
+    return {s, static_cast<std::size_t>(std::find(around.begin(), around.end(), t) - around.begin())};
+  }
+
+  /// Puts a node into the middle of the edge opposite to a corner, where it leads from rim to rim across the patch and
+  /// is not short.
+  void cut(Index t, std::size_t c) {
+    const auto [s, d] = beyond(t, c);
+    const Index p = triangle(t)[c];
+    const Index u = triangle(t)[(c + 1) % 3];
+    const Index w = triangle(t)[(c + 2) % 3];
+    if (s < 0 || u >= rim_ || w >= rim_) return;
+    if ((place(u) - place(w)).norm() < mean(patch_.spacing, std::array{u, w})) return;
+    const Index q = triangle(s)[d];
+    const Index node = add_node(std::array{u, w});
+    const Index beyond_wp = neighbours(t)[(c + 1) % 3];
+    const Index beyond_pu = neighbours(t)[(c + 2) % 3];
+    const Index beyond_uq = neighbours(s)[(d + 1) % 3];
+    const Index beyond_qw = neighbours(s)[(d + 2) % 3];
+    const auto third = static_cast<Index>(triangles().size());
+    const Index fourth = third + 1;
+    triangle(t) = {p, u, node};
+    neighbours(t) = {fourth, third, beyond_pu};
+    triangles().push_back({p, node, w});
+    neighbours_.push_back({s, beyond_wp, t});
+    triangle(s) = {q, w, node};
+    neighbours(s) = {third, fourth, beyond_qw};
+    triangles().push_back({q, node, u});
+    neighbours_.push_back({t, beyond_uq, s});
+    replace_neighbour(beyond_wp, t, third);
+    replace_neighbour(beyond_uq, s, fourth);
+    edges_.erase(key(u, w));
+    for (const Index corner : {p, u, q, w}) edges_.insert(key(corner, node));
+    touched_.insert(touched_.end(), {t, s, third, fourth});
+  }
+
+  void split(Index t) {
     const auto [a, b, c] = triangle(t);
     const auto [beyond_a, beyond_b, beyond_c] = neighbours(t);
-    const auto node = static_cast<Index>(patch_.places.size());
-    patch_.places.push_back(centroid);
-    patch_.spacing.push_back(spacing);
-    const auto nearer = [&](Index i, Index j) { return (place(i) - centroid).norm() < (place(j) - centroid).norm(); };
-    patch_.like.push_back(patch_.like[static_cast<std::size_t>(std::min({a, b, c}, nearer))]);
+    const Index node = add_node(std::array{a, b, c});
     const auto second = static_cast<Index>(triangles().size());
     const Index third = second + 1;
     triangle(t) = {a, b, node};
@@ -134,15 +199,15 @@ class Refiner {
 
   /// Puts the other diagonal into the quad around the edge opposite to a corner, where that is better.
   bool swap(Index t, std::size_t c) {
-    const Index s = neighbours(t)[c];
+    const auto [s, d] = beyond(t, c);
     if (s < 0) return false;
-    const Corners& around = neighbours(s);
-    const auto d = static_cast<std::size_t>(std::find(around.begin(), around.end(), t) - around.begin());
     const Index p = triangle(t)[c];
     const Index u = triangle(t)[(c + 1) % 3];
     const Index w = triangle(t)[(c + 2) % 3];
     const Index q = triangle(s)[d];
+    if (keeps_off_rim_ && p < rim_ && q < rim_) return false;
     if (!is_better(p, u, q, w) || !edges_.insert(key(p, q)).second) return false;
+    has_swapped_ = true;
     edges_.erase(key(u, w));
     const Index beyond_pu = neighbours(t)[(c + 2) % 3];
     const Index beyond_wp = neighbours(t)[(c + 1) % 3];
@@ -178,6 +243,9 @@ class Refiner {
   }
 
   Patch& patch_;
+  Index rim_ = 0;  ///< nodes of the rim
+  bool has_swapped_ = false;
+  bool keeps_off_rim_ = false;  ///< no edge from rim to rim is made any more
   std::vector<Corners> neighbours_;
   std::unordered_set<std::uint64_t> edges_;  ///< all that there are, outside between nodes of the rim as well
   std::vector<Index> touched_;               ///< triangles whose edges may have to be swapped
@@ -185,6 +253,6 @@ class Refiner {
 
 }  // namespace
 
-void refine(Patch& patch, const std::vector<std::vector<Index>>& joined) { Refiner(patch, joined).run(); }
+bool refine(Patch& patch, const std::vector<std::vector<Index>>& joined) { return Refiner(patch, joined).run(); }
 
 }  // namespace vspring

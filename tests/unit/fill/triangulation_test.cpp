@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -149,13 +150,13 @@ TEST(Triangulation, WhatLiesOnTheFacesAroundIsFolded) {
 TEST(Refinement, TrianglesBecomeAsDenseAndAsRoundAsWhatIsAround) {
   const int count = 40;
   Patch patch;
-  patch.places = circle(count);
+  patch.places = patch.flat = circle(count);
   const double spacing = 2 * std::sin(std::numbers::pi / count);
   const Rim rim = rim_of(patch.places, Vector3::UnitZ());
   patch.triangles = triangulate(rim).triangles;
   patch.spacing.assign(patch.places.size(), spacing);
   for (Index k = 0; k < count; ++k) patch.like.push_back(k);
-  refine(patch, rim.joined);
+  EXPECT_TRUE(refine(patch, rim.joined));
   expect_disc(patch.triangles, count, patch.places.size());
   double sum = 0;
   double mean_edge = 0;
@@ -176,6 +177,9 @@ TEST(Refinement, TrianglesBecomeAsDenseAndAsRoundAsWhatIsAround) {
   EXPECT_GT(mean_edge, 0.7 * spacing);
   EXPECT_LT(mean_edge, 1.3 * spacing);
   EXPECT_GT(least_angle, 15);
+  for (const auto& t : patch.triangles)
+    EXPECT_TRUE(std::any_of(t.begin(), t.end(), [&](Index i) { return i >= count; }));
+  EXPECT_FALSE(refine(patch, rim.joined));
   for (std::size_t k = 0; k < patch.places.size(); ++k) EXPECT_LT(patch.like[k], count);
 }
 

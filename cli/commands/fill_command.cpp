@@ -174,8 +174,8 @@ void add_hole_options(CLI::App& command, FillArguments& arguments) {
       ->group(group);
   command
       .add_flag("--outer-rims", options.outer_rims,
-                "Also the outer rims of sheets: those that turn by more than 180° in all, as seen on the surface, of "
-                "which a flat sheet's turns by 360°, the end of a tube by 0° and a hole by -360° (default: off)")
+                "Also the outer rims of sheets: those whose faces look less than 60° away from where the rim itself "
+                "does; at ends of tubes it is 90°, at holes up to 180° (default: off)")
       ->group(group);
 }
 

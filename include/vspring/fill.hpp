@@ -40,9 +40,10 @@ struct Hole {
   /// Its nodes, the least first, in the order in which faces that fill it run along it; no node twice.
   std::vector<Index> rim;
   double length = 0;  ///< of the rim, in units of the mesh
-  /// How far the rim turns within the surface beside it, in radians, as a path on the surface that has it on its left:
-  /// 2π around a flat sheet, 0 at the end of a tube, near −2π for a small hole in a smooth surface.
-  double turn = 0;
+  /// How much faces at the rim face as the rim goes around, from 1 to −1: the cosine between their mean normal, by
+  /// area, and the normal of the polygon that they run along; 1 around a flat sheet, 0 at the end of a tube, near −1
+  /// for a small hole in a smooth surface.
+  double facing = 0;
   HoleState state = HoleState::open;
   HoleFault fault = HoleFault::none;
   Index fault_node = -1;
@@ -55,7 +56,7 @@ struct Hole {
   /// asked for.
   std::optional<Outcome> outcome = std::nullopt;
 
-  /// Whether it turns by more than half of what the outer rim of a flat sheet does.
+  /// Whether `facing` is more than a half, as that of a cap of a sphere up to 60° from its middle.
   [[nodiscard]] bool is_outer_rim() const noexcept;
 };
 

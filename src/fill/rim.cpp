@@ -5,10 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <span>
 #include <utility>
 
 #include "shape/boundary.hpp"
+#include "shape/face_geometry.hpp"
 #include "shape/fan.hpp"
 
 namespace vspring {
@@ -34,13 +35,6 @@ std::vector<std::vector<Index>> simple_loops(const std::vector<Index>& walk, std
   return loops;
 }
 
-double angle_at(std::span<const Index> face, std::size_t place, const PolygonMesh& mesh) {
-  const Vector3& node = mesh.position(face[place]);
-  const Vector3 a = mesh.position(face[(place + 1) % face.size()]) - node;
-  const Vector3 b = mesh.position(face[(place + face.size() - 1) % face.size()]) - node;
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
-
 class HoleFinder {
  public:
   HoleFinder(const PolygonMesh& mesh, const Incidence& incidence)
@@ -56,20 +50,29 @@ class HoleFinder {
       const Index node = hole.rim[k];
       const Index next = hole.rim[(k + 1) % hole.rim.size()];
       hole.length += (mesh_.position(next) - mesh_.position(node)).norm();
-      hole.turn += turn_at(node);
       look_for_faults(hole, node, next);
     }
     if (hole.fault != HoleFault::none) hole.state = HoleState::unfillable;
-    if (!std::isfinite(hole.length)) hole.length = hole.turn = 0;
+    if (!std::isfinite(hole.length)) hole.length = 0;
+    hole.facing = facing_of(hole.rim);
     return hole;
   }
 
  private:
-  double turn_at(Index node) {
-    double angle = 0;
-    for (const Corner corner : incidence_.corners(node))
-      angle += angle_at(mesh_.face(corner.face), static_cast<std::size_t>(corner.place), mesh_);
-    return std::numbers::pi - angle / std::max(1, walker_.walk(node).chains);
+  double facing_of(const std::vector<Index>& rim) const {
+    // As faces run along it.
+    const Vector3 area = -twice_vector_area(std::span(rim), mesh_.positions());
+    Vector3 sum = Vector3::Zero();
+    double total = 0;
+    for (const Index node : rim) {
+      for (const Corner corner : incidence_.corners(node)) {
+        const Vector3 face = twice_vector_area(mesh_.face(corner.face), mesh_.positions());
+        sum += face;
+        total += face.norm();
+      }
+    }
+    const double scale = area.norm() * total;
+    return scale > 0 && std::isfinite(scale) ? area.dot(sum) / scale : 0;
   }
 
   void look_for_faults(Hole& hole, Index node, Index next) {
@@ -112,7 +115,7 @@ std::vector<Hole> find_holes(const PolygonMesh& mesh, const Incidence& incidence
 
 std::string called(const Hole& hole) { return fmt::format("the hole at node {}", hole.rim.front()); }
 
-bool Hole::is_outer_rim() const noexcept { return turn > std::numbers::pi; }
+bool Hole::is_outer_rim() const noexcept { return facing > 0.5; }
 
 const char* name(HoleState state) noexcept {
   switch (state) {

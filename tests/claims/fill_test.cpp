@@ -136,11 +136,17 @@ TEST(Fill, AHoleInTheSideOfACylinderIsTheCylinderToSecondOrder) {
 
 TEST(Fill, EndsOfATubeAreFilledAndTheRimOfASheetIsNot) {
   const PolygonMesh tube = generate::tube({.columns = 16, .rows = 8});
-  for (const Hole& hole : find_holes(tube)) EXPECT_NEAR(hole.turn, 0, 1e-9);
+  for (const Hole& hole : find_holes(tube)) EXPECT_NEAR(hole.facing, 0, 1e-9);
   expect_closed(fill_holes(tube));
   const PolygonMesh disc = generate::flat_disc({.nodes = 60});
   ASSERT_EQ(find_holes(disc).size(), 1U);
-  EXPECT_NEAR(find_holes(disc)[0].turn, 2 * std::numbers::pi, 1e-9);
+  EXPECT_NEAR(find_holes(disc)[0].facing, 1, 1e-9);
+  const std::vector<Hole> of_sheet = find_holes(without_ball(generate::plane(), Vector3(0.5, 0.5, 0), 0.2));
+  ASSERT_EQ(of_sheet.size(), 2U);
+  EXPECT_NEAR(of_sheet[0].facing * of_sheet[1].facing, -1, 1e-9);
+  // Roughness changes nothing of that.
+  const PolygonMesh rough = generate::add_noise(disc, 0.05, 1, true);
+  EXPECT_TRUE(find_holes(rough)[0].is_outer_rim());
   EXPECT_EQ(fill_holes(disc).holes[0].state, HoleState::outer_rim);
   // Nothing but the disc itself, turned over, would close it.
   const FilledHoles asked = fill_holes(disc, {.outer_rims = true});

@@ -63,10 +63,10 @@ std::vector<std::uint8_t> Filling::refine_again(const FilledHoles& now) {
   std::vector<std::uint8_t> changed(holes_.size(), 0);
   for (std::size_t h = 0; h < holes_.size(); ++h) {
     const Hole& hole = now.holes[h];
-    auto& [patch, joined, beside] = patches_[h];
+    Patch& patch = patches_[h].patch;
     std::copy_n(now.positions.begin() + std::max<Index>(hole.first_node, 0), hole.node_count,
-                patch.places.begin() + static_cast<std::ptrdiff_t>(patch.places.size()) - hole.node_count);
-    if (hole.outcome == Outcome::converged) changed[h] = refine(patch, joined) ? 1 : 0;
+                patch.places.end() - hole.node_count);
+    if (hole.outcome == Outcome::converged) changed[h] = refine(patch, patches_[h].joined) ? 1 : 0;
   }
   return changed;
 }
@@ -125,7 +125,7 @@ FilledHoles Filling::filled() const {
   for (std::size_t h = 0; h < holes_.size(); ++h) {
     Hole& hole = result.holes[h];
     if (hole.state != HoleState::filled) continue;
-    const auto& [patch, joined, beside] = patches_[h];
+    const Patch& patch = patches_[h].patch;
     const std::size_t rim = hole.rim.size();
     hole.first_node = static_cast<Index>(flat.size());
     hole.node_count = static_cast<Index>(patch.places.size() - rim);
@@ -143,7 +143,7 @@ FilledHoles Filling::filled() const {
         corners.push_back(k < rim ? hole.rim[k] : hole.first_node + static_cast<Index>(k - rim));
       }
       face_begin.push_back(static_cast<Index>(corners.size()));
-      result.face_like.push_back(beside[like(triangle[0])]);
+      result.face_like.push_back(patches_[h].face_beside[like(triangle[0])]);
     }
   }
   result.mesh = PolygonMesh(std::move(flat), std::move(face_begin), std::move(corners));

@@ -344,8 +344,8 @@ std::string OffSource::added_nodes(const Rewrite& rewrite) const {
     row += behind_words(file.bytes, rows[static_cast<std::size_t>(like[k])], 3);
     while (row.back() == ' ') row.pop_back();
     TextRewriter out(row);
-    std::vector<NewNumber> numbers;
-    for (int c = 0; c < 3; ++c) numbers.push_back({c, rewrite.positions[rows.size() + k][c]});
+    const auto place = row_of(rewrite.positions[rows.size() + k]);
+    std::vector<NewNumber> numbers(place.begin(), place.end());
     for (int c = 0; c < 3 && !normals.empty(); ++c) numbers.push_back({normal_column + c, normals[k][c]});
     out.replace_words(0, numbers);
     (text += line_ending(file.bytes)) += out.finish();

@@ -358,4 +358,20 @@ MUTATIONS = {
     "src/linear/ball_program.cpp": [
         ("ball-bound", "a bound is on the length of a value", "values_[bound.row].squaredNorm() - most * most", "values_[bound.row].squaredNorm() - most"),
     ],
+    "src/fill/rim.cpp": [
+        ("outer-rim", "the rim of a sheet is no hole", "facing > 0.5", "facing > 1.5"),
+        ("hole-sense", "new faces run as those around do", "std::reverse(loop.begin(), loop.end());", ""),
+    ],
+    "src/fill/triangulation.cpp": [
+        ("least-dihedral-at-last-edge", "Liepa §2: the dihedral angle with the face beside every edge of the rim",
+         "if (is_whole) weight.turn = std::max(weight.turn, turn_between(middle.normal, polygon_.normals.back()));", ""),
+        ("least-area", "Liepa §2: then the least area", "weight.area += middle.area;", ""),
+    ],
+    "src/fill/refinement.cpp": [
+        ("rounder-triangles", "Liepa §3: edges are swapped where opposite angles sum up to more than 180°",
+         "sin_p * cos_q + cos_p * sin_q < -as_good", "sin_p * cos_q + cos_p * sin_q > as_good"),
+    ],
+    "src/fill/patch_fairing.cpp": [
+        ("crossing-patch", "a patch that crosses more than the flat one stays flat", "now[g].size() > flat[g].size()", "false"),
+    ],
 }

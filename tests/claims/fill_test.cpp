@@ -293,6 +293,42 @@ TEST(Fill, APatchThatWouldCrossAnotherPartIsToldOf) {
                           [](const Warning& w) { return w.code == WarningCode::patch_crosses; }));
 }
 
+TEST(Fill, AFairPatchThatCrossesMoreThanTheFlatOneStaysFlat) {
+  const PolygonMesh input = without_ball(sphere(6), Vector3(0, 0, 1), 0.6);
+  MeshBuilder builder;
+  for (const Vector3& p : input.positions()) builder.add_node(p);
+  for (Index f = 0; f < input.face_count(); ++f) builder.add_face(input.face(f));
+  // Where the ball was, above the flat patch.
+  const Index a = builder.add_node({-0.05, 0.01, 1.05});
+  const Index b = builder.add_node({0.05, 0.01, 1.05});
+  const Index c = builder.add_node({0, 0.01, 0.95});
+  builder.add_face({a, b, c});
+  const FilledHoles filled = fill_holes(builder.take());
+  EXPECT_EQ(filled.report.outcome, Outcome::worse_than_input);
+  EXPECT_EQ(filled.positions, filled.mesh.positions());
+  ASSERT_FALSE(filled.report.warnings.empty());
+  EXPECT_EQ(filled.report.warnings.back().code, WarningCode::worse_than_input);
+}
+
+TEST(Fill, APatchThatBulgesGetsMoreNodes) {
+  // More than half of the ball.
+  const PolygonMesh input = without_ball(in_triangles(sphere(6)), Vector3(0, 0, 1), 1.5);
+  FillOptions options = exact();
+  options.outer_rims = true;
+  const FilledHoles filled = fill_holes(input, options);
+  options.flat = true;
+  const FilledHoles flat = fill_holes(input, options);
+  EXPECT_GT(static_cast<double>(filled.node_like.size()), 1.3 * static_cast<double>(flat.node_like.size()));
+  EXPECT_LT(distance_from_unit_sphere(filled.positions), 4e-8);
+  // No face is turned over.
+  const PolygonMesh after = with_positions(filled.mesh, filled.positions);
+  for (Index f = 0; f < after.face_count(); ++f) {
+    const auto face = after.face(f);
+    const Vector3& p = after.position(face[0]);
+    EXPECT_GT((after.position(face[1]) - p).cross(after.position(face[2]) - p).dot(p), 0);
+  }
+}
+
 TEST(Fill, ThreadsAndCancellation) {
   PolygonMesh input = without_ball(sphere(8), Vector3(0, 0, 1), 0.6);
   input = without_ball(input, Vector3(0, 0, -1), 0.6);

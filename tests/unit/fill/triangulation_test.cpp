@@ -106,6 +106,19 @@ TEST(Triangulation, TheGreatestDihedralAngleIsLeast) {
   ASSERT_EQ(made.triangles.size(), 2U);
   const double best = std::max(greatest({{0, 1, 2}, {0, 2, 3}}), greatest({{1, 2, 3}, {1, 3, 0}}));
   EXPECT_NEAR(greatest(made.triangles), best, 1e-12);
+  // The face beside the last edge alone decides: it goes on from one triangle there, away from the other.
+  for (const bool other : {false, true}) {
+    Rim beside = rim_of(roof.places);
+    Vector3 near = vector_area(roof.places, {2, 3, 0}).normalized();
+    Vector3 far = vector_area(roof.places, {3, 0, 1}).normalized();
+    if (other) std::swap(near, far);
+    beside.normals[3] = 2 * near.dot(far) * near - far;
+    const auto triangles = triangulate(beside).triangles;
+    const bool has_diagonal_of_1 = std::all_of(triangles.begin(), triangles.end(), [](const auto& t) {
+      return std::count(t.begin(), t.end(), 1) + std::count(t.begin(), t.end(), 3) == 2;
+    });
+    EXPECT_EQ(has_diagonal_of_1, other);
+  }
   // With the faces around of the other kind, the other diagonal.
   Rim saddle = rim_of(circle(4, 0.5));
   for (std::size_t k = 0; k < 4; ++k) {

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "vspring/context.hpp"
+#include "vspring/export.hpp"
 #include "vspring/fair.hpp"
 #include "vspring/polygon_mesh.hpp"
 
-namespace vspring {
+namespace VSPRING_API vspring {
 
 /// What has become of a hole.
 enum class HoleState : std::uint8_t {

@@ -160,9 +160,10 @@ struct FitReport {
   /// Both without a count where the fit was cancelled and had too many points to measure them then.
   PointDistances before;
   PointDistances after;
-  /// Of the shape's nodes and the middles of its edges from the polyline of the points that count: curves drawn to a
-  /// tolerance of their own nodes. Surfaces drawn to their own nodes: of their nodes from the input. Else without a
-  /// count.
+  /// Of the shape's nodes and places on its edges (the middles, or every tenth of a tolerance) from the polyline of the
+  /// points that count, both gone along in their order, so up to a tenth more than the distance to the nearest place:
+  /// curves drawn to a tolerance of their own nodes. Surfaces drawn to their own nodes: of their nodes from the input.
+  /// Else without a count.
   Distance shape = {};
   /// The greatest way of a node along the shape, where the points are its own nodes.
   double greatest_slide = 0;

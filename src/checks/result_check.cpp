@@ -249,29 +249,25 @@ std::string ResultCheck::fault_of_places(const Net& now) const {
 std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const {
   if (!looks_at_agreement_) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
-  if (is_surface_) {
-    // Springs would call a shape fair that bulges to meet normals which are a little off.
-    const BendingEnergy bending(now);
-    const double before = bending.of(start_.of(now), *team_);
-    const double after = bending.of(now.positions, *team_);
-    if (after <= risen_bending * before + unseen) return {};
-    return fmt::format("it is bent more, by {:.3g} in place of {:.3g}, with what leaves the given normals", after,
-                       before);
+  double energy = 0;
+  if (!is_surface_) {
+    if (!now.spheres.differences.empty()) return {};
+    model_->prepare(now);
+    update_directions(now, *model_, *team_);
+    energy = spring_energy(now).sum;
+    if (energy <= risen_energy_if_bent * energy_ + unseen) return {};
   }
-  if (!now.spheres.differences.empty()) return {};
-  model_->prepare(now);
-  update_directions(now, *model_, *team_);
-  const double energy = spring_energy(now).sum;
-  if (energy <= risen_energy_if_bent * energy_ + unseen) return {};
   const auto bending_of = [&](const std::vector<Vector3>& positions) {
-    return defects_of(now, positions, edge_, *team_, {.bending = true}, dragged_nodes).bending;
+    // Springs would call a surface fair that bulges to meet normals which are a little off.
+    return is_surface_ ? BendingEnergy(now).of(positions, *team_)
+                       : defects_of(now, positions, edge_, *team_, {.bending = true}, dragged_nodes).bending;
   };
   const double before = bending_of(start_.of(now));
   const double after = bending_of(now.positions);
   if (after <= risen_bending * before + unseen) return {};
-  return fmt::format(
-      "it is bent more, by {:.3g} in place of {:.3g}, and the V-Spring energy rose from {:.3g} to {:.3g}", after,
-      before, energy_, energy);
+  const std::string bent = fmt::format("it is bent more, by {:.3g} in place of {:.3g}", after, before);
+  return bent + (is_surface_ ? std::string(", with what leaves the given normals")
+                             : fmt::format(", and the V-Spring energy rose from {:.3g} to {:.3g}", energy_, energy));
 }
 
 std::string ResultCheck::fault(Net& now, bool in_haste) const {

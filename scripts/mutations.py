@@ -362,7 +362,7 @@ MUTATIONS = {
         ("outer-rim", "the rim of a sheet is no hole", "facing > 0.5", "facing > 1.5"),
         ("hole-sense", "new faces run as those around do", "std::reverse(loop.begin(), loop.end());", ""),
     ],
-    "src/fill/triangulation.cpp": [
+    "src/fill/rim_triangles.cpp": [
         ("least-dihedral-at-last-edge", "Liepa §2: the dihedral angle with the face beside every edge of the rim",
          "if (is_whole) weight.turn = std::max(weight.turn, turn_between(middle.normal, polygon_.normals.back()));", ""),
         ("least-area", "Liepa §2: then the least area", "weight.area += middle.area;", ""),

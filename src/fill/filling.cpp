@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "fill/rim.hpp"
-#include "fill/triangulation.hpp"
+#include "fill/rim_triangles.hpp"
 #include "shape/face_geometry.hpp"
 
 namespace vspring {
@@ -44,7 +44,7 @@ void Filling::fill(std::size_t number) {
     made.patch.like.push_back(static_cast<Index>(k));
   }
   rim.joined = joined(nodes);
-  Triangulation triangulation = triangulate(rim);
+  RimTriangles triangulation = triangulate(rim);
   if (triangulation.triangles.empty() || triangulation.is_folded) {
     hole.state = HoleState::unfillable;
     hole.fault = triangulation.is_folded ? HoleFault::folded : HoleFault::no_triangulation;

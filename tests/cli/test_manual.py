@@ -34,7 +34,7 @@ class Manual(Case):
                                env={**os.environ, "MANWIDTH": "100", "LC_ALL": "C.UTF-8", "MAN_KEEP_FORMATTING": ""})
         self.assertEqual(shown.stderr, "")
         self.assertIn(run("--version").stdout.decode().strip(), shown.stdout)
-        for command in ("fair", "curve", "fit", "measure", "edit"):
+        for command in ("fair", "curve", "fit", "fill", "measure", "edit"):
             for option in set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", run(command, "--help").stdout.decode(), re.MULTILINE)) - {"--help"}:
                 self.assertRegex(shown.stdout, rf"(?m)^ +(-\w, )?{option}\b", f"{command} {option}")
 
@@ -46,7 +46,7 @@ class Manual(Case):
         return sorted(told.stdout.splitlines())
 
     def test_bash(self):
-        self.assertEqual(self.offered("f"), ["fair", "fit"])
+        self.assertEqual(self.offered("f"), ["fair", "fill", "fit"])
         self.assertEqual(self.offered("fair", "--fix"), ["--fix", "--fix-normals"])
         self.assertEqual(self.offered("fair", "--fix", ""), ["boundary", "none"])
         self.assertEqual(self.offered("curve", "in.csv", "--resample-by", "=", "cos"), ["cosine"])
@@ -66,7 +66,7 @@ class Manual(Case):
             self.assertEqual(told.stderr, "")
             return sorted(line.split("\t")[0] for line in told.stdout.splitlines())
 
-        self.assertEqual(offered("vspring f"), ["fair", "fit"])
+        self.assertEqual(offered("vspring f"), ["fair", "fill", "fit"])
         self.assertEqual(offered("vspring fair --fix-n"), ["--fix-normals"])
         self.assertEqual(offered("vspring fair --fix "), ["boundary", "none"])
         self.assertEqual(offered("vspring generate annulus --profile "), ["cone", "flat", "steps"])
@@ -92,7 +92,7 @@ class Manual(Case):
         told(f"PS1=; autoload -U compinit && compinit -D -u && source {self.made}/zsh/_vspring && echo lo''aded\n", "loaded")
         told("vspring fair --fix \t\t", "boundary", "none")
         told("\x15vspring generate annulus --profile \t\t", "cone", "flat", "steps")
-        told("\x15vspring f\t\t", "Fair a polygonal surface", "fit")
+        told("\x15vspring f\t\t", "Fair a polygonal surface", "fill", "fit")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-#include "fill/triangulation.hpp"
+#include "fill/rim_triangles.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "fill/refinement.hpp"
 
-namespace vspring::triangulation_test {
+namespace vspring::rim_triangles_test {
 namespace {
 
 /// normals: of the faces beside every edge.
@@ -37,7 +37,7 @@ Vector3 vector_area(const std::vector<Vector3>& places, const std::array<Index, 
   return (at(1) - at(0)).cross(at(2) - at(0)) / 2;
 }
 
-double area(const Rim& rim, const Triangulation& made) {
+double area(const Rim& rim, const RimTriangles& made) {
   double sum = 0;
   for (const auto& t : made.triangles) sum += vector_area(rim.places, t).norm();
   return sum;
@@ -56,7 +56,7 @@ void expect_disc(const std::vector<std::array<Index, 3>>& triangles, Index rim, 
   }
 }
 
-TEST(Triangulation, APlanarPolygonIsCoveredOnce) {
+TEST(RimTriangles, APlanarPolygonIsCoveredOnce) {
   // A letter L, and a comb of which no corner sees all.
   const std::vector<std::vector<Vector3>> polygons = {
       circle(9),
@@ -80,19 +80,19 @@ TEST(Triangulation, APlanarPolygonIsCoveredOnce) {
       const Eigen::AngleAxisd turn(0.7, Vector3(1, 2, 3).normalized());
       for (Vector3& p : places) p = turned ? Vector3(turn * p + Vector3(100, 0, 0)) : p;
       const Rim rim = rim_of(places, turned ? turn * Vector3::UnitZ() : Vector3::UnitZ());
-      const Triangulation made = triangulate(rim);
+      const RimTriangles made = triangulate(rim);
       EXPECT_FALSE(made.is_folded);
       expect_disc(made.triangles, static_cast<Index>(places.size()), places.size());
       EXPECT_NEAR(area(rim, made), areas[k], 1e-9);
       // Ears first: the same plane region.
-      const Triangulation in_parts = triangulate(rim, 4);
+      const RimTriangles in_parts = triangulate(rim, 4);
       expect_disc(in_parts.triangles, static_cast<Index>(places.size()), places.size());
       EXPECT_NEAR(area(rim, in_parts), areas[k], 1e-9);
     }
   }
 }
 
-TEST(Triangulation, TheGreatestDihedralAngleIsLeast) {
+TEST(RimTriangles, TheGreatestDihedralAngleIsLeast) {
   // A square bent along one diagonal: the other one would make the sharper edge with faces around that lie level.
   const Rim roof = rim_of({{0, 0, 0}, {1, 0, 0.4}, {1, 1, 0}, {0, 1, 0.4}}, Vector3::UnitZ());
   const auto greatest = [&](const std::vector<std::array<Index, 3>>& triangles) {
@@ -102,7 +102,7 @@ TEST(Triangulation, TheGreatestDihedralAngleIsLeast) {
         least,
         vector_area(roof.places, triangles[0]).normalized().dot(vector_area(roof.places, triangles[1]).normalized()));
   };
-  const Triangulation made = triangulate(roof);
+  const RimTriangles made = triangulate(roof);
   ASSERT_EQ(made.triangles.size(), 2U);
   const double best = std::max(greatest({{0, 1, 2}, {0, 2, 3}}), greatest({{1, 2, 3}, {1, 3, 0}}));
   EXPECT_NEAR(greatest(made.triangles), best, 1e-12);
@@ -127,19 +127,19 @@ TEST(Triangulation, TheGreatestDihedralAngleIsLeast) {
     const Vector3& low = saddle.places[k % 2 == 0 ? 3 - k : (k + 2) % 4];
     saddle.normals[k] = (b - a).cross(low - a).normalized();
   }
-  const Triangulation along = triangulate(saddle);
+  const RimTriangles along = triangulate(saddle);
   for (const auto& t : along.triangles) EXPECT_GT(vector_area(saddle.places, t).z(), 0);
 }
 
-TEST(Triangulation, ThreeEdgesAreOneTriangle) {
+TEST(RimTriangles, ThreeEdgesAreOneTriangle) {
   const Rim rim = rim_of(circle(3), Vector3::UnitZ());
-  const Triangulation made = triangulate(rim);
+  const RimTriangles made = triangulate(rim);
   ASSERT_EQ(made.triangles.size(), 1U);
   EXPECT_FALSE(made.is_folded);
   EXPECT_TRUE(triangulate(rim_of({{0, 0, 0}, {1, 0, 0}})).triangles.empty());
 }
 
-TEST(Triangulation, EdgesThatAreThereAlreadyAreNotMadeAgain) {
+TEST(RimTriangles, EdgesThatAreThereAlreadyAreNotMadeAgain) {
   Rim rim = rim_of(circle(4), Vector3::UnitZ());
   rim.joined[0] = {2};
   rim.joined[2] = {0};
@@ -153,7 +153,7 @@ TEST(Triangulation, EdgesThatAreThereAlreadyAreNotMadeAgain) {
   EXPECT_TRUE(triangulate(rim, 3).triangles.empty());
 }
 
-TEST(Triangulation, WhatLiesOnTheFacesAroundIsFolded) {
+TEST(RimTriangles, WhatLiesOnTheFacesAroundIsFolded) {
   EXPECT_FALSE(triangulate(rim_of(circle(12), Vector3::UnitZ())).is_folded);
   EXPECT_TRUE(triangulate(rim_of(circle(12), -Vector3::UnitZ())).is_folded);
   // All in one line, as around a slit.
@@ -197,4 +197,4 @@ TEST(Refinement, TrianglesBecomeAsDenseAndAsRoundAsWhatIsAround) {
 }
 
 }  // namespace
-}  // namespace vspring::triangulation_test
+}  // namespace vspring::rim_triangles_test

@@ -17,7 +17,7 @@ struct Rim {
 };
 
 /// Triangles over the nodes of a rim.
-struct Triangulation {
+struct RimTriangles {
   std::vector<std::array<Index, 3>> triangles;  ///< none where there is no triangulation
   bool is_folded = false;                       ///< somewhere by more than 175°, or a triangle has no area
 };
@@ -30,6 +30,6 @@ inline constexpr std::size_t most_edges_at_once = 500;
 /// rounding does not decide where patches are flat. Ends where the thread's context is cancelled. Cost: cubic in up to
 /// most_edges_at_once edges; n log n in those above.
 /// at_once: that limit, for tests.
-Triangulation triangulate(const Rim& rim, std::size_t at_once = most_edges_at_once);
+RimTriangles triangulate(const Rim& rim, std::size_t at_once = most_edges_at_once);
 
 }  // namespace vspring

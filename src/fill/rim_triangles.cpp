@@ -1,5 +1,5 @@
 // Minimum-weight triangulation of a closed polygon in space.
-#include "fill/triangulation.hpp"
+#include "fill/rim_triangles.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -210,8 +210,8 @@ class BestTriangulation {
 
 }  // namespace
 
-Triangulation triangulate(const Rim& rim, std::size_t at_once) {
-  Triangulation result;
+RimTriangles triangulate(const Rim& rim, std::size_t at_once) {
+  RimTriangles result;
   if (rim.places.size() < 3) return result;
   const Polygon polygon = EarCutter(rim).cut(std::max<std::size_t>(at_once, 3), result.triangles);
   // Where no ear may be cut.

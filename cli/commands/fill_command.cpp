@@ -31,7 +31,7 @@ struct FillArguments : FairingArguments {
 };
 
 // Holes that the summary names, of each kind.
-constexpr int most_named = 10;
+constexpr int holes_in_words = 10;
 
 /// The mesh of the file with the patches of that which it is welded to.
 PolygonMesh with_patches(const PolygonMesh& file, const FilledHoles& filled) {
@@ -92,11 +92,11 @@ std::string open_line(const FilledHoles& filled, HoleState state, const char* wh
   int count = 0;
   for (const Hole& hole : filled.holes) {
     if (hole.state != state) continue;
-    if (++count <= most_named)
+    if (++count <= holes_in_words)
       nodes += fmt::format("{} at node {} ({} edges)", count == 1 ? "" : ",", hole.rim.front(), hole.rim.size());
   }
   if (count == 0) return {};
-  if (count > most_named) nodes += fmt::format(" and {} more", count - most_named);
+  if (count > holes_in_words) nodes += fmt::format(" and {} more", count - holes_in_words);
   return fmt::format("left open        {}{}{}\n", what, nodes, advice);
 }
 

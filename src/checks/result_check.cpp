@@ -98,6 +98,38 @@ struct Sums {
   bool turns = false;
 };
 
+/// Some ∫ κ² dA of a surface about the nodes with given normals, from the heights of their neighbours over the planes
+/// that these normals have: 2 h/ℓ² is a curvature, half the square of an edge a node's share of a rim's faces.
+double bending_at_given_normals(const Net& net, const std::vector<Vector3>& positions) {
+  struct Around {
+    double squares = 0;  // of curvatures
+    double lengths = 0;  // of edges, squared
+    double edges = 0;
+  };
+  std::vector<Around> around(positions.size());
+  const auto look = [&](std::size_t at, std::size_t to) {
+    if (!net.normal_given(at)) return;
+    const Vector3 edge = positions[to] - positions[at];
+    const double length = edge.squaredNorm();
+    if (!(length > 0)) return;
+    around[at].squares += std::pow(2 * edge.dot(net.normals[at]) / length, 2);
+    around[at].lengths += length;
+    around[at].edges += 1;
+  };
+  for (std::size_t i = 0; i < net.moving; ++i) {
+    for (const Link link : net.rings.links(i)) {
+      if (!link.spoke()) continue;
+      look(i, link.node());
+      if (link.node() >= net.moving) look(link.node(), i);
+    }
+  }
+  double bending = 0;
+  for (const Around& one : around) {
+    if (one.edges > 0) bending += one.squares / one.edges * one.lengths / one.edges / 2;
+  }
+  return bending;
+}
+
 /// positions: of the nodes, those of the net or others. edge: the mean one. dragged: 1 for nodes that are held
 /// elsewhere than the input has them: what turns beside them is wanted; or empty.
 ShapeDefects defects_of(const Net& net, const std::vector<Vector3>& positions, double edge, ThreadTeam& team, Sums sums,
@@ -258,9 +290,9 @@ std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const 
     if (energy <= risen_energy_if_bent * energy_ + unseen) return {};
   }
   const auto bending_of = [&](const std::vector<Vector3>& positions) {
+    const double between = defects_of(now, positions, edge_, *team_, {.bending = true}, dragged_nodes).bending;
     // Springs would call a surface fair that bulges to meet normals which are a little off.
-    return is_surface_ ? BendingEnergy(now).of(positions, *team_)
-                       : defects_of(now, positions, edge_, *team_, {.bending = true}, dragged_nodes).bending;
+    return between + (is_surface_ ? bending_at_given_normals(now, positions) : 0);
   };
   const double before = bending_of(start_.of(now));
   const double after = bending_of(now.positions);

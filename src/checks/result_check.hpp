@@ -42,8 +42,8 @@ class ResultCheck {
   /// of a curve in a plane that cross each other, where no tangent is held; where nothing but positions holds it, over
   /// three times the V-Spring energy (but where bending is to be least), 1.5 times that of a curve that is bent more,
   /// or of a surface over 1.3 times the bending, or 2.5 times that without noise; where directions hold it, of a
-  /// surface over 1.3 times the BendingEnergy, in which they count, of a curve over 1.3 times both. Updates directions.
-  /// Cost: linear.
+  /// surface over 1.3 times the bending with that which leaves them, of a curve over 1.3 times both. Updates
+  /// directions. Cost: linear.
   /// in_haste: of a surface that is on its way, which nothing but positions holds: faces turn more from one to the
   /// next, root mean square, or the energy is more, which is seen in a fraction of the time.
   [[nodiscard]] std::string fault(Net& now, bool in_haste = false) const;

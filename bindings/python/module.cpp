@@ -10,5 +10,6 @@ PYBIND11_MODULE(_vspring, module) {
   add_constraints(module);
   add_files(module);
   add_fairing(module);
+  add_filling(module);
   add_session(module);
 }

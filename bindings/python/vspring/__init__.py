@@ -10,6 +10,7 @@ from ._curvature import Curvatures, colours, curvatures
 from ._errors import Error, Warning
 from ._fairing import fair, fair_curve, fit, measure
 from ._files import read, write
+from ._filling import Filled, Hole, fill
 from ._points import Points, read_points
 from ._progress import Bar, Progress
 from ._reports import BoundaryOfPoints, Distances, Figure, Figures, FitReport, Level, Report, Result
@@ -19,6 +20,6 @@ from ._vspring import version as _version
 
 __version__: str = _version()
 
-__all__ = ["Bar", "BoundaryOfPoints", "Chains", "Curvatures", "Curve", "Distances", "Error", "Figure", "Figures", "FitReport", "Level",
-           "Points", "Progress", "Report", "Result", "Session", "Surface", "Warning", "chains_of", "colours", "curvatures", "fair",
-           "fair_curve", "fit", "measure", "order", "read", "read_points", "write"]
+__all__ = ["Bar", "BoundaryOfPoints", "Chains", "Curvatures", "Curve", "Distances", "Error", "Figure", "Figures", "Filled", "FitReport", "Hole",
+           "Level", "Points", "Progress", "Report", "Result", "Session", "Surface", "Warning", "chains_of", "colours", "curvatures", "fair",
+           "fair_curve", "fill", "fit", "measure", "order", "read", "read_points", "write"]

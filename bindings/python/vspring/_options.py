@@ -92,6 +92,16 @@ class SessionOptions(Holding, Solving, total=False):
     normal_plane: Literal["full", "principal"]
 
 
+class FillOptions(Running, total=False):
+    at: ArrayLike
+    max_size: float
+    max_edges: int
+    outer_rims: bool
+    flat: bool
+    tolerance: float
+    fair_by: Literal["curvature", "bending"]
+
+
 class MeasureOptions(Holding, Welding, total=False):
     threads: int
 
@@ -140,6 +150,11 @@ MEANINGS = {
     "fair_boundary": "fair the boundary loops first, as curves, then the surface; in place of fix=\"boundary\"",
     "normal_plane": '"full" (the default): curves in space are sprung in the whole normal plane; "principal": along the '
                     "principal normal only, as in the paper",
+    "at": "only holes through these boundary nodes, outer rims among them: a mask of n booleans, or node numbers",
+    "max_size": "only holes whose rim is no longer than this, units of the input",
+    "max_edges": "only holes whose rim has no more edges than this",
+    "outer_rims": "fill also the outer rims of sheets: those whose faces look less than 60° away from where the rim does",
+    "flat": "leave patches as they are before fairing, with creases at the rim",
     "time_limit": "end after so many seconds with the best shape so far and a warning",
     "threads": "how many work; all cores by default. The same bits for every number",
     "progress": "called at most some 20 times a second with a vspring.Progress, or a bar such as tqdm(total=1); what it "

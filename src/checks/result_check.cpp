@@ -31,8 +31,8 @@ constexpr double noticed_rise = 3;
 // Of a curve, that is bent more too.
 constexpr double noticed_rise_of_curves = 1.5;
 constexpr double unseen_turn = 1e-3;
-// Where tangents are held, which may ask for a curve that is bent more: of the energy, in which they count, of what is
-// bent more too.
+// Where normals or tangents are held, which may ask for a shape that is bent more: of the energy, in which they count,
+// of what is bent more too.
 constexpr double risen_energy_if_bent = 1.3;
 // Of the bending, of a surface or a curve, which hardly changes where nodes slide. Springs may ask for more of it than
 // a fair shape has where a rim is free to turn.
@@ -97,38 +97,6 @@ struct Sums {
   bool bending = false;
   bool turns = false;
 };
-
-/// Some ∫ κ² dA of a surface about the nodes with given normals, from the heights of their neighbours over the planes
-/// that these normals have: 2 h/ℓ² is a curvature, half the square of an edge a node's share of a rim's faces.
-double bending_at_given_normals(const Net& net, const std::vector<Vector3>& positions) {
-  struct Around {
-    double squares = 0;  // of curvatures
-    double lengths = 0;  // of edges, squared
-    double edges = 0;
-  };
-  std::vector<Around> around(positions.size());
-  const auto look = [&](std::size_t at, std::size_t to) {
-    if (!net.normal_given(at)) return;
-    const Vector3 edge = positions[to] - positions[at];
-    const double length = edge.squaredNorm();
-    if (!(length > 0)) return;
-    around[at].squares += std::pow(2 * edge.dot(net.normals[at]) / length, 2);
-    around[at].lengths += length;
-    around[at].edges += 1;
-  };
-  for (std::size_t i = 0; i < net.moving; ++i) {
-    for (const Link link : net.rings.links(i)) {
-      if (!link.spoke()) continue;
-      look(i, link.node());
-      if (link.node() >= net.moving) look(link.node(), i);
-    }
-  }
-  double bending = 0;
-  for (const Around& one : around) {
-    if (one.edges > 0) bending += one.squares / one.edges * one.lengths / one.edges / 2;
-  }
-  return bending;
-}
 
 /// positions: of the nodes, those of the net or others. edge: the mean one. dragged: 1 for nodes that are held
 /// elsewhere than the input has them: what turns beside them is wanted; or empty.
@@ -279,27 +247,21 @@ std::string ResultCheck::fault_of_places(const Net& now) const {
 }
 
 std::string ResultCheck::disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const {
-  if (!looks_at_agreement_) return {};
+  if (!looks_at_agreement_ || !now.spheres.differences.empty()) return {};
   const double unseen = unseen_turn * unseen_turn * static_cast<double>(now.rings.link_count());
-  double energy = 0;
-  if (!is_surface_) {
-    if (!now.spheres.differences.empty()) return {};
-    model_->prepare(now);
-    update_directions(now, *model_, *team_);
-    energy = spring_energy(now).sum;
-    if (energy <= risen_energy_if_bent * energy_ + unseen) return {};
-  }
+  model_->prepare(now);
+  update_directions(now, *model_, *team_);
+  const double energy = spring_energy(now).sum;
+  if (energy <= risen_energy_if_bent * energy_ + unseen) return {};
   const auto bending_of = [&](const std::vector<Vector3>& positions) {
-    const double between = defects_of(now, positions, edge_, *team_, {.bending = true}, dragged_nodes).bending;
-    // Springs would call a surface fair that bulges to meet normals which are a little off.
-    return between + (is_surface_ ? bending_at_given_normals(now, positions) : 0);
+    return defects_of(now, positions, edge_, *team_, {.bending = true}, dragged_nodes).bending;
   };
   const double before = bending_of(start_.of(now));
   const double after = bending_of(now.positions);
   if (after <= risen_bending * before + unseen) return {};
-  const std::string bent = fmt::format("it is bent more, by {:.3g} in place of {:.3g}", after, before);
-  return bent + (is_surface_ ? std::string(", with what leaves the given normals")
-                             : fmt::format(", and the V-Spring energy rose from {:.3g} to {:.3g}", energy_, energy));
+  return fmt::format(
+      "it is bent more, by {:.3g} in place of {:.3g}, and the V-Spring energy rose from {:.3g} to {:.3g}", after,
+      before, energy_, energy);
 }
 
 std::string ResultCheck::fault(Net& now, bool in_haste) const {

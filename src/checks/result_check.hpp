@@ -41,9 +41,8 @@ class ResultCheck {
   /// outside the box; more defects, but for those beside nodes that are held elsewhere than the input has them; edges
   /// of a curve in a plane that cross each other, where no tangent is held; where nothing but positions holds it, over
   /// three times the V-Spring energy (but where bending is to be least), 1.5 times that of a curve that is bent more,
-  /// or of a surface over 1.3 times the bending, or 2.5 times that without noise; where directions hold it, of a
-  /// surface over 1.3 times the bending with that which leaves them, of a curve over 1.3 times both. Updates
-  /// directions. Cost: linear.
+  /// or of a surface over 1.3 times the bending, or 2.5 times that without noise; where directions hold it, over 1.3
+  /// times of both. Updates directions. Cost: linear.
   /// in_haste: of a surface that is on its way, which nothing but positions holds: faces turn more from one to the
   /// next, root mean square, or the energy is more, which is seen in a fraction of the time.
   [[nodiscard]] std::string fault(Net& now, bool in_haste = false) const;
@@ -69,8 +68,7 @@ class ResultCheck {
   /// Tangents that are given may ask for a loop.
   [[nodiscard]] bool looks_at_crossings(const Net& net) const;
   [[nodiscard]] double bending_without_noise(const Net& net) const;
-  /// That it is bent more, with the given directions; of a curve also that its springs, by these, are further from
-  /// their rest.
+  /// Both that it is bent more and that its springs, by the given directions, are further from their rest.
   [[nodiscard]] std::string disagreement_with_directions(Net& now, std::span<const std::uint8_t> dragged_nodes) const;
   [[nodiscard]] std::string more_of(const ShapeDefects& defects, bool of_surface) const;
 

@@ -3,10 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdint>
-#include <numbers>
-#include <utility>
 #include <vector>
 
 #include "support/surfaces.hpp"
@@ -63,35 +60,6 @@ TEST(FairLessBending, FromAMembraneWhatNoiseHasCrumpledIsForgotten) {
   }
   // Held nodes have no noise; the others have forgotten theirs.
   EXPECT_LT(greatest_distance(found[0], found[1]), 1e-3);
-}
-
-/// A coarse bend of a pipe, of quads: how much it bends in radians.
-PolygonMesh bend(double angle, Index around, Index along) {
-  std::vector<Vector3> nodes;
-  std::vector<Index> begin = {0};
-  std::vector<Index> corners;
-  for (Index ring = 0; ring <= along; ++ring) {
-    const double turn = angle * ring / along;
-    for (Index k = 0; k < around; ++k) {
-      const double about = 2 * std::numbers::pi * k / around;
-      const double distance = 0.237 + 0.104 * std::cos(about);
-      nodes.emplace_back(distance * std::cos(turn), distance * std::sin(turn), 0.104 * std::sin(about));
-      if (ring == along) continue;
-      const Index beside = (k + 1) % around;
-      for (const Index node : {k, around + k, around + beside, beside}) corners.push_back(ring * around + node);
-      begin.push_back(static_cast<Index>(corners.size()));
-    }
-  }
-  return {std::move(nodes), std::move(begin), std::move(corners)};
-}
-
-TEST(FairLessBending, NormalsAsTheyAreMakeNoShapeThatIsBentMore) {
-  // Springs have an equilibrium here that is narrower by a quarter, to meet normals of few rings.
-  const PolygonMesh pipe = bend(4.27, 31, 7);
-  Constraints constraints = held_boundary(pipe);
-  fix_boundary_normals(constraints, pipe);
-  const FairResult result = fair(pipe, constraints);
-  EXPECT_LT(bending(pipe, result.positions), 1.3 * bending(pipe, pipe.positions()));
 }
 
 }  // namespace

@@ -123,6 +123,7 @@ NoiseEstimate at_least_rounding(NoiseEstimate noise, double rounding) {
   if (noise.voxel || !(noise.deviation > 0) || noise.deviation >= rounding) return noise;
   noise.edges *= rounding / noise.deviation;
   noise.deviation = rounding;
+  noise.coordinates_differ = false;
   return noise;
 }
 

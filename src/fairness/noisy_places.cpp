@@ -128,7 +128,10 @@ void forget_rounding(NoiseEstimate& noise, const std::vector<Vector3>& positions
   for (const Vector3& position : positions) {
     if (position.allFinite()) greatest = std::max(greatest, position.cwiseAbs().maxCoeff());
   }
-  if (noise.deviation < last_digits * greatest) noise.deviation = noise.edges = 0;
+  if (noise.deviation >= last_digits * greatest) return;
+  noise.deviation = noise.edges = 0;
+  noise.by_coordinate = {};
+  noise.coordinates_differ = false;
 }
 
 }  // namespace vspring

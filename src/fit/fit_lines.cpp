@@ -149,10 +149,6 @@ std::vector<Vector3> with_lines(const PolygonMesh& mesh, const Constraints& cons
   return moves;
 }
 
-}  // namespace
-
-namespace {
-
 /// Makes a boundary that lies at scattered points fair, with a smoothing length: that of the surface or, for a
 /// tolerance, one that takes it no further than half of that, so that what is beside it has room. The surface then
 /// holds it. It is that of the edges already.

@@ -1,6 +1,6 @@
 #include "points/point_sheet.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "base/cancellation.hpp"
+#include "base/dense_algebra.hpp"
 #include "points/facing.hpp"
 
 namespace vspring {
@@ -85,7 +86,7 @@ std::optional<PointSheet::About> PointSheet::about(Index point) const {
   about.centre /= static_cast<double>(others.size());
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   for (const Vector3& other : others) squares += (other - about.centre) * (other - about.centre).transpose();
-  about.normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>().computeDirect(squares).eigenvectors().col(0);
+  about.normal = principal_axes(squares).col(0);
   look_for_end(point, others, about);
   if (!about.ends) return about;
   // Others may lie where those few do not.

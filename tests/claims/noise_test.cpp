@@ -121,6 +121,16 @@ TEST(Noise, OfOneCoordinateIsNotHiddenWhereTheCurveRunsAlongIt) {
   }
 }
 
+TEST(Noise, OfCoordinatesIsNothingWhereItIsNothingAtAll) {
+  // Far from the origin what is left of an exact circle is the last digits of x alone.
+  std::vector<Vector3> nodes = winding(600, 0, {0, 0, 0}, 1);
+  for (Vector3& node : nodes) node.x() += 1e9;
+  const NoiseEstimate noise = estimate_noise(PolygonCurve(nodes));
+  EXPECT_EQ(noise.deviation, 0);
+  EXPECT_EQ(noise.by_coordinate, (std::array<double, 3>{}));
+  EXPECT_EQ(greatest_of_noise(noise), 0);
+}
+
 TEST(Noise, OfRowsThatComeTwiceALittleApartIsThatOfTheirPlaces) {
   for (const int times : {2, 3}) {
     std::vector<Vector3> rows;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/median.hpp"
 #include "base/threads.hpp"
 #include "curve_fit/scattered_way.hpp"
 #include "shape/box_tree.hpp"
@@ -50,9 +51,7 @@ class FirstCurve {
     for (const CurvePoint& point : found_.points)
       distances.push_back(found_.curve.offset(point.at, point.place).norm());
     std::vector<double> sorted = distances;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    const double deviation = std::max(*middle / median_of_noise, least_deviation * task_.noise);
+    const double deviation = std::max(median(sorted) / median_of_noise, least_deviation * task_.noise);
     std::vector<std::pair<Index, double>> result;
     for (std::size_t j = 0; j < distances.size(); ++j)
       result.emplace_back(found_.points[j].number, distances[j] / deviation);

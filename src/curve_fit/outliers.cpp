@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/cancellation.hpp"
+#include "base/median.hpp"
 #include "shape/segment.hpp"
 
 namespace vspring {
@@ -62,8 +63,7 @@ std::vector<std::uint8_t> find_spikes(std::span<const Vector3> rows, bool closed
           const bool inside = closed || (at >= count && at + 1 < 2 * count);
           if (inside) about.push_back(lengths[at % count]);
         }
-        const auto middle = about.begin() + static_cast<std::ptrdiff_t>(about.size() / 2);
-        std::nth_element(about.begin(), middle, about.end());
+        const double middle = median(about);
         const auto goes_on = [&](std::size_t from, std::size_t by, std::size_t to) {
           const Vector3 way = row(by) - row(from);
           const Vector3 jump = row(to) - row(by);
@@ -73,11 +73,11 @@ std::vector<std::uint8_t> find_spikes(std::span<const Vector3> rows, bool closed
         const bool has_after = closed || k + n + rows_of_direction < count;
         const bool is_tip = (!has_before || goes_on(k + count - 1 - rows_of_direction, k + count - 1, k)) &&
                             (!has_after || goes_on(k + n + rows_of_direction, k + n, k + n - 1));
-        const double least = (is_tip ? aside_of_tip : aside_of_spike) * *middle;
+        const double least = (is_tip ? aside_of_tip : aside_of_spike) * middle;
         if (!(aside > least)) continue;
         double gain = -(after - before).norm();
         for (std::size_t j = k - 1; j < k + n; ++j) gain += lengths[j % count];
-        all.push_back({k, n, gain / (static_cast<double>(n) * std::max(*middle, 1e-300))});
+        all.push_back({k, n, gain / (static_cast<double>(n) * std::max(middle, 1e-300))});
       }
     }
     if (all.empty()) break;

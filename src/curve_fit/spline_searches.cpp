@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/cancellation.hpp"
+#include "base/median.hpp"
 #include "curve_fit/curve_start.hpp"
 #include "curve_fit/smoothing_spline.hpp"
 
@@ -130,9 +131,7 @@ void smooth_out_robustly(DenseCurve& curve, const std::vector<CurvePoint>& point
     }
     std::vector<double> distances;
     for (std::size_t j = 0; j < points.size(); ++j) distances.push_back(squared_distance(spline, j));
-    const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), middle, distances.end());
-    if (std::sqrt(*middle) <= median_of_noise * noise) break;
+    if (std::sqrt(median(distances)) <= median_of_noise * noise) break;
     smoothing *= robust_stride;
   }
   spline.take();

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/median.hpp"
 #include "curve_fit/way_corners.hpp"
 #include "shape/segment.hpp"
 
@@ -70,9 +71,7 @@ class WayFinder {
       edges.push_back(station(chain_[k].place - chain_[k - 1].place).norm());
     }
     axis.normalize();
-    const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
-    std::nth_element(edges.begin(), middle, edges.end());
-    const double least = std::max(reach_of_folds * reach_, most_edges_of_fold * *middle);
+    const double least = std::max(reach_of_folds * reach_, most_edges_of_fold * median(edges));
     // How far it has come since the last turn, and back since then.
     std::size_t lowest = 0;
     std::size_t highest = 0;
@@ -244,9 +243,7 @@ class WayFinder {
     const std::size_t begin = about > rows_about ? about - rows_about : 0;
     for (std::size_t k = begin; k + 1 < std::min(stops_.size(), about + rows_about); ++k)
       edges.push_back(station(stops_[k + 1].place - stops_[k].place).norm());
-    const auto middle = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
-    std::nth_element(edges.begin(), middle, edges.end());
-    return *middle;
+    return median(edges);
   }
 
   /// At an end there is no way before.

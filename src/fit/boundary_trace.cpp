@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/cancellation.hpp"
+#include "base/median.hpp"
 #include "base/threads.hpp"
 #include "points/nearest_nodes.hpp"
 #include "points/point_sheet.hpp"
@@ -180,9 +181,7 @@ class BoundaryTrace {
     std::vector<double> lengths;
     lengths.reserve(edges.size());
     for (const BoundaryEdge& edge : edges) lengths.push_back((edge.to - edge.from).norm());
-    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
-    std::nth_element(lengths.begin(), middle, lengths.end());
-    const double edge = lengths.empty() ? 0 : *middle;
+    const double edge = lengths.empty() ? 0 : median(lengths);
     ScatteredPoints told;
     if (edge > 0) told = listen(loop, edge, EdgeTree(std::move(edges), team_), all);
     if (!told.positions.empty()) {

@@ -10,6 +10,7 @@
 
 #include "base/cancellation.hpp"
 #include "base/dense_algebra.hpp"
+#include "base/median.hpp"
 #include "points/facing.hpp"
 
 namespace vspring {
@@ -39,9 +40,7 @@ PointSheet::PointSheet(std::span<const Vector3> points, std::span<const Vector3>
     if (near.size() == points_about) reaches.push_back(std::sqrt(near.back().square));
   }
   if (reaches.empty()) return;
-  const auto middle = reaches.begin() + static_cast<std::ptrdiff_t>(reaches.size() / 2);
-  std::nth_element(reaches.begin(), middle, reaches.end());
-  radius_ = std::max(radius_, *middle);
+  radius_ = std::max(radius_, median(reaches));
   few_ = thinned(cell_of_few * radius_);
   for (const Index j : few_) places_of_few_.push_back(points_[static_cast<std::size_t>(j)]);
   tree_of_few_.emplace(places_of_few_);

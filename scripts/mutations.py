@@ -341,7 +341,7 @@ MUTATIONS = {
         ("places-in-order", "places out of order are exchanged", "sorted[k] - least - from[k]", "values[k] - least - from[k]"),
     ],
     "src/curve_fit/outliers.cpp": [
-        ("spikes-by-gain", "of spikes the one without which the way is shortest, for each row", "gain / (static_cast<double>(n) * std::max(*middle, 1e-300))",
+        ("spikes-by-gain", "of spikes the one without which the way is shortest, for each row", "gain / (static_cast<double>(n) * std::max(middle, 1e-300))",
          "static_cast<double>(n) * gain / std::max(*middle, 1e-300)"),
     ],
     "src/curve_fit/curve_descent.cpp": [

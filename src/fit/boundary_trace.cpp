@@ -17,6 +17,7 @@
 #include "shape/box_tree.hpp"
 #include "shape/frame.hpp"
 #include "shape/incidence.hpp"
+#include "shape/point_tree.hpp"
 #include "shape/segment.hpp"
 #include "vspring/distance.hpp"
 #include "vspring/error.hpp"
@@ -46,6 +47,8 @@ constexpr double turn_of_few = std::numbers::pi / 3;
 // Edges whose directions differ by less do not meet.
 constexpr double least_sine2 = 0.1;
 constexpr int turns_of_corners = 2;
+// In a row, of which points tell nothing.
+constexpr std::size_t fewest_kept = 3;
 // In edges, root mean square: a loop that is further away from where points end than that, and than it was, has failed.
 constexpr double far_in_edges = 0.25;
 // Edges become as long as those beside them on average, so many times.
@@ -268,6 +271,7 @@ class BoundaryTrace {
     const auto in_reach = [&](std::size_t n, const std::vector<Vector3>& those, Index k) {
       return k >= 0 && (of_free[n] - those[static_cast<std::size_t>(k)]).norm() <= reach_of_boundary * edge;
     };
+    std::vector<Index> untold;
     for (std::size_t n = 0; n < free.size(); ++n) {
       if (in_reach(n, border, at_border[n])) {
         ++traced_.told.ends;
@@ -276,13 +280,37 @@ class BoundaryTrace {
       const Index k = at_points[n];
       const auto about = in_reach(n, places, k) ? sheet.about(k) : std::nullopt;
       if (!about || about->ends) {
-        keep(free[n]);
+        untold.push_back(free[n]);
         continue;
       }
       ++traced_.told.inside;
       traced_.positions[static_cast<std::size_t>(free[n])] =
           with_foot(number[static_cast<std::size_t>(k)], of_free[n], places[static_cast<std::size_t>(k)], *about);
       hold(free[n]);
+    }
+    keep_runs(boundary_.curve.chains()[loop].nodes, untold);
+  }
+
+  /// Nodes of a loop of which nothing was told stay; few in a row go with those beside them, as they would be spikes.
+  void keep_runs(const std::vector<Index>& nodes, const std::vector<Index>& untold) {
+    std::vector<std::uint8_t> is_untold(nodes.size(), 0);
+    std::size_t at = 0;
+    for (const Index node : untold) {
+      while (nodes[at] != node) ++at;
+      is_untold[at] = 1;
+    }
+    const std::size_t count = nodes.size();
+    const auto reaches = [&](std::size_t k, std::size_t step) {
+      std::size_t steps = 0;
+      while (steps < fewest_kept && is_untold[(k + step * (steps + 1)) % count] != 0) ++steps;
+      return steps;
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+      if (is_untold[k] == 0) continue;
+      if (reaches(k, 1) + reaches(k, count - 1) + 1 >= fewest_kept)
+        keep(nodes[k]);
+      else
+        ++traced_.told.ends;
     }
   }
 
@@ -326,13 +354,31 @@ class BoundaryTrace {
     const auto off = [&](const std::vector<Vector3>& loop) {
       return distance(told.positions, PolygonCurve(loop, true), context_).rms;
     };
-    if (!(off(way) <= std::max(off(start), far_in_edges * edge))) return false;
+    if (!(off(way) <= std::max(off(start), far_in_edges * edge)) || leaves(nodes, way, told.positions, edge))
+      return false;
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       if (!is_free(nodes[k])) continue;
       traced_.positions[static_cast<std::size_t>(nodes[k])] = way[k];
       if (held.corner(static_cast<Index>(k))) traced_.corners.push_back(nodes[k]);
     }
     return true;
+  }
+
+  /// Whether some free node of a drawn loop is away from all that was told.
+  [[nodiscard]] bool leaves(const std::vector<Index>& nodes, const std::vector<Vector3>& way,
+                            const std::vector<Vector3>& told, double edge) {
+    // So that no square overflows.
+    std::vector<Vector3> local;
+    local.reserve(told.size());
+    for (const Vector3& place : told) local.push_back(frame_.to_local(place));
+    const PointTree tree(local);
+    std::vector<Index> near;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      if (!is_free(nodes[k])) continue;
+      tree.within(frame_.to_local(way[k]), reach_of_boundary * edge * frame_.scale(), near);
+      if (near.empty()) return true;
+    }
+    return false;
   }
 
   /// Places of a closed way that has been smoothed, so that a corner turns within about three nodes. They go to the
@@ -383,7 +429,7 @@ class BoundaryTrace {
     const double way_in = (gap.dot(in) - cosine * gap.dot(out)) / sine2;
     const double way_out = (cosine * gap.dot(in) - gap.dot(out)) / sine2;
     const Vector3 corner = (before + way_in * in + after + way_out * out) / 2;
-    if (!((corner - way[about]).squaredNorm() < gap.squaredNorm())) return about;
+    if (!(4 * (corner - way[about]).squaredNorm() < gap.squaredNorm())) return about;
     const auto distance = [&](std::size_t k) { return (way[k] - corner).squaredNorm(); };
     std::size_t nearest = about;
     for (const std::size_t by : {count - 1, std::size_t{1}}) {

@@ -21,6 +21,8 @@
 #include "fit/boundary_trace.hpp"
 #include "fit/measure_again.hpp"
 #include "fit/turned_edges.hpp"
+#include "shape/box_tree.hpp"
+#include "shape/frame.hpp"
 #include "shape/incidence.hpp"
 #include "shape/junctions.hpp"
 #include "shape/node_graph.hpp"
@@ -181,10 +183,34 @@ void warn_of_kept(const std::vector<Index>& kept, std::size_t free, FairReport& 
                    kept.size(), free, kept.front())});
 }
 
-/// The boundary is drawn to where scattered points end, made fair, and held.
+/// Whether a fit that began with another boundary than that of the mesh has more folds or crossings than that.
+bool has_more_folds(const PolygonMesh& mesh, const FitResult& result, const Context& context) {
+  // So that no square overflows.
+  Box box;
+  for (const Vector3& p : mesh.positions()) box.extend(p);
+  const Frame frame(box);
+  const auto local = [&](const std::vector<Vector3>& positions) {
+    std::vector<Vector3> places;
+    places.reserve(positions.size());
+    for (const Vector3& p : positions) places.push_back(frame.to_local(p));
+    return places;
+  };
+  PolygonMesh before = mesh;
+  before.set_positions(local(mesh.positions()));
+  const std::vector<Vector3> after = local(result.positions);
+  const TurnedEdges edges(before);
+  ThreadTeam team(context.thread_count());
+  return edges.count(after) > edges.count(before.positions()) || loses_area(before, after) ||
+         !new_crossings(before, after, context, team).empty();
+}
+
+/// The boundary is drawn to where scattered points end, made fair, and held; where the surface would be worse for it,
+/// it stays where it was.
 FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                               LinesOfSurface boundary, FitOptions options, Context& context) {
+  const FitOptions given = options;
   const double strength = std::exchange(options.fair.strength, 1);
+  const Constraints at_home = boundary.of_surface;
   TracedBoundary traced;
   try {
     traced = trace_boundary(mesh, boundary, points, context);
@@ -204,6 +230,21 @@ FitResult fit_traced_boundary(const PolygonMesh& mesh, const Constraints& constr
   PolygonMesh start = mesh;
   start.set_positions(with_lines(mesh, constraints, boundary));
   FitResult result = fit(start, boundary.of_surface, points, options, context);
+  if (!given.fair.as_found && !context.cancelled()) {
+    const bool folds = has_more_folds(mesh, result, context);
+    if (folds || result.report.fair.outcome == Outcome::worse_than_input) {
+      FitResult where_it_was = fit(mesh, at_home, points, given, context);
+      if (folds || where_it_was.report.fair.outcome != Outcome::worse_than_input) {
+        where_it_was.report.boundary =
+            BoundaryOfPoints{.points = traced.told.points, .kept = static_cast<Index>(boundary.free.size())};
+        where_it_was.report.fair.warnings.push_back(
+            {WarningCode::untold_boundary,
+             "the boundary stays where it was, as the surface would be worse with it where the points end: bring the "
+             "shape nearer, or fix the boundary"});
+        return where_it_was;
+      }
+    }
+  }
   FairReport& report = result.report.fair;
   warn_of_kept(traced.kept, boundary.free.size(), report);
   if (of_curve) {

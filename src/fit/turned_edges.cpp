@@ -40,6 +40,11 @@ std::vector<Index> TurnedEdges::faces(const std::vector<Vector3>& positions) con
   return turned;
 }
 
+std::size_t TurnedEdges::count(const std::vector<Vector3>& positions) const {
+  return static_cast<std::size_t>(std::count_if(
+      pairs_.begin(), pairs_.end(), [&](const Pair& pair) { return cosine(pair, positions) < -unseen_turn; }));
+}
+
 void TurnedEdges::take_back(std::vector<Vector3>& positions) const {
   for (bool any = true; any;) {
     any = false;

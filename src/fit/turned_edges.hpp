@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "vspring/polygon_mesh.hpp"
@@ -14,6 +15,8 @@ class TurnedEdges {
 
   /// The faces at edges that turn by more than a right angle, with nodes at `positions`, and further than in the mesh.
   [[nodiscard]] std::vector<Index> faces(const std::vector<Vector3>& positions) const;
+  /// How many edges turn by more than a right angle, with nodes at `positions`.
+  [[nodiscard]] std::size_t count(const std::vector<Vector3>& positions) const;
   /// Nodes of such faces go back to where they are in the mesh, until there are none.
   void take_back(std::vector<Vector3>& positions) const;
 

@@ -263,6 +263,27 @@ TEST(FitBoundary, StaysWhereThereAreNoPoints) {
   EXPECT_EQ(far.report.fair.boundary, nullptr);
 }
 
+// A boundary that lies far within where noisy points end.
+TEST(FitBoundary, BringsNoFoldOrCrossing) {
+  constexpr int many = 16;
+  constexpr double length = 2.0 / many;
+  PolygonMesh mesh = over_square(many, generate::Faces::triangles);
+  Draw draw(1);
+  std::vector<Vector3> positions = mesh.positions();
+  for (Vector3& p : positions) {
+    p.head<2>() *= 1 - 1.2 * length;
+    p += 0.05 * length * (draw.in_cube(1) + draw.in_cube(1) + draw.in_cube(1));
+  }
+  mesh.set_positions(std::move(positions));
+  FitOptions few_steps = boundary_first(SmoothingLength{length / 2});
+  few_steps.fair.method = EquilibriumMethod{.max_iterations = 5};
+  const ScatteredPoints points = points_over_square(89, 0.1 * length, 1, false);
+  PolygonMesh fitted = mesh;
+  fitted.set_positions(fit(mesh, Constraints(mesh.node_count()), points, few_steps).positions);
+  EXPECT_LE(measure_surface(fitted).flipped_faces, measure_surface(mesh).flipped_faces);
+  EXPECT_LE(self_intersections(fitted).size(), self_intersections(mesh).size());
+}
+
 TEST(FitBoundary, GoesOnFromWhatIsHeld) {
   const PolygonMesh truth = over_square(cells, generate::Faces::quads);
   const PolygonMesh mesh = disturbed(truth);

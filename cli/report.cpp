@@ -122,6 +122,7 @@ nlohmann::ordered_json to_json(const FairReport& report) {
                               {"iterations", level.iterations},
                               {"outcome", name(level.outcome)},
                               {"strategy", level.strategy},
+                              {"kept_nodes", level.kept_nodes},
                               {"seconds", level.seconds}});
   return json;
 }

@@ -7,7 +7,8 @@ namespace {
 py::dict level_of(const LevelReport& level) {
   using namespace pybind11::literals;
   return py::dict("moving_nodes"_a = level.moving_nodes, "iterations"_a = level.iterations,
-                  "outcome"_a = name(level.outcome), "strategy"_a = level.strategy, "seconds"_a = level.seconds);
+                  "outcome"_a = name(level.outcome), "strategy"_a = level.strategy, "kept_nodes"_a = level.kept_nodes,
+                  "seconds"_a = level.seconds);
 }
 
 /// None where they were not measured.

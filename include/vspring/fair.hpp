@@ -123,7 +123,10 @@ struct FairOptions {
 [[nodiscard]] const char* name(Method method) noexcept;
 
 enum class Outcome {
-  converged,        ///< no node is expected to be further from its final place than the tolerance
+  /// No node is expected to be further from its final place than the tolerance. Where least bending stands in, also:
+  /// bending falls no further. Of fits by Within and RootMeanSquare, also: within them, but perhaps not the fairest. A
+  /// warning says so (other_fairness, maybe_not_fairest).
+  converged,
   iteration_limit,  ///< the method's max_iterations was reached; with multigrid and sweep also its default
   work_limit,       ///< FairReport::most_work, or the default limit of iterations, was reached
   stalled,          ///< further iterations do not come nearer
@@ -147,6 +150,8 @@ struct LevelReport {
   /// bending", "from the last shape" or "V-cycle" (docs/solver.md).
   const char* strategy = "";
   double seconds = 0;
+  /// Of "less bending": moving nodes that stay where they were last, as faces would turn over there.
+  Index kept_nodes = 0;
 };
 
 struct FairReport {

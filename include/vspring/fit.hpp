@@ -204,8 +204,9 @@ struct FitResult {
 /// further in one iteration than their step_tolerance times the mean length of its edges; with small weights nodes then
 /// still have far to go, about a step over k.
 ///
-/// For Within and RootMeanSquare the equilibrium of a surface is found some ten to a hundred times. If no shape of this
-/// mesh is within them, the nearest one found is returned, with a warning and an outcome that is not `converged`.
+/// For Within and RootMeanSquare the equilibrium of a surface is found some ten to a hundred times. If no shape
+/// within them is found and the input is not either, the nearest one is returned, with a warning and an outcome that is
+/// not `converged`; nor is that where nothing within them is fairer than an input that is, which is returned then.
 /// Curves are drawn to them by convex programs instead, on nodes of their own (docs/curves.md); ends may then be free.
 ///
 /// The result has the same bits for every number of threads. Cancellation returns the shape so far with outcome

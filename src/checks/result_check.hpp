@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -16,6 +17,12 @@ namespace vspring {
 
 /// How many edges turn by more than 90°, between two faces of a surface or along a curve. Cost: linear.
 std::size_t turned_edges(const Net& net, ThreadTeam& team);
+
+/// Such an edge of a surface: its ends, the lower number first, and a node of the face on each side.
+using TurnedEdge = std::array<std::size_t, 4>;
+
+/// All such edges of a surface, in the order of their ends. Cost: linear.
+std::vector<TurnedEdge> list_turned_edges(const Net& net);
 
 /// What a shape may have, and should have no more of, or not much.
 struct ShapeDefects {

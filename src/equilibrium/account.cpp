@@ -21,6 +21,11 @@ std::string distance_from_equilibrium(const FairReport& report) {
   return fmt::format("expected to be {:.2g} % of the size away from one", 100 * *report.expected_error);
 }
 
+std::string words_of_kept(const FairReport& report) {
+  const Index kept = report.levels.empty() ? 0 : report.levels.back().kept_nodes;
+  return kept > 0 ? fmt::format("; {} nodes stay where they were, as faces would turn over there", kept) : "";
+}
+
 void count_nodes(std::size_t moving, const Constraints& constraints, FairReport& report) {
   report.nodes = constraints.node_count();
   report.moving_nodes = static_cast<Index>(moving);

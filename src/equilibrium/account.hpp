@@ -25,4 +25,7 @@ void measure_moves(const Net& net, const std::vector<Vector3>& before, const std
 /// How far a shape is from an equilibrium, in words: "expected to be 0.4 % of the size away from one".
 std::string distance_from_equilibrium(const FairReport& report);
 
+/// What the last level had to keep, in words that follow others; empty where it kept nothing.
+std::string words_of_kept(const FairReport& report);
+
 }  // namespace vspring

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <utility>
 #include <vector>
@@ -31,6 +32,8 @@ constexpr double least_damping = 1e-5;
 constexpr double change_of_damping = 10;
 // Of the greatest: where nothing is bent a node stays.
 constexpr double least_on_diagonal = 1e-12;
+// The same where a node is to stay.
+constexpr double most_times_greatest = 1e6;
 // And the energies of a step, in iterations of the equilibrium solver.
 constexpr double work_of_slopes = 6;
 // Of the fall that the slopes promise.
@@ -44,6 +47,10 @@ constexpr std::size_t steps_of_rate = 5;
 constexpr double least_rate = 0.5;
 constexpr double most_rate = 0.95;
 constexpr int steps_per_tie = 5;
+// Where bending falls in so many steps by a smaller share than that, it falls no further: soft ways of a shape may stay
+// longer than a tolerance asks for, to no use.
+constexpr int steps_of_fall = 10;
+constexpr double least_fall_of_all = 1e-4;
 
 class BendingDescent {
  public:
@@ -59,6 +66,7 @@ class BendingDescent {
       const CancellationScope cancellation(context);
       start();
       follow(task, result);
+      if (sound_ != best_) keep_faces(task, result);
     } catch (const Cancelled&) {
       result.outcome = Outcome::cancelled;
     }
@@ -87,17 +95,42 @@ class BendingDescent {
     sound_ = net_.positions = best_;
   }
 
+  /// From the last shape without more folds, without the steps that fold.
+  void keep_faces(const EquilibriumTask& task, EquilibriumResult& result) {
+    net_.positions = best_ = sound_;
+    stays_.assign(net_.moving, 0);
+    keeps_faces_ = true;
+    conjugate_.clear();
+    pulls_.clear();
+    result.iterations = 0;
+    if (task.renew_ties) (void)task.renew_ties(0);
+    follow(task, result);
+    result.kept = static_cast<std::size_t>(std::count(stays_.begin(), stays_.end(), 1));
+  }
+
   void follow(const EquilibriumTask& task, EquilibriumResult& result) {
     double damping = first_damping;
     // Nothing is known of it.
     result.expected_error = 1;
     std::deque<double> sizes;
+    std::vector<Vector3> places = best_;
+    double fallen = 0;
     for (; result.iterations < task.max_iterations; ++result.iterations) {
       if (result.work + 1 > task.most_work) {
         result.outcome = Outcome::work_limit;
         return;
       }
       end_if_cancelled();
+      if (result.iterations > 0 && result.iterations % steps_of_fall == 0) {
+        if (fallen < least_fall_of_all * energy_) {
+          for (std::size_t i = 0; i < net_.moving; ++i) places[i] -= best_[i];
+          result.expected_error = length_of(places);
+          result.outcome = sound_ == best_ ? Outcome::converged : Outcome::stalled;
+          return;
+        }
+        places = best_;
+        fallen = 0;
+      }
       if (task.renew_ties && result.iterations % steps_per_tie == 0) (void)task.renew_ties(0);
       if (!find_way(damping, result)) {
         result.outcome = Outcome::stalled;
@@ -118,8 +151,13 @@ class BendingDescent {
         }
       }
       if (task.on_iteration) task.on_iteration(result.expected_error);
-      if (!go()) {
+      const std::ptrdiff_t staying = count_staying();
+      const double before = energy_;
+      const bool went = go();
+      fallen += before - energy_;
+      if (!went) {
         conjugate_.clear();
+        if (count_staying() > staying) continue;
         damping = std::max(change_of_damping * damping, least_damping);
         if (damping > most_damping) {
           result.outcome = Outcome::stalled;
@@ -146,14 +184,17 @@ class BendingDescent {
       matrix.coeffRef(at, at) += pulls_[i].stiffness;
     }
     const double least = least_on_diagonal * matrix.diagonal().maxCoeff();
+    const double most = most_times_greatest * matrix.diagonal().maxCoeff();
     for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
       double& diagonal = matrix.coeffRef(i, i);
-      diagonal += damping * diagonal + least;
+      diagonal += stays(static_cast<std::size_t>(i)) ? most : damping * diagonal + least;
     }
     solver_.build(matrix);
     result.work += work_of_slopes + solver_.work_of_building();
+    for (std::size_t i = 0; i < net_.moving; ++i) slopes_[i] = stays(i) ? 0 : slopes_[i];
     along_ = slopes_;
     solver_.solve(along_, {});
+    for (std::size_t i = 0; i < net_.moving; ++i) along_[i] = stays(i) ? 0 : along_[i];
     for (double& way : along_) way = -way;
     across_.resize(net_.moving);
     for (std::size_t i = 0; i < net_.moving; ++i) across_[i] = along_[i] * net_.normals[i];
@@ -223,6 +264,7 @@ class BendingDescent {
       const std::vector<Vector3> places = std::exchange(best_, start);
       const bool is_better = take(step, length, std::min(least, before + least_fall * length * slope));
       if (!is_better) net_.positions = best_ = places;
+      if (is_blocked_) return taken;
       const double curved = (looked_at_ - before - slope * length) / (length * length);
       const double best = curved > 0 ? -slope / (2 * curved) : longest;
       taken = taken || is_better;
@@ -238,8 +280,9 @@ class BendingDescent {
   /// at first, that is the best so far that is no worse than the start.
   bool take(const std::vector<Vector3>& step, double share, double most) {
     for (std::size_t i = 0; i < net_.moving; ++i) net_.positions[i] = best_[i] + share * step[i];
+    is_blocked_ = keeps_faces_ && folds();
     looked_at_ = energy_now();
-    if (!(looked_at_ <= most)) {
+    if (is_blocked_ || !(looked_at_ <= most)) {
       net_.positions = best_;
       return false;
     }
@@ -247,6 +290,25 @@ class BendingDescent {
     best_ = net_.positions;
     return true;
   }
+
+  /// Whether more edges turn than may. The nodes at those that did not before stay from now on.
+  bool folds() {
+    if (turned_edges(net_, team_) <= most_turned_) return false;
+    const std::vector<TurnedEdge> now = list_turned_edges(net_);
+    net_.positions.swap(best_);
+    const std::vector<TurnedEdge> before = list_turned_edges(net_);
+    net_.positions.swap(best_);
+    for (const TurnedEdge& edge : now) {
+      if (std::binary_search(before.begin(), before.end(), edge)) continue;
+      for (const std::size_t node : edge) {
+        if (node < net_.moving) stays_[node] = 1;
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool stays(std::size_t i) const { return keeps_faces_ && stays_[i] != 0; }
+  [[nodiscard]] std::ptrdiff_t count_staying() const { return std::count(stays_.begin(), stays_.end(), 1); }
 
   double turn_of(const std::vector<Vector3>& step) { return edge_turns(net_, step, team_).largest; }
 
@@ -260,7 +322,10 @@ class BendingDescent {
   BendingEnergy bending_;
   CholeskySolver solver_;
   std::vector<Vector3> best_;
-  std::vector<Vector3> sound_;  ///< the best where no more edges turn than at first
+  std::vector<Vector3> sound_;       ///< the best where no more edges turn than at first
+  std::vector<std::uint8_t> stays_;  ///< by moving node: faces would turn over there
+  bool keeps_faces_ = false;
+  bool is_blocked_ = false;  ///< the last step, by faces that would
   std::vector<Vector3> input_;
   double energy_of_input_ = 0;
   double energy_ = 0;            ///< of the best shape

@@ -39,6 +39,7 @@ struct EquilibriumResult {
   int iterations = 0;
   double work = 0;            ///< as for most_work
   double expected_error = 0;  ///< in the net's coordinates
+  std::size_t kept = 0;       ///< moving nodes that stay where they are, as faces would turn over
 };
 
 /// Goes to where all displacements of the model vanish: corrections by the preconditioner, Anderson acceleration, steps

@@ -93,7 +93,8 @@ void Relaxation::relax(std::size_t level, int max_iterations,
                            .iterations = result.iterations,
                            .outcome = by_default ? Outcome::work_limit : result.outcome,
                            .strategy = strategy_,
-                           .seconds = stopwatch.seconds()});
+                           .seconds = stopwatch.seconds(),
+                           .kept_nodes = static_cast<Index>(result.kept)});
   report.outcome = result.outcome;
   report.residual = result.expected_error / size_;
   report.expected_error = report.residual;

@@ -70,14 +70,16 @@ class FitToTolerance {
       finish_with(shape.net(), *length);
       return;
     }
-    ToleranceFitResult found = search(
+    const ToleranceFitResult found = search(
         shape.net(), length, [&](FairReport& one, bool or_find) { shape.update(context, progress, one, or_find); });
     finish_with(shape.net(), found.length);
-    if (!found.settled && some_were_lost_ && run_.may_be_another() && !context.cancelled()) {
-      report.fair.most_work = report.fair.work + most_work;
-      found = bend_less(points, lengths.front(), progress).value_or(found);
+    if (found.settled || !some_were_lost_ || !run_.may_be_another() || context.cancelled()) {
+      conclude(found);
+      return;
     }
-    conclude(found);
+    report.fair.most_work = report.fair.work + most_work;
+    // What is within already has its details.
+    conclude(bend_less(points, is_within(start()) ? lengths.back() : lengths.front(), progress, found));
   }
 
  private:
@@ -93,6 +95,8 @@ class FitToTolerance {
   // Of a tolerance.
   static constexpr double room = 0.8;
   static constexpr double any_start = 0.5;
+  // Of the way back to the start.
+  static constexpr double least_step_back = 0.01;
   // Of a tolerance, to which equilibria are found.
   static constexpr double precision = 1e-3;
 
@@ -162,10 +166,10 @@ class FitToTolerance {
     fair.outcome = one.outcome;
   }
 
-  /// The same with shapes of least bending, where springs and points find no balance, from a length in mean edges. None
-  /// where these do not settle it either; else that is the result.
-  std::optional<ToleranceFitResult> bend_less(const UntiedPoints& points, double first_length,
-                                              ProgressReporter& progress) {
+  /// The same with shapes of least bending, where springs and points find no balance, from a length in mean edges. The
+  /// better of that and what springs found is the result.
+  ToleranceFitResult bend_less(const UntiedPoints& points, double first_length, ProgressReporter& progress,
+                               const ToleranceFitResult& by_springs) {
     FairReport& fair = run_.result.report.fair;
     const double residual = fair.residual;
     const std::optional<double> expected_error = fair.expected_error;
@@ -180,10 +184,13 @@ class FitToTolerance {
     update(first, false);
     account(first);
     const ToleranceFitResult found = search(shape.net(), length, update);
-    if (!found.settled) {
+    const bool is_better =
+        found.settled ||
+        (found.within && (!by_springs.within || is_fairer(run_.positions_of(shape.net()), run_.result.positions)));
+    if (!is_better) {
       fair.residual = residual;
       fair.expected_error = expected_error;
-      return std::nullopt;
+      return by_springs;
     }
     fair.springs = first.springs;
     fair.fair_by = first.fair_by;
@@ -198,27 +205,12 @@ class FitToTolerance {
     return smooth_within(task, tolerance, [&](const std::vector<double>& all) { return figure_of(all); });
   }
 
-  /// By the interior-point method, from a smooth shape that leaves it room. Where that finds nothing, by Lawson's
-  /// algorithm.
+  /// By the interior-point method, from a smooth shape that leaves it room.
   ToleranceFitResult fit_within(ToleranceFitTask task, double tolerance) const {
-    Net& net = *task.net;
-    const double close_share = task.close_share;
-    {
-      task.close_share = any_start;
-      task.takes_nearest = true;
-      const ToleranceFitResult start = smooth(task, room * tolerance);
-      if (task.ended()) return start;
-      const std::vector<Vector3> places = net.positions;
-      const ToleranceFitResult found = hold_between(task, tolerance, start);
-      if (found.settled || task.ended()) return found;
-      if (found.within) return hold_within(task, tolerance, found);
-      net.positions = places;
-      *task.length = start.length;
-    }
-    task.close_share = close_share;
-    task.takes_nearest = false;
-    const ToleranceFitResult start = smooth(task, tolerance);
-    return task.ended() ? start : hold_within(task, tolerance, start);
+    task.close_share = any_start;
+    task.takes_nearest = true;
+    const ToleranceFitResult start = smooth(task, room * tolerance);
+    return task.ended() ? start : hold_between(task, tolerance, start);
   }
 
   /// What is to be within the tolerance. distances: 0 for points left out.
@@ -247,24 +239,66 @@ class FitToTolerance {
       fair.outcome = Outcome::cancelled;
       return;
     }
-    const Outcome limit = fair.most_work > 0 ? Outcome::work_limit : Outcome::iteration_limit;
-    fair.outcome = found.settled ? Outcome::converged : found.within ? limit : Outcome::stalled;
-    if (!found.within && is_within(run_.result.positions))
+    if (found.settled) {
+      fair.outcome = Outcome::converged;
+      return;
+    }
+    const bool starts_within = is_within(start());
+    const bool within = found.within || (starts_within && go_back());
+    if (starts_within && !(within && is_fairer(run_.result.positions, start()))) {
+      run_.finish_unchanged();
+      fair.outcome = Outcome::worse_than_input;
+      fair.warnings.push_back({WarningCode::worse_than_input,
+                               "nothing fairer was found within the tolerance: this is the input with its constraints; "
+                               "a greater tolerance may do, or more that is held"});
+      return;
+    }
+    fair.outcome = within ? Outcome::converged : Outcome::stalled;
+    if (within)
+      fair.warnings.push_back(
+          {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest that is"});
+    else if (is_within(run_.result.positions))
       fair.warnings.push_back(
           {WarningCode::no_equilibrium,
            "the shape is within the tolerance, but no equilibrium was found there: more that is held, or other "
-           "tolerances, "
-           "may do"});
-    else if (!found.within)
+           "tolerances, may do"});
+    else
       fair.warnings.push_back(
           {WarningCode::outside_tolerance,
            fmt::format(
                "no shape of this mesh was found within {:g}: this is the one that comes nearest; points may lie "
                "at what is held, or edges may be too long",
                tolerance_)});
-    else if (!found.settled)
-      fair.warnings.push_back(
-          {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest that is"});
+  }
+
+  [[nodiscard]] std::vector<Vector3> start() const {
+    return positions_as_held(run_.subject.shape().positions(), run_.subject.constraints());
+  }
+
+  /// From the shape that was found towards the start, which is within the tolerance, until that is, too. False where
+  /// that is the start itself.
+  bool go_back() {
+    const std::vector<Vector3> start = this->start();
+    const std::vector<Vector3> found = run_.result.positions;
+    std::vector<Vector3> best = start;
+    double inside = 0;
+    for (double step = 0.5; step > least_step_back; step /= 2) {
+      std::vector<Vector3> between = start;
+      for (std::size_t i = 0; i < between.size(); ++i) between[i] += (inside + step) * (found[i] - start[i]);
+      if (!is_within(between)) continue;
+      inside += step;
+      best = std::move(between);
+    }
+    Net net = run_.gather();
+    for (std::size_t i = 0; i < net.moving; ++i)
+      net.positions[i] = net.frame.to_local(best[static_cast<std::size_t>(net.node[i])]);
+    run_.finish(net);
+    return inside > 0;
+  }
+
+  /// By its springs.
+  [[nodiscard]] bool is_fairer(const std::vector<Vector3>& positions, const std::vector<Vector3>& than) const {
+    return run_.subject.fairness(positions).vspring_energy < run_.subject.fairness(than).vspring_energy;
   }
 
   FitRun<FitSurface>& run_;

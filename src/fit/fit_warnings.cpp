@@ -31,7 +31,8 @@ void warn_if_far_off(FitReport& report, double noise) {
 
 void warn_of_least_bending(FairReport& report) {
   report.warnings.push_back(
-      {WarningCode::other_fairness, "springs and points found no balance: this is the nearest shape of least bending"});
+      {WarningCode::other_fairness,
+       "springs and points found no balance: this is the nearest shape of least bending" + words_of_kept(report)});
 }
 
 void warn_if_left_behind(FitReport& report, std::span<const Vector3> points) {

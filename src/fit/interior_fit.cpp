@@ -95,7 +95,8 @@ class InteriorFit {
       }
       energy_before = energy_;
       if (last >= long_step) {
-        barrier *= fall;
+        // Points beyond their bounds come back first.
+        if (result.within) barrier *= fall;
         short_steps = 0;
       } else if (++short_steps == patience_for_steps) {
         result.settled = barrier < low_barrier && step >= fewest_steps_down;

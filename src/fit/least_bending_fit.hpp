@@ -47,7 +47,8 @@ class LeastBendingFit {
     report.levels.push_back({.moving_nodes = static_cast<Index>(net_.moving),
                              .iterations = found.iterations,
                              .outcome = report.outcome,
-                             .strategy = "less bending"});
+                             .strategy = "less bending",
+                             .kept_nodes = static_cast<Index>(found.kept)});
   }
 
  private:

@@ -21,20 +21,6 @@ constexpr double about_as_near = 1.05;
 constexpr double no_nearer = 0.99;
 constexpr int halvings_without_gain = 2;
 constexpr int most_trials = 60;
-// Aimed at less than the tolerance, so that what is left of a correction does not go beyond.
-constexpr double aimed_share = 0.995;
-// Of the energy, in so many turns.
-constexpr double settled_share = 0.005;
-constexpr int turns_per_look = 15;
-constexpr int most_turns_of_points = 120;
-constexpr int hopeless_turns = 45;
-// Of the weight of a point, in a turn and over all.
-constexpr double greatest_step = 3;
-constexpr double pace = 0.7;
-constexpr double pace_of_all = 2;
-constexpr double least_point_weight = 1e-9;
-constexpr double most_weight = 1e9;
-
 }  // namespace
 
 ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
@@ -116,60 +102,6 @@ ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
   result.settled = result.within && !task.ended();
   result.length = inside ? inside->first : nearest;
   *task.length = result.length;
-  return result;
-}
-
-ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, ToleranceFitResult smooth) {
-  Net& net = *task.net;
-  TiedPoints& points = net.points;
-  const std::vector<double> weights = points.weights;
-  const double aim = aimed_share * tolerance;
-  ToleranceFitResult result = smooth;
-  result.settled = false;
-  std::vector<Vector3> best = net.positions;
-  double least_energy = std::numeric_limits<double>::infinity();
-  double least_greatest = std::numeric_limits<double>::infinity();
-  // The least energy some turns ago.
-  double before = least_energy;
-  result.within = false;
-  try {
-    for (int turn = 0; turn < most_turns_of_points; ++turn) {
-      const std::vector<double> distances = task.measure();
-      const double greatest = *std::max_element(distances.begin(), distances.end());
-      const bool within = greatest <= tolerance;
-      const double energy = within ? task.energy() : 0;
-      if (within ? energy < least_energy : !result.within && greatest < least_greatest) {
-        best = net.positions;
-        if (within) least_energy = energy;
-      }
-      least_greatest = std::min(least_greatest, greatest);
-      result.within = result.within || within;
-      if (turn % turns_per_look == turns_per_look - 1) {
-        if (result.within && least_energy > (1 - settled_share) * before) {
-          result.settled = true;
-          break;
-        }
-        if (!result.within && turn + 1 >= hopeless_turns) break;
-        before = least_energy;
-      }
-      // All together by as much as the furthest asks: so shapes on the way stay about within, once one has been.
-      const double all =
-          result.within ? std::pow(std::clamp(greatest / aim, 1 / greatest_step, greatest_step), pace_of_all) : 1;
-      const double power = result.within ? pace : 1;
-      for (std::size_t k = 0; k < weights.size(); ++k) {
-        const double share = std::clamp(distances[points.numbers[k]] / aim, 1 / greatest_step, greatest_step);
-        const double change = all * std::pow(share, power);
-        points.weights[k] =
-            std::clamp(points.weights[k] * change, least_point_weight * weights[k], most_weight * weights[k]);
-      }
-      (void)task.update(false);
-      if (task.ended()) break;
-    }
-  } catch (const Cancelled&) {
-    // The best so far stays.
-  }
-  points.weights = weights;
-  net.positions = best;
   return result;
 }
 

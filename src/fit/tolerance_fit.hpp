@@ -43,10 +43,4 @@ struct ToleranceFitResult {
 ToleranceFitResult smooth_within(const ToleranceFitTask& task, double tolerance,
                                  const std::function<double(const std::vector<double>&)>& tolerated);
 
-/// Where interior_fit.hpp finds nothing. From there, points inside the distance come to pull
-/// at less and less, others just enough: each counts by a power of its distance over the tolerance more than the turn
-/// before (C. L. Lawson's algorithm; J. R. Rice, K. H. Usow, "The Lawson algorithm and extensions", Math. Comp. 22,
-/// 1968). Of all shapes on the way that are within, the one of least energy is left in the net.
-ToleranceFitResult hold_within(const ToleranceFitTask& task, double tolerance, ToleranceFitResult smooth);
-
 }  // namespace vspring

@@ -42,8 +42,9 @@ std::optional<Warning> difference_from_asked(const Attempt& found, const FairOpt
       return Warning{WarningCode::other_springs, "sphere springs have no equilibrium here: these are edge springs"};
   }
   if (options.fair_by == FairBy::curvature && found.fair_by == FairBy::bending)
-    return Warning{WarningCode::other_fairness,
-                   "no shape whose curvature changes evenly was found: this is the nearest of least bending"};
+    return Warning{
+        WarningCode::other_fairness,
+        "no shape whose curvature changes evenly was found: this is the nearest of least bending" + found.kept};
   return std::nullopt;
 }
 

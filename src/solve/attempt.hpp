@@ -19,6 +19,7 @@ struct Attempt {
   double bending = 0;           ///< ∫ κ₁² + κ₂² dA (BendingEnergy), where none is final
   std::vector<Vector3> places;  ///< of the moving nodes, in the net's coordinates; none where it is final
   std::string fault;            ///< what is worse about it than about the start, in words; empty where nothing is
+  std::string kept;             ///< see words_of_kept()
   bool is_misplaced = false;    ///< some node is nowhere, or far out; looked at where it does not stand
 
   /// Whether it is an equilibrium, and no worse than the start.

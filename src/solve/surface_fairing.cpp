@@ -254,13 +254,26 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   if (const Attempt* const best = bent_least(attempts, at_first))
     std::copy(best->places.begin(), best->places.end(), net.positions.begin());
   Attempt bent_less = bend_less(relaxation, constraints, call);
-  if (!bent_less.is_final()) {
-    hierarchy_->start_from_membrane(relaxation.last());
-    attempts.push_back(bend_less(relaxation, constraints, call));
-    if (attempts.back().is_final()) return;
+  const auto is_settled = [&](const Attempt& one) {
+    return one.is_final() && one.kept.empty() && one.expected_error < call.method.tolerance;
+  };
+  if (is_settled(bent_less)) {
+    attempts.push_back(std::move(bent_less));
+    return;
   }
+  // It may have ended in a crease of the input.
+  keep_places(bent_less);
+  hierarchy_->start_from_membrane(relaxation.last());
+  attempts.push_back(bend_less(relaxation, constraints, call));
+  keep_places(attempts.back());
   // Where none is sound, that is nearer to the input.
   attempts.push_back(std::move(bent_less));
+  measure_bending(attempts);
+  Attempt& last = attempts.back();
+  Attempt& from_membrane = attempts[attempts.size() - 2];
+  if (is_settled(from_membrane) ||
+      (from_membrane.is_final() && (!last.is_final() || from_membrane.bending < last.bending)))
+    std::swap(from_membrane, last);
 }
 
 void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints& constraints,
@@ -301,6 +314,7 @@ Attempt SurfaceFairing::attempt(const Constraints& constraints, const Equilibriu
   // A limit that nobody gave.
   if (result.outcome == Outcome::iteration_limit && !call.method.max_iterations) result.outcome = Outcome::work_limit;
   result.expected_error = call.report.expected_error.value_or(1);
+  result.kept = words_of_kept(call.report);
   const bool was_cancelled = result.outcome == Outcome::cancelled;
   if (was_cancelled && net.positions == start_places(net, input().positions(), constraints)) return result;
   call.progress.report("checking", 0.5);

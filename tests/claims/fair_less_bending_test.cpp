@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "support/surfaces.hpp"
@@ -42,6 +44,23 @@ TEST(FairLessBending, ATubeWithoutAnEquilibriumBecomesOneOfLeastBending) {
     alone.method = EquilibriumMethod{.fallbacks = false};
     EXPECT_NE(fair(tube, held_boundary(tube), alone).report.outcome, Outcome::converged);
   }
+}
+
+TEST(FairLessBending, WhereFacesWouldTurnOverNodesStay) {
+  // Few columns: the least shape is folded.
+  const PolygonMesh tube =
+      generate::add_noise(generate::tube({.columns = 7, .rows = 8, .faces = Faces::triangles}, 1, 4), 0.3, 2);
+  const FairResult result = fair(tube, held_boundary(tube));
+  EXPECT_EQ(result.report.outcome, Outcome::converged);
+  EXPECT_EQ(result.report.fair_by, FairBy::bending);
+  EXPECT_GT(result.report.levels.back().kept_nodes, 0);
+  EXPECT_LT(result.report.levels.back().kept_nodes, result.report.moving_nodes);
+  EXPECT_LE(measure_surface(with_positions(tube, result.positions)).flipped_faces, measure_surface(tube).flipped_faces);
+  EXPECT_LT(bending(tube, result.positions), 0.8 * bending(tube, tube.positions()));
+  const auto& warnings = result.report.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
+    return warning.code == WarningCode::other_fairness && warning.text.find("nodes stay") != std::string::npos;
+  }));
 }
 
 TEST(FairLessBending, FromAMembraneWhatNoiseHasCrumpledIsForgotten) {

@@ -246,6 +246,23 @@ TEST(FitWithin, PullsHardWhereNoUniformWeightIsWithin) {
   EXPECT_EQ(best_of_weights(plane, 0.006), std::numeric_limits<double>::infinity());
 }
 
+TEST(FitWithin, AnInputWithinStaysWithin) {
+  // Between rims that are free to turn springs make of a tube something else.
+  constexpr int columns = 25;
+  const PolygonMesh tube = generate::tube({.columns = columns, .rows = 27}, 1, 4);
+  ScatteredPoints points;
+  for (int k = 0; k < 2000; ++k) {
+    const double around = k * (std::sqrt(5) - 1) * std::numbers::pi;
+    points.positions.emplace_back(std::cos(around), std::sin(around), 0.1 + 3.8 * k / 2000);
+  }
+  Constraints held(tube.node_count());
+  fix_boundary_positions(held, tube);
+  const double tolerance = 1.2 * (1 - std::cos(std::numbers::pi / columns));
+  const FitResult result = fit(tube, held, points, within(tolerance));
+  EXPECT_LE(result.report.before.all.greatest, tolerance);
+  EXPECT_LE(result.report.after.all.greatest, tolerance);
+}
+
 TEST(FitWithin, AWideToleranceLeavesPlainFairing) {
   const NoisyWave wave(60);
   const FitResult result = wave.fit(within(0.2));

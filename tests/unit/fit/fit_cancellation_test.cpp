@@ -254,7 +254,6 @@ TEST(CancelledFit, KeepsTheBestWithinATolerance) {
   using Fit = std::function<ToleranceFitResult(const ToleranceFitTask&)>;
   const Fit fits[] = {
       [&](const ToleranceFitTask& task) { return smooth_within(task, BrokenOff::tolerance, greatest); },
-      [](const ToleranceFitTask& task) { return hold_within(task, BrokenOff::tolerance, {.length = 1}); },
       [](const ToleranceFitTask& task) { return hold_between(task, BrokenOff::tolerance, {.length = 1}); }};
   for (const Fit& fit : fits) {
     BrokenOff one;

@@ -11,15 +11,9 @@ inline constexpr int exit_unusable = 2;
 inline constexpr int exit_not_converged = 3;
 inline constexpr int exit_interrupted = 130;
 
-[[nodiscard]] inline int exit_status(Outcome outcome) noexcept {
-  switch (outcome) {
-    case Outcome::converged:
-      return exit_converged;
-    case Outcome::cancelled:
-      return exit_interrupted;
-    default:
-      return exit_not_converged;
-  }
+[[nodiscard]] inline int exit_status(const FairReport& report) noexcept {
+  if (report.usable()) return exit_converged;
+  return report.outcome == Outcome::cancelled ? exit_interrupted : exit_not_converged;
 }
 
 }  // namespace vspring::cli

@@ -121,7 +121,7 @@ int Fairing::finish(const Faired<Shape>& faired, std::vector<std::string> warnin
           summary(report, fairness, size_of_moving(faired.before, faired.constraints), arguments_->options, messages_) +
           made.lines))
     throw Error(ErrorCode::unusable_file, "standard output: takes no more; the shape is written nonetheless");
-  return context_.cancelled() ? exit_interrupted : exit_status(report.outcome);
+  return context_.cancelled() ? exit_interrupted : exit_status(report);
 }
 
 template int Fairing::finish(const Faired<PolygonMesh>&, std::vector<std::string>, const Made&);

@@ -42,9 +42,10 @@ py::tuple fill_surface(const PolygonMesh& mesh, const py::dict& given, py::objec
   FilledHoles filled = run([&](Context& context) { return fill_holes(mesh, options, context); });
   py::list holes;
   for (const Hole& hole : filled.holes) holes.append(fields_of(hole));
+  py::dict report = report_of(filled.report);
+  report["usable"] = filled.usable();
   return py::make_tuple(array_of(std::move(filled.positions)), array_of(filled.mesh.corners()),
-                        array_of(filled.mesh.face_begin()), std::move(holes), report_of(filled.report),
-                        run.stopped_by());
+                        array_of(filled.mesh.face_begin()), std::move(holes), std::move(report), run.stopped_by());
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ py::object distances_of(const PointDistances& distances) {
 py::dict report_of(const FairReport& report) {
   py::dict fields;
   fields["outcome"] = name(report.outcome);
+  fields["usable"] = report.usable();
   fields["method"] = name(report.method);
   fields["springs"] = name(report.springs);
   fields["fair_by"] = name(report.fair_by);

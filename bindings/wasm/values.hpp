@@ -90,6 +90,7 @@ inline void ask(Context& context, const val& progress) {
 inline val outcome_of(const FairReport& report) {
   val result = val::object();
   result.set("outcome", std::string(name(report.outcome)));
+  result.set("usable", report.usable());
   result.set("iterations", report.iterations);
   result.set("seconds", report.seconds);
   result.set("threads", report.threads);

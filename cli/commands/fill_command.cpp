@@ -146,8 +146,7 @@ int run_fill(FillArguments arguments) {
   const int status = fairing.finish<PolygonMesh>(
       {filled.mesh, after, filled.constraints(), filled.report}, welding.with_warnings(std::move(warnings)),
       {.write = write, .picture = {}, .figures = std::move(figures), .lines = welding.lines() + hole_lines(filled)});
-  const bool any_left = std::ranges::find(filled.holes, HoleState::unfillable, &Hole::state) != filled.holes.end();
-  return status == exit_converged && any_left ? exit_not_converged : status;
+  return status == exit_converged && !filled.usable() ? exit_not_converged : status;
 }
 
 void add_hole_options(CLI::App& command, FillArguments& arguments) {

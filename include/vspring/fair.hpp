@@ -193,6 +193,12 @@ struct FairReport {
   /// With FairOptions::fair_boundary: the report of the boundary's own fairing.
   std::shared_ptr<const FairReport> boundary;
   std::vector<Warning> warnings;
+
+  /// Whether the positions are an answer to what was asked, for which the command line's exit status is 0: where the
+  /// outcome is `converged`. Warnings tell what was taken in place of something that was asked for. Else positions are
+  /// finite and obey what is held, too, but somebody has to look at them: a shape on the way (`iteration_limit`,
+  /// `work_limit`, `stalled`, `cancelled`), or one in place of a worse one, such as the input (`worse_than_input`).
+  [[nodiscard]] bool usable() const noexcept { return outcome == Outcome::converged; }
 };
 
 struct FairResult {

@@ -102,6 +102,9 @@ struct FilledHoles {
   /// cannot be filled and of patches that cross other faces.
   FairReport report;
 
+  /// Whether report.usable(), and no hole that was to be filled is left open, as HoleState::unfillable.
+  [[nodiscard]] bool usable() const noexcept;
+
   /// Which nodes moved in fairing: all new ones.
   [[nodiscard]] Constraints constraints() const;
 };

@@ -105,6 +105,11 @@ void FillOptions::validate() const {
     throw Error(ErrorCode::invalid_argument, fmt::format("most_edges is {}, but has to be 3 or more", *most_edges));
 }
 
+bool FilledHoles::usable() const noexcept {
+  return report.usable() &&
+         std::none_of(holes.begin(), holes.end(), [](const Hole& hole) { return hole.state == HoleState::unfillable; });
+}
+
 Constraints FilledHoles::constraints() const {
   Constraints result(mesh.node_count());
   std::vector<Index> moving;

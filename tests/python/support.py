@@ -60,12 +60,13 @@ class Case(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def by_command_line(self, command, vertices, faces=None, *options):
-        """The nodes that the program comes to."""
+        """The nodes that the program comes to; its exit status is in self.status."""
         given, fair = self.folder / "given.obj", self.folder / "fair.obj"
         write_obj(given, vertices, faces)
         done = subprocess.run([BUILD / "vspring", command, given, "-o", fair, "--quiet", *map(str, options)], capture_output=True,
                               text=True)
         self.assertIn(done.returncode, (0, 3), done.stderr)
+        self.status = done.returncode
         return nodes_of_obj(fair)
 
     def assert_same_bits(self, left, right):

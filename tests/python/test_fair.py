@@ -9,6 +9,7 @@ from support import Case, boundary_of, patch, vspring, wave
 class SameAsTheCommandLine(Case):
     def test_surface(self):
         vertices, quads = patch()
+        statuses = set()
         triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
         for options, flags in [({}, []),
                                ({"fix_normals": "boundary"}, ["--fix-normals", "boundary"]),
@@ -24,8 +25,11 @@ class SameAsTheCommandLine(Case):
             for faces in (quads, triangles):
                 with self.subTest(options=options, faces=faces.shape), warnings.catch_warnings():
                     warnings.simplefilter("ignore")
-                    self.assert_same_bits(vspring.fair(vertices, faces, **options).positions,
-                                          self.by_command_line("fair", vertices, faces, *flags))
+                    positions, report = vspring.fair(vertices, faces, **options)
+                    self.assert_same_bits(positions, self.by_command_line("fair", vertices, faces, *flags))
+                    self.assertEqual(report.usable, self.status == 0)
+                    statuses.add(self.status)
+        self.assertEqual(statuses, {0, 3})
 
     def test_boundary_that_is_faired_first(self):
         vertices, faces = patch()

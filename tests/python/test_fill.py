@@ -3,7 +3,7 @@ import unittest
 import warnings
 
 import numpy as np
-from support import Case, vspring
+from support import Case, patch, vspring
 
 
 def sphere(rows=16, columns=32, first=2):
@@ -46,6 +46,15 @@ class Fills(Case):
         flat = vspring.fill(vertices, faces, flat=True)
         self.assertGreater(np.abs(np.linalg.norm(flat.vertices, axis=1) - 1).max(), 0.01)
         self.assertEqual([hole.outcome for hole in flat.holes], [None, None])
+
+    def test_what_cannot_be_filled_is_not_usable(self):
+        vertices, faces = patch(noise=0)
+        vertices[:, 2] = 0
+        with self.assertWarns(vspring.Warning):
+            filled = vspring.fill(vertices, faces, outer_rims=True)
+        self.assertEqual([hole.state for hole in filled.holes], ["unfillable"])
+        self.assertEqual((filled.report.outcome, filled.report.usable), ("converged", False))
+        self.assertTrue(vspring.fill(*sphere()).report.usable)
 
     def test_triangles_stay_an_array_and_what_cannot_be_is_refused(self):
         vertices, faces = sphere()

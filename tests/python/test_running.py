@@ -59,7 +59,7 @@ class TimeLimit(Case):
     def test_ends_with_the_best_so_far(self):
         with self.assertWarnsRegex(vspring.Warning, "time limit of 0.2 s"):
             positions, report = vspring.fair_curve(wave(), time_limit=0.2, **ENDLESS)
-        self.assertEqual((report.outcome, report.converged), ("work-limit", False))
+        self.assertEqual((report.outcome, report.converged, report.usable), ("work-limit", False, False))
         self.assertEqual(report.warnings[-1].code, "time-limit")
         self.assertLess(report.iterations, ENDLESS["max_iterations"])
         self.assertTrue(np.isfinite(positions).all())
@@ -67,7 +67,7 @@ class TimeLimit(Case):
     def test_one_that_is_not_reached_changes_nothing(self):
         curve = wave()
         positions, report = vspring.fair_curve(curve, time_limit=1e6)
-        self.assertEqual((report.outcome, report.warnings), ("converged", ()))
+        self.assertEqual((report.outcome, report.usable, report.warnings), ("converged", True, ()))
         self.assert_same_bits(positions, vspring.fair_curve(curve).positions)
         with self.assertRaisesRegex(vspring.Error, "time_limit: seconds, more than 0"):
             vspring.fair_curve(curve, time_limit=0)
@@ -75,7 +75,7 @@ class TimeLimit(Case):
 
 class Ended(Case):
     def assert_best_so_far(self, ended, curve):
-        self.assertEqual(ended.report.outcome, "cancelled")
+        self.assertEqual((ended.report.outcome, ended.report.usable), ("cancelled", False))
         self.assert_same_bits(ended.positions[[0, -1]], curve[[0, -1]])
         inflections = vspring.measure(ended.positions)["curvature_extrema"].value
         self.assertLess(inflections, vspring.measure(curve)["curvature_extrema"].value)

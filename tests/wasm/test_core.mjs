@@ -69,7 +69,7 @@ for (const [what, ...options] of [
     const expected = JSON.parse(readFileSync(join(folder, 'report.json'), 'utf8'));
     const surface = opened(path, what);
     const report = surface.fair(null);
-    assert.equal(report.outcome, 'converged');
+    assert.deepEqual([report.outcome, report.usable], ['converged', true]);
     assert.equal(expected.outcome, 'converged');
     assert.equal(report.movingNodes, expected.moving_nodes);
     const result = opened(fair, what);
@@ -229,7 +229,7 @@ test('hundreds of shapes that are opened, faired, dragged and deleted leave no m
 test('ends soon when asked to, with a shape', () => {
   const surface = opened(generated('cancel.obj', 'annulus', '--nodes', '6000', '--noise', '0.02'), 'cancel.obj');
   const report = surface.fair((fraction) => fraction > 0);
-  assert.equal(report.outcome, 'cancelled');
+  assert.deepEqual([report.outcome, report.usable], ['cancelled', false]);
   assert.ok(surface.positions().every(Number.isFinite));
   assert.equal(surface.fair(null).outcome, 'converged');
   surface.delete();

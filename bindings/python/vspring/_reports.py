@@ -26,6 +26,9 @@ class Report:
 
     outcome: str
     """"converged", "iteration-limit", "work-limit", "stalled", "worse-than-input" or "cancelled"."""
+    usable: bool
+    """Whether the shape is an answer to what was asked, as with exit status 0 of the command line: it converged, and no
+    hole that was to be filled is left open. Else it is a shape on the way, or the input in place of a worse one."""
     method: str
     """"equilibrium", "multigrid" or "sweep"."""
     springs: str

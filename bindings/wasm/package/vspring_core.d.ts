@@ -21,6 +21,8 @@ declare namespace vspringCore {
   /** How a run ended. */
   interface Report {
     outcome: string;
+    /** Whether the shape is an answer to what was asked, as with exit status 0 of the program; else it is one on the way, or the input. */
+    usable: boolean;
     iterations: number;
     seconds: number;
     threads: number;

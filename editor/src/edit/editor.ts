@@ -37,7 +37,7 @@ export interface EditorEvents {
   changed: () => void;
 }
 
-const cancelled: Report = { outcome: 'cancelled', iterations: 0, seconds: 0, threads: 1, expectedError: null, movingNodes: 0, warnings: [] };
+const cancelled: Report = { outcome: 'cancelled', usable: false, iterations: 0, seconds: 0, threads: 1, expectedError: null, movingNodes: 0, warnings: [] };
 /** What a shape was opened from: a file, or places that were clicked. */
 export type Source = NamedBytes | Ask<'draw'>;
 

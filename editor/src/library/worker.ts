@@ -19,7 +19,7 @@ let ended: Int32Array | null = null;
 const fits = new Fits();
 
 /** Of a shape that nobody has looked at. */
-const rough: Report = { outcome: 'foreseen', iterations: 0, seconds: 0, threads: 1, expectedError: null, movingNodes: 0, warnings: [] };
+const rough: Report = { outcome: 'foreseen', usable: false, iterations: 0, seconds: 0, threads: 1, expectedError: null, movingNodes: 0, warnings: [] };
 
 type Progress = (fraction: number) => boolean;
 type Handlers = { [K in Kind]: (ask: Ask<K>, progress: Progress) => Answer<K> };

@@ -21,4 +21,5 @@ await build({ ...options, entryPoints: ['src/main.ts', 'src/style.css'], outdir:
 await build({ ...options, entryPoints: ['src/library/worker.ts'], outdir: out, format: 'iife' });
 for (const path of [...core, join(root, 'editor/src/index.html')]) cpSync(path, join(out, path.split('/').at(-1)));
 for (const licence of ['three/LICENSE', 'idb-keyval/LICENCE', 'meshoptimizer/LICENSE.md']) cpSync(join(root, 'editor/node_modules', licence), join(out, 'licences', `${dirname(licence)}.txt`));
-cpSync(join(root, 'examples'), join(out, 'examples'), { recursive: true });
+// Shapes and rules; programs stay.
+cpSync(join(root, 'examples'), join(out, 'examples'), { recursive: true, filter: (path) => !/[/](cpp|python|js|gallery[.]py|README[.]md)$/.test(path) });

@@ -16,7 +16,7 @@ from support import PROGRAM, Case, run
 from test_tracks import gpx, track
 
 ROOT = pathlib.Path(__file__).parents[2]
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+DOCUMENTS = [ROOT / "README.md", ROOT / "examples/README.md", *sorted((ROOT / "docs").glob("*.md"))]
 # Notes are a record: their commands may be of earlier versions.
 LINKED = [*DOCUMENTS, *sorted((ROOT / "docs/notes").glob("*.md"))]
 PROGRAMS = ("vspring ", "build/release/vspring ")

@@ -5,8 +5,8 @@ import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
 
-const root = new URL('../../', import.meta.url).pathname;
-const program = process.env.VSPRING ?? join(root, 'build/release/vspring');
+export const root = new URL('../../', import.meta.url).pathname;
+export const program = process.env.VSPRING ?? join(root, 'build/release/vspring');
 
 export const rules = JSON.stringify({ rules: [{ nodes: 'boundary', position: 'fixed', normal: 'fixed' }] });
 

@@ -177,6 +177,9 @@ class Docs(Case):
         said = done.stderr.decode()
         self.assertEqual(done.returncode, 3 if "status 3" in line else 0, said)
         self.assertNotIn("has no effect", said)
+        for option, picture in itertools.pairwise(shlex.split(line, comments=True)):
+            if option == "--picture":
+                self.assertGreater((self.folder / picture).stat().st_size, 0, picture)
 
     def test_every_command_runs(self):
         for document in DOCUMENTS:
@@ -191,6 +194,20 @@ class Docs(Case):
                         continue
                     with self.subTest(document=document.name, line=line):
                         self.run_line(line, document.name)
+
+    def test_the_gallery_shows_what_its_commands_draw_for_anybody(self):
+        text = (ROOT / "docs/gallery.md").read_text()
+        lines = [line for block in commands(text) for line in block]
+        pictures = re.findall(r"^!\[.+\]\(pictures/(.+)\)$", text, re.MULTILINE)
+        self.assertEqual([picture.removeprefix("gallery-") for picture in pictures], [re.search(r"--picture (\S+)", line)[1] for line in lines])
+        self.assertEqual(len(lines), 12)
+        for line, picture in zip(lines, pictures):
+            self.assertEqual(set(shlex.split(line)) & set(STAND_INS), set(), "files that nobody has")
+            self.assertLess((ROOT / "docs/pictures" / picture).stat().st_size, 100_000, picture)
+
+    def test_every_header_is_listed(self):
+        linked = re.findall(r"\(\.\./(include/vspring/\w+\.hpp)\)", (ROOT / "docs/cpp.md").read_text())
+        self.assertEqual(sorted(linked), sorted(str(path.relative_to(ROOT)) for path in (ROOT / "include/vspring").iterdir()))
 
     def test_options_that_are_named_are_options(self):
         known = {}

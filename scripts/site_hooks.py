@@ -15,6 +15,11 @@ def on_page_markdown(markdown, **_):
                   lambda link: f"]({link[1]}cpp/{link[2].replace('_', '__')}_8hpp.html)", markdown)
 
 
+def on_page_content(html, **_):
+    # A bar in the code of a table is escaped, and Python-Markdown shows how.
+    return re.sub(r"<td.*?</td>", lambda cell: cell[0].replace("\\|", "|"), html, flags=re.DOTALL)
+
+
 def on_nav(nav, files, **_):
     reached = {page.file.src_uri for page in nav.pages} | {"README.md"}
     nav.homepage = files.get_file_from_path("README.md").page

@@ -69,6 +69,11 @@ class Web(Case):
         self.assertEqual(json.loads((installed / "package.json").read_text())["version"], VERSION)
         self.assertIn("converged", self.call("node", installed / "example/fair.mjs", self.hat(), "fair.ply"))
         self.assertTrue((self.folder / "fair.ply").read_bytes().startswith(b"ply"))
+        (block,) = re.findall(r"^```js\n(.*?)^```$", (ROOT / "docs/quick-start.md").read_text(), re.MULTILINE | re.DOTALL)
+        (self.folder / "quick-start.mjs").write_text(block)
+        (self.folder / "examples").symlink_to(ROOT / "examples")
+        self.assertEqual(self.call("node", "quick-start.mjs"), "converged\n")
+        self.assertTrue((self.folder / "blend.obj").exists())
         self.call("node", "-e", "require('vspring/threads')({threads: 2}).then((core) => core.PThread.terminateAllThreads())")
 
         # Types: every class has the calls that it says, and a program in TypeScript is checked by them.

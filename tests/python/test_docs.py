@@ -48,6 +48,13 @@ class Examples(Case):
         self.assertEqual(self.run_blocks((ROOT / "docs/python.md").read_text(), "python.md"), 8)
         self.assertTrue((self.folder / "fair.ply").exists())
 
+    def test_quick_start(self):
+        (block,) = re.findall(r"^```python\n(.*?)^```$", (ROOT / "docs/quick-start.md").read_text(), re.MULTILINE | re.DOTALL)
+        with contextlib.redirect_stdout(io.StringIO()) as told:
+            exec(compile(block, "quick-start.md", "exec"), {})
+        self.assertIn("converged", told.getvalue())
+        self.assertEqual(len(vspring.read("blend.obj").vertices), len(vspring.read("examples/pipe-blend.obj").vertices))
+
     def test_tasks(self):
         self.assertEqual(self.run_blocks((ROOT / "docs/python-tasks.md").read_text(), "python-tasks.md"), 6)
         self.assertEqual(len(vspring.read("hornless.obj").vertices), len(vspring.read("examples/spot.obj").vertices))

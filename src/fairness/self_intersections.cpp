@@ -283,16 +283,17 @@ std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh,
   return face_pairs(mesh, unlimited, context, team);
 }
 
-std::size_t count_self_intersections(const PolygonMesh& mesh, const Context& context, ThreadTeam& team) {
+std::size_t count_self_intersections(const PolygonMesh& mesh, const Context& context, ThreadTeam& team,
+                                     std::size_t most) {
   std::size_t sides = 3;
   for (Index f = 0; f < mesh.face_count(); ++f) sides = std::max(sides, mesh.face(f).size());
   // Two faces have so many pairs of triangles at most: with that many times as many pairs there are enough of faces,
   // whichever triangles were found first.
   const std::size_t of_two_faces = (sides - 2) * (sides - 2);
-  const std::size_t most = most_counted_crossings * of_two_faces;
-  const std::size_t count =
-      sides == 3 ? crossings<PairCount>(mesh, most, context, team).count : face_pairs(mesh, most, context, team).size();
-  return std::min(count, most_counted_crossings);
+  const std::size_t of_triangles = most * of_two_faces;
+  const std::size_t count = sides == 3 ? crossings<PairCount>(mesh, of_triangles, context, team).count
+                                       : face_pairs(mesh, of_triangles, context, team).size();
+  return std::min(count, most);
 }
 
 std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh, const Context& context) {

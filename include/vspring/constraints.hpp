@@ -27,43 +27,44 @@ class Constraints {
 
   [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(flags_.size()); }
 
-  /// The node stays at `position`, in units of the shape. Whether it is finite is checked by check_constraints(), where
-  /// a moving node depends on it.
+  /// Holds the node at `position`, in units of the shape. check_constraints() refuses a position that is not finite
+  /// where a moving node depends on it.
   void fix_position(Index node, const Vector3& position);
   void free_position(Index node);
   [[nodiscard]] bool position_fixed(Index node) const { return (flags_[at(node)] & position_flag) != 0; }
   /// Meaningful where position_fixed().
   [[nodiscard]] const Vector3& position(Index node) const { return positions_.of(at(node)); }
 
-  /// Gives the node a normal. Any length but zero; its sense does not matter. Throws Error(unusable_constraint) naming
-  /// the node when it is zero or not finite.
+  /// Gives the node a normal of any length but zero; either sense will do. Throws Error(unusable_constraint) naming the
+  /// node when it is zero or not finite.
   void fix_normal(Index node, const Vector3& normal);
   void free_normal(Index node);
   [[nodiscard]] bool normal_fixed(Index node) const { return (flags_[at(node)] & normal_flag) != 0; }
   /// Unit length; meaningful where normal_fixed().
   [[nodiscard]] const Vector3& normal(Index node) const { return normals_.of(at(node)); }
 
-  /// Curves: gives the node a tangent, in the direction in which the curve runs; it is no corner then. Any length but
-  /// zero. Throws Error(unusable_constraint) naming the node when it is zero or not finite.
+  /// Curves: gives the node a tangent of any length but zero, in the direction in which the curve runs. The node stops
+  /// being a corner. Throws Error(unusable_constraint) naming the node when it is zero or not finite.
   void fix_tangent(Index node, const Vector3& tangent);
-  /// Also those of the sides of a corner, which stays one.
+  /// Frees the node's tangent, at a corner those of both sides. A corner stays a corner.
   void free_tangent(Index node);
   [[nodiscard]] bool tangent_fixed(Index node) const { return (flags_[at(node)] & tangent_flag) != 0; }
   /// Unit length; meaningful where tangent_fixed().
   [[nodiscard]] const Vector3& tangent(Index node) const { return tangents_.of(at(node)); }
 
-  /// Curves: the node is a corner, at which direction and curvature may jump, as of FairOptions::corners: in place of
-  /// one tangent, each side may have one. A corner has a chain on both sides.
+  /// Curves: makes the node a corner, as FairOptions::corners does: direction and curvature may jump there, and each
+  /// side may have its own tangent. The node must lie inside a chain.
   void make_corner(Index node);
-  /// Nor have its sides tangents then.
+  /// Makes the node an ordinary one; tangents of its sides are freed.
   void free_corner(Index node);
   [[nodiscard]] bool corner(Index node) const { return (flags_[at(node)] & corner_flag) != 0; }
   [[nodiscard]] Index corner_count() const noexcept { return corner_count_; }
 
-  /// Makes the node a corner that the curve arrives at, or leaves, in this direction. Throws as for both sides.
+  /// Makes the node a corner and gives one side its tangent: the direction in which the curve arrives (before) or
+  /// leaves (after). Throws as fix_tangent() for both sides does.
   void fix_tangent(Index node, const Vector3& tangent, NodeSide side);
   void free_tangent(Index node, NodeSide side) { flags_[at(node)] &= static_cast<std::uint8_t>(~flag_of(side)); }
-  /// Its own, or that of both.
+  /// Whether this side has a tangent, of its own or that of both sides.
   [[nodiscard]] bool tangent_fixed(Index node, NodeSide side) const {
     return (flags_[at(node)] & (tangent_flag | flag_of(side))) != 0;
   }
@@ -72,9 +73,9 @@ class Constraints {
     return tangent_fixed(node) || side == NodeSide::before ? tangent(node) : tangents_after_.of(at(node));
   }
 
-  /// Nodes behind the others, all free.
+  /// Appends free nodes.
   void add_nodes(Index count);
-  /// All that another one, or this one, says of its node `of` is said of this node, and nothing else.
+  /// Gives `node` exactly what `other`, which may be this object, says of its node `of`.
   void hold_as(Index node, const Constraints& other, Index of);
 
  private:
@@ -93,7 +94,7 @@ class Constraints {
   /// A vector for some of the nodes: most have no constraint of most kinds.
   class Vectors {
    public:
-    /// Zero where there is none.
+    /// Zero for a node without a vector.
     [[nodiscard]] const Vector3& of(std::size_t node) const;
     void set(std::size_t node, std::size_t node_count, const Vector3& value);
 
@@ -120,27 +121,27 @@ void fix_boundary_normals(Constraints& constraints, const PolygonMesh& mesh);
 /// Gives the end nodes the tangents of the curve there, by estimate_tangents(). Cost: linear.
 void fix_boundary_tangents(Constraints& constraints, const PolygonCurve& curve);
 
-/// The normals of a mesh at some of its nodes, in the sense of the faces: from a least-squares fit of e·N = c|e|² + a
-/// quadratic form without trace over the nodes e around. Exact on spheres and planes, of second order in the spacing
-/// elsewhere, also at boundaries.
+/// Estimates the normals of a mesh at some of its nodes, in the sense of the faces. Each comes from a least-squares fit
+/// of e·N = c|e|² + a quadratic form without trace, over the edges e to the nodes around. Exact on spheres and planes,
+/// of second order in the spacing elsewhere, also at boundaries.
 ///
-/// nodes: where. usable_face: one entry per face, 0 for faces that must not be looked at; empty for all. Returns one
-/// unit vector per entry of nodes; zero where no usable face touches the node. Cost: linear preparation, then
-/// proportional to the nodes asked for.
+/// nodes: where. usable_face: one entry per face, 0 for a face to leave out; empty: use all. Returns one unit vector
+/// per entry of nodes; zero where no usable face touches the node. Cost: linear preparation, then proportional to the
+/// nodes asked for.
 [[nodiscard]] std::vector<Vector3> estimate_normals(const PolygonMesh& mesh, std::span<const Index> nodes,
                                                     std::span<const std::uint8_t> usable_face = {});
 
-/// The tangents of a curve at some of its nodes: those of the circle through the node and its neighbours (at ends the
-/// next two nodes), or of the edge where there is no third node. Exact on circles, of second order in the spacing
+/// Estimates the tangents of a curve at some of its nodes: of the circle through the node and its neighbours (at an end
+/// the next two nodes), or of the edge where there is no third node. Exact on circles, of second order in the spacing
 /// elsewhere.
 ///
-/// nodes: where. usable_node: one entry per node, 0 for nodes that must not be looked at; empty for all. Returns one
-/// unit vector per entry of nodes, along the first chain that has the node; zero where no edge gives a direction. Cost:
-/// linear.
+/// nodes: where. usable_node: one entry per node, 0 for a node to leave out; empty: use all. Returns one unit vector
+/// per entry of nodes, along the first chain that has the node; zero where no edge gives a direction. Cost: linear.
 [[nodiscard]] std::vector<Vector3> estimate_tangents(const PolygonCurve& curve, std::span<const Index> nodes,
                                                      std::span<const std::uint8_t> usable_node = {});
 
-/// The same of what is on one side of them: of the circles through each node and the next two there.
+/// Estimates tangents from one side of each node alone: of the circle through it and the next two nodes on that side.
+/// Returns and costs what estimate_tangents() without a side does.
 [[nodiscard]] std::vector<Vector3> estimate_tangents(const PolygonCurve& curve, std::span<const Index> nodes,
                                                      NodeSide side);
 
@@ -149,38 +150,40 @@ void fix_boundary_tangents(Constraints& constraints, const PolygonCurve& curve);
 /// Cost: linear.
 [[nodiscard]] std::vector<Vector3> estimate_normals(const PolygonCurve& curve, std::span<const Index> nodes);
 
-/// Whether the curve, its fixed positions and its given directions lie in one plane, to 1e-9 of their extent. If so it
-/// stays there, and CurveRules::normal_plane makes no difference. False for a straight line. Coordinates that are not
-/// finite are left out. Throws Error(unusable_constraint) for constraints of fewer nodes. Cost: linear.
+/// Whether the curve, its fixed positions and its given directions lie in one plane, to 1e-9 of their extent. Then
+/// fairing keeps it in that plane, and CurveRules::normal_plane makes no difference. False for a straight line. Ignores
+/// coordinates that are not finite. Throws Error(unusable_constraint) for constraints of fewer nodes. Cost: linear.
 [[nodiscard]] bool lies_in_a_plane(const PolygonCurve& curve, const Constraints& constraints);
 
-/// Lets only the nodes of `region` move; all others are fixed at their present positions. What `constraints` says of
-/// nodes of the region stays.
+/// Fixes all nodes outside `region` at their present positions. Constraints on nodes of the region stay.
 ///
 /// The normals of the rim (fixed nodes next to moving ones) are computed in every iteration from all faces around them,
-/// so the faired patch meets the rest smoothly. Rim nodes at the boundary of the mesh, which have faces on one side
-/// only, get the tangent plane of the faces without a moving node, to second order; where there is none their normal is
-/// free, and the patch turns about them. Throws Error(unusable_constraint) naming a node out of range. Cost: linear.
+/// so the faired patch meets the rest smoothly. Rim nodes at the boundary of the mesh have faces on one side only: they
+/// get the tangent plane of the faces without a moving node, to second order. Where there is no such face the normal
+/// stays free, and the patch may turn about the node. Throws Error(unusable_constraint) naming a node out of range.
+/// Cost: linear.
 void restrict_to_region(Constraints& constraints, const PolygonMesh& mesh, std::span<const Index> region);
 
-/// The same for a curve: the rim gets the tangents of what lies outside.
+/// Fixes all nodes of a curve outside `region` at their present positions, and gives the rim the tangents of the part
+/// outside. Throws and costs what restrict_to_region() of a surface does.
 void restrict_to_region(Constraints& constraints, const PolygonCurve& curve, std::span<const Index> region);
 
 /// Checks that a surface can be faired under these constraints.
 ///
 /// Throws Error(unusable_constraint), with the reason and ways out, for a component with moving nodes that nothing
-/// holds, for a boundary loop of which fewer than three nodes are fixed, and for corners; Error(unusable_shape) where a
-/// face of a moving node has fewer than three nodes or a coordinate is not finite.
+/// holds, for a boundary loop with fewer than three fixed nodes, and for corners; Error(unusable_shape) where a face of
+/// a moving node has fewer than three nodes or a coordinate is not finite.
 ///
-/// Returns warnings: nodes that cannot move and are held (edges of more than two faces, faces in several
-/// fans, repeated nodes and faces); a closed surface held by so little that more than one sphere fits; boundary nodes
-/// that are free to be drawn in. Cost: linear.
+/// Returns warnings: of nodes that are held because they cannot move (edges of more than two faces, faces in several
+/// fans, repeated nodes and faces); of a closed surface held by so little that more than one sphere fits; of free
+/// boundary nodes, which will be drawn in. Cost: linear.
 std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraints& constraints);
 
-/// The same for a curve. Throws Error(unusable_constraint) for free ends, for closed chains of which nothing is held,
-/// and for corners with a normal, at ends and where chains meet; Error(unusable_shape) where a node that would have to
-/// move lies where chains meet, in a closed chain of fewer than three nodes, or at a coordinate that is not finite.
-/// Warns of closed chains held by so little that more than one circle fits. Cost: linear.
+/// Checks that a curve can be faired under these constraints. Throws Error(unusable_constraint) for free ends, for
+/// closed chains without a held node, and for corners that have a normal or lie at an end or where chains meet;
+/// Error(unusable_shape) for a moving node where chains meet, in a closed chain of fewer than three nodes, or with a
+/// coordinate that is not finite. Warns of closed chains held by so little that more than one circle fits. Cost:
+/// linear.
 std::vector<Warning> check_constraints(const PolygonCurve& curve, const Constraints& constraints);
 
 }  // namespace vspring

@@ -16,14 +16,14 @@ struct Progress {
   double residual = 0;     ///< the figure that the stopping test compares; 0 outside iterations
 };
 
-/// Progress, cancellation and threads of one call or of several. Every long loop of the library asks it.
-/// One context may serve calls one after the other, not at the same time.
+/// Progress, cancellation and threads of calls. Every long loop of the library asks its context. One context may serve
+/// several calls in turn, but not at the same time.
 class Context {
  public:
-  /// Called from the thread that made the call, at most some 20 times a second. May call cancel().
+  /// Called by the thread that made the call, at most about 20 times a second. May call cancel().
   std::function<void(const Progress&)> on_progress;
 
-  /// Threads to use; 0 takes all cores. Results are the same bits for every number.
+  /// Threads to use; 0: all cores. Results have the same bits for every number of threads.
   int threads = 0;
 
   /// Asks the running call to end soon with the best shape so far. Safe from other threads and from signal handlers.
@@ -32,7 +32,7 @@ class Context {
   /// Makes the context usable again after cancel().
   void reset() noexcept { cancelled_.store(false, std::memory_order_relaxed); }
 
-  /// threads, or the number of cores where it is 0; at least 1.
+  /// `threads`, or the number of cores if that is 0; at least 1.
   [[nodiscard]] int thread_count() const noexcept;
 
  private:

@@ -21,25 +21,25 @@ struct NodeCurvature {
   double k1_along_2 = 0;
   double k2_along_1 = 0;
   double k2_along_2 = 0;
-  /// Degree of the polynomial that the nodes around determine, 0 to 4. Below 3 the derivatives of curvature are zero,
-  /// below 2 also curvatures and their directions; at 0 the normal is zero or only estimated.
+  /// Degree of the polynomial that the nodes around determine, 0 to 4. Below 3 the derivatives of curvature are zero.
+  /// Below 2 the curvatures and their directions are zero too. At 0 the normal is zero or a rough estimate.
   int degree = 0;
 
   [[nodiscard]] double mean() const noexcept { return (k1 + k2) / 2; }
   [[nodiscard]] double gaussian() const noexcept { return k1 * k2; }
 };
 
-/// The curvatures of a surface, one entry per node: from a polynomial of fourth degree through the node that fits the
-/// nodes around by least squares (osculating jets: Cazals and Pouget 2005), over two to five rings of faces. On smooth
-/// surfaces of any meshing, also at boundaries, curvatures err with the third power of the spacing and their
-/// derivatives with the second. Never NaN: see NodeCurvature::degree. The same bits for every number of threads. Cost:
-/// linear, some microseconds per node. When cancelled, nodes not yet looked at have degree 0.
+/// Returns the curvatures of a surface, one entry per node. Each comes from a polynomial of fourth degree through the
+/// node, fitted by least squares to the nodes of two to five rings of faces around (osculating jets: Cazals and Pouget
+/// 2005). On smooth surfaces of any meshing, also at boundaries, the error of curvatures is of third order in the
+/// spacing, that of their derivatives of second. Never NaN: see NodeCurvature::degree. The same bits for every number
+/// of threads. Cost: linear, some microseconds per node. When cancelled, nodes not yet looked at have degree 0.
 [[nodiscard]] std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh, const Context& context);
 [[nodiscard]] std::vector<NodeCurvature> curvatures(const PolygonMesh& mesh);
 
-/// The curvature of a curve, one entry per node, 1/length, not negative: that of the circle through the node and its
-/// two neighbours. Zero at open ends and where there is no circle; where several chains run through a node, that of the
-/// last. On smooth curves of even spacing it errs with the square of the spacing. Cost: linear.
+/// Returns the curvature of a curve, one entry per node, 1/length, never negative: that of the circle through the node
+/// and its two neighbours. Zero at open ends and where there is no circle. Where several chains run through a node, the
+/// last one counts. On smooth curves of even spacing the error is of second order in the spacing. Cost: linear.
 [[nodiscard]] std::vector<double> curvatures(const PolygonCurve& curve);
 
 }  // namespace vspring

@@ -19,13 +19,14 @@ struct Distance {
   Index count = 0;
 };
 
-/// Between each node before and after. Throws Error(invalid_argument) unless there are as many of both. Cost: linear.
+/// Measures how far each node moved. before, after: one position per node. Throws Error(invalid_argument) if they
+/// differ in number. Cost: linear.
 [[nodiscard]] Distance node_distance(std::span<const Vector3> before, std::span<const Vector3> after);
 
-/// From every point to the nearest place on the polygons of a mesh, or on the edges of a curve, of any connectivity.
-/// There and back are not the same. Faces that are not flat are taken as triangles (docs/fairness.md). The same bits
-/// for every number of threads. Throws Error(unusable_shape) for a shape without a face (edge) of finite coordinates.
-/// Cost: n log n. When cancelled, only the points looked at so far count.
+/// Measures the distance of every point from the nearest place on the polygons of a mesh, or on the edges of a curve,
+/// of any connectivity. Faces that are not flat are split into triangles (docs/fairness.md). The same bits for every
+/// number of threads. Throws Error(unusable_shape) for a shape without a face (edge) of finite coordinates. Cost: n log
+/// n. When cancelled, only the points measured so far count.
 [[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonMesh& to_shape,
                                 const Context& context);
 [[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonMesh& to_shape);
@@ -33,8 +34,8 @@ struct Distance {
                                 const Context& context);
 [[nodiscard]] Distance distance(std::span<const Vector3> of_points, const PolygonCurve& to_shape);
 
-/// The distances of distance() one by one: an entry per point, zero for points that are not finite. Throws and costs as
-/// it does.
+/// Returns the distance of each point, as distance() measures it; zero for a point that is not finite. Throws and costs
+/// what distance() does.
 [[nodiscard]] std::vector<double> point_distances(std::span<const Vector3> of_points, const PolygonMesh& to_shape,
                                                   const Context& context);
 [[nodiscard]] std::vector<double> point_distances(std::span<const Vector3> of_points, const PolygonCurve& to_shape,

@@ -10,7 +10,7 @@ namespace VSPRING_API vspring {
 enum class ErrorCode {
   invalid_argument,    ///< an option or argument outside its range
   unusable_file,       ///< a file that cannot be opened, read, understood or written
-  unusable_shape,      ///< connectivity or coordinates that cannot be faired where a node has to move
+  unusable_shape,      ///< connectivity or coordinates that do not allow a node to move that has to
   unusable_constraint  ///< constraints that contradict each other or leave the shape unheld
 };
 

@@ -8,11 +8,11 @@ namespace VSPRING_API vspring {
 
 struct ResampledFair {
   Resampled resampled;  ///< as resample() gives it
-  FairResult fair;      ///< positions of its nodes
+  FairResult fair;      ///< positions of the nodes of resampled.curve
 };
 
-/// Puts new nodes along a curve, as resample() does, and fairs it with these. Corners of `how` are corners of the new
-/// curve, too; those of the options have no say. Throws and costs what resample() and fair() do.
+/// Puts new nodes along a curve as resample() does, and fairs the new curve. Corners of `how` are corners of the new
+/// curve, too; options.corners is ignored. Throws and costs what resample() and fair() do.
 [[nodiscard]] ResampledFair fair_resampled(const PolygonCurve& curve, const Constraints& constraints,
                                            const Resampling& how, const FairOptions& options, Context& context);
 

@@ -12,75 +12,75 @@
 
 namespace VSPRING_API vspring {
 
-/// What has become of a hole.
+/// What became of a hole.
 enum class HoleState : std::uint8_t {
-  open,        ///< nobody has looked at it yet
+  open,        ///< not considered yet
   filled,      ///< by faces of FilledHoles::mesh
-  outer_rim,   ///< left open as the outer rim of a sheet, see Hole::is_outer_rim()
-  too_large,   ///< left open as it is larger than FillOptions says
-  elsewhere,   ///< left open as it is not at a node of FillOptions::at
-  unfillable,  ///< left open, see Hole::fault
-  cancelled    ///< left open as the call was cancelled before
+  outer_rim,   ///< left open: the outer rim of a sheet, see Hole::is_outer_rim()
+  too_large,   ///< left open: larger than FillOptions allows
+  elsewhere,   ///< left open: not at a node of FillOptions::at
+  unfillable,  ///< left open: see Hole::fault
+  cancelled    ///< left open: the call was cancelled before
 };
 
 /// "open", "filled", "outer-rim", "too-large", "elsewhere", "unfillable" or "cancelled".
 [[nodiscard]] const char* name(HoleState state) noexcept;
 
-/// Why no faces can fill a hole. Hole::fault_node is the node that is named.
+/// Why no faces can fill a hole. Hole::fault_node is the node where.
 enum class HoleFault : std::uint8_t {
   none,
   not_finite,        ///< a coordinate of the rim is not finite
   non_manifold,      ///< an edge of more than two faces, or a face that has the node twice, is at the rim
   orientation,       ///< faces along the rim run in different directions
-  no_triangulation,  ///< edges that would be needed join its nodes outside already
-  folded             ///< each triangulation folds back onto itself or onto the faces around, or has no area
+  no_triangulation,  ///< each needs an edge that the mesh has already outside the hole
+  folded             ///< each triangulation folds back onto itself or the faces around, or has no area
 };
 
 /// A closed loop of boundary edges of a mesh.
 struct Hole {
-  /// Its nodes, the least first, in the order in which faces that fill it run along it; no node twice.
+  /// Its nodes, each once, from the smallest number on, in the order in which filling faces run along it.
   std::vector<Index> rim;
   double length = 0;  ///< of the rim, in units of the mesh
-  /// How much faces at the rim face as the rim goes around, from 1 to −1: the cosine between their mean normal, by
-  /// area, and the normal of the polygon that they run along; 1 around a flat sheet, 0 at the end of a tube, near −1
-  /// for a small hole in a smooth surface.
+  /// The cosine of the angle between the mean normal of the faces at the rim, weighted by area, and the normal of the
+  /// rim as a polygon that runs as these faces do: 1 at the rim of a flat sheet, 0 at the end of a tube, near −1 for a
+  /// small hole in a smooth surface.
   double facing = 0;
   HoleState state = HoleState::open;
   HoleFault fault = HoleFault::none;
   Index fault_node = -1;
-  // Filled: the nodes and faces that came to the mesh, consecutive.
+  // For a filled hole: its new nodes and faces, which are consecutive.
   Index first_node = -1;
   Index node_count = 0;
   Index first_face = -1;
   Index face_count = 0;
-  /// How its fairing ended, together with holes that it touches; empty where none of its nodes is new, or none was
-  /// asked for.
+  /// How the fairing of the patch ended, together with patches that it touches; empty if the patch has no new node, or
+  /// fairing was not asked for.
   std::optional<Outcome> outcome = std::nullopt;
 
-  /// Whether `facing` is more than a half, as that of a cap of a sphere up to 60° from its middle.
+  /// Whether `facing` is more than 0.5, as at the rim of a spherical cap of a half angle below 60°.
   [[nodiscard]] bool is_outer_rim() const noexcept;
 };
 
-/// In words for people, in one line: why, where, and what to do; empty for HoleFault::none.
+/// One line for people: why a hole cannot be filled, where, and what to do; empty for HoleFault::none.
 [[nodiscard]] std::string fault_message(const Hole& hole);
 
-/// The holes of a mesh, by their first nodes; at nodes where several meet they are told apart. Those of which it is
-/// plain already have state `unfillable`. Chains of boundary edges that end at an edge of more than two faces are such,
-/// too. Cost: linear.
+/// Finds the holes of a mesh, ordered by their first nodes. Holes that meet at a node are separate. A hole that
+/// certainly cannot be filled has state `unfillable`; so has a chain of boundary edges that ends at an edge of more
+/// than two faces. Cost: linear.
 [[nodiscard]] std::vector<Hole> find_holes(const PolygonMesh& mesh);
 
 struct FillOptions {
-  /// Only holes through these nodes, outer rims among them. Empty: all but outer rims.
+  /// Fill only holes through these nodes, also outer rims. Empty: all but outer rims.
   std::vector<Index> at = {};
   /// Fill outer rims as well.
   bool outer_rims = false;
-  /// Only holes whose rim is no longer than this, in units of the mesh.
+  /// Fill only holes whose rim is at most this long, in units of the mesh.
   std::optional<double> most_length = std::nullopt;
-  /// Only holes whose rim has no more edges than this.
+  /// Fill only holes whose rim has at most so many edges.
   std::optional<Index> most_edges = std::nullopt;
-  /// Leave patches flat: triangulated and refined, with creases at the rim.
+  /// Do not fair patches: triangulate and refine them, with creases at the rim.
   bool flat = false;
-  /// How patches are faired. Boundaries, points and the like have no say.
+  /// How patches are faired. Options of boundaries and points are ignored.
   FairOptions fair = {};
 
   /// Throws Error(invalid_argument) naming the option and its range.
@@ -89,41 +89,42 @@ struct FillOptions {
 
 /// A mesh with its holes filled.
 struct FilledHoles {
-  /// The mesh, and behind its nodes and faces those of the patches, hole by hole. New nodes are where patches are flat.
+  /// The mesh, its nodes and faces followed by those of the patches, hole by hole. New nodes lie where the patches are
+  /// before fairing.
   PolygonMesh mesh;
-  /// The same nodes where patches are fair; those of the input to the bit.
+  /// The positions of the same nodes after fairing; nodes of the input keep theirs to the bit.
   std::vector<Vector3> positions;
-  /// Per new node the rim node that is nearest along the patch, and per new face the input's face beside the rim there:
-  /// whose colours and the like it may take.
+  /// Per new node the nearest rim node along the patch, and per new face the input's face beside the rim there: where
+  /// colours and the like may be taken from.
   std::vector<Index> node_like;
   std::vector<Index> face_like;
-  std::vector<Hole> holes;  ///< as of find_holes()
-  /// Of the fairing of all patches: the worst outcome, sums of work. Warnings name the hole, and tell of those that
-  /// cannot be filled and of patches that cross other faces.
+  std::vector<Hole> holes;  ///< in the order of find_holes()
+  /// Of the fairing of all patches: the worst outcome, the sum of the work. Warnings name holes that cannot be filled
+  /// and patches that cross other faces.
   FairReport report;
 
   /// Whether report.usable(), and no hole that was to be filled is left open, as HoleState::unfillable.
   [[nodiscard]] bool usable() const noexcept;
 
-  /// Which nodes moved in fairing: all new ones.
+  /// Constraints that hold the nodes of the input and leave the new ones free.
   [[nodiscard]] Constraints constraints() const;
 };
 
-/// Fills holes of a mesh: with the triangles over the rim whose greatest dihedral angle, among each other and with the
-/// faces around, is least, then whose area is least (G. Barequet and M. Sharir, Filling gaps in the boundary of a
-/// polyhedron, 1995; P. Liepa, Filling holes in meshes, 2003); of rims of more than 500 edges ears are cut off first.
-/// Triangles are split until they are as dense as the faces around, and edges swapped where triangles become rounder
-/// (Liepa). Patches are then faired as restrict_to_region() and fair() do, so that they meet what is around with one
-/// tangent plane; holes that touch together, others one by one. New faces run as those around do. Faces that lie within
-/// a hole and belong to another part are not joined to it.
+/// Fills holes of a mesh. Of all triangulations of a rim it takes the one whose greatest dihedral angle, between its
+/// triangles and to the faces around, is least, and of equal ones that of least area (G. Barequet and M. Sharir,
+/// Filling gaps in the boundary of a polyhedron, 1995; P. Liepa, Filling holes in meshes, 2003). Where a rim has more
+/// than 500 edges, ears are cut off first. Triangles are split until they are as dense as the faces around, and edges
+/// swapped where that makes triangles rounder (Liepa). Patches are then faired with restrict_to_region() and fair(), so
+/// that they share tangent planes with the faces around; patches that touch are faired together. New faces are oriented
+/// as those around. Faces of another part that lie within a hole are not joined to it.
 ///
-/// Nodes and faces of the input keep their numbers and places. A patch that would cross more faces than when it is flat
-/// stays flat. The result has the same bits for every number of threads. Where the context is cancelled, holes that are
-/// not triangulated yet stay open and patches that are not faired yet flat.
+/// Nodes and faces of the input keep their numbers and places. A patch that fairing would make cross more faces is not
+/// faired. The result has the same bits for every number of threads. When cancelled, holes not triangulated yet stay
+/// open, and patches not faired yet stay as they are.
 ///
-/// Throws Error(invalid_argument) as FillOptions::validate() does, and Error(unusable_constraint) naming a node of `at`
-/// that lies at no hole. Cost: linear in the mesh (n log n to look for crossings); cubic in the edges of a rim up to
-/// 500, a second for these; then as fair() for each patch.
+/// Throws what FillOptions::validate() throws, and Error(unusable_constraint) naming a node of `at` that lies at no
+/// hole. Cost: linear in the mesh (n log n to look for crossings); cubic in the edges of a rim, a second for 500; then
+/// that of fair() for each patch.
 [[nodiscard]] FilledHoles fill_holes(const PolygonMesh& mesh, const FillOptions& options, Context& context);
 [[nodiscard]] FilledHoles fill_holes(const PolygonMesh& mesh, const FillOptions& options = {});
 

@@ -14,165 +14,164 @@
 
 namespace VSPRING_API vspring {
 
-/// The paper's k (Eq. 9), for points of weight 1: 0 to 1e50. Small ones smooth, large ones interpolate. On an evenly
+/// The paper's k (Eq. 9), for points of weight 1: 0 to 1e50. A small k smooths, a large one interpolates. On an evenly
 /// spaced curve with one point per node, waves of angular frequency ω keep 1/(1 + (λω)⁴) of their height, where k =
 /// (ℓ/λ)⁴/8 and ℓ is the length of the edges.
 struct Weight {
   double k = 0.01;
 };
 
-/// A weight that means the same at every resolution: a length λ, in units of the input, more than 0. About ∫
-/// (curvature)² + λ⁻⁴ Σ (share of the point) (distance)² is least. Every point stands for an equal share of the length
-/// (area) that moves, times its own weight. Of dense points, waves of angular frequency ω keep 1/(1 + (λω)⁴) of their
+/// A weight that means the same at every resolution: a length λ, in units of the input, more than 0. The fit minimises
+/// about ∫ (curvature)² + λ⁻⁴ Σ (share of the point) (distance)². Every point stands for an equal share of the moving
+/// length (area), times its own weight. In dense points, waves of angular frequency ω keep 1/(1 + (λω)⁴) of their
 /// height. docs/fit.md says which k this is.
 struct SmoothingLength {
   double length;
 };
 
-/// Surfaces: the shape of least bending from which no point lies further than this, in units of the input, more than 0.
-/// Curves: that whose curvature changes least, and which goes no further than this from the polyline of the points
-/// either, where these are its own nodes (docs/curves.md). EquilibriumMethod only. Surfaces whose own nodes are the
-/// points, with Distribution::keep, fallbacks and no normals given, and noise of a sixth to a half of this and of a
-/// hundredth of the median edge or more: a third of this is taken off as noise, by the filters of Noise, and nodes that
-/// end further away go back (docs/fit.md).
+/// The fairest shape from which no point lies further than `distance`, in units of the input, more than 0. Surfaces:
+/// the shape of least bending. Curves: the one whose curvature changes least; if the points are its own nodes, it also
+/// stays within `distance` of their polyline (docs/curves.md). EquilibriumMethod only. A surface fitted to its own
+/// nodes, with Distribution::keep, fallbacks and no given normals, uses the filters of Noise instead if its noise is
+/// 1/6 to 1/2 of `distance` and at least 1/100 of the median edge: they remove noise of a third of `distance`, and
+/// nodes that end further away go back (docs/fit.md).
 struct Within {
   double distance;
 };
 
-/// Surfaces: the largest smoothing length for which the root mean square of the distances is not above this, in units
-/// of the input, more than 0. Curves: that whose curvature changes least, as for Within. EquilibriumMethod only.
-/// Surfaces whose own nodes are the points, with Distribution::keep and no normals given, take the filters of Noise
-/// instead, with this as its deviation; nodes that end further away, in the root mean square, go back towards where
-/// they came from. Where filters leave less than 0.7 of it, they are not used.
+/// The fairest shape whose root mean square distance from the points is at most `distance`, in units of the input, more
+/// than 0. Surfaces: the one of the largest smoothing length. Curves: the one whose curvature changes least, as for
+/// Within. EquilibriumMethod only. A surface fitted to its own nodes, with Distribution::keep and no given normals,
+/// uses the filters of Noise instead, with `distance` as the deviation; if the root mean square is larger then, nodes
+/// go back towards their places in the input. The filters are not used if they leave less than 0.7 of `distance`.
 struct RootMeanSquare {
   double distance;
 };
 
-/// Surfaces whose own nodes are the points, with Distribution::keep: takes noise of this standard deviation in each
-/// coordinate off, in the units of the input, more than 0. No equilibrium, but filters, each where it is expected to be
-/// nearest to the true shape; nodes go along the surface, too, to where these put them. Where normals are given, an
-/// equilibrium next to that. See estimate_noise() and docs/fit.md. Cost: linear. Memory: about 2,500 bytes a node.
+/// Removes noise. `deviation`: its standard deviation in each coordinate, in units of the input, more than 0;
+/// estimate_noise() tells it. Surfaces fitted to their own nodes, with Distribution::keep: filters do it, each where it
+/// is expected to come nearest to the true shape, and may move nodes along the surface, too. With given normals, an
+/// equilibrium near the filtered shape follows. See docs/fit.md. Cost: linear. Memory: about 2,500 bytes a node.
 ///
-/// Curves: that whose curvature changes least of those that are as far from the points, in the root mean square, as
-/// noise of this deviation leaves: where the expected distance from the truth is least, by Mallows' C_p with every
-/// parameter counted three times. It changes little with the deviation. Cost: that of RootMeanSquare.
+/// Curves: RootMeanSquare, with the distance at which the curve is expected to be nearest to the true one, by Mallows'
+/// C_p with every parameter counted three times. The result depends little on the deviation. Cost: that of
+/// RootMeanSquare.
 struct Noise {
   double deviation;
 };
 
-/// Surfaces of voxels of this size along x, y and z, whose own nodes are the points: takes their steps off. The fairest
-/// surface for a smoothing length of two voxels (the cube root of their volume), with more weight on nodes that would
-/// go further than half a voxel across it; so no node does. The volume stays where the surface is closed. Nodes keep
-/// their distribution unless another is given. See
-/// voxel_size(). Cost: up to six times that of SmoothingLength.
+/// Surfaces of voxels, fitted to their own nodes: removes the steps. size: of a voxel along x, y and z, see
+/// voxel_size(). The result is the fairest surface for a smoothing length of twice the cube root of a voxel's volume.
+/// Nodes that would move more than half a voxel get more weight, until none does. A closed surface keeps its volume.
+/// Nodes keep their distribution unless another is given. Cost: up to six times that of SmoothingLength.
 struct Voxels {
   Vector3 size;
 };
 
-/// What a fit goes by.
+/// How closely a fit follows the points.
 using FitCriterion = std::variant<Weight, SmoothingLength, Within, RootMeanSquare, Noise, Voxels>;
 
 struct FitOptions {
   FitCriterion criterion = Weight{};
-  /// As for fair(). Fallbacks, where no equilibrium is found and max_iterations is not given: on surfaces one of
-  /// least bending near the points, with a warning; on curves one with nodes of its own, on which the
-  /// curve's are put (docs/curves.md). With fair_boundary the boundary of a surface is fitted first, as a curve, and
-  /// the surface then holds it: to its own nodes, where these are the points; else to where the points end near it, by
-  /// EquilibriumMethod only (BoundaryOfPoints).
+  /// Options as for fair(). Fallbacks, if no equilibrium is found and max_iterations is not given: a surface of least
+  /// bending near the points, with a warning; a curve drawn with nodes of its own, on which the given nodes are then
+  /// placed (docs/curves.md). With fair_boundary the boundary of a surface is fitted first, as a curve, and the surface
+  /// then holds it. If the points are the surface's own nodes, the boundary is fitted to its own; else, by
+  /// EquilibriumMethod only, to where the points end near it (BoundaryOfPoints).
   FairOptions fair = {};
-  /// The share of the points, from 0 to less than 1, that may be left out. Surfaces: so many, those furthest from the
-  /// shape; shape and outliers are found in turns. Curves drawn to a tolerance: at most so many, found before that:
-  /// those far aside of the way, and those over 4.5 standard deviations from a curve that single points do not draw
-  /// aside.
+  /// The share of the points that may be left out, 0 to less than 1. Surfaces: exactly so many, the furthest from the
+  /// shape; shape and outliers are found in turns. Curves drawn to a tolerance: at most so many, found beforehand:
+  /// points far off the way, and points over 4.5 standard deviations from a robust curve.
   double outliers = 0;
-  /// Curves whose own nodes are the points, by EquilibriumMethod: of x, y and z those that nodes move in. All nodes
-  /// keep the others to the bit. Distances are then those in the coordinates that move, between where a node was and
-  /// is: heights of a profile, vertically. Where the others tell no order along the curve, as where one is given in
-  /// space, it is drawn over the length of the way in the other two.
+  /// Curves fitted to their own nodes, by EquilibriumMethod: which of x, y and z may change, as the heights of a
+  /// profile; nodes keep the others to the bit. Distances are then those between a node's old and new place, in the
+  /// coordinates that may change. A curve in space of which one coordinate is kept is drawn over the length of the way
+  /// in the other two.
   std::array<bool, 3> moving_axes = {true, true, true};
-  /// Curves: no node has a smaller radius of curvature, of the circle through it and its neighbours, to 1 %; in units
-  /// of the input, 0 for any. Where that cannot be kept, as points ask for less or ends and directions that are held, a
-  /// warning names the node that is bent most, and the outcome is not `converged`. With Weight and SmoothingLength the
-  /// curve then has nodes of its own, too. EquilibriumMethod only.
+  /// Curves: the least radius of curvature of a node, by the circle through it and its neighbours, kept to 1 %; in
+  /// units of the input; 0: any. If points, ends or held directions do not allow it, a warning names the node that is
+  /// bent most, and the outcome is not `converged`. The curve is then drawn with nodes of its own also for Weight and
+  /// SmoothingLength. EquilibriumMethod only.
   double least_radius = 0;
-  /// Curves: places where the way of the curve's nodes turns by more than this within some eight tolerances, degrees,
-  /// less than 180, are corners: direction and curvature may jump there, and each side is fair by itself. They move
-  /// with their points. 0: only those of FairOptions::corners are. EquilibriumMethod only.
+  /// Curves: an angle in degrees, less than 180. Where the nodes' way turns by more than this within about eight
+  /// tolerances is a corner: direction and curvature may jump there, and each side is fair by itself. Corners move with
+  /// their points. 0: only FairOptions::corners. EquilibriumMethod only.
   double sharp = 0;
 
   /// Throws Error(invalid_argument) naming the option and its range.
   void validate() const;
 
-  // The figure of each criterion, where that is the one given.
+  // The figure of a criterion; empty if another one is given.
   [[nodiscard]] std::optional<double> weight() const;
   [[nodiscard]] std::optional<double> smoothing_length() const;
   [[nodiscard]] std::optional<double> within() const;
   [[nodiscard]] std::optional<double> rms() const;
   [[nodiscard]] std::optional<double> noise() const;
   [[nodiscard]] std::optional<Vector3> voxels() const;
-  /// Of within() and rms(), the one that is given.
+  /// The one of within() and rms() that is given, if any.
   [[nodiscard]] std::optional<double> tolerance() const;
-  /// Whether all of moving_axes move.
+  /// Whether all coordinates may change.
   [[nodiscard]] bool moves_freely() const { return moving_axes == std::array{true, true, true}; }
 };
 
-/// Distances of points from a shape: from its polygons or edges, see distance().
+/// Distances of points from the polygons or edges of a shape, see distance(), in units of the input.
 struct PointDistances {
   Distance all;  ///< `node` is the number of the furthest point
-  /// Distances that 50, 90 and 99 of 100 points do not exceed.
+  /// The 50th, 90th and 99th percentile of the distances.
   double median = 0;
   double percentile90 = 0;
   double percentile99 = 0;
 };
 
-/// What points tell of the boundary of a surface, where it is fitted to them: with FairOptions::fair_boundary.
+/// How the boundary of a surface was fitted to points, with FairOptions::fair_boundary.
 struct BoundaryOfPoints {
-  Index points = 0;  ///< those at which the points end, near the boundary
-  // Of its nodes with a free position:
-  Index ends = 0;    ///< near which the points end: they go there
-  Index inside = 0;  ///< beyond which the points go on: they go across to the points, and no further
-  Index kept = 0;    ///< without points near enough to tell: they stay, with a warning
+  Index points = 0;  ///< points near the boundary at which the points end
+  // Counts of boundary nodes with a free position:
+  Index ends = 0;    ///< the points end near them; they move there
+  Index inside = 0;  ///< the points go on beyond them; they move across, onto the points
+  Index kept = 0;    ///< no points are near enough to tell; they stay, with a warning
 };
 
 struct FitReport {
   FairReport fair;
   std::optional<BoundaryOfPoints> boundary = std::nullopt;
   Index points = 0;
-  /// Points tied to a node that moves, at the end. The others are nearest to nodes that stay, or have no weight.
+  /// Points tied to a moving node at the end. The others are nearest to fixed nodes, or have no weight.
   Index pulling_points = 0;
   /// Moving nodes with points tied to them, at the end, and the most points on one of them.
   Index pulled_nodes = 0;
   Index most_points = 0;
   Index outliers = 0;                  ///< points left out; `after` does not count them
-  std::vector<Index> outlying_points;  ///< these, in order
-  /// With Noise on curves: the root mean square distance that it leaves, at which the curve is.
+  std::vector<Index> outlying_points;  ///< their numbers, ascending
+  /// With Noise on curves: the root mean square distance that the curve is drawn to.
   std::optional<double> noise_leaves = std::nullopt;
-  /// The one given or, for a tolerance, found. Empty for the paper's k, and where plain fairing or what
-  /// filters of noise give is within the tolerance.
+  /// The smoothing length, given or, for a tolerance, found. Empty for the paper's k, and where plain fairing or the
+  /// filters of noise stay within the tolerance.
   std::optional<double> smoothing_length = std::nullopt;
-  /// With Within: the points at that distance, to 1 %, in order. They keep the shape from becoming fairer.
+  /// With Within: the points at that distance, to 1 %, ascending. They prevent a fairer shape.
   std::vector<Index> active_points;
-  Index outside_points = 0;  ///< with Within or RootMeanSquare: those further away than that, of the points that count
-  /// With FitOptions::least_radius: the least one of the new curve, and the node that has it. Empty where nothing is
+  Index outside_points = 0;  ///< with Within or RootMeanSquare: points further away than that, outliers apart
+  /// With FitOptions::least_radius: the least radius of curvature of the new curve, and its node. Empty if nothing is
   /// bent.
   std::optional<double> least_radius = std::nullopt;
   Index sharpest_node = -1;
-  /// Both without a count where the fit was cancelled and had too many points to measure them then.
+  /// Distances of the points from the shape before and after. Their count is 0 if the fit was cancelled and had too
+  /// many points to measure.
   PointDistances before;
   PointDistances after;
-  /// Of the shape's nodes and places on its edges (the middles, or every tenth of a tolerance) from the polyline of the
-  /// points that count, both gone along in their order, so up to a tenth more than the distance to the nearest place:
-  /// curves drawn to a tolerance of their own nodes. Surfaces drawn to their own nodes: of their nodes from the input.
-  /// Else without a count.
+  /// Distances of the shape from the points, for shapes fitted to their own nodes; else the count is 0. Surfaces: of
+  /// nodes from the input. Curves drawn to a tolerance: of nodes and places on edges (the middles, or every tenth of a
+  /// tolerance) from the polyline of the points, outliers apart, both followed in their order; that is up to a tenth
+  /// more than the distance to the nearest place.
   Distance shape = {};
-  /// The greatest way of a node along the shape, where the points are its own nodes.
+  /// How far a node moved along the shape at most, if the points are its own nodes; in units of the input.
   double greatest_slide = 0;
 };
 
 struct FitResult {
   std::vector<Vector3> positions;  ///< one per node; fixed nodes bit for bit
-  /// Of every point from the new shape, in the units of the input; outliers too. Empty where the fit was cancelled and
-  /// points and nodes are more than 40,000 together: see point_distances().
+  /// The distance of every point from the new shape, in units of the input; of outliers, too. Empty if the fit was
+  /// cancelled and points and nodes together are more than 40,000; see point_distances().
   std::vector<double> distances;
   FitReport report;
 };
@@ -181,44 +180,44 @@ struct FitResult {
 /// 5).
 ///
 /// Every point is tied to the node nearest to it and pulls at it along the node's normal (on curves across its tangent)
-/// with k_j times its distance. The points of one node are averaged; those that lie near the normal line count more.
-/// Every few iterations each point looks whether one of the first- and second-order neighbours of its node (nodes of
-/// the same faces, and of theirs) is nearer, and is tied to that.
+/// with k_j times its distance. A node averages the pulls of its points; points near the normal line count more. Every
+/// few iterations each point is tied anew, to the nearest among its node and the first- and second-order neighbours of
+/// that node (nodes of the same faces, and of their faces).
 ///
-/// A point pulls at nothing where its nearest node at the start takes no part in fairing. On surfaces, where it has a
-/// normal, it pulls only at nodes whose normal is within 90° of its own, so each side of a thin wall has its own
-/// points. Faces need not look outwards: if points are clearly nearer with all normals turned round, they are, with a
-/// warning.
+/// A point does not pull if its nearest node at the start takes no part in fairing. On surfaces, a point with a normal
+/// pulls only at nodes whose normal is within 90° of its own, so each side of a thin wall has its own points. Faces
+/// need not be oriented outwards: if points are clearly nearer with all their normals reversed, they are reversed, with
+/// a warning.
 ///
-/// Constraints hold as in fair(). If no point has weight, the result is that of fair(), bit for bit. A closed shape may
-/// be held by points alone, though its nodes can then slide (docs/fit.md); boundaries and ends must be held all the
-/// same, or be fitted first (FairOptions::fair_boundary). Nodes without points are fair between those that have some.
+/// Constraints hold as in fair(). If no point has weight, the result is that of fair(), bit for bit. Points alone may
+/// hold a closed shape, though its nodes can then slide (docs/fit.md); boundaries and ends must be held, or be fitted
+/// first (FairOptions::fair_boundary). Between nodes with points, nodes without points are fair.
 ///
-/// Surfaces: where more than two faces meet at edges, or several fans at a node, nodes are held, and each sheet goes by
-/// its own faces. With EquilibriumMethod and points that are the surface's own nodes, lines of edges of three faces are
-/// fitted first, as curves, and what is near goes along with them.
+/// Surfaces: nodes where more than two faces meet at an edge, or several fans at a node, are held. With
+/// EquilibriumMethod, a surface fitted to its own nodes has lines of edges of three faces fitted first, as curves;
+/// nodes near them move along.
 ///
-/// EquilibriumMethod goes to where springs and points balance at every node and ties do not change any more. Where
-/// ties would go to and fro, a point changes only to a node that is nearer by a margin. The other methods
-/// divide what pulls by 1 + k, unless with Forces::printed, so that any weight is stable. They end when no node moves
-/// further in one iteration than their step_tolerance times the mean length of its edges; with small weights nodes then
-/// still have far to go, about a step over k.
+/// EquilibriumMethod ends where springs and points balance at every node and ties do not change any more. Where ties
+/// would alternate, a point changes only to a node that is nearer by a margin. The other methods divide the pull by 1 +
+/// k, unless with Forces::printed, so any weight is stable. They end when no node moves further in one iteration than
+/// step_tolerance times the mean length of its edges; with small weights nodes may then still be about a step over k
+/// from their places.
 ///
-/// For Within and RootMeanSquare the equilibrium of a surface is found some ten to a hundred times. If no shape
-/// within them is found and the input is not either, the nearest one is returned, with a warning and an outcome that is
-/// not `converged`; nor is that where nothing within them is fairer than an input that is, which is returned then.
-/// Curves are drawn to them by convex programs instead, on nodes of their own (docs/curves.md); ends may then be free.
+/// For Within and RootMeanSquare a surface is brought to equilibrium ten to a hundred times. If no shape within the
+/// tolerance is found, the nearest one is returned, or the input if that is within it, with a warning and an outcome
+/// that is not `converged`. Curves are drawn by convex programs instead, with nodes of their own (docs/curves.md); their
+/// ends may be free.
 ///
 /// The result has the same bits for every number of threads. Cancellation returns the shape so far with outcome
 /// `cancelled`. Arguments are unchanged.
 ///
-/// Throws as fair() does; Error(invalid_argument), naming the point, for options out of range, no points, a point that
-/// is not finite or further away than 1e50 times the size of the shape, weights or normals that are not as many as
-/// points, weights not from 0 to 1e50, and normals that are neither zero nor of length 1; Error(unusable_shape) for a
-/// shape without a face (edge).
+/// Throws what fair() throws; Error(invalid_argument) for options out of range, for no points, for weights or normals
+/// not as many as points, and, naming the point, for a position that is not finite or further away than 1e50 times the
+/// size of the shape, a weight not from 0 to 1e50, and a normal neither zero nor of length 1; Error(unusable_shape) for
+/// a shape without a face (edge).
 ///
 /// Cost: that of fair(), n log n for the nodes, and linear in the points for every iteration. Memory: under 100 bytes a
-/// point, its position and weight among them.
+/// point, with its position and weight.
 [[nodiscard]] FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
                             const FitOptions& options, Context& context);
 [[nodiscard]] FitResult fit(const PolygonMesh& mesh, const Constraints& constraints, const ScatteredPoints& points,
@@ -229,30 +228,30 @@ struct FitResult {
                             const FitOptions& options = {});
 
 struct ResampledFit {
-  Resampled resampled;  ///< as resample() gives it, of the fair curve; of the curve given where nothing was found
-  FitResult fit;        ///< positions of its nodes; its points are the nodes of the curve that was given
+  Resampled resampled;  ///< resample() of the fair curve, or of the given one if none was found
+  FitResult fit;        ///< positions of the new nodes; the points are the nodes of the given curve
 };
 
-/// Puts new nodes, as resample() spaces them, on the fair curve that fits the nodes of `curve`. So a table with
-/// rounding or noise gets nodes that have none, between its own nodes too.
+/// Puts new nodes, spaced as by resample(), on the fair curve that fits the nodes of `curve`. So a table with rounding
+/// or noise becomes a denser or sparser one without.
 ///
-/// With Within, RootMeanSquare and SmoothingLength they are places on the curve that fit() finds, so they are as fair.
-/// Where the chords between them cut off more than a tolerance allows for, they go to where these are within it; if
-/// there are too few for that, outcome and a warning say so. Distances are those from the chords. How far nodes moved
-/// is reported as their distance from the curve that was given.
+/// With Within, RootMeanSquare and SmoothingLength the new nodes lie on the curve that fit() finds. If chords between
+/// them leave the tolerance, nodes move until the chords keep it; if there are too few nodes for that, outcome and a
+/// warning say so. Distances are measured from the chords. Moves in the report are distances from the given curve.
 ///
-/// With Weight, unless a least radius is to be kept, and by other methods, the curve is resampled first, and the new
-/// nodes are fitted themselves.
+/// With Weight and no least radius, and with methods other than equilibrium, the curve is resampled first and the new
+/// nodes are fitted.
 ///
-/// Throws as resample() and fit() do. Cost: that of fit().
+/// Throws what resample() and fit() throw. Cost: that of fit().
 [[nodiscard]] ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints,
                                          const Resampling& how, const FitOptions& options, Context& context);
 [[nodiscard]] ResampledFit fit_resampled(const PolygonCurve& curve, const Constraints& constraints,
                                          const Resampling& how, const FitOptions& options = {});
 
-/// For every node the greatest distance of the points that are nearest to it; 0 where there are none. distances: one
-/// per point, as in FitResult. The same bits for every number of threads. Throws Error(invalid_argument) unless points
-/// and distances are finite and as many, and for points too far away, as fit() does. Cost: n log n.
+/// Returns for every node the greatest distance among the points of which it is the nearest node; 0 if there is none.
+/// distances: one per point, as in FitResult. The same bits for every number of threads. Throws Error(invalid_argument)
+/// unless points and distances are finite and equal in number, and for points too far away, as fit() does. Cost: n log
+/// n.
 [[nodiscard]] std::vector<double> node_deviations(std::span<const Vector3> nodes, std::span<const Vector3> points,
                                                   std::span<const double> distances, const Context& context);
 

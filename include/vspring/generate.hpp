@@ -32,7 +32,7 @@ struct Grid {
   int rows = 20;
   Faces faces = Faces::triangles;
   /// 0 to 0.5: every inner node lies at random in a box of this share of a cell about its place in the grid, exactly on
-  /// the shape. Up to 0.5 no face of a plane turns over. Boundary nodes keep their places.
+  /// the shape. No face of a plane turns over. Boundary nodes keep their places.
   double jitter = 0;
   std::uint64_t seed = 1;  ///< of the jitter
 };
@@ -108,8 +108,9 @@ struct AnnulusOptions {
 };
 
 /// A triangulated ring around the z axis with 2 · nodes − boundary_nodes faces. The outer circle lies at z = 0. Nodes
-/// go ring by ring from the inner circle to the outer. The spacing is even as far as boundary_nodes allow. Each inner
-/// ring needs three nodes: with boundary_nodes given, there are none or at least 3 more nodes, at least 6 for steps.
+/// are numbered ring by ring, from the inner circle to the outer. The spacing is as even as boundary_nodes allow. Each
+/// inner ring needs three nodes: if boundary_nodes are given, `nodes` must equal them or be at least 3 more, for steps
+/// at least 6 more.
 [[nodiscard]] PolygonMesh annulus(const AnnulusOptions& options = {});
 
 /// The annulus with a cone between circles of radius 1 and 0.35, the inner one at z = 0.5.
@@ -130,7 +131,8 @@ struct PipeBlendOptions {
 
 /// A cube about the origin with pipes in place of some sides: a start with sharp corners for a blend of pipes. In the
 /// first half of its length each pipe changes from a square to a circle; it ends in an exact circle of 4 · cells nodes.
-/// Closed elsewhere. Nodes: sides without a pipe first, then the pipes from the cube outwards, in the order of Side.
+/// Closed elsewhere. Nodes of sides without a pipe come first, then those of the pipes from the cube outwards, in the
+/// order of Side.
 [[nodiscard]] PolygonMesh pipe_blend(const PipeBlendOptions& options = {});
 
 /// Options of polygon_patch().
@@ -143,8 +145,8 @@ struct PolygonPatchOptions {
 
 /// One polygon amid rings of quads; the boundary is a circle about the origin at z = 0. Around a polygon of up to 8
 /// sides rings grow as around a cell of a square grid, with four edges at every inner node and sides · (2 · rings + 1)
-/// nodes on the boundary. Around one of more sides every ring has as many nodes, and the polygon's own have three
-/// edges. Nodes go ring by ring outwards; face 0 is the polygon, of nodes 0 to sides − 1.
+/// nodes on the boundary. Around one of more sides all rings have equally many nodes, and the polygon's nodes have
+/// three edges. Nodes are numbered ring by ring outwards; face 0 is the polygon, of nodes 0 to sides − 1.
 [[nodiscard]] PolygonMesh polygon_patch(const PolygonPatchOptions& options = {});
 
 /// Options of genus().
@@ -158,8 +160,8 @@ struct GenusOptions {
 /// along z: quads, of that genus.
 [[nodiscard]] PolygonMesh genus(const GenusOptions& options = {});
 
-/// The mesh with every node moved by a random vector, uniformly distributed in the ball of radius `amplitude` (a
-/// length, 0 or more). move_boundary: also the nodes of its boundary.
+/// Moves every node by a random vector, uniformly distributed in the ball of radius `amplitude` (a length, 0 or more).
+/// move_boundary: move boundary nodes, too.
 [[nodiscard]] PolygonMesh add_noise(const PolygonMesh& mesh, double amplitude, std::uint64_t seed = 1,
                                     bool move_boundary = false);
 
@@ -170,7 +172,7 @@ struct Shuffled {
   std::vector<Index> new_face_number;  ///< of each face of the original
 };
 
-/// The same mesh with nodes and faces in random order. Each face begins at the same node as before.
+/// Puts the nodes and faces of a mesh in random order. Each face begins at the same node as before.
 [[nodiscard]] Shuffled shuffle(const PolygonMesh& mesh, std::uint64_t seed = 1);
 
 }  // namespace generate

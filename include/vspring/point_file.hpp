@@ -17,19 +17,18 @@ struct ScatteredPoints {
   /// Each point's weight, 0 to 1e50; its k_j is this times Weight::k. Empty: 1 for all. A point of weight 0 is
   /// only measured.
   std::vector<double> weights = {};
-  /// Which way the surface faces at each point: unit vectors, to 1 %; zero where that is not known. Empty: nowhere
-  /// known. A point pulls only at nodes whose normal is within 90° of its own, see fit(). Ignored for curves.
+  /// The normal of the surface at each point: of unit length, to 1 %; zero where unknown. Empty: unknown everywhere. A
+  /// point pulls only at nodes whose normal is within 90° of its own, see fit(). Ignored for curves.
   std::vector<Vector3> normals = {};
-  /// Where the file gives latitudes and longitudes: the plane in which the points lie, in metres, see CurveFile.
+  /// Set where the file gives latitudes and longitudes: the plane in which the points lie, in metres, see CurveFile.
   std::optional<LocalPlane> plane = std::nullopt;
   /// For people: which columns were guessed.
   std::vector<std::string> warnings = {};
 };
 
 /// Reads scattered points: the nodes of a file of a surface or a curve (OBJ, OFF, PLY, STL, CSV, XYZ, DAT, GPX),
-/// connectivity ignored. path: a file, or "-" for standard input. The format is that of the extension for curves, else
-/// found from the content. columns: of the coordinates, in CSV and XYZ; empty: found as by read_curve(). plane: of
-/// latitudes and longitudes, as there.
+/// connectivity ignored. path: a file, or "-" for standard input. The extension gives the format of curves; other
+/// formats are found from the content. columns, plane: as for read_curve().
 ///
 /// Weights: in PLY the property `weight` of the vertices, or without one `confidence`; in CSV the column with that
 /// name; in XYZ the last column of rows of four or seven numbers (x y z weight, x y z nx ny nz weight). Other files
@@ -47,8 +46,8 @@ struct ScatteredPoints {
 [[nodiscard]] ScatteredPoints read_points(const std::string& path, const ColumnChoice& columns = {},
                                           const std::optional<LocalPlane>& plane = std::nullopt);
 
-/// The same from the bytes of a file in memory. name: what messages call it; its extension decides as a path's does.
-/// bytes: moved in without a copy. Throws and costs what read_points() does.
+/// Reads scattered points from the bytes of a file in memory. name: what messages call it; its extension counts as a
+/// path's does. bytes: move them in to avoid a copy. Throws and costs what read_points() does.
 [[nodiscard]] ScatteredPoints read_points_bytes(std::string bytes, const std::string& name,
                                                 const ColumnChoice& columns = {},
                                                 const std::optional<LocalPlane>& plane = std::nullopt);

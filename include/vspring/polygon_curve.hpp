@@ -9,8 +9,8 @@
 
 namespace VSPRING_API vspring {
 
-/// A polygonal curve: node positions and the chains of nodes that run through them. Most curves are one chain, open or
-/// closed; a drawing has many, which may meet at nodes that stay in place.
+/// A polygonal curve: node positions, and chains that run through them. Most curves are one chain, open or closed; a
+/// drawing has many, which may meet at fixed nodes.
 ///
 /// Chains are fixed at construction; positions may change. Only memory safety is checked here; check_constraints() says
 /// what cannot be faired.
@@ -26,7 +26,7 @@ class PolygonCurve {
   /// One chain through all positions in order.
   explicit PolygonCurve(std::vector<Vector3> positions, bool closed = false);
 
-  /// Throws Error(unusable_shape) naming the chain when it names a node out of range. Cost: linear.
+  /// Throws Error(unusable_shape) naming a chain that has a node out of range. Cost: linear.
   PolygonCurve(std::vector<Vector3> positions, std::vector<Chain> chains);
 
   [[nodiscard]] Index node_count() const noexcept { return static_cast<Index>(positions_.size()); }
@@ -45,9 +45,9 @@ class PolygonCurve {
 /// 1 for each node where an open chain begins or ends, else 0; one entry per node. Cost: linear.
 [[nodiscard]] std::vector<std::uint8_t> boundary_nodes(const PolygonCurve& curve);
 
-/// Joins segments, each between two nodes and in any order and direction, to chains: maximal runs through nodes of
-/// exactly two segments. Chains come in the order of their first segments and run in the direction of those. A segment
-/// from a node to itself is left out. Cost: linear.
+/// Joins segments to chains: maximal runs through nodes of exactly two segments. segments: pairs of nodes, in any order
+/// and direction; one from a node to itself is left out. Chains come in the order of their first segments and run in
+/// their direction. Cost: linear.
 [[nodiscard]] std::vector<PolygonCurve::Chain> chains_of_segments(const std::vector<std::pair<Index, Index>>& segments,
                                                                   Index node_count);
 

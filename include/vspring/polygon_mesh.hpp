@@ -14,13 +14,14 @@ namespace VSPRING_API vspring {
 ///
 /// Connectivity is fixed at construction; positions may change. Only memory safety is checked here: a mesh may have
 /// non-manifold spots, repeated or isolated nodes, or coordinates that are not finite. check() lists these; fair()
-/// refuses them where a node would have to move there. A copy shares faces and positions, and takes no time or memory.
+/// refuses them where a node would have to move there. Copies share faces and positions, so copying takes no time or
+/// memory.
 class PolygonMesh {
  public:
   PolygonMesh();
   PolygonMesh(const PolygonMesh&) = default;
   PolygonMesh& operator=(const PolygonMesh&) = default;
-  /// What is moved from stays as it was.
+  /// Moving is copying: the source stays valid.
   PolygonMesh(PolygonMesh&& other) noexcept : PolygonMesh(static_cast<const PolygonMesh&>(other)) {}
   PolygonMesh& operator=(PolygonMesh&& other) noexcept { return *this = static_cast<const PolygonMesh&>(other); }
   ~PolygonMesh() = default;
@@ -31,12 +32,13 @@ class PolygonMesh {
   /// Cost: linear.
   PolygonMesh(std::vector<Vector3> positions, std::vector<Index> face_begin, std::vector<Index> corners);
 
-  /// The same from flat arrays, as other libraries and languages have them: x, y, z of each node in turn. Throws
-  /// Error(invalid_argument) unless these are three a node. Cost: one copy of each array.
+  /// A mesh from flat arrays, as other libraries and languages have them. coordinates: x, y, z of each node in turn.
+  /// Other arguments as for the constructor. Throws what it throws, and Error(invalid_argument) unless there are three
+  /// coordinates a node. Cost: one copy of each array.
   [[nodiscard]] static PolygonMesh from_arrays(std::span<const double> coordinates, std::span<const Index> face_begin,
                                                std::span<const Index> corners);
-  /// Where all faces have so many nodes, 3 in a mesh of triangles. Throws Error(invalid_argument), too, unless `sides`
-  /// is 1 or more and corners are so many a face.
+  /// A mesh whose faces all have `sides` nodes, 3 in a mesh of triangles. Throws, too, Error(invalid_argument) unless
+  /// `sides` is 1 or more and the number of corners is a multiple of it.
   [[nodiscard]] static PolygonMesh from_arrays(std::span<const double> coordinates, std::span<const Index> corners,
                                                Index sides = 3);
 
@@ -45,8 +47,8 @@ class PolygonMesh {
 
   [[nodiscard]] const std::vector<Vector3>& positions() const noexcept { return *positions_; }
   [[nodiscard]] const Vector3& position(Index node) const { return (*positions_)[static_cast<std::size_t>(node)]; }
-  /// Copies keep theirs. What positions() returned before must not be used any more. Throws Error(invalid_argument)
-  /// unless there is one position per node.
+  /// Replaces the positions; copies of the mesh keep theirs. References from positions() become invalid. Throws
+  /// Error(invalid_argument) unless there is one position per node.
   void set_positions(std::vector<Vector3> positions);
 
   /// The nodes of a face, in order around it.
@@ -54,14 +56,14 @@ class PolygonMesh {
     const Index begin = face_begin(face);
     return {faces_->corners.data() + begin, static_cast<std::size_t>(face_begin(face + 1) - begin)};
   }
-  /// Where the nodes of a face begin among the corners; of face_count(), where those of the last end.
+  /// The offset of a face's first node in corners(); for face_count(), the end of the last face.
   [[nodiscard]] Index face_begin(Index face) const {
     return faces_->begin.empty() ? face * faces_->sides : faces_->begin[static_cast<std::size_t>(face)];
   }
-  /// The same of all faces, and the end. Cost: linear, as it is made for each call.
+  /// These offsets of all faces, and the end. Cost: linear, as each call makes them anew.
   [[nodiscard]] std::vector<Index> face_begin() const;
   [[nodiscard]] const std::vector<Index>& corners() const noexcept { return faces_->corners; }
-  /// Whether both have as many nodes and the same faces of them. Cost: none where they share them, else linear.
+  /// Whether both meshes have equally many nodes and the same faces. Cost: none if they share faces, else linear.
   [[nodiscard]] bool has_same_faces(const PolygonMesh& other) const;
 
  private:

@@ -10,10 +10,10 @@
 
 namespace VSPRING_API vspring {
 
-/// Nodes by the names that a file gives them, ascending.
+/// The nodes of each named group, ascending.
 using Groups = std::map<std::string, std::vector<Index>>;
 
-/// The nodes in and on a sphere, in units of the positions. With a negative radius there are none.
+/// The nodes in and on a sphere, in units of the positions; none if the radius is negative.
 struct SphereRegion {
   Vector3 centre;
   double radius;
@@ -30,7 +30,7 @@ struct GroupRegion {
   std::string group;
 };
 
-/// Nodes by their numbers, in any order; those named again count once.
+/// Nodes by their numbers, in any order; repeated ones count once.
 struct NodeRegion {
   std::vector<Index> nodes;
 };
@@ -38,12 +38,12 @@ struct NodeRegion {
 /// Which nodes may move, see restrict_to_region().
 struct Region {
   std::variant<SphereRegion, BoxRegion, GroupRegion, NodeRegion> extent;
-  /// What messages call it, such as the specification that it was read from, see parse_region(); may be empty.
+  /// What messages call the region, such as the specification given to parse_region(); may be empty.
   std::string name = {};
 };
 
-/// The nodes of a region, ascending. Throws Error(unusable_constraint), naming the region, where it has no node, for a
-/// group that there is not, and for a node out of range. Cost: linear.
+/// Returns the nodes of a region, ascending. Throws Error(unusable_constraint), naming the region, for one without a
+/// node, an unknown group, and a node out of range. Cost: linear.
 [[nodiscard]] std::vector<Index> select_region(const std::vector<Vector3>& positions, const Region& region,
                                                const Groups& groups = {});
 

@@ -35,8 +35,8 @@ enum class ScalarFormat { vtp, ply };
 void write_scalars(const std::string& path, const PolygonMesh& mesh, std::span<const NodeScalar> scalars);
 void write_scalars(const std::string& path, const PolygonCurve& curve, std::span<const NodeScalar> scalars);
 
-/// What write_scalars() would write to a file of that name, in memory. Throws Error(invalid_argument) as that does.
-/// Cost: linear.
+/// Returns the bytes that write_scalars() would write to a file named `name`. Throws Error(invalid_argument) as it
+/// does. Cost: linear.
 [[nodiscard]] FileBytes scalar_bytes(const std::string& name, const PolygonMesh& mesh,
                                      std::span<const NodeScalar> scalars);
 [[nodiscard]] FileBytes scalar_bytes(const std::string& name, const PolygonCurve& curve,

@@ -9,14 +9,14 @@
 
 namespace VSPRING_API vspring {
 
-/// The pairs of faces that cross: each reaches from one side of the other to its other side, along some length. Faces
-/// that only touch, to within the rounding of coordinates, do not count, nor do two that share an edge (flipped faces
-/// show such folds). Faces that are not flat are taken as triangles, quads by either diagonal (docs/fairness.md).
+/// Finds the pairs of faces that cross: each passes through the other along some length. Faces that only touch, to
+/// within the rounding of coordinates, do not count; nor do two that share an edge (SurfaceFigures::flipped_faces shows
+/// such folds). Faces that are not flat are split into triangles, quads by either diagonal (docs/fairness.md).
 ///
-/// Each pair once, the smaller face first, in ascending order; the same for every number of threads. Cost: linear
-/// where one direction sees every point once, as of most caps and patches; otherwise n log n, and the number of pairs
-/// of faces with overlapping boxes, around a node of very many faces of those whose far edges, seen from it, have. When
-/// cancelled, only the pairs found so far.
+/// Returns each pair once, the smaller face first, in ascending order; the same for every number of threads. Cost:
+/// linear if every line along some direction meets the surface at most once, as for most caps and patches; otherwise n
+/// log n plus the number of pairs of faces with overlapping boxes. Around a node of very many faces, only pairs whose
+/// far edges overlap as seen from the node count. When cancelled, returns the pairs found so far.
 [[nodiscard]] std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh, const Context& context);
 [[nodiscard]] std::vector<std::pair<Index, Index>> self_intersections(const PolygonMesh& mesh);
 

@@ -22,19 +22,20 @@ enum class SurfaceFormat { obj, off, ply, stl };
 
 class SurfaceSource;  // the bytes of a file and where its coordinates and normals are; private to the library
 
-/// What came to a surface behind the nodes and faces that its file gave, such as patches of holes.
+/// Nodes and faces appended to those of a file, such as patches of holes.
 struct AddedElements {
-  /// Per new node the one of the file whose other values it gets in the file's own format, such as a colour.
+  /// Per new node the node of the file from which it takes other values in the file's own format, such as a colour.
   std::vector<Index> node_like;
-  /// The same of new faces: numbers alone; lists, as of texture coordinates, are empty.
+  /// Per new face the face of the file from which it takes other values. Only numbers: lists, as of texture
+  /// coordinates, become empty.
   std::vector<Index> face_like;
-  /// OBJ: groups that begin at new faces, by these, ascending.
+  /// OBJ: new faces at which a group begins, ascending, and its name.
   std::vector<std::pair<Index, std::string>> groups;
 };
 
 /// A mesh and everything else that its file carried.
 struct SurfaceFile {
-  /// The nodes and faces of the file, and behind them those of `added`.
+  /// The nodes and faces of the file, followed by those of `added`.
   PolygonMesh mesh;
   /// Nodes of each named group (OBJ `g` and `o`: all nodes of the faces that follow), ascending. Other formats have
   /// none.
@@ -54,12 +55,12 @@ struct SurfaceFile {
 /// `format`, where given, or the extension decide only what the content leaves open.
 ///
 /// Throws Error(unusable_file), naming path and line (or byte), for anything that cannot be read whole and for a file
-/// without nodes. Cost: linear; the bytes of the file stay in memory, but for those of a binary
-/// PLY file of nothing but positions and faces.
+/// without nodes. Cost: linear; the bytes of the file stay in memory, except for a binary PLY file of positions and
+/// faces only.
 [[nodiscard]] SurfaceFile read_surface(const std::string& path, std::optional<SurfaceFormat> format = std::nullopt);
 
-/// The same from the bytes of a file in memory. name: what messages call it; its extension decides as a path's does.
-/// bytes: kept for writing, so moved in without a copy. Throws and costs what read_surface() does.
+/// Reads a surface from the bytes of a file in memory. name: what messages call it; its extension counts as a path's
+/// does. bytes: kept for writing, so move them in. Throws and costs what read_surface() does.
 [[nodiscard]] SurfaceFile read_surface_bytes(std::string bytes, const std::string& name,
                                              std::optional<SurfaceFormat> format = std::nullopt);
 
@@ -72,39 +73,39 @@ struct SurfaceFile {
 /// nodes and faces, and node normals where the source has them; PLY is then binary in double precision, STL binary, of
 /// triangles cut from the first node of each face.
 ///
-/// Nodes and faces that were added come behind those of the file, in its own way; its normals at other nodes stay.
+/// Added nodes and faces follow those of the file, in the file's own style; normals of other nodes stay.
 ///
 /// Returns what the source carried and the output does not, one line each; empty when nothing is lost. The file appears
 /// whole or not at all, see write_file().
 ///
 /// Throws Error(unusable_file) when it cannot be written; Error(invalid_argument) unless there is one position per
-/// node, finite where it is not the one that was read, and within the range of the number type of the file; also for a
-/// mesh without triangles as STL, and Error(unusable_file) where faces were added to a file that has no place for them:
-/// strips of triangles, OFF whose lines have no say. Cost: linear.
+/// node, for a position that is not finite and not the one that was read, for one out of the range of the file's number
+/// type, and for a mesh without triangles as STL; Error(unusable_file) for faces added to a file that has no place for
+/// them: triangle strips, OFF without line structure. Cost: linear.
 std::vector<std::string> write_surface(const std::string& path, const SurfaceFile& surface,
                                        const std::vector<Vector3>& positions,
                                        std::optional<SurfaceFormat> format = std::nullopt);
 
-/// Writes a mesh that no file gave. format: where not given, the extension's. Throws as above; every position must be
-/// finite.
+/// Writes a mesh that no file gave. format: where not given, the extension's. Throws as write_surface() of a file does;
+/// every position must be finite.
 void write_surface(const std::string& path, const PolygonMesh& mesh,
                    std::optional<SurfaceFormat> format = std::nullopt);
 
-/// What write_surface() would write to a file of that name, in memory; no file is looked at. Throws
-/// Error(invalid_argument) as that does, and Error(unusable_file) where new coordinates would make an OFF file that
-/// reads in another way. Cost: linear.
+/// Returns the bytes that write_surface() would write to a file named `name`; touches no file. Throws
+/// Error(invalid_argument) as write_surface() does, and Error(unusable_file) if new coordinates would change how an OFF
+/// file is read. Cost: linear.
 [[nodiscard]] FileBytes surface_bytes(const std::string& name, const SurfaceFile& surface,
                                       const std::vector<Vector3>& positions,
                                       std::optional<SurfaceFormat> format = std::nullopt);
 [[nodiscard]] FileBytes surface_bytes(const std::string& name, const PolygonMesh& mesh,
                                       std::optional<SurfaceFormat> format = std::nullopt);
 
-/// The standard deviation, in each coordinate, of what was rounded off positions so far from the origin, in units of
-/// the file, where that has single precision; else 0. Cost: linear.
+/// The standard deviation of the rounding of positions in each coordinate, in units of the file, if the file has single
+/// precision; else 0. It grows with the distance from the origin. Cost: linear.
 [[nodiscard]] double rounding_of(const SurfaceFile& surface);
 
-/// The positions that write_surface() leaves in a file of that name: rounded where that has single precision, as binary
-/// STL and some PLY do, infinite beyond its range; else as they are. Cost: linear.
+/// The positions as a file named `name` will hold them: rounded if it has single precision, as binary STL and some PLY
+/// do, infinite beyond its range; else unchanged. Cost: linear.
 [[nodiscard]] std::vector<Vector3> written_positions(const std::string& name, const SurfaceFile& surface,
                                                      std::vector<Vector3> positions,
                                                      std::optional<SurfaceFormat> format = std::nullopt);

@@ -13,14 +13,14 @@ namespace VSPRING_API vspring {
 [[nodiscard]] std::vector<std::uint8_t> boundary_nodes(const PolygonMesh& mesh);
 
 /// The loops of boundary edges, each a list of nodes in order; the first node is not repeated at the end. Where more
-/// than two boundary edges meet at a node, loops are told apart by the faces between them. Cost: linear.
+/// than two boundary edges meet at a node, the faces between them separate the loops. Cost: linear.
 [[nodiscard]] std::vector<std::vector<Index>> boundary_loops(const PolygonMesh& mesh);
 
-/// The boundary loops as closed chains of a curve that has all nodes of the mesh under their numbers. Cost: linear.
+/// The boundary loops as closed chains of a curve. It has all nodes of the mesh, with their numbers. Cost: linear.
 [[nodiscard]] PolygonCurve boundary_curve(const PolygonMesh& mesh);
 
 /// The component of every node, numbered from 0 in the order of their first nodes. Nodes that share a face are in one
-/// component; an isolated node is one by itself. Cost: linear.
+/// component; an isolated node is a component of its own. Cost: linear.
 [[nodiscard]] std::vector<Index> components(const PolygonMesh& mesh);
 
 /// A defect of a mesh. `node`, `other` and `face` are −1 where they do not apply.
@@ -45,12 +45,12 @@ struct Defect {
   [[nodiscard]] std::string message() const;
 };
 
-/// Lists every defect of a mesh, ordered by kind, then by element: by face where one is named, else by node. Each edge
-/// is named once, `node` the smaller of its ends. Cost: n log n in the faces.
+/// Lists every defect of a mesh, ordered by kind, then by face or, without a face, by node. Each edge is named once;
+/// `node` is the smaller of its ends. Cost: n log n in the faces.
 [[nodiscard]] std::vector<Defect> check(const PolygonMesh& mesh);
 
-/// The faces of three or more nodes that have no area, so no normal; also where a node occurs in one twice, of which
-/// check() says that. Cost: linear.
+/// The faces of three or more nodes without area, hence without normal. They include faces with a node twice, which
+/// check() reports as repeated_node. Cost: linear.
 [[nodiscard]] std::vector<Index> faces_without_area(const PolygonMesh& mesh);
 
 }  // namespace vspring

@@ -14,14 +14,14 @@ using Index = std::int32_t;
 
 using Vector3 = Eigen::Vector3d;
 
-/// The coordinates of positions, x, y, z of each in turn, where they lie: nothing is copied.
+/// A view of the coordinates of positions, x, y, z of each in turn.
 [[nodiscard]] inline std::span<const double> coordinates(std::span<const Vector3> positions) noexcept {
   static_assert(sizeof(Vector3) == 3 * sizeof(double));
   return {positions.empty() ? nullptr : positions.front().data(), 3 * positions.size()};
 }
 
-/// Positions from coordinates, x, y, z of each in turn. Throws Error(invalid_argument) unless these are three each.
-/// Cost: one copy.
+/// Positions from coordinates, x, y, z of each in turn. Throws Error(invalid_argument) unless their number is a
+/// multiple of three. Cost: one copy.
 [[nodiscard]] std::vector<Vector3> positions_of(std::span<const double> coordinates);
 
 }  // namespace vspring

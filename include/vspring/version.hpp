@@ -4,10 +4,10 @@
 
 namespace VSPRING_API vspring {
 
-/// "major.minor.patch" of the library that runs.
+/// "major.minor.patch" of the running library.
 [[nodiscard]] const char* version() noexcept;
 
-/// Largest resident memory of this process so far, bytes; 0 where the system does not tell.
+/// Largest resident memory of this process so far, in bytes; 0 if the system does not tell.
 [[nodiscard]] long long peak_memory_bytes() noexcept;
 
 }  // namespace vspring

@@ -1,6 +1,6 @@
 #pragma once
 
-/// All of the library.
+/// Includes the whole library.
 #include "vspring/column_choice.hpp"
 #include "vspring/constraints.hpp"
 #include "vspring/context.hpp"

@@ -10,8 +10,8 @@ namespace {
 
 #ifdef __EMSCRIPTEN__
 
-// Compiled once for programs with threads and without: in the latter the place of thread_local variables is not theirs
-// alone.
+// One build serves programs with threads and without; in those without, thread_local variables may share their place
+// with other data.
 pthread_key_t watched_key() {
   static const pthread_key_t key = [] {
     pthread_key_t made{};

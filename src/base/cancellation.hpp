@@ -6,12 +6,11 @@
 
 namespace vspring {
 
-/// Thrown out of work whose context has been cancelled, wherever that is noticed.
+/// Thrown by end_if_cancelled().
 struct Cancelled {};
 
-/// While it lives, end_if_cancelled() on this thread looks at that context, and at none that a scope around it names.
-/// It throws once: whoever catches that and clears up is not disturbed again by the same context, in scopes around
-/// this one neither.
+/// While it lives, end_if_cancelled() on this thread watches this context instead of those of enclosing scopes. A
+/// context makes it throw once only, so that the cleanup after that is not interrupted, also in enclosing scopes.
 class CancellationScope {
  public:
   explicit CancellationScope(const Context& context) noexcept;
@@ -25,7 +24,7 @@ class CancellationScope {
 };
 
 /// While it lives, end_if_cancelled() on this thread does nothing: for work that must not be left half done, and for
-/// what others have given to be called.
+/// callbacks.
 class UncancelledScope {
  public:
   UncancelledScope() noexcept;
@@ -37,11 +36,11 @@ class UncancelledScope {
   const Context* around_;
 };
 
-/// Throws Cancelled where this thread is in the scope of a context that has been cancelled. Every long loop calls it,
-/// and teams of threads do before each task.
+/// Throws Cancelled if this thread is in the scope of a cancelled context. Every long loop calls it; teams of threads
+/// call it before each task.
 void end_if_cancelled();
 
-/// The same at every 4,096th step of a loop of small steps.
+/// Calls end_if_cancelled() at every 4,096th step: for loops of small steps.
 inline void end_if_cancelled_at(std::size_t step) {
   constexpr std::size_t steps = 4096;
   if (step % steps == 0) end_if_cancelled();

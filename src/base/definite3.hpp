@@ -4,8 +4,8 @@
 
 namespace vspring {
 
-/// A symmetric matrix of three rows. Its entries are numbers of their own: sums over neighbours then stay in registers,
-/// where entries that are stored one by one and read again two at a time would stall the processor.
+/// A symmetric 3 × 3 matrix. Its entries are separate variables, so sums over neighbours stay in registers. Entries of
+/// an array would be stored one by one and read in pairs, which stalls the processor.
 struct Symmetric3 {
   double xx = 0;
   double xy = 0;
@@ -46,8 +46,8 @@ struct Symmetric3 {
   }
 };
 
-/// x of a x = b for a positive definite a, by elimination without pivoting, unrolled: a sixth of the time of the
-/// general solver's. Directions that a has nothing of get nothing.
+/// Solves a x = b for a positive definite a, by unrolled elimination without pivoting: a sixth of the time of the
+/// general solver. x is zero in directions of which a has nothing.
 inline Vector3 solve_definite(const Symmetric3& a, const Vector3& b) {
   const auto inverse = [](double pivot) { return pivot > 0 ? 1 / pivot : 0; };
   const double ix = inverse(a.xx);

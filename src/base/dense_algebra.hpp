@@ -6,18 +6,18 @@
 
 namespace vspring {
 
-/// The Cholesky decomposition of a small symmetric matrix without negative eigenvalues that takes the largest pivot
-/// that is left, so that it tells of its rank (N. J. Higham, "Analysis of the Cholesky Decomposition of a Semi-definite
-/// Matrix", 1990). By hand since Eigen's LDLT takes its pivots in the order of the matrix's own diagonal, and its other
-/// decompositions take long to compile. Cost: n³/3.
+/// The Cholesky decomposition, with complete pivoting, of a small symmetric matrix without negative eigenvalues; it
+/// reveals the rank (N. J. Higham, "Analysis of the Cholesky Decomposition of a Semi-definite Matrix", 1990). Our own,
+/// because Eigen's LDLT takes its pivots in the order of the original diagonal, and its other decompositions take long
+/// to compile. Cost: n³/3.
 class PivotedCholesky {
  public:
   explicit PivotedCholesky(Eigen::MatrixXd matrix);
 
-  /// How many pivots are more than `least` times the first.
+  /// The number of pivots greater than `least` times the first.
   [[nodiscard]] Eigen::Index rank(double least) const;
 
-  /// Some x that comes nearest to matrix · x = right, where further pivots count as zero.
+  /// A least-squares solution x of matrix · x = right; pivots beyond rank(least) count as zero.
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& right, double least) const;
 
  private:
@@ -25,19 +25,19 @@ class PivotedCholesky {
   std::vector<Eigen::Index> order_;
 };
 
-/// Eigenvectors of a symmetric matrix in columns of length 1, in the order of rising eigenvalues.
+/// Unit eigenvectors of a symmetric matrix, as columns, by ascending eigenvalues.
 [[nodiscard]] Eigen::Matrix3d principal_axes(const Eigen::Matrix3d& symmetric);
 
-/// The smallest x that comes nearest to matrix · x = right, for a symmetric matrix without negative eigenvalues.
+/// The smallest least-squares solution x of matrix · x = right, for a symmetric matrix without negative eigenvalues.
 [[nodiscard]] Eigen::Vector3d smallest_solution(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& right);
 
-/// The solution of gram · x = right with columns scaled to one length, and that much added to the diagonal where they
-/// hardly differ. Not finite where there is none.
+/// The solution of gram · x = right, with columns scaled to length 1 and the damping added to the diagonal where
+/// columns hardly differ. Not finite if there is none.
 [[nodiscard]] Eigen::VectorXd damped_solution(const Eigen::MatrixXd& gram, const Eigen::VectorXd& right,
                                               double damping);
 
-/// The x nearest to terms · x = right, by the normal equations and one refinement; none where the last pivot of QR
-/// would not be more than `independent` (1e-5 or more) times the first.
+/// The least-squares solution x of terms · x = right, by the normal equations and one refinement; none if the last
+/// pivot of QR would be at most `independent` (1e-5 or more) times the first.
 [[nodiscard]] std::optional<Eigen::VectorXd> least_squares(const Eigen::MatrixXd& terms, const Eigen::VectorXd& right,
                                                            double independent);
 

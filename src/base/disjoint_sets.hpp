@@ -7,8 +7,8 @@
 
 namespace vspring {
 
-/// Sets of the numbers from 0 on, each of them alone at first (union-find with path halving). The representative of a
-/// set is its least number. Cost of a call: about constant.
+/// Disjoint sets of the numbers from 0 on, at first one for each (union-find with path halving). The least number
+/// represents a set. Cost of a call: about constant.
 class DisjointSets {
  public:
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -18,7 +18,7 @@ class DisjointSets {
     return item;
   }
 
-  /// Returns the representative of the two as one.
+  /// Joins two sets and returns the representative of the union.
   std::size_t join(std::size_t a, std::size_t b) {
     const auto [low, high] = std::minmax({find(a), find(b)});
     parent_[high] = low;

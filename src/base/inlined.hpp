@@ -1,5 +1,5 @@
 #pragma once
 
-// Into each of its callers, whatever the compiler thinks of its size: lest vectors of a few numbers be handed from one
-// function to another through memory, stored one by one and read again together, for which a processor waits.
+// Always inlined: passing small vectors between functions through memory stores them one by one and reads them
+// together, which stalls the processor.
 #define VSPRING_INLINE __attribute__((always_inline)) inline

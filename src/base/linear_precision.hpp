@@ -16,9 +16,9 @@ class LinearPrecision {
     spread_.add_square(weight, offset);
   }
 
-  /// Of the weights before.
+  /// The sum of the weights w.
   [[nodiscard]] double sum() const { return sum_; }
-  /// 0 where all offsets are.
+  /// Zero if all offsets are zero.
   [[nodiscard]] double size() const { return spread_.trace(); }
 
   /// g, for offsets in the plane across a unit normal.
@@ -30,16 +30,16 @@ class LinearPrecision {
     return solve_definite(spread, mean_);
   }
 
-  /// g, for offsets that lie about in a plane, which need not be known: across it, where there is little to be
-  /// reproduced, a ridge, as a share of the size, keeps that from being tried.
+  /// g, for offsets that lie roughly in an unknown plane. ridge: regularises the direction across that plane, as a
+  /// share of size().
   [[nodiscard]] Vector3 slope(double ridge) const {
     Symmetric3 spread = spread_;
     spread.add_to_diagonal(ridge * size());
     return solve_definite(spread, mean_);
   }
 
-  /// g shortened so that at least this share of the sum of weights is left: of neighbours all to one side next to
-  /// nothing is.
+  /// g, shortened so that at least the share `least` of the sum of weights is left; with all neighbours on one side
+  /// almost nothing would be.
   [[nodiscard]] Vector3 leaving(double least, Vector3 slope) const {
     const double left = 1 - mean_.dot(slope) / sum_;
     if (left < least) slope *= (1 - least) / (1 - left);

@@ -6,8 +6,8 @@
 
 namespace vspring {
 
-/// The middle one of values, which must not be empty; of an even number of them the greater of the two in the middle.
-/// Orders them anew. Cost: linear.
+/// The median of `values`, which must not be empty; of an even number the greater of the two middle ones. Reorders
+/// `values`. Cost: linear.
 inline double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());

@@ -13,7 +13,7 @@ std::string in_one_line(std::string_view text, std::size_t longest) {
   std::size_t end = text.size();
   if (end > longest) {
     end = longest;
-    // A character of UTF-8 is kept whole: the bytes that go on with one begin with the bits 10.
+    // Keeps characters of UTF-8 whole: continuation bytes begin with the bits 10.
     while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
   }
   std::string result;

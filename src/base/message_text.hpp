@@ -6,10 +6,11 @@
 
 namespace vspring {
 
-/// Bytes of a file for a message: in quotes, at most 24 of them, what is not printable ASCII as "?".
+/// Quotes bytes of a file in a message: at most 24, with "?" for all but printable ASCII.
 std::string in_quotes(std::string_view bytes);
 
-/// UTF-8 that a user wrote, for a message: in one line, at most some `longest` bytes, control characters as "?".
+/// Puts a user's UTF-8 text into a message: on one line, about `longest` bytes at most, with "?" for control
+/// characters.
 std::string in_one_line(std::string_view text, std::size_t longest = 100);
 
 }  // namespace vspring

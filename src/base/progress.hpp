@@ -10,8 +10,8 @@
 
 namespace vspring {
 
-/// Tells a context how far a call has come, when a stage begins and at most some 20 times a second, and never
-/// backwards.
+/// Reports the progress of a call to its context: when a stage begins, and at most about 20 times a second. It never
+/// falls.
 class ProgressReporter {
  public:
   explicit ProgressReporter(const Context& context) : context_(&context) {}

@@ -22,7 +22,7 @@ class Random {
     }
   }
 
-  /// All 64-bit numbers, equally likely.
+  /// Uniform among all 64-bit numbers.
   std::uint64_t next() {
     const std::uint64_t result = std::rotl(state_[0] + state_[3], 23) + state_[0];
     const std::uint64_t shifted = state_[1] << 17;

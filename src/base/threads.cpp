@@ -15,7 +15,7 @@ namespace vspring {
 
 namespace {
 
-// Some 30 microseconds: waking a thread takes longer than many a loop over some thousand nodes.
+// About 30 microseconds: waking a thread may take longer than a loop over some thousand nodes.
 #if defined(__x86_64__)
 constexpr int looks_before_sleep = 2000;
 #else
@@ -24,14 +24,14 @@ constexpr int looks_before_sleep = 16000;  // without pauses
 
 void (*watcher)(const std::type_info& work) = nullptr;
 
-/// Not a yield: that would hand the core to other programs for milliseconds.
+/// Not a yield, which would give the core to other programs for milliseconds.
 void pause() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();
 #endif
 }
 
-/// Looks whether that holds for as long as the pauses between loops last.
+/// Spins until the condition holds, for as long as a pause between two loops lasts.
 template <typename Holds>
 bool soon(const Holds& holds) {
   for (int look = 0; look < looks_before_sleep; ++look) {
@@ -47,8 +47,8 @@ int Context::thread_count() const noexcept {
   return threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-/// The threads that help teams: started when one calls and none is idle, and asleep here between teams. They are never
-/// ended, and neither is this, so nothing has to be waited for at the end of the program.
+/// The threads that help teams. One is started when a team calls and none is idle; between teams they sleep. Threads
+/// and pool are never ended, so the program need not wait for them when it ends.
 class WorkerPool {
  public:
   static WorkerPool& of_program() {
@@ -56,7 +56,7 @@ class WorkerPool {
     return helpers;
   }
 
-  /// Returns how many have been called: none where there is no memory for that.
+  /// Returns how many threads were called: none if memory runs out.
   int call(ThreadTeam& team, int count) noexcept {
     calls_so_far_.fetch_add(1, std::memory_order_relaxed);
     const std::lock_guard lock(mutex_);
@@ -68,7 +68,7 @@ class WorkerPool {
     try {
       for (; idle_ < calls_.size(); ++idle_) std::thread([this] { live(); }).detach();
     } catch (const std::exception&) {
-      // There are no more, or no memory for one: whoever becomes idle will come.
+      // No thread can be started: the next idle one will answer.
     }
     for (int k = 0; k < count; ++k) called_.notify_one();
     return count;
@@ -76,7 +76,7 @@ class WorkerPool {
 
   [[nodiscard]] std::size_t calls_so_far() const noexcept { return calls_so_far_.load(std::memory_order_relaxed); }
 
-  /// How many calls of that team nobody has answered; nobody will.
+  /// Withdraws the team's unanswered calls and returns their number.
   int withdraw(const ThreadTeam& team) {
     const std::lock_guard lock(mutex_);
     return static_cast<int>(std::erase(calls_, &team));
@@ -143,7 +143,7 @@ void ThreadTeam::run(std::size_t count, const std::function<void(std::size_t)>& 
   }
   take_tasks(task, count);
   {
-    // Whoever has not come by now is not waited for: another program may have its core.
+    // Threads that have not answered by now are not waited for: another program may have their core.
     const std::lock_guard lock(mutex_);
     task_ = nullptr;
   }
@@ -163,7 +163,7 @@ void ThreadTeam::take_tasks(const std::function<void(std::size_t)>& task, std::s
       end_if_cancelled();
       task(k);
     } catch (...) {
-      // Others are still at their tasks, and what these read must stay until they are done.
+      // Other threads are still at work, and the data that they read must stay until they are done.
       next_.store(count, std::memory_order_relaxed);
       const std::lock_guard lock(mutex_);
       failure_ = std::current_exception();
@@ -180,7 +180,7 @@ void ThreadTeam::help() {
     {
       const std::lock_guard lock(mutex_);
       if (ending_ || round_ == seen) {
-        // The last that is done here: the team may end now.
+        // The last helper is done: the team may end.
         if (--helpers_ == 0) finished_.notify_one();
         return;
       }

@@ -12,10 +12,9 @@
 
 namespace vspring {
 
-/// A team of threads that works off numbered tasks. Which thread takes which task is left open, so tasks must not
-/// depend on each other, and what they compute must not depend on who computes it: then results are the same bits for
-/// every size of team. Besides the caller they are threads that live as long as the program and help one team after the
-/// other; where no more can be had those that there are do the work.
+/// A team of threads that works on numbered tasks. Any thread may take any task, so tasks must not depend on each other
+/// or on the thread: then results have the same bits for every size of team. Helpers live as long as the program and
+/// serve one team after the other. If no more can be started, fewer do the work.
 class ThreadTeam {
  public:
   /// threads: at least 1, the caller among them.
@@ -26,40 +25,39 @@ class ThreadTeam {
 
   [[nodiscard]] int size() const noexcept { return size_; }
 
-  /// How often teams of this program have called for helpers: whether something ran on several threads.
+  /// How often teams of this program have called for helpers: shows whether something ran on several threads.
   [[nodiscard]] static std::size_t calls_for_help() noexcept;
 
-  /// From now on `see` is told of every kind of work, by the type of what does it, that a team shares out. For tests;
-  /// set before any team works.
+  /// From now on calls `see` with the type of every function that a team shares out. For tests; set it before any team
+  /// works.
   static void watch(void (*see)(const std::type_info& work)) noexcept;
 
-  /// Calls task(k) for k from 0 to count − 1 and returns when all are done. Where one throws, those that have not begun
-  /// are left out, and what it threw, or another did, is thrown here when nobody works any more. Before each of its
-  /// tasks the calling thread looks whether it is to end (end_if_cancelled()).
+  /// Calls task(k) for k from 0 to count − 1 and returns when all are done. If a task throws, tasks that have not begun
+  /// are skipped, and one of the exceptions is rethrown when all threads have stopped. The calling thread calls
+  /// end_if_cancelled() before each of its tasks.
   void run(std::size_t count, const std::function<void(std::size_t)>& task);
 
  private:
   friend class WorkerPool;
 
-  /// What another thread does here until there has been nothing to do for a while.
+  /// The loop of a helper: works until there has been nothing to do for a while.
   void help();
   void take_tasks(const std::function<void(std::size_t)>& task, std::size_t count);
 
   int size_;
   std::mutex mutex_;
   std::condition_variable finished_;
-  int helpers_ = 0;  // here or called
+  int helpers_ = 0;  // at work or called
   std::atomic<std::uint64_t> round_ = 0;
   std::atomic<bool> ending_ = false;
   std::atomic<std::size_t> busy_ = 0;
   const std::function<void(std::size_t)>* task_ = nullptr;  // while others may join
   std::size_t count_ = 0;
   std::atomic<std::size_t> next_ = 0;
-  std::exception_ptr failure_;  // what a task of this round has thrown
+  std::exception_ptr failure_;  // thrown by a task of this round
 };
 
-// What is worth handing to another thread: nodes or faces that something is computed for, and nodes that are only moved
-// about.
+// Sizes of tasks worth giving to another thread: nodes or faces to compute something for, and nodes only to be copied.
 inline constexpr std::size_t nodes_per_task = 2048;
 inline constexpr std::size_t faces_per_task = 4096;
 inline constexpr std::size_t light_nodes_per_task = 16384;
@@ -72,7 +70,7 @@ void parallel_ranges(ThreadTeam& team, std::size_t count, std::size_t grain, con
   team.run(ranges, [&](std::size_t k) { body(k * grain, k + 1 == ranges ? count : (k + 1) * grain); });
 }
 
-/// Calls body(i) for i from 0 to count − 1, in such ranges.
+/// Calls body(i) for i from 0 to count − 1, in the ranges of parallel_ranges().
 template <typename Body>
 void parallel_each(ThreadTeam& team, std::size_t count, std::size_t grain, const Body& body) {
   parallel_ranges(team, count, grain, [&](std::size_t begin, std::size_t end) {
@@ -80,8 +78,8 @@ void parallel_each(ThreadTeam& team, std::size_t count, std::size_t grain, const
   });
 }
 
-/// As parallel_ranges(), where each range has a part of the result: body(begin, end, part). Returns the parts in their
-/// order, so that what is made of them has the same bits for every size of team.
+/// As parallel_ranges(), but each range has its own part of the result: body(begin, end, part). Returns the parts in
+/// order, so results combined from them have the same bits for every size of team.
 template <typename Part, typename Body>
 std::vector<Part> parallel_parts(ThreadTeam& team, std::size_t count, std::size_t grain, const Part& initial,
                                  const Body& body) {

@@ -94,7 +94,7 @@ Index even_boundary(const AnnulusOptions& options, const Chain& chain) {
   return inside < 3 ? options.nodes : boundary;
 }
 
-/// Rows of each piece of the chain: as equilateral triangles ask for, within what the nodes inside allow.
+/// Rows of each piece of the chain, for triangles as equilateral as the number of inner nodes allows.
 std::vector<Index> rows_of(const Chain& chain, double edge, Index inside) {
   const Index most = inside / 3 + 1;
   std::vector<Index> rows;

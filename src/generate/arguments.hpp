@@ -12,7 +12,7 @@ void require(bool holds, std::string_view name, std::string_view range, double v
 /// A length greater than 0. Its range keeps squares and sums of coordinates from overflowing and vanishing.
 void require_length(std::string_view name, double value);
 
-/// The same, or 0.
+/// A length that is 0 or passes require_length().
 void require_length_or_zero(std::string_view name, double value);
 
 /// Share of a cell within which nodes are shifted.

@@ -12,7 +12,7 @@ namespace vspring::generate {
 /// A point of an integer lattice.
 using LatticePoint = std::array<int, 3>;
 
-/// Nodes at points of a lattice, one for each point however often it is asked for.
+/// Nodes at points of a lattice, one for each point.
 class LatticeNodes {
  public:
   using Place = std::function<Vector3(const LatticePoint&)>;

@@ -1,4 +1,4 @@
-// The same shape with noise, or with other numbers for its nodes and faces.
+// Meshes with noise added, or with nodes and faces renumbered.
 
 #include <numeric>
 

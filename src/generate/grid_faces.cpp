@@ -20,7 +20,7 @@ Piece pattern(Faces faces, int column, int row) {
     case Faces::hexagons:
       return (column + row) % 2 == 0 ? Piece::joined : Piece::taken;
     case Faces::mixed: {
-      // Shifted from row to row, so that pairs lie whole in every four columns of some row.
+      // Shifted from row to row, so that in some row pairs lie whole within every four columns.
       constexpr Piece period[] = {Piece::joined, Piece::taken, Piece::whole, Piece::cut};
       return period[(column % 4 + row % 4) % 4];
     }
@@ -28,7 +28,7 @@ Piece pattern(Faces faces, int column, int row) {
   return Piece::whole;
 }
 
-/// The piece that a cell is: pairs that an end of the row parts are single cells.
+/// The piece of a cell; pairs cut by an end of the row are single cells.
 Piece piece_at(const Cells& cells, int column, int row) {
   const Piece piece = pattern(cells.faces, column, row);
   if (cells.around) return piece;

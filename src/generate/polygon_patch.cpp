@@ -30,7 +30,7 @@ class PolygonGrid {
     return before + (side * edges(loop) + j + count) % count;
   }
 
-  /// A point of the unit disc: loops go over from polygons around the middle to the circle.
+  /// A point of the unit disc: loops change gradually from polygons around the middle to the circle.
   [[nodiscard]] Vector3 place(int loop, int side, int j) const {
     const double sector = 2 * std::numbers::pi / sides_;
     const double share = static_cast<double>(j) / edges(loop);
@@ -44,7 +44,7 @@ class PolygonGrid {
   }
 
  private:
-  /// Radius of a loop: its edges are all of one length, or spokes are cut so that quads are about square.
+  /// Radius of a loop: edges of a loop have one length, or spokes are cut so that quads are about square.
   [[nodiscard]] double size(int loop) const {
     if (corner_ == 1) return static_cast<double>(edges(loop)) / edges(rings_);
     return std::pow(1 + 2 * std::numbers::pi / sides_, loop - rings_);

@@ -47,8 +47,8 @@ void place_ring(MeshBuilder& builder, const ProfileCurve& curve, const RingLayou
   }
 }
 
-/// Triangles between two rings: goes around both, always on to the edge whose middle comes first. Both begin within
-/// half a step of angle 0, so the first nodes are joined.
+/// Joins two rings by triangles: walks around both, next to the edge whose middle comes first. Both rings begin within
+/// half a step of angle 0, so their first nodes are joined.
 void zip(MeshBuilder& builder, const Ring& inner, const Ring& outer) {
   Index i = 0;
   Index o = 0;
@@ -78,7 +78,7 @@ Index even_rows(double length, double edge, Index most) {
 }
 
 std::vector<Index> share_out(Index total, const std::vector<double>& weights, Index least) {
-  // Shares that would fall below the least get it, and the others share the rest, until none falls.
+  // Shares below the least are raised to it, and the others divide the rest, until no share is below.
   std::vector<double> shares(weights.size(), 0.0);
   std::size_t raised = 0;
   for (;;) {

@@ -27,15 +27,15 @@ struct Jitter {
   std::uint64_t seed;
 };
 
-/// The edge length at which equilateral triangles with that many nodes cover the area, half of each boundary node's
-/// share lying outside. nodes: for a disc, one less than it has.
+/// The edge length at which equilateral triangles with that many nodes cover the area; half of each boundary node's
+/// share lies outside. nodes: for a disc, one less than it has.
 [[nodiscard]] double even_edge(double nodes, double area, double boundary_length);
 
 /// The number of rows of equilateral triangles of this edge that comes closest to the length; from 1 to `most`.
 [[nodiscard]] Index even_rows(double length, double edge, Index most);
 
-/// Parts `total` by weights into whole numbers of at least `least` each: to within one of the exact shares, and with
-/// running sums to within one of theirs. total ≥ least × the number of weights; weights not negative, not all 0.
+/// Divides `total` by weights into whole numbers of at least `least` each. Parts and their running sums differ by less
+/// than one from the exact ones. total ≥ least × the number of weights; weights not negative, not all 0.
 [[nodiscard]] std::vector<Index> share_out(Index total, const std::vector<double>& weights, Index least);
 
 /// Puts the nodes of each ring at equal angles, every second ring turned by half a step, and joins neighbouring rings

@@ -20,7 +20,7 @@ Boundary::Boundary(const PolygonMesh& mesh, const Incidence& incidence, std::spa
   FanWalker walker(mesh, incidence);
   for (Index i = 0; i < mesh.node_count(); ++i) {
     const bool is_inside = !inside.empty() && inside[static_cast<std::size_t>(i)] != 0;
-    // Walking around is faster than looking at all edges.
+    // Walking around the node is faster than comparing all its edges.
     if (is_inside || walker.walk(i).closed) continue;
     edges.at_node(i, [&](Index j, std::span<const EdgeUse> uses) {
       if (uses.size() == 1 && i < j) edges_.push_back({i, j, uses.front().forward});
@@ -39,7 +39,7 @@ std::size_t Boundary::side_towards(Index from, Index to) const {
   return 2 * static_cast<std::size_t>(found - edges_.begin()) + (to == key.second ? 1 : 0);
 }
 
-// Around a node every open chain of faces lies between the two boundary edges that follow each other there.
+// Around a node every open chain of faces lies between two successive boundary edges.
 void Boundary::join_chains(Index i, const Fan& fan, std::vector<std::size_t>& next) const {
   for (std::size_t begin = 0; begin < fan.links.size();) {
     std::size_t end = begin + 1;

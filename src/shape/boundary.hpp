@@ -10,11 +10,11 @@
 
 namespace vspring {
 
-/// The boundary edges of a mesh and how they follow each other.
+/// The boundary edges of a mesh and their succession.
 class Boundary {
  public:
-  /// Mesh and incidence must outlive it. inside: 1 for nodes that are known to have closed fans, which are not looked
-  /// at again; empty where nothing is known. Cost: linear.
+  /// Mesh and incidence must outlive it. inside: 1 for nodes known to have closed fans, which are skipped; may be
+  /// empty. Cost: linear.
   Boundary(const PolygonMesh& mesh, const Incidence& incidence, std::span<const std::uint8_t> inside = {});
 
   /// As boundary_nodes().
@@ -29,12 +29,12 @@ class Boundary {
     bool forward;  // the face runs from low to high
   };
 
-  // A side is an edge on its way to one of its ends: 2 × edge for the low one, + 1 for the high one.
+  // A side is an edge directed to one of its ends: 2 × edge to the low one, + 1 to the high one.
   [[nodiscard]] Index node(std::size_t side) const {
     return side % 2 == 0 ? edges_[side / 2].low : edges_[side / 2].high;
   }
   [[nodiscard]] std::size_t side_towards(Index from, Index to) const;
-  /// The side that follows each, around the node that it leads to; none at the end of a chain.
+  /// Per side the next one, around the node that it leads to; none at the end of a chain.
   [[nodiscard]] std::vector<std::size_t> next_sides() const;
   void join_chains(Index i, const Fan& fan, std::vector<std::size_t>& next) const;
 

@@ -31,7 +31,7 @@ void BoxTree::split(std::size_t part, std::size_t parts) {
   Eigen::Index axis = 0;
   centres.sizes().maxCoeff(&axis);
   end_if_cancelled();
-  // Places beside their items: what is sorted lies side by side.
+  // Pairs, so that sorting reads memory in sequence.
   std::vector<std::pair<double, Index>> order(end - begin);
   for (std::size_t k = begin; k < end; ++k)
     order[k - begin] = {box(items_[k]).min()[axis] + box(items_[k]).max()[axis], items_[k]};

@@ -1,9 +1,8 @@
 #pragma once
 
-// A tree of boxes for questions of nearness. Our own, because what Debian carries under a permissive licence answers
-// for points only (nanoflann) or is a scene renderer (Embree); and because a tree whose layout follows from the number
-// of things alone needs no pointers and is built side by side, level by level, into the same bits on any number of
-// threads.
+// A tree of boxes for nearest-item queries. Our own, because Debian's permissively licensed libraries handle points
+// only (nanoflann) or render scenes (Embree). The layout follows from the number of items alone, so the tree needs no
+// pointers and is built level by level in parallel, with the same bits on any number of threads.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -40,16 +39,17 @@ class BoxTree {
   [[nodiscard]] const Box& leaf_box(std::size_t leaf) const { return tree_[leaves_ - 1 + leaf]; }
   [[nodiscard]] const Box& box(Index item) const { return boxes_[static_cast<std::size_t>(item)]; }
 
-  /// Around all of them.
+  /// The box around all of them.
   [[nodiscard]] const Box& whole() const { return tree_.front(); }
 
-  /// use(leaf) for every leaf from `first_leaf` on whose box overlaps `box`, in ascending order.
+  /// Calls use(leaf) for every leaf from `first_leaf` on whose box overlaps `box`, in ascending order.
   template <typename Use>
   void for_each_overlapping_leaf(const Box& box, std::size_t first_leaf, const Use& use) const {
     for_each_leaf([&](const Box& other) { return other.intersects(box); }, first_leaf, use);
   }
 
-  /// The same for leaves whose box meets something. meets(box): false only where nothing in the box meets it.
+  /// Calls use(leaf) for every leaf whose box passes `meets`, in ascending order. meets(box): may be false only if
+  /// nothing in the box is wanted.
   template <typename Meets, typename Use>
   void for_each_leaf(const Meets& meets, std::size_t first_leaf, const Use& use) const {
     if (boxes_.empty()) return;
@@ -68,8 +68,8 @@ class BoxTree {
     }
   }
 
-  /// The item nearest to `point`: square(item) is the square of its distance; of several the one with the smallest
-  /// number. None (−1) where none is nearer than the root of `below`.
+  /// The item nearest to `point`: square(item) is the square of its distance; of equally near ones the smallest number.
+  /// None (−1) if none is nearer than the root of `below`.
   template <typename Square>
   [[nodiscard]] Nearest nearest(const Vector3& point, const Square& square,
                                 double below = std::numeric_limits<double>::infinity()) const {
@@ -80,7 +80,7 @@ class BoxTree {
     stack[height++] = {{0, 0, leaves_}, 0.0};
     while (height > 0) {
       auto [place, from_box] = stack[--height];
-      // The nearer child is looked at first.
+      // Visits the nearer child first.
       while (from_box <= best.square && place.leaves > 1) {
         Waiting near{place.left(), square_outside(tree_[place.left().node], point)};
         Waiting far{place.right(), square_outside(tree_[place.right().node], point)};
@@ -111,20 +111,20 @@ class BoxTree {
     [[nodiscard]] Place right() const { return {2 * node + 2, leaf + leaves / 2, leaves / 2}; }
   };
 
-  /// A part of the tree that is still to be looked at, and the square of how far its box is.
+  /// A part of the tree to visit later, and the square of the distance of its box.
   struct Waiting {
     Place place;
     double square;
   };
 
-  /// Where part `part` of `parts` (a power of two) begins.
+  /// The first item of part `part` of `parts` (a power of two).
   [[nodiscard]] std::size_t first_item(std::size_t part, std::size_t parts) const {
-    // In 64 bits where addresses have 32, too.
+    // In 64 bits also where addresses have 32.
     return static_cast<std::size_t>(std::uint64_t{boxes_.size()} * part / parts);
   }
   void split(std::size_t part, std::size_t parts);
 
-  /// Box::squaredExteriorDistance without branches, which no processor foresees.
+  /// Box::squaredExteriorDistance without branches, which cannot be predicted.
   [[nodiscard]] static double square_outside(const Box& box, const Vector3& point) {
     double sum = 0;
     for (int k = 0; k < 3; ++k) {

@@ -4,8 +4,8 @@
 
 namespace vspring {
 
-/// Towards the centre of the circle through three points, seen from the second, and as long as its curvature; zero
-/// where there is none. For coordinates of size near one.
+/// The curvature vector, at the second point, of the circle through three points; zero if there is none. For
+/// coordinates of size near one.
 inline Vector3 circle_curvature(const Vector3& before, const Vector3& here, const Vector3& after) {
   const Vector3 back = before - here;
   const Vector3 forth = after - here;

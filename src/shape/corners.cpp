@@ -27,7 +27,7 @@ std::vector<Index> find_corners(const PolygonCurve& curve, double angle) {
         fmt::format("corners turn by more than an angle of more than 0 and less than 180 degrees, not {}", angle));
   std::vector<Index> corners;
   for (const auto& chain : curve.chains()) {
-    // One of those at the same place.
+    // One of several nodes at the same place.
     std::vector<Index> nodes;
     for (const Index node : chain.nodes) {
       if (nodes.empty() || curve.position(nodes.back()) != curve.position(node)) nodes.push_back(node);
@@ -40,7 +40,7 @@ std::vector<Index> find_corners(const PolygonCurve& curve, double angle) {
       const Vector3& here = curve.position(nodes[k]);
       const Vector3 before = here - curve.position(nodes[(k + count - 1) % count]);
       const Vector3 after = curve.position(nodes[(k + 1) % count]) - here;
-      // By directions, as squares of lengths may be beyond what numbers hold.
+      // By unit vectors, as squares of lengths may overflow.
       if (turn_of(before.stableNormalized(), after.stableNormalized()) > angle) corners.push_back(nodes[k]);
     }
   }

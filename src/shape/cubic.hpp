@@ -7,13 +7,12 @@
 
 namespace vspring {
 
-/// The cubic from `start` to start + chord with unit tangents at its ends, at v from 0 to 1. On a circle its error
-/// falls with the sixth power of the chord.
+/// The cubic from `start` to start + chord with unit tangents at its ends, at v from 0 to 1. On a circle its error is
+/// of sixth order in the chord.
 inline Vector3 on_cubic(const Vector3& start, const Vector3& chord, const Vector3& tangent_start,
                         const Vector3& tangent_end, double v) {
   const double cosine = std::clamp(tangent_start.dot(tangent_end), -1.0, 1.0);
-  // The cubic nearest to the circle through both ends with these tangents, turning by an angle θ, leaves with a speed
-  // of chord / cos²(θ/4).
+  // The cubic nearest to a circular arc that turns by an angle θ starts with the speed chord / cos²(θ/4).
   const double speed = 2 * chord.norm() / (1 + std::sqrt((1 + cosine) / 2));
   const double w = 1 - v;
   return start + v * v * (3 - 2 * v) * chord + v * w * w * speed * tangent_start - v * v * w * speed * tangent_end;

@@ -12,7 +12,7 @@ namespace vspring {
 
 namespace {
 
-/// Faces with the same nodes, in whatever order; the later one names the earlier.
+/// Faces with the same nodes in any order; the later one names the earlier.
 void find_duplicates(const PolygonMesh& mesh, std::vector<Defect>& defects) {
   std::vector<std::vector<Index>> sorted(static_cast<std::size_t>(mesh.face_count()));
   std::vector<Index> order(sorted.size());
@@ -35,8 +35,7 @@ void find_duplicates(const PolygonMesh& mesh, std::vector<Defect>& defects) {
   }
 }
 
-/// Looked at again in coordinates of the face's own, so that neither its size nor its distance from the others makes
-/// squares overflow or vanish.
+/// Computed in the face's own coordinates, so squares neither overflow nor vanish, whatever its size and place.
 bool has_area(const PolygonMesh& mesh, std::span<const Index> face) {
   if (!unit_normal(face, mesh.positions()).isZero(0)) return true;
   Eigen::AlignedBox<double, 3> box;
@@ -93,7 +92,7 @@ void find_node_defects(const PolygonMesh& mesh, std::vector<Defect>& defects) {
       if (mesh.position(i) == mesh.position(j))
         defects.push_back({.kind = Defect::Kind::zero_length_edge, .node = i, .other = j});
     });
-    // Where an edge has too many faces, the fans at its ends fall apart for that reason alone.
+    // At the ends of an edge with too many faces, fans are several for that reason alone.
     if (fan.chains > 1 && !crowded) defects.push_back({.kind = Defect::Kind::non_manifold_node, .node = i});
   }
 }

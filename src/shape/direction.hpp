@@ -6,13 +6,13 @@
 
 namespace vspring {
 
-/// Below this share of its terms' size a sum of cross products is rounding, not a direction.
+/// A sum of cross products below this share of the size of its terms is rounding, not a direction.
 inline constexpr double no_direction = 1e-10;
 
-/// A cosine below this tells of an angle beyond 90° in spite of rounding.
+/// A cosine below this is that of an angle beyond 90°, not of rounding.
 inline constexpr double beyond_right = -1e-6;
 
-/// Unit vector, or zero where `sum` is lost in the rounding of terms of size `scale` together.
+/// `sum` as a unit vector, or zero if it is rounding only. scale: the total size of its terms.
 inline Vector3 direction(const Vector3& sum, double scale) {
   const double length = std::sqrt(sum.dot(sum));
   if (!(length > no_direction * scale)) return Vector3::Zero();

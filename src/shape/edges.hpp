@@ -15,13 +15,13 @@ struct EdgeUse {
   bool forward;  ///< the face runs along the edge away from the node
 };
 
-/// Tells the edges at nodes. Holds a buffer, so use one per thread.
+/// Finds the edges at nodes. Holds a buffer, so use one per thread.
 class EdgeFinder {
  public:
   EdgeFinder(const PolygonMesh& mesh, const Incidence& incidence) : mesh_(&mesh), incidence_(&incidence) {}
 
-  /// use(neighbour, uses) for every edge at the node, neighbours ascending; uses: all faces at the edge, ascending.
-  /// Cost: d log d for d faces.
+  /// Calls use(neighbour, uses) for every edge at the node, neighbours ascending; uses: all faces at the edge,
+  /// ascending. Cost: d log d for d faces.
   template <typename Use>
   void at_node(Index node, const Use& use) {
     uses_.clear();

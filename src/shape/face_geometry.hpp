@@ -10,7 +10,7 @@
 
 namespace vspring {
 
-/// Twice the vector area of a face, numbers of positions; zero for fewer than three.
+/// Twice the vector area of a face, given as numbers of positions; zero for fewer than three nodes.
 template <typename Node>
 Vector3 twice_vector_area(std::span<const Node> face, const std::vector<Vector3>& positions) {
   const auto edge_to = [&](std::size_t k) -> Vector3 {

@@ -8,7 +8,7 @@ namespace {
 
 constexpr Index open_side = -1;
 
-// With more, sorting takes less time than comparing all with all.
+// With more faces, sorting is faster than comparing all pairs.
 constexpr std::size_t few_faces = 16;
 
 /// steps: less than once around.
@@ -35,7 +35,7 @@ bool FanWalker::pair_all_around(Index node) {
   twin_.assign(2 * faces, open_side);
   for (std::size_t a = 0; a < faces; ++a) {
     const Index before = neighbours_[2 * a + 1];
-    // The first that fits: if all find one of their own, no neighbour comes twice.
+    // Takes the first that fits: if each side finds a partner of its own, no neighbour occurs twice.
     std::size_t b = faces;
     for (std::size_t k = faces; k-- > 0;) b = neighbours_[2 * k] == before ? k : b;
     if (b == faces || before == node || twin_[2 * b] != open_side) return false;
@@ -85,7 +85,7 @@ void FanWalker::walk_chain(Index first_side) {
   ++fan_.chains;
   if (open) return;
   if (first_link == 0 && fan_.links.size() > 1 && visited_.end() == std::find(visited_.begin(), visited_.end(), 0)) {
-    // The only chain, and closed: its last link is its first again.
+    // A single closed chain: its last link repeats the first.
     fan_.links.pop_back();
     fan_.links.front().code &= ~Link::start_bit;
     fan_.closed = true;
@@ -108,7 +108,7 @@ const Fan& FanWalker::walk(Index node) {
   const bool all_around = pair_all_around(node);
   if (!all_around) pair_sides(node);
   visited_.assign(corners_.size(), 0);
-  // Open chains first, begun where the faces' own sense leads inwards; then what is left is closed.
+  // Open chains first, from where the orientation of faces leads inwards; the remaining chains are closed.
   const auto sides = static_cast<Index>(twin_.size());
   for (Index parity = 0; parity < 2 && !all_around; ++parity) {
     for (Index side = parity; side < sides; side += 2) {

@@ -7,7 +7,7 @@
 
 namespace vspring {
 
-/// One step of the walk around a node through all nodes of its adjoining faces (its link).
+/// One step of the walk around a node, through all other nodes of the faces around it (its link).
 struct Link {
   static constexpr std::uint32_t spoke_bit = 1U << 31;
   static constexpr std::uint32_t start_bit = 1U << 30;
@@ -29,9 +29,9 @@ struct Link {
 /// The walk around one node, and what is wrong there.
 struct Fan {
   std::vector<Link> links;
-  /// Faces go all the way around.
+  /// Whether faces go all the way around.
   bool closed = false;
-  /// Chains of faces that hang together by edges at the node; more than one is non-manifold, none is an isolated node.
+  /// Number of chains of faces joined by edges at the node. More than one: non-manifold; none: an isolated node.
   int chains = 0;
   /// A neighbour whose edge belongs to more than two faces, or −1.
   Index crowded_neighbour = -1;
@@ -40,7 +40,7 @@ struct Fan {
   /// A face that meets the node more than once, or −1.
   Index repeating_face = -1;
 
-  /// Surface on all sides or on one: a normal can be told, and the node may move.
+  /// Whether the node is an inner or a boundary node of a manifold: it has a normal and may move.
   [[nodiscard]] bool manifold() const noexcept { return chains == 1 && crowded_neighbour < 0 && repeating_face < 0; }
 };
 
@@ -59,7 +59,8 @@ class FanWalker {
     Index side;  // 2 × corner, + 1 on the side of the previous node in the face
   };
   void find_neighbours();
-  /// Where faces of one sense lie all around: tells so, and pairs their sides. Else leaves pairs as they come.
+  /// Pairs the sides of faces and returns true if consistently oriented faces lie all around. Else pairs are left
+  /// incomplete.
   bool pair_all_around(Index node);
   void pair_sides(Index node);
   void walk_chain(Index first_side);

@@ -13,7 +13,7 @@ namespace vspring {
 class Frame {
  public:
   Frame() = default;
-  /// For positions that are all finite.
+  /// Positions must be finite.
   explicit Frame(const Eigen::AlignedBox<double, 3>& box) {
     if (box.isEmpty()) return;
     centre_ = box.min() / 2 + box.max() / 2;
@@ -23,7 +23,7 @@ class Frame {
   }
 
   [[nodiscard]] Vector3 to_local(const Vector3& position) const { return (position - centre_) * scale_; }
-  /// Local length of a length of 1 outside.
+  /// The local length of an outside length of 1.
   [[nodiscard]] double scale() const noexcept { return scale_; }
 
  private:

@@ -14,8 +14,8 @@ Incidence::Incidence(const PolygonMesh& mesh) : begin_(static_cast<std::size_t>(
         use(static_cast<std::size_t>(face[k]), Corner{f, static_cast<Index>(k)});
     }
   };
-  // Counted one place further on, so that while corners are put in each entry goes from where those of the node before
-  // begin to where they end.
+  // Counted one place further on: filling in the corners advances each entry from the begin of the node before to its
+  // end.
   for_each_corner([&](std::size_t node, Corner) { ++begin_[node + 2]; });
   for (std::size_t i = 2; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
   corners_.resize(static_cast<std::size_t>(begin_.back()));

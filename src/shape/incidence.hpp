@@ -13,8 +13,7 @@ struct Corner {
   Index place;
 };
 
-/// The corners at every node, in the order of the faces (CSR). Faces of fewer than three nodes are no faces and left
-/// out.
+/// The corners at every node, in the order of the faces (CSR). Faces of fewer than three nodes are left out.
 class Incidence {
  public:
   explicit Incidence(const PolygonMesh& mesh);

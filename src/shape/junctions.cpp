@@ -46,7 +46,7 @@ class LineFinder {
  private:
   [[nodiscard]] bool is_end(Index node) const { return std::binary_search(ends_.begin(), ends_.end(), node); }
 
-  /// Along edges not passed yet, to the next end or back to where it began.
+  /// Walks along edges not passed yet, to the next end or back to its start.
   std::vector<Index> walk(Index from) {
     std::vector<Index> nodes = {from};
     do {
@@ -59,7 +59,7 @@ class LineFinder {
     return nodes;
   }
 
-  std::map<Index, std::vector<Index>> left_;  ///< of nodes on lines, their neighbours along edges not passed yet
+  std::map<Index, std::vector<Index>> left_;  ///< per node on a line, its neighbours along edges not passed yet
   std::vector<Index> ends_;
 };
 

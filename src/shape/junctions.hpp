@@ -5,8 +5,8 @@
 
 namespace vspring {
 
-/// The lines along which three faces meet, as chains of the mesh's nodes from one place where such lines meet or end to
-/// the next, or closed. Where four do, solids touch. Cost: n log n.
+/// The lines along which three faces meet at edges, as chains of nodes of the mesh: open ones between places where
+/// lines meet or end, or closed ones. Edges of four faces, where solids touch, do not count. Cost: n log n.
 PolygonCurve junction_lines(const PolygonMesh& mesh);
 
 }  // namespace vspring

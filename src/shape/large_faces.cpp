@@ -18,7 +18,7 @@ class FaceCutter {
  public:
   explicit FaceCutter(const PolygonMesh& mesh) : mesh_(&mesh), incidence_(mesh) {}
 
-  /// The pieces of a face; none where it has to stay whole.
+  /// The pieces of a face; none if it must stay whole.
   std::vector<std::vector<Index>> cut(std::span<const Index> face) {
     std::vector<std::vector<Index>> pieces;
     std::vector<std::pair<Index, Index>> joined;
@@ -31,7 +31,7 @@ class FaceCutter {
         std::vector<Index> piece(rest.begin() + static_cast<std::ptrdiff_t>(begin),
                                  rest.begin() + static_cast<std::ptrdiff_t>(end));
         piece.push_back(rest[end % rest.size()]);
-        // One edge, at the end: it stays in the inner polygon.
+        // A single edge at the end stays in the inner polygon.
         if (piece.size() < 3) continue;
         if (!may_join(piece.front(), piece.back())) return {};
         joined.emplace_back(std::minmax(piece.front(), piece.back()));

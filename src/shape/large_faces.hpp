@@ -16,7 +16,7 @@ inline constexpr std::size_t largest_uncut_face = 128;
 
 struct CutMesh {
   PolygonMesh mesh;
-  std::set<std::pair<Index, Index>> cuts;  ///< the nodes that each joins, the lower number first
+  std::set<std::pair<Index, Index>> cuts;  ///< the two nodes of each, the lower number first
 
   /// Says which links of a walk around a node lead along cuts.
   void mark(Index node, std::span<Link> links) const {
@@ -26,10 +26,10 @@ struct CutMesh {
   }
 };
 
-/// A mesh with its largest faces cut, between their nodes, into such of at most 16 sides: each node of a face looks at
-/// all others of it, which in such large ones would take time and memory that go with their square. Cut from the
-/// outside in, so that a node looks at those close by. None where no face is so large. Faces in which an edge of the
-/// mesh joins two nodes as a cut would stay whole. Cost: linear.
+/// A mesh with its largest faces cut between their nodes into pieces of at most 16 sides. The solver pairs each node
+/// with all others of its face, which is quadratic in the size of the face. Cuts go from the outside in, so that pieces
+/// join near nodes. None if no face is so large. A face stays whole if an edge of the mesh joins two nodes as a cut
+/// would. Cost: linear.
 std::optional<CutMesh> with_large_faces_cut(const PolygonMesh& mesh);
 
 }  // namespace vspring

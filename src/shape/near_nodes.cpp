@@ -20,14 +20,14 @@ namespace {
 
 constexpr double widest_group = 2;     // in tolerances, along an axis
 constexpr double least_reach = 1e-16;  // in a box of 1 to 2
-constexpr double cell_side = 0.577;    // of the reach: what is in one cell is within reach of each other
+constexpr double cell_side = 0.577;    // of the reach: places in one cell are within reach of each other
 
 bool comes_before(const Vector3& a, const Vector3& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/// Groups of places, each of which is within reach of another of its group. Places are put in cells so small that a
-/// cell is of one group, and cells are compared only until they are: many places near each other cost no square.
+/// Groups of places: each place is within reach of another of its group. Cells are so small that all places of one
+/// belong together, and two cells are compared only until they are joined, so crowded places have no quadratic cost.
 class PlaceGroups {
  public:
   PlaceGroups(const std::vector<Vector3>& places, double reach) : places_(places), reach_(reach) {
@@ -50,7 +50,7 @@ class PlaceGroups {
     begin_.push_back(order_.size());
   }
 
-  /// Returns whether no group is too wide; as soon as one is, the others are left as they are.
+  /// Returns whether no group is too wide; stops at the first that is.
   bool join() {
     ThreadTeam team(1);
     const BoxTree tree(boxes_, team);
@@ -74,7 +74,7 @@ class PlaceGroups {
     return too_wide_ == none;
   }
 
-  /// use(place, group) for every place; groups have any numbers below that of the places.
+  /// Calls use(place, group) for every place; group numbers are below the number of places.
   template <typename Use>
   void for_each(const Use& use) {
     for (std::size_t cell = 0; cell + 1 < begin_.size(); ++cell) {
@@ -115,8 +115,8 @@ class PlaceGroups {
 
   const std::vector<Vector3>& places_;
   double reach_;
-  std::vector<std::size_t> order_;  // of the places, cell by cell
-  std::vector<std::size_t> begin_;  // of every cell in that, and at last the end
+  std::vector<std::size_t> order_;  // the places, cell by cell
+  std::vector<std::size_t> begin_;  // of every cell in order_, and the end
   std::vector<Box> boxes_;          // around the places of a cell
   DisjointSets groups_{0};          // of cells
   std::size_t too_wide_ = none;

@@ -9,11 +9,11 @@
 
 namespace vspring {
 
-/// The nodes of faces, ascending, without those that are not finite, and the box around them.
+/// The finite nodes of faces, ascending, and the box around them.
 struct FaceNodes {
   explicit FaceNodes(const PolygonMesh& mesh);
 
-  /// A share of the diagonal of the box, as a length. Throws Error(invalid_argument) where it is negative or not
+  /// A share of the diagonal of the box, as a length. Throws Error(invalid_argument) if the share is negative or not
   /// finite.
   [[nodiscard]] double length(double share) const;
 
@@ -21,17 +21,18 @@ struct FaceNodes {
   Eigen::AlignedBox<double, 3> box;
 };
 
-/// Which nodes are so near to each other that they may be taken for one.
+/// Which nodes are near enough to each other to be joined.
 struct NearNodes {
-  std::vector<Index> first;  ///< of every node the least number of those that are one with it, its own among them
-  std::pair<Index, Index> chained;  ///< two nodes of a chain that leads too far, else −1; `first` is then of no use
+  std::vector<Index> first;         ///< per node the least number in its group
+  std::pair<Index, Index> chained;  ///< two nodes of a chain that leads too far, and then `first` means nothing; else
+                                    ///< −1
 };
 
-/// Makes one what is no further apart than `tolerance`, a length, and what hangs together so, unless a chain leads
-/// further than twice that along an axis. Lengths of less than 1e-16 of the box count as 0.
+/// Groups nodes at most `tolerance`, a length, apart, and chains of such nodes, unless a chain leads further than twice
+/// that along an axis. A tolerance below 1e-16 of the box counts as 0.
 ///
-/// positions: one per node. nodes: those that are looked at; their positions must be finite. box: around them. The
-/// groups do not depend on the order. Cost: n log n.
+/// positions: one per node. nodes: those to group; their positions must be finite. box: around them. The groups do not
+/// depend on the order. Cost: n log n.
 NearNodes near_nodes(std::span<const Vector3> positions, std::vector<Index> nodes,
                      const Eigen::AlignedBox<double, 3>& box, double tolerance);
 

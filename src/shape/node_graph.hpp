@@ -11,7 +11,8 @@ class NodeGraph {
 
   [[nodiscard]] Index size() const noexcept { return mesh_->node_count(); }
 
-  /// use(j) for every edge from `node` to j, in a fixed order; most edges come twice, once from each of their faces.
+  /// Calls use(j) for every edge from `node` to j, in a fixed order; most edges come twice, once from each of their
+  /// faces.
   template <typename Use>
   void for_each_neighbour(Index node, const Use& use) const {
     for (const Corner corner : incidence_->corners(node)) {

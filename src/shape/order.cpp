@@ -19,11 +19,11 @@
 namespace vspring {
 namespace {
 
-/// Of each point, to where its place in the order may change.
+/// Number of neighbours of a point to which it may be moved in the order.
 constexpr std::size_t nearest_others = 8;
 
-/// Moved and scaled to a box of half-width 1, so that no square of a distance is beyond what numbers can hold; empty
-/// where all points are at one place, or so near to each other that this is beyond it too.
+/// Points moved and scaled to a box of half-width 1, so that no squared distance overflows; empty if all points are at
+/// one place, or too near to each other to be scaled.
 std::vector<Vector3> in_unit_box(std::span<const Vector3> points) {
   Eigen::AlignedBox<double, 3> halves;
   for (const Vector3& point : points) halves.extend(point / 2);
@@ -55,7 +55,7 @@ Sites sites_of(std::span<const Vector3> points) {
     if (groups.empty() || key(groups.back().front()) != key(point)) groups.emplace_back();
     groups.back().push_back(point);
   }
-  // In the order of the input, so that nothing depends on where the points lie.
+  // In the order of the input, so the result does not depend on where the points lie.
   std::sort(groups.begin(), groups.end());
   Sites sites;
   for (const auto& group : groups) sites.places.push_back(points[static_cast<std::size_t>(group.front())]);
@@ -81,14 +81,14 @@ class Branches {
     }
   }
 
-  /// From a root on: every point behind the one that it hangs at.
+  /// The points of the tree from the roots on, each after its parent.
   struct Walk {
     std::vector<Index> order;
     std::vector<Index> parent;  ///< −1 of roots
     Index furthest = 0;         ///< from the root, along edges
   };
 
-  /// roots: where it begins, at length 0 each.
+  /// roots: where the walk begins, at length 0.
   [[nodiscard]] Walk walk(std::span<const Index> roots) const {
     constexpr Index unseen = -2;
     Walk walk{{roots.begin(), roots.end()}, std::vector<Index>(places_.size(), unseen), roots.front()};
@@ -109,7 +109,7 @@ class Branches {
     return walk;
   }
 
-  /// The longest path there is.
+  /// The longest path of the tree.
   [[nodiscard]] std::vector<Index> longest_path() const {
     const Index first = walk(std::array<Index, 1>{0}).furthest;
     const Walk back = walk(std::array{first});
@@ -125,7 +125,7 @@ class Branches {
   std::span<const Vector3> places_;
 };
 
-/// A way as a ring of links, with the stop of an open one (see Tour) behind its last point.
+/// A path as a ring of links; in an open one the stop of Tour follows the last point.
 class Links {
  public:
   Links(std::span<const Vector3> places, const std::vector<Index>& path, bool closed)
@@ -139,10 +139,10 @@ class Links {
     first_ = path.front();
   }
 
-  /// Whether a point is in it.
+  /// Whether a point is in the path.
   [[nodiscard]] bool has(Index point) const { return next_[static_cast<std::size_t>(point)] >= 0; }
 
-  /// Puts a point beside that one of some points in it where it adds least length.
+  /// Inserts a point next to the one of the points `beside` where it adds least length.
   void insert(Index point, std::span<const Index> beside) {
     double least = std::numeric_limits<double>::infinity();
     Index behind = beside.front();
@@ -188,7 +188,7 @@ class Links {
   std::vector<Index> before_;
 };
 
-/// A short way through three places or more, no two of them equal.
+/// A short path through three or more places, all different.
 std::vector<Index> short_way(std::span<const Vector3> places, bool closed) {
   PointTree tree(places);
   const std::size_t count = std::min(nearest_others, places.size() - 1);
@@ -227,7 +227,7 @@ double length_of(std::span<const Vector3> points, std::span<const Index> order, 
   return length;
 }
 
-/// Turns an order round, from its `first` one on, unless more numbers rise in it than fall.
+/// Reverses an order from entry `first` on, unless more numbers rise in it than fall.
 void turn_upward(std::vector<Index>& order, std::size_t first) {
   std::ptrdiff_t rising = 0;
   for (std::size_t k = first + 1; k < order.size(); ++k) rising += order[k] > order[k - 1] ? 1 : -1;
@@ -242,7 +242,7 @@ std::vector<Index> points_in_order(const Sites& sites, std::vector<Index> way, b
   std::vector<Index> order;
   for (const Index site : way) {
     const auto& points = sites.points[static_cast<std::size_t>(site)];
-    // A row that closes a curve stays at its end.
+    // A last point that repeats the first of a closed curve stays at its end.
     const bool begins = closed && order.empty();
     order.insert(order.end(), points.begin(), begins ? points.begin() + 1 : points.end());
   }

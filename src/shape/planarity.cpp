@@ -24,7 +24,7 @@ std::optional<Vector3> plane_normal(std::span<const Vector3> positions) {
   const Eigen::Matrix3d axes = principal_axes(spread);
   Vector3 normal = axes.col(0).normalized();
   const Vector3 across = axes.col(1).normalized();
-  // Eigenvalues know thickness and width to their square roots' rounding only: both are measured.
+  // The square roots of eigenvalues are too inexact for thickness and width, so both are measured.
   double width = 0;
   for (const Vector3& position : positions) {
     const Vector3 from_mean = frame.to_local(position) - mean;
@@ -32,7 +32,7 @@ std::optional<Vector3> plane_normal(std::span<const Vector3> positions) {
     width = std::max(width, std::abs(from_mean.dot(across)));
   }
   if (!(width > flat)) return std::nullopt;
-  // So that what lies in a plane of the coordinates stays there to the bit.
+  // Shapes in a coordinate plane stay there to the bit.
   for (Eigen::Index k = 0; k < 3; ++k) {
     if (std::abs(normal[k]) < unseen) normal[k] = 0;
   }

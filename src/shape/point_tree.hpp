@@ -10,8 +10,8 @@
 
 namespace vspring {
 
-/// Points in a balanced tree of boxes, for the nearest ones to a point (J. L. Bentley 1975, the k-d tree). Unlike
-/// BoxTree it finds several nearest ones, and passes over whole boxes of points of one group.
+/// Points in a k-d tree (J. L. Bentley 1975), to find nearest points. Unlike BoxTree it finds several, and skips boxes
+/// whose points all belong to one group.
 class PointTree {
  public:
   struct Near {
@@ -21,20 +21,20 @@ class PointTree {
     bool operator<(const Near& other) const { return std::pair(square, point) < std::pair(other.square, other.point); }
   };
 
-  /// Points must be finite and stay where they are. Cost: n log n.
+  /// Points must be finite and outlive the tree. Cost: n log n.
   explicit PointTree(std::span<const Vector3> points);
 
-  /// The `count` points nearest to one of them, without itself, the nearest first; of several as near, those with the
-  /// smallest numbers. Fewer where there are fewer.
+  /// The `count` points nearest to one of the points, without itself, the nearest first; of equally near ones the
+  /// smallest numbers. Fewer if there are no more.
   void nearest(Index point, std::size_t count, std::vector<Near>& found) const;
 
-  /// Those no further than `radius` from a place, in an order of the tree's own.
+  /// The points at most `radius` from a place, in no particular order.
   void within(const Vector3& place, double radius, std::vector<Index>& found) const;
 
-  /// Says which points belong together. groups: one number per point. Cost: linear.
+  /// Sets which points belong together. groups: one number per point. Cost: linear.
   void set_groups(std::span<const Index> groups);
 
-  /// The nearest point of another group, no further away than `best` before, or that.
+  /// Updates `best` if a point of another group is at least as near.
   void nearest_of_others(Index point, Near& best) const;
 
  private:
@@ -46,7 +46,7 @@ class PointTree {
     Vector3 high;
     Index begin;
     Index end;
-    Index group = many;  ///< of all points in it, where they have one
+    Index group = many;  ///< of all points in the box, if they share one
   };
 
   void build(std::size_t box, Index begin, Index end);

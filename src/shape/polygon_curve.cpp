@@ -47,7 +47,7 @@ std::vector<PolygonCurve::Chain> chains_of_segments(const std::vector<std::pair<
                                                     Index node_count) {
   constexpr std::size_t no_segment = static_cast<std::size_t>(-1);
   const auto proper = [&](std::size_t s) { return segments[s].first != segments[s].second; };
-  // Where a node has two segments, they follow each other.
+  // Two segments at a node follow each other.
   std::vector<std::array<std::size_t, 2>> at(static_cast<std::size_t>(node_count), {no_segment, no_segment});
   std::vector<Index> degree(static_cast<std::size_t>(node_count), 0);
   for (std::size_t s = 0; s < segments.size(); ++s) {
@@ -59,7 +59,7 @@ std::vector<PolygonCurve::Chain> chains_of_segments(const std::vector<std::pair<
     }
   }
   std::vector<std::uint8_t> used(segments.size(), 0);
-  /// Appends what follows segment s behind `node`, one of its ends; true where the run comes back to segment `first`.
+  /// Appends the nodes of the run beyond `node`, an end of segment s; true if the run comes back to segment `first`.
   const auto follow = [&](std::size_t s, Index node, std::size_t first, std::vector<Index>& nodes) {
     for (;;) {
       const auto n = static_cast<std::size_t>(node);

@@ -12,7 +12,7 @@ namespace vspring {
 
 namespace {
 
-/// How many nodes each face has; 0 where they differ, and without faces.
+/// The number of nodes of each face; 0 if faces differ, or there are none.
 Index common_sides(const std::vector<Index>& begin) {
   if (begin.size() < 2) return 0;
   const Index sides = begin[1] - begin[0];
@@ -37,7 +37,7 @@ PolygonMesh::PolygonMesh(std::vector<Vector3> positions, std::vector<Index> face
       throw Error(ErrorCode::unusable_shape, fmt::format("face {}: its offset lies behind that of the next face", f));
   }
   const auto count = static_cast<Index>(face_begin.size() - 1);
-  // Of 4,000,000 triangles what every third corner is need not be kept.
+  // Meshes of triangles need no offsets: saves memory in large ones.
   const Index sides = common_sides(face_begin);
   if (sides > 0) face_begin = std::vector<Index>();
   faces_ = std::make_shared<const Faces>(Faces{count, sides, std::move(face_begin), std::move(corners)});

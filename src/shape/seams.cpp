@@ -11,7 +11,7 @@ namespace vspring {
 
 namespace {
 
-/// Those of `nodes` that are one with another of them.
+/// The `nodes` that are in a group with another of them.
 std::vector<Index> not_alone(const std::vector<Index>& nodes, const std::vector<Index>& first) {
   const auto first_of = [&](Index node) { return first[static_cast<std::size_t>(node)]; };
   std::vector<std::uint8_t> shared(first.size(), 0);

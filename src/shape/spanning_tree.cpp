@@ -6,7 +6,7 @@
 namespace vspring {
 namespace {
 
-/// Which points hang together.
+/// Which points are connected.
 class Groups {
  public:
   explicit Groups(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), 0); }
@@ -16,7 +16,7 @@ class Groups {
     while (above != above_[static_cast<std::size_t>(above)]) above = above_[static_cast<std::size_t>(above)];
     return above;
   }
-  /// False where they did already.
+  /// False if they were connected already.
   bool join(Index a, Index b) {
     a = of(a);
     b = of(b);
@@ -48,7 +48,7 @@ std::vector<std::pair<Index, Index>> spanning_tree(std::span<const Vector3> poin
       tree.nearest_of_others(static_cast<Index>(k), found);
       if (found < way.to) way = {found, static_cast<Index>(k)};
     }
-    // Where several ways are as short, two groups may have chosen different ones to each other.
+    // Two groups may have chosen different edges of equal length to each other.
     for (const Way& way : shortest) {
       if (way.from >= 0 && groups.join(way.from, way.to.point)) edges.emplace_back(way.from, way.to.point);
     }

@@ -8,7 +8,7 @@
 namespace vspring {
 namespace {
 
-/// Shorter by less than this share of what is compared is not shorter, but rounded.
+/// Gains below this share of the lengths compared are rounding.
 constexpr double least_gain = 1e-12;
 
 }  // namespace
@@ -85,7 +85,7 @@ bool Tour::shorten_at(Index point) {
   return false;
 }
 
-/// In place of the steps from `point` and from a neighbour of it, one from the point to that neighbour.
+/// Replaces the steps from `point` and from a neighbour of it by one that joins the two.
 bool Tour::turn_at(Index point, Index step) {
   const Index next = along(point, step);
   const double length = distance(point, next);
@@ -105,7 +105,7 @@ bool Tour::turn_at(Index point, Index step) {
   return false;
 }
 
-/// Moves the piece of so many points from `point` on to between a neighbour of it and what is beside that.
+/// Moves the piece of `count` points from `point` on to between a neighbour of it and the point beside that.
 bool Tour::move_from(Index point, Index step, Index count) {
   const Index last = along(point, (count - 1) * step);
   const Index before = along(point, -step);
@@ -126,7 +126,7 @@ bool Tour::move_from(Index point, Index step, Index count) {
       if (in_piece(beside)) continue;
       const double gap = distance(other, beside);
       if (!(joined + distance(last, beside) - gap < without - least_gain * (here + gap))) continue;
-      // The piece goes before the later one of the two, and is turned unless it runs there as it does now.
+      // The piece goes before the later one of the two, and is reversed if its direction there differs.
       move(place_of(step > 0 ? point : last), count, side > 0 ? beside : other, (side > 0) != (step > 0));
       look_at({point, last, before, behind, other, beside});
       return true;
@@ -135,7 +135,7 @@ bool Tour::move_from(Index point, Index step, Index count) {
   return false;
 }
 
-/// Turns round what stands from one place to another, or what is left, which comes to the same.
+/// Reverses the points from one place to another, or all others, which gives the same tour.
 void Tour::turn(Index first, Index last) {
   Index count = last - first + 1;
   if (count <= 0) count += size();
@@ -155,7 +155,7 @@ void Tour::turn(Index first, Index last) {
   }
 }
 
-/// Moves what stands from a place on, `count` points, to before another point.
+/// Moves `count` points, from a place on, to before another point.
 void Tour::move(Index first, Index count, Index before, bool turned) {
   std::array<Index, 3> piece{};
   const auto wrapped = [&](Index place) {
@@ -163,7 +163,7 @@ void Tour::move(Index first, Index count, Index before, bool turned) {
   };
   for (Index k = 0; k < count; ++k) piece[static_cast<std::size_t>(k)] = at(wrapped(first + k));
   if (turned) std::reverse(piece.begin(), piece.begin() + count);
-  // Those between the piece and its new place move on, on the way with fewer of them.
+  // The points between the piece and its new place shift, on the side with fewer of them.
   Index between = place_of(before) - (first + count);
   while (between < 0) between += size();
   const Index others = size() - count - between;

@@ -9,20 +9,20 @@
 
 namespace vspring {
 
-/// A way through points that becomes shorter by local changes: a piece is turned round (2-opt), or one of up to three
-/// points moved elsewhere (Or-opt). An open way is one round with a last stop that is at no distance from any point.
+/// A tour through points that local changes shorten: a piece is reversed (2-opt), or one of up to three points moved
+/// (Or-opt). An open path is a tour with one more stop, at distance 0 from all points.
 class Tour {
  public:
-  /// order: every point once. neighbours: `neighbour_count` of each point, the nearest first.
+  /// order: every point once. neighbours: `neighbour_count` for each point, the nearest first.
   Tour(std::span<const Vector3> points, std::vector<Index> order, bool closed, std::vector<Index> neighbours,
        std::size_t neighbour_count);
 
-  /// Changes it until none of the changes that it looks at, to neighbours, makes it shorter, or 200 n points are moved.
+  /// Changes the tour until no change towards neighbours shortens it, or 200 n points have been moved.
   void improve();
-  /// Opens an open way at its longest step, where joining its ends is shorter.
+  /// Opens an open path at its longest step instead, if joining its ends is shorter.
   void open_at_longest_step();
 
-  /// The points in order, an open way from one end to the other.
+  /// The points in order, of an open path from one end to the other.
   [[nodiscard]] std::vector<Index> order() const;
 
  private:
@@ -30,7 +30,7 @@ class Tour {
   [[nodiscard]] Index size() const { return static_cast<Index>(order_.size()); }
   [[nodiscard]] Index at(Index place) const { return order_[static_cast<std::size_t>(place)]; }
   [[nodiscard]] Index place_of(Index point) const { return places_[static_cast<std::size_t>(point)]; }
-  /// The stop so many after a point, or before it.
+  /// The stop `count` places after a point, or before it if negative.
   [[nodiscard]] Index along(Index point, Index count) const;
   [[nodiscard]] std::span<const Index> neighbours_of(Index point) const;
   void put(Index place, Index point);
@@ -43,12 +43,12 @@ class Tour {
   void move(Index first, Index count, Index before, bool turned);
 
   std::span<const Vector3> points_;
-  Index stop_;  ///< the number of the last stop of an open way; else one that no point has
+  Index stop_;  ///< the extra stop of an open path; else a number that no point has
   std::vector<Index> order_;
   std::vector<Index> places_;
   std::vector<Index> neighbours_;
   std::size_t neighbour_count_;
-  std::deque<Index> queue_;  ///< points that are still to be looked at
+  std::deque<Index> queue_;  ///< points still to try
   std::vector<std::uint8_t> queued_;
   std::int64_t work_ = 0;
 };

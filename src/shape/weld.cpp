@@ -13,7 +13,7 @@ namespace vspring {
 
 namespace {
 
-/// The corners of a face with the nodes that stand for them, without repeats of the corner before.
+/// The corners of a face as representatives, without repeats of the corner before.
 std::vector<Index> welded_corners(std::span<const Index> face, const std::vector<Index>& representative) {
   std::vector<Index> corners;
   for (const Index node : face) {

@@ -8,7 +8,7 @@ namespace vspring {
 
 namespace {
 
-/// Marks all nodes of the faces that have a marked one. Returns how many such faces and corners there are.
+/// Marks all nodes of the faces that have a marked node. Returns the numbers of these faces and of their corners.
 std::pair<std::size_t, std::size_t> widen(const PolygonMesh& mesh, std::vector<std::uint8_t>& marked,
                                           std::vector<std::uint8_t>& faces) {
   const std::vector<std::uint8_t> before = marked;

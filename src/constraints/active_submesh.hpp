@@ -8,19 +8,19 @@
 
 namespace vspring {
 
-/// What fairing sees of a mesh of which only a region moves.
+/// The part of a mesh that takes part in fairing if only a region moves.
 struct ActiveSubmesh {
   PolygonMesh mesh;
   Constraints constraints;
-  std::vector<Index> node;  ///< number in the whole mesh of every node, ascending
+  std::vector<Index> node;  ///< the number in the whole mesh of every node, ascending
 };
 
-/// Cuts out the faces that touch a moving node or a neighbour of one by a face, so that these have all their faces.
-/// Nothing where more than half of the mesh moves, or constraints are not as many as nodes. Cost: linear, a few passes
-/// over flags.
+/// Cuts out the faces that touch a moving node or a node that shares a face with one, so these nodes have all their
+/// faces. Nothing if more than half of the mesh moves, or constraints are not as many as nodes. Cost: linear, a few
+/// passes over flags.
 std::optional<ActiveSubmesh> active_submesh(const PolygonMesh& mesh, const Constraints& constraints);
 
-/// What constraints say of some nodes, in that order.
+/// The constraints of some nodes, in that order.
 Constraints constraints_of(const Constraints& constraints, const std::vector<Index>& nodes);
 
 }  // namespace vspring

@@ -10,7 +10,7 @@ namespace vspring {
 namespace {
 
 Vector3 unit(Index node, const Vector3& vector, const char* what) {
-  // Scaled first, so that lengths whose squares overflow or vanish are no special case.
+  // Scaled first, as squares of lengths may overflow or vanish.
   const double greatest = vector.cwiseAbs().maxCoeff();
   if (!vector.allFinite() || !(greatest > 0))
     throw Error(ErrorCode::unusable_constraint,
@@ -38,7 +38,7 @@ void Constraints::Vectors::set(std::size_t node, std::size_t node_count, const V
     return;
   }
   place_[node] = static_cast<std::uint32_t>(values_.size());
-  // It may be one of these.
+  // `value` may be a reference into values_.
   values_.push_back(value);
 }
 

@@ -1,4 +1,4 @@
-// Tangents and normals that a curve has, for constraints "as in the input".
+// Estimates the tangents and normals of a curve, for constraints "as in the input".
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -49,7 +49,7 @@ class TangentEstimate {
     return forward.empty() ? -one_sided(backward) : one_sided(forward);
   }
 
-  /// Of what is on one side; zero where nothing is.
+  /// The tangent from one side; zero if there is nothing.
   [[nodiscard]] Vector3 tangent(Index node, NodeSide side) const {
     const bool after = side == NodeSide::after;
     const auto found = edges(node, after ? 1 : -1);
@@ -71,7 +71,7 @@ class TangentEstimate {
   }
 
  private:
-  /// From the node to the next two on one side, as far as they may be looked at and lie elsewhere.
+  /// The vectors from the node to the next two on one side that are usable and lie elsewhere.
   [[nodiscard]] std::vector<Vector3> edges(Index node, int step) const {
     std::vector<Vector3> found;
     const Place place = places_[static_cast<std::size_t>(node)];

@@ -1,4 +1,4 @@
-// Whether a curve can be faired under its constraints, and whether they tell one result from all others.
+// Checks that a curve can be faired under its constraints, and whether these determine one result.
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@ namespace vspring {
 
 namespace {
 
-// A circle in space has six unknowns, three points or the like; a point with a tangent gives as much as two points.
+// A circle in space has six unknowns, as many as three points determine; a point with a tangent counts as two.
 constexpr int data_for_a_circle = 3;
 
 class CurveHolding {

@@ -1,4 +1,4 @@
-// Whether a shape can be faired under its constraints, and whether they tell one result from all others.
+// Checks that a surface can be faired under its constraints, and whether these determine one result.
 
 #include "constraints/holding.hpp"
 
@@ -30,9 +30,9 @@ namespace {
 
 constexpr std::size_t faults_named = 3;
 constexpr Index fewest_held_of_a_loop = 3;
-// Of an edge where two solids touch.
+// Faces of an edge at which two solids touch.
 constexpr std::size_t faces_of_two_solids = 4;
-// Below this share of the largest, a pivot of the system for the spheres through the data counts as none.
+// In the system for the spheres through the data, a pivot below this share of the largest counts as zero.
 constexpr double no_information = 1e-12;
 
 class Holding {
@@ -48,7 +48,7 @@ class Holding {
 
   void refuse_defects() {
     const bool are_lost = any_lost_nodes();
-    // Held nodes beside moving ones, whose normals and spheres follow from all faces around them.
+    // Held nodes next to moving ones: their normals and spheres follow from all faces around them.
     std::vector<std::uint8_t> is_rim(are_lost ? static_cast<std::size_t>(mesh_.node_count()) : 0, 0);
     for (Index f = 0; f < mesh_.face_count(); ++f) {
       look(f);
@@ -111,7 +111,7 @@ class Holding {
     }
   }
 
-  /// Whether the component with this node, as find() gives it, has a boundary.
+  /// Whether a component, by its representative, has a boundary.
   bool has_boundary(Index component) {
     const auto loops = boundary().loops();
     return std::any_of(loops.begin(), loops.end(),
@@ -146,8 +146,8 @@ class Holding {
                        free_nodes, free_nodes == 1 ? " is" : "s are", first_free, free_nodes == 1 ? "it" : "them")});
   }
 
-  /// Spheres and planes a|x|² + b·x + c = 0 are fair. If the positions and normals that hold a part without boundary,
-  /// and the faces that it meets, leave more than one of them, they leave a family of shapes.
+  /// Spheres and planes a|x|² + b·x + c = 0 are fair. If more than one of them fits the positions, normals and
+  /// adjoining faces that hold a part without boundary, a family of shapes is fair.
   void warn_of_families(std::vector<Warning>& warnings) {
     using System = Eigen::Matrix<double, 5, 5>;
     const auto& on_boundary = boundary().nodes();
@@ -184,7 +184,7 @@ class Holding {
       if (moves(j)) {
         if (on_boundary[static_cast<std::size_t>(j)] != 0) bounded[system(j)] = 1;
         const std::size_t k = system(j);
-        // Points hold a node somewhere near its place.
+        // Points hold a node near its place.
         if (pulled(j)) add_place(k, frame.to_local(mesh_.position(j)));
         continue;
       }
@@ -197,7 +197,7 @@ class Holding {
         add_place(k, p);
         const Vector3 normal = constraints_.normal_fixed(j) ? constraints_.normal(j) : normal_of_held_faces(j);
         if (normal.isZero(0)) continue;
-        // The gradient 2a p + b is along the normal: nothing of it lies across.
+        // The gradient 2a p + b has the direction of the normal, so its components across vanish.
         const Vector3 across = normal.unitOrthogonal();
         for (const Vector3& t : {across, Vector3(normal.cross(across))}) add(k, 2 * p.dot(t), t, 0);
       }
@@ -219,7 +219,7 @@ class Holding {
   }
 
  private:
-  /// Of what the shape goes on in beyond a held node, about; zero where nothing does.
+  /// The approximate normal of the held faces at a held node; zero if there are none.
   [[nodiscard]] Vector3 normal_of_held_faces(Index node) const {
     Vector3 sum = Vector3::Zero();
     for (const auto& corner : incidence_.corners(node)) {
@@ -236,7 +236,7 @@ class Holding {
     return !(constraints_.position_fixed(i) ? constraints_.position(i) : mesh_.position(i)).allFinite();
   }
 
-  /// Hardly ever: faces need not be looked through for them.
+  /// Rarely true, which saves a search through the faces.
   [[nodiscard]] bool any_lost_nodes() const {
     for (Index i = 0; i < mesh_.node_count(); ++i) {
       if (is_lost(i)) return true;
@@ -289,8 +289,7 @@ class Holding {
     if (!fan.manifold()) add_fault({.kind = Defect::Kind::non_manifold_node, .node = i}, i);
   }
 
-  /// Solids that touch at an edge draw back from it on all sides: held alone it would stay as a spike, whose faces turn
-  /// over.
+  /// Solids that touch at an edge shrink away from it: an edge held alone would stay as a spike with flipped faces.
   void hold_touching_faces(Index i, Index j) {
     std::vector<Index> nodes;
     std::size_t faces = 0;
@@ -315,13 +314,13 @@ class Holding {
       look(i);
       if (!moves(i)) continue;
       graph_.for_each_neighbour(i, [&](Index j) {
-        // The other way round it is the same edge.
+        // Each edge once: i < j.
         if (i < j && moves(j)) parts_.join(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
       });
     }
   }
 
-  /// Found once, when it is asked for.
+  /// Found once, on demand.
   const Boundary& boundary() {
     if (!boundary_) boundary_.emplace(mesh_, incidence_, inside_);
     return *boundary_;
@@ -340,7 +339,7 @@ class Holding {
   std::vector<std::string> faults_;
   std::size_t fault_count_ = 0;
   Index fault_node_ = -1;
-  bool broken_ = false;  ///< by what holding nodes does not mend
+  bool broken_ = false;  ///< by a defect that holding nodes does not mend
   std::vector<Index> immovable_;
 };
 

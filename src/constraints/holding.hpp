@@ -11,8 +11,8 @@
 
 namespace vspring {
 
-/// Nodes that would have to move and cannot, as their faces form several fans or more than two meet at an edge, and
-/// those of all faces at edges of four or more: all of them, once or more often. See ImmovableNodesFixed.
+/// Moving nodes that cannot move: nodes whose faces form several fans or meet more than two at an edge, and all nodes
+/// of faces at edges of four or more. Lists all of them, some repeatedly. See ImmovableNodesFixed.
 class ImmovableNodes : public Error {
  public:
   ImmovableNodes(const std::string& message, std::vector<Index> nodes)
@@ -23,17 +23,17 @@ class ImmovableNodes : public Error {
   std::vector<Index> nodes_;
 };
 
-/// As the public ones, where scattered points hold a shape too. pulled: one entry per node, 1 where points are tied to
-/// it; empty: none. Throws ImmovableNodes where nodes would have to move that cannot.
+/// As the public check_constraints(), but scattered points hold the shape, too. pulled: one entry per node, 1 where
+/// points are tied to it; empty: none. Throws ImmovableNodes for moving nodes that cannot move.
 std::vector<Warning> check_constraints(const PolygonMesh& mesh, const Constraints& constraints,
                                        std::span<const std::uint8_t> pulled);
 std::vector<Warning> check_constraints(const PolygonCurve& curve, const Constraints& constraints,
                                        std::span<const std::uint8_t> pulled);
 
-/// The same for a curve that is cut at its corners.
+/// Checks a curve that is cut at its corners.
 std::vector<Warning> check_sides(const PolygonCurve& sides, const Constraints& held);
 
-/// Throws Error(unusable_constraint) for constraints of a surface that name corners. Cost: none, where they do not.
+/// Throws Error(unusable_constraint) if constraints of a surface name corners. Cost: none if they do not.
 void refuse_corners(const Constraints& of_surface);
 
 }  // namespace vspring

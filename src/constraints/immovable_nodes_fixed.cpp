@@ -28,7 +28,7 @@ void ImmovableNodesFixed::add(const ImmovableNodes& found, const Constraints& co
   const std::size_t known = nodes_.size() - found.nodes().size();
   std::sort(nodes_.begin(), nodes_.end());
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
-  // Held already, and still found to move.
+  // All are held already: holding does not help.
   if (nodes_.size() == known) throw Error(found.code(), found.what());
   cut_ = into_sheets(mesh_, nodes_);
   message_ = found.what();

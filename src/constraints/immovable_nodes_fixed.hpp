@@ -14,24 +14,26 @@
 
 namespace vspring {
 
-/// Holds the nodes of a mesh that cannot move, as sheets meet there, and cuts the mesh at them, so that each sheet goes
-/// by its own faces. Which these are is found where a run comes upon them, and costs nothing else.
+/// Holds the nodes of a mesh that cannot move because sheets meet there, and cuts the mesh at them, so each sheet has
+/// its own faces. They are found when a run throws ImmovableNodes; without any it costs nothing.
 class ImmovableNodesFixed {
  public:
-  /// Positions of all nodes, of which those of immovable ones count.
+  /// Returns positions of all nodes; only those of immovable ones are used.
   using Places = std::function<std::vector<Vector3>(const Constraints&)>;
 
-  /// places: where nodes are held, asked for once if any are immovable; empty: where they are.
+  /// places: gives the positions at which immovable nodes are held, called at most once; empty: their present
+  /// positions.
   explicit ImmovableNodesFixed(PolygonMesh mesh, Places places = {})
       : mesh_(std::move(mesh)), find_places_(std::move(places)) {}
 
-  /// work(mesh, constraints), as far as is known by now: its nodes are those of the mesh, and more behind them.
+  /// Calls work(mesh, constraints) with the immovable nodes known so far held, and the mesh cut there: copies of nodes
+  /// follow those of the mesh.
   template <typename Work>
   auto use(const Constraints& constraints, const Work& work) const {
     return cut_ ? work(cut_->mesh, held(constraints)) : work(mesh_, constraints);
   }
 
-  /// The same, and again where that throws ImmovableNodes.
+  /// Calls work() likewise, and again as long as it throws ImmovableNodes.
   template <typename Work>
   auto run(const Constraints& constraints, const Work& work) {
     for (;;) {
@@ -43,7 +45,7 @@ class ImmovableNodesFixed {
     }
   }
 
-  /// Makes of what came out for the sheets what came out for the mesh. report: a FairReport.
+  /// Turns the results for the sheets into those for the mesh. report: a FairReport.
   template <typename Report>
   void join_sheets(const Constraints& constraints, std::vector<Vector3>& positions, Report& report) const {
     if (!cut_) return;
@@ -55,7 +57,7 @@ class ImmovableNodesFixed {
     }
     warn(constraints, report.warnings);
   }
-  /// Adds a first warning that counts such nodes.
+  /// Inserts a warning, as the first, that counts the nodes held.
   void warn(const Constraints& constraints, std::vector<Warning>& warnings) const;
 
  private:
@@ -64,7 +66,7 @@ class ImmovableNodesFixed {
 
   PolygonMesh mesh_;
   Places find_places_;
-  std::vector<Vector3> places_;  ///< empty until any are known to be immovable
+  std::vector<Vector3> places_;  ///< empty until immovable nodes are found
   std::vector<Index> nodes_;
   std::optional<MeshOfSheets> cut_;
   std::string message_;

@@ -1,9 +1,9 @@
-// Normals of second order from the nodes around, also where these lie on one side only.
+// Estimates normals to second order from the nodes around, even if these lie on one side only.
 //
 // For points of a sphere through the node, e·N = c|e|² holds exactly (e: from the node to the point); a smooth surface
-// adds a quadratic form without trace in the tangent plane and terms of third order. Least squares over these five
-// unknowns so reproduce planes and spheres and err by the square of the spacing elsewhere, where one-sided averages of
-// face normals err by the spacing.
+// adds a quadratic form without trace in the tangent plane and terms of third order. So least squares over these five
+// unknowns reproduce planes and spheres. Elsewhere their error is of second order in the spacing; that of one-sided
+// averages of face normals is of first.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -19,10 +19,10 @@ namespace vspring {
 
 namespace {
 
-// Two rings of nodes determine the five unknowns in most meshes; where faces are few, a third is looked at.
+// Two rings of nodes determine the five unknowns in most meshes; with few faces a third is used.
 constexpr std::size_t enough_nodes = 8;
 constexpr int most_rings = 3;
-// Below this ratio of the pivots, what the nodes say about an unknown is rounding or noise.
+// Below this ratio of pivots an unknown is determined by rounding or noise only.
 constexpr double independent = 1e-3;
 constexpr int rounds = 3;
 
@@ -52,8 +52,8 @@ class Estimator {
     return usable_.empty() || usable_[static_cast<std::size_t>(face)] != 0;
   }
 
-  /// Max's weights over the corners of the usable faces at the node; where these leave nothing, the sense of the faces
-  /// is lost too.
+  /// The normal with Max's weights over the corners of usable faces at the node; zero if they cancel, and then the
+  /// sense of the faces is unknown, too.
   [[nodiscard]] Vector3 corner_normal(Index node) const {
     Vector3 sum = Vector3::Zero();
     double scale = 0;
@@ -116,7 +116,7 @@ class Estimator {
       const double u = e.dot(x);
       const double v = e.dot(y);
       const double length2 = e.dot(e);
-      // Near nodes say more about the tangent plane than far ones: rows over |e|².
+      // Near nodes count more for the tangent plane than far ones: rows are divided by |e|².
       terms.row(k) << u / length2, v / length2, 1, (u * u - v * v) / length2, 2 * u * v / length2;
       heights[k] = e.dot(normal) / length2;
     }

@@ -37,7 +37,7 @@ void fix_estimated(Constraints& constraints, const PolygonMesh& mesh, const std:
   }
 }
 
-/// How messages begin that are about a region.
+/// How messages about a region begin.
 std::string called(const Region& region) {
   return region.name.empty() ? "region" : fmt::format("region \"{}\"", in_one_line(region.name));
 }
@@ -60,7 +60,7 @@ std::vector<Index> nodes_of_group(const Region& region, const std::string& name,
                           known.empty() ? "it has none at all" : "it has " + in_one_line(known, 1000)));
 }
 
-/// Those that are named, ascending and once each.
+/// The named nodes, ascending and once each.
 std::vector<Index> nodes_of_list(const Region& region, std::vector<Index> nodes, std::size_t node_count) {
   for (const Index node : nodes) {
     if (node < 0 || static_cast<std::size_t>(node) >= node_count)
@@ -103,7 +103,7 @@ void restrict_to_region(Constraints& constraints, const PolygonMesh& mesh, std::
   Constraints restricted = constraints;
   std::vector<std::uint8_t> inside(static_cast<std::size_t>(mesh.node_count()), 0);
   for (const Index i : region) {
-    (void)restricted.position_fixed(i);  // names a node out of range
+    (void)restricted.position_fixed(i);  // throws for a node out of range
     inside[static_cast<std::size_t>(i)] = 1;
   }
   for (Index i = 0; i < mesh.node_count(); ++i) {
@@ -124,7 +124,7 @@ void restrict_to_region(Constraints& constraints, const PolygonMesh& mesh, std::
       if (moves(b) && !moves(a)) rim[static_cast<std::size_t>(a)] = 1;
     }
   }
-  // With faces all round, those that move tell more of the normal than an estimate from one side.
+  // With faces all around, the moving faces give a better normal than an estimate from one side.
   const std::vector<std::uint8_t> boundary = boundary_nodes(mesh);
   std::vector<Index> rim_nodes;
   for (Index i = 0; i < mesh.node_count(); ++i) {

@@ -17,9 +17,9 @@ namespace vspring {
 namespace {
 
 constexpr Index most_nodes = 100'000'000;
-// Straight steps that each cubic is measured by: nodes are even to about a thousandth of the spacing.
+// Number of chords that each cubic is measured with: spacing is then even to about a thousandth.
 constexpr int steps_per_edge = 16;
-// By how much spacing may grow along a length.
+// The steepest change of spacing per length.
 constexpr double steepest = 0.25;
 
 /// The nodes between two kept ones, both included; a whole closed chain ends with its first node again.
@@ -28,7 +28,7 @@ struct Piece {
   std::vector<Vector3> tangents;
   std::vector<double> density = {};  ///< of new nodes, at each of the nodes; empty: even
   double length = 0;                 ///< times density
-  double furthest = 1;               ///< the share of the length where it is furthest from its ends
+  double furthest = 1;               ///< the share of the length at which it is furthest from its ends
   Index least_edges = 1;
   Index edges = 0;
 };
@@ -86,7 +86,7 @@ class Resampler {
   }
 
  private:
-  /// Once it is known how many edges each piece gets.
+  /// Places the nodes, once each piece's number of edges is known.
   void space() {
     if (by_ == ResamplingBy::curvature) {
       for (Piece& piece : pieces_) follow_curvature(piece);
@@ -133,7 +133,7 @@ class Resampler {
     const auto is_kept = [&](Index node) { return kept_[static_cast<std::size_t>(node)] != 0; };
     const auto is_corner = [&](Index node) { return is_corner_[static_cast<std::size_t>(node)] != 0; };
     if (chain.nodes.size() > 1) {
-      // A closed chain is gone around from a corner or another kept node on.
+      // A closed chain is followed from a corner or another kept node on.
       std::vector<Index> nodes = chain.nodes;
       bool closed = chain.closed;
       if (chain.closed) {
@@ -170,8 +170,8 @@ class Resampler {
     if (piece.nodes.size() > 1) finish(std::move(piece));
   }
 
-  /// Given ones, and else those of the chain on its own: where chains meet, each has another. The first node of a
-  /// closed one comes again at the end.
+  /// The given tangents, else those of this chain alone, as chains that meet have different ones. `nodes` of a closed
+  /// chain repeat the first at the end.
   [[nodiscard]] std::vector<Vector3> tangents_along(const std::vector<Index>& nodes, bool closed) const {
     const std::size_t count = nodes.size() - (closed ? 1 : 0);
     std::vector<Vector3> positions;
@@ -203,8 +203,8 @@ class Resampler {
     return (place(piece.nodes[k + 1]) - place(piece.nodes[k])).norm();
   }
 
-  /// Spacing by the inverse root of curvature, which makes arcs rise equally over their chords; no wider than the
-  /// curve's mean turn asks for twice over, and changing by no more than a quarter from one edge to the next.
+  /// Spaces nodes by the inverse root of curvature, so arcs rise equally over their chords. Spacing is at most twice
+  /// what the curve's mean turn asks for, and changes by at most a quarter from one edge to the next.
   void follow_curvature(Piece& piece) const {
     const std::size_t count = piece.nodes.size();
     std::vector<double> turn(count, 0);
@@ -224,7 +224,7 @@ class Resampler {
       const double bent = (k > 0 ? turn[k - 1] : 0) + turn[k];
       spacing[k] = 1 / std::sqrt(floor + (around > 0 ? bent / around : 0));
     }
-    // To edges of the piece, and from these to densities again.
+    // From nodes to edges of the piece, and back to densities.
     const auto set_density = [&] {
       piece.density.resize(count);
       for (std::size_t k = 0; k < count; ++k) piece.density[k] = 1 / spacing[k];
@@ -251,12 +251,12 @@ class Resampler {
       furthest = distance;
       piece.furthest = length / piece.length;
     }
-    // A piece that goes from one side to the other has no such place.
+    // A piece that goes from one side to the other has no furthest place.
     const double across = (place(piece.nodes.back()) - place(piece.nodes.front())).norm();
     if (!(furthest > across)) piece.furthest = 1;
   }
 
-  /// Where new node `made` of a piece lies, of its length.
+  /// The place of new node `made` along a piece.
   [[nodiscard]] double place_of(const Piece& piece, Index made) const {
     const double share = static_cast<double>(made) / static_cast<double>(piece.edges);
     if (by_ != ResamplingBy::cosine) return piece.length * share;
@@ -266,8 +266,8 @@ class Resampler {
     return piece.length * (share < piece.furthest ? between(0, piece.furthest) : between(piece.furthest, 1));
   }
 
-  /// Goes along edge k of a piece; calls step(v, length of the edge up to v). Returns the edge's length. Lengths are
-  /// times density.
+  /// Walks along edge k of a piece and calls step(v, length of the edge up to v). Returns the edge's length. Lengths
+  /// are multiplied by density.
   template <typename Step>
   double walk(const Piece& piece, std::size_t k, Step step) const {
     double length = 0;
@@ -292,7 +292,7 @@ class Resampler {
   }
 
   void share_out(Index nodes) {
-    // Every piece brings its edges but one as new nodes; what is left of the number are kept ones.
+    // A piece has one new node fewer than edges; the rest of the number are kept nodes.
     std::vector<std::uint8_t> counted(kept_.size(), 0);
     Index kept = 0;
     Index least = 0;
@@ -316,7 +316,8 @@ class Resampler {
       throw Error(ErrorCode::invalid_argument,
                   fmt::format("{} nodes are too few: {} are ends or held, and pieces between them need {} more", nodes,
                               kept, least - static_cast<Index>(pieces_.size())));
-    // One edge after the other, to where the longest are, found at once by halving the length of an edge.
+    // As if edges were given one by one to the piece with the longest edges; bisection on the edge length finds that
+    // directly.
     const auto edges_of = [&](const Piece& piece, double spacing) {
       return std::max<double>(piece.least_edges, std::ceil(piece.length / spacing));
     };
@@ -333,7 +334,7 @@ class Resampler {
       piece.edges = static_cast<Index>(edges_of(piece, high));
       left -= piece.edges;
     }
-    // Pieces of one length all go up at once; those that come first get the edges that are left.
+    // Pieces of equal length gain an edge together; the first ones get the remaining edges.
     for (std::size_t k = 0; left > 0 && !pieces_.empty(); k = (k + 1) % pieces_.size()) {
       ++pieces_[k].edges;
       --left;
@@ -370,7 +371,7 @@ class Resampler {
         before = here;
       });
     }
-    // Rounding may leave the last one over.
+    // Rounding may leave the last node out.
     for (; made < piece.edges; ++made) nodes.push_back(add(place(piece.nodes.back()), -1, result));
   }
 

@@ -16,14 +16,14 @@ namespace vspring {
 
 namespace {
 
-// Height over longest edge: what coordinates of a few digits leave of nodes in line.
+// Height over longest edge: below it, nodes may be in line but for coordinates of few digits.
 constexpr double height_of_sliver = 1e-3;
-// A sliver beside slivers changes when these have.
+// A sliver next to slivers changes after these.
 constexpr int most_rounds = 8;
 
 using Face = std::vector<Index>;
 
-/// Where its longest edge ends, among the nodes of a face.
+/// The place, among the nodes of a face, at which its longest edge ends.
 std::size_t behind_longest_edge(std::span<const Index> face, const std::vector<Vector3>& positions) {
   std::size_t behind = 0;
   double longest = 0;
@@ -38,7 +38,7 @@ std::size_t behind_longest_edge(std::span<const Index> face, const std::vector<V
   return behind;
 }
 
-/// Whether all of a face lies along its longest edge, and that is not all that it has.
+/// Whether a face is hardly more than its longest edge.
 bool is_sliver(std::span<const Index> face, const std::vector<Vector3>& positions) {
   if (face.size() < 3) return false;
   const std::size_t behind = behind_longest_edge(face, positions);
@@ -55,7 +55,7 @@ bool is_sliver(std::span<const Index> face, const std::vector<Vector3>& position
   return true;
 }
 
-/// A face from behind its longest edge on: that runs from the last node to the first.
+/// A face rotated so that its longest edge runs from the last node to the first.
 Face from_longest_edge(std::span<const Index> face, const std::vector<Vector3>& positions) {
   Face nodes(face.begin(), face.end());
   std::rotate(nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(behind_longest_edge(face, positions)),
@@ -63,7 +63,7 @@ Face from_longest_edge(std::span<const Index> face, const std::vector<Vector3>& 
   return nodes;
 }
 
-/// The faces that are put in place of slivers and of those across, by their numbers.
+/// Replacements of slivers and of the faces across their longest edges.
 class Leaving {
  public:
   explicit Leaving(const PolygonMesh& mesh) : mesh_(mesh), incidence_(mesh), edges_(mesh, incidence_) {}
@@ -95,7 +95,7 @@ class Leaving {
   }
 
  private:
-  /// The only other face at an edge, if it runs that way along it.
+  /// The only other face at an edge, if it runs along it in this direction.
   std::optional<Index> face_across(Index from, Index to, Index face) {
     std::optional<Index> across;
     edges_.at_node(from, [&](Index neighbour, std::span<const EdgeUse> uses) {

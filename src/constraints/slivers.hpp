@@ -7,16 +7,16 @@
 
 namespace vspring {
 
-/// Faces of a mesh that are next to nothing but their longest edge. They have no normal, so a held node in the middle
-/// of one would not know what it lies on, and what is faired beside it would swell.
+/// Faces of a mesh that are hardly more than their longest edge. They have no normal, so a held node on that edge would
+/// have no normal, and the surface faired next to it would swell.
 class Slivers {
  public:
-  /// Cost: linear. What is asked for later costs next to nothing where there are none.
+  /// Cost: linear. If there are none, later calls cost next to nothing.
   explicit Slivers(const PolygonMesh& mesh);
 
-  /// The same shape, in which slivers of held nodes are left out: faces across their longest edges have the nodes in
-  /// between, too. In place of a sliver there are two nodes, which are no face, so that all faces keep their numbers.
-  /// Shares all with the mesh where none changes.
+  /// The same shape without slivers of held nodes: the face across a sliver's longest edge gets the nodes in between.
+  /// Two nodes, which are no face, replace the sliver, so all faces keep their numbers. A copy of the mesh if nothing
+  /// changes.
   [[nodiscard]] PolygonMesh left_out(const Constraints& constraints) const;
 
  private:

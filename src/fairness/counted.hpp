@@ -9,14 +9,14 @@
 
 namespace vspring {
 
-/// The faces that are measured, 1, and the others, 0: faces of three or more nodes with finite coordinates; with
-/// constraints only those at moving nodes, as the rest of the shape says nothing about what was done.
+/// Marks the faces to measure with 1: faces of three or more nodes with finite coordinates; with constraints only those
+/// at moving nodes, as the rest did not change.
 std::vector<std::uint8_t> counted_faces(const PolygonMesh& mesh, const Constraints* constraints);
 
-/// The nodes of these faces: 1, else 0.
+/// Marks the nodes of these faces with 1.
 std::vector<std::uint8_t> counted_nodes(const PolygonMesh& mesh, const std::vector<std::uint8_t>& faces);
 
-/// The nodes with finite coordinates: 1, else 0.
+/// Marks the nodes with finite coordinates with 1.
 std::vector<std::uint8_t> finite_nodes(const PolygonMesh& mesh);
 
 /// The box around these faces.

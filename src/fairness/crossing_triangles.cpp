@@ -10,9 +10,8 @@ namespace vspring {
 
 namespace {
 
-/// On which side of the plane abc, seen along the way a → b → c, lies d: 1, −1, or 0 on it as far as coordinates of
-/// limited precision can tell. Sizes are at most 2, so rounding of the coordinates themselves is at most 2⁻⁵²; each
-/// moves the volume by no more than its share of the areas.
+/// On which side of the oriented plane abc lies d: 1, −1, or 0 if within rounding. Sizes are at most 2, so coordinates
+/// are rounded by at most 2⁻⁵²; each moves the volume by no more than its share of the areas.
 int side(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   const Vector3 u = a - d;
@@ -22,11 +21,11 @@ int side(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d)
   const Vector3 wu = w.cross(u);
   const Vector3 uv = u.cross(v);
   const double volume = u.dot(vw);
-  // Lengths are at most twice the root of three, so this is more than what is rounded below, without roots.
+  // Lengths are at most 2√3, so this bound, without roots, exceeds the rounding below.
   const double longest = std::max({u.squaredNorm(), v.squaredNorm(), w.squaredNorm()});
   if (std::abs(volume) > 7 * rounding * longest) return volume > 0 ? 1 : -1;
   const double areas = vw.norm() + wu.norm() + uv.norm();
-  // The cross products round by the product of the lengths, which long thin triangles notice.
+  // The rounding of cross products goes with the product of the lengths, which matters for long thin triangles.
   const double lengths = u.norm() * v.norm() * w.norm();
   if (std::abs(volume) <= rounding * (areas + lengths)) return 0;
   return volume > 0 ? 1 : -1;
@@ -39,7 +38,7 @@ CrossingTriangles::CrossingTriangles(const PolygonMesh& mesh) : triangles_(cut_i
   for (const Triangle& triangle : triangles_) {
     for (const Index i : triangle.nodes) greatest = std::max(greatest, mesh.position(i).cwiseAbs().maxCoeff());
   }
-  // By a power of two and without moving the shape: no digit changes, and what touches still touches.
+  // By a power of two and without translation: no digit changes, so faces that touch still touch.
   const double scale = greatest > 0 ? std::ldexp(1.0, -std::max(std::ilogb(greatest), -1000)) : 1.0;
   positions_.reserve(mesh.positions().size());
   for (const Vector3& position : mesh.positions()) positions_.push_back(position * scale);
@@ -51,9 +50,9 @@ Box CrossingTriangles::box(const Triangle& triangle) const {
   return box;
 }
 
-// Both straddle the other's plane, and the stretches of the line between the planes that they cover overlap by more
-// than a point: four signs of volumes tell, as in P. Guigue, O. Devillers, "Fast and robust triangle-triangle
-// overlap test using orientation predicates", Journal of Graphics Tools 8(1), 2003.
+// Each must straddle the other's plane, and their intervals on the line common to both planes must overlap by more than
+// a point. Four signs of volumes decide that (P. Guigue, O. Devillers, "Fast and robust triangle-triangle overlap test
+// using orientation predicates", Journal of Graphics Tools 8(1), 2003).
 bool CrossingTriangles::cross(const Triangle& a, const Triangle& b) const {
   int shared = 0;
   for (const Index i : a.nodes) shared += std::count(b.nodes.begin(), b.nodes.end(), i) > 0 ? 1 : 0;

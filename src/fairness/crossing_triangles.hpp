@@ -14,11 +14,11 @@ class CrossingTriangles {
   explicit CrossingTriangles(const PolygonMesh& mesh);
 
   [[nodiscard]] const std::vector<Triangle>& triangles() const noexcept { return triangles_; }
-  /// Those of the nodes, scaled so that the coordinates of triangles are at most 2.
+  /// The positions of the nodes, scaled so that the coordinates of triangles are at most 2.
   [[nodiscard]] const std::vector<Vector3>& positions() const noexcept { return positions_; }
   [[nodiscard]] Box box(const Triangle& triangle) const;
 
-  /// Whether each has points on both sides of the other, along some length. Two that share an edge do not cross.
+  /// Whether two triangles pass through each other along some length. Two that share an edge do not cross.
   [[nodiscard]] bool cross(const Triangle& a, const Triangle& b) const;
 
  private:

@@ -14,8 +14,8 @@ namespace vspring {
 namespace {
 
 constexpr std::size_t jets_per_task = 1024;
-// A node this high over the tangent plane, relative to its distance along it, is more than 70° around a sphere, or on
-// the other side of a thin part: a height over the plane does not describe the way to it.
+// A node this high over the tangent plane, relative to its distance along it, is more than 70° away on a sphere, or on
+// the other side of a thin part: its height over the plane does not describe the surface.
 constexpr double steepest = 0.7;
 
 /// A tangent plane with coordinates u, v.
@@ -70,7 +70,7 @@ class CurvatureFitter::Points {
   [[nodiscard]] double along2(Eigen::Index k) const { return u_[k] * u_[k] + v_[k] * v_[k]; }
   [[nodiscard]] bool steep(Eigen::Index k) const { return height_[k] * height_[k] > steepest * steepest * along2(k); }
 
-  /// At a spike everything is steep; it is better seen badly than not at all.
+  /// At a spike all nodes are steep; a poor estimate is better than none.
   void leave_steep_ones_out() {
     Eigen::Index steep_ones = 0;
     for (Eigen::Index k = 0; k < count_; ++k) steep_ones += steep(k) ? 1 : 0;
@@ -111,7 +111,7 @@ void bend(const Jet& jet, double size, const Plane& plane, NodeCurvature& result
   Eigen::Matrix2d hessian;
   hessian << jet.second[0], jet.second[1], jet.second[1], jet.second[2];
   const Eigen::Matrix2d form = frame.transpose() * hessian * frame / w;
-  // Away from the normal is down, so the greatest curvature is the least of the form.
+  // Curvature is positive away from the normal, so the greatest is the least of the form.
   const double angle = std::atan2(-2 * form(0, 1), form(1, 1) - form(0, 0)) / 2;
   const double cosine = std::cos(angle);
   const double sine = std::sin(angle);

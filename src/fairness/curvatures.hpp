@@ -10,8 +10,8 @@
 
 namespace vspring {
 
-/// Positions times a power of two that makes their size about 1. Only differences of them matter: were they moved to
-/// the origin, their last digits would depend on where it is.
+/// Positions times a power of two that makes their size about 1. They are not moved to an origin, as their last digits
+/// would depend on it; only differences are used.
 class ScaledPositions {
  public:
   /// The positions must outlive it.
@@ -31,10 +31,11 @@ class CurvatureFitter {
   CurvatureFitter(const CurvatureFitter&) = delete;
   CurvatureFitter& operator=(const CurvatureFitter&) = delete;
 
-  /// Looks around a node: what is the same wherever the nodes are. links: of the walk around it, which must last as
-  /// long as it is looked at.
+  /// Finds the nodes around a node, which do not depend on positions. links: of the walk around it; they must last
+  /// until the next call.
   void go_to(Index node, std::span<const Link> links);
-  /// There, of the mesh with these positions, in their units. The bits do not depend, but for its factor, on the scale.
+  /// The curvature there, of the mesh with these positions, in their units. The bits do not depend on the scale, except
+  /// for its factor.
   NodeCurvature at(const ScaledPositions& positions);
 
  private:

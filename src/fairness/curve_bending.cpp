@@ -17,11 +17,11 @@ struct ThreePointCircle {
   Vector3 curvature;
 };
 
-/// `vector` after the rotation of least angle that takes one unit vector to another.
+/// `vector` after the rotation of least angle from one unit vector to another.
 Vector3 transported(const Vector3& vector, const Vector3& from, const Vector3& to) {
   const Vector3 sum = from + to;
   const double square = sum.squaredNorm();
-  if (!(square > 1e-12)) return vector;  // a hairpin: every axis is as good
+  if (!(square > 1e-12)) return vector;  // a hairpin: any axis will do
   // Two reflections: in the plane across `from`, then across the bisector.
   const Vector3 reflected = vector - 2 * vector.dot(from) * from;
   return reflected - (2 * reflected.dot(sum) / square) * sum;
@@ -82,7 +82,7 @@ class Run {
     return station;
   }
 
-  /// From station k to the next.
+  /// The distance from station k to the next.
   [[nodiscard]] double distance(std::size_t k) const {
     if (k + 1 < stations_.size()) return stations_[k + 1].place - stations_[k].place;
     return stations_.front().place + places_.back() - stations_.back().place;
@@ -100,7 +100,7 @@ class Run {
   [[nodiscard]] std::vector<double> sides(double straight) const {
     std::vector<double> curvature;
     curvature.reserve(stations_.size());
-    Vector3 left = Vector3::Zero();  // the side that is positive
+    Vector3 left = Vector3::Zero();  // the positive side
     for (std::size_t k = 0; k < stations_.size(); ++k) {
       const ThreePointCircle& station = stations_[k];
       if (k > 0) left = transported(left, stations_[k - 1].tangent, station.tangent);
@@ -115,7 +115,7 @@ class Run {
 
   const std::vector<Vector3>& positions_;
   bool closed_;
-  std::vector<double> places_;  // arc lengths of the nodes; of a closed run, that of its first node again at the end
+  std::vector<double> places_;  // arc lengths of the nodes; a closed run has its first node again at the end
   std::vector<ThreePointCircle> stations_;
 };
 

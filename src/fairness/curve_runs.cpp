@@ -13,7 +13,7 @@ class Cutting {
   void cut(const PolygonCurve::Chain& chain) {
     const std::size_t count = chain.nodes.size();
     const std::size_t edges = count < 2 ? 0 : count - (chain.closed ? 0 : 1);
-    // Around a closed chain runs begin behind the first edge that is left out, if there is one.
+    // Around a closed chain runs begin after the first edge left out, if any.
     std::size_t begin = 0;
     if (chain.closed) {
       while (begin < edges && counts(chain, begin)) ++begin;

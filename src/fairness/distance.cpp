@@ -39,7 +39,7 @@ double square_to_triangle(const Vector3& point, const Vector3& a, const Vector3&
   return std::min({square_to_segment(point, a, b), square_to_segment(point, b, c), square_to_segment(point, c, a)});
 }
 
-/// Sums in fixed pieces, so that they do not depend on the number of threads.
+/// Sums in fixed pieces, so they do not depend on the number of threads.
 class Gathering {
  public:
   Gathering(std::size_t points, double scale)
@@ -112,7 +112,8 @@ struct Squares {
   }
 };
 
-/// Elements: lists of nodes of a fixed number, each the hull of its nodes. square(element, point, positions).
+/// Elements: lists of equally many nodes, each the hull of its nodes. square(element, point, positions): the squared
+/// distance.
 template <typename Elements, typename Square>
 Squares squares_to(std::span<const Vector3> points, const Elements& elements, std::span<const Vector3> positions,
                    const Context& context, const Square& square) {
@@ -133,7 +134,7 @@ Squares squares_to(std::span<const Vector3> points, const Elements& elements, st
     for (std::size_t i = begin; i < end; ++i) {
       if (!from[i].allFinite()) continue;
       const auto square_to = [&](Index k) { return square(from[i], elements[static_cast<std::size_t>(k)], to); };
-      // Points one after the other mostly lie at one element or at the next: little of the tree is left to look at.
+      // Successive points mostly lie at the same element or the next one, so little of the tree needs a visit.
       const Index next = last + 1 < static_cast<Index>(elements.size()) ? last + 1 : last;
       const double there = square_to(last);
       const double ahead = square_to(next);

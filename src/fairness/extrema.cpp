@@ -8,7 +8,7 @@ namespace vspring {
 
 namespace {
 
-/// A node from which the way down from a summit goes up to another.
+/// A pass: the node between two summits.
 struct Pass {
   double value;
   Index node;
@@ -16,12 +16,12 @@ struct Pass {
   Index to;
 };
 
-/// Summits, in groups that hang together; each group is known by its highest.
+/// Summits in connected groups; the highest represents a group.
 class PersistenceMerge {
  public:
   explicit PersistenceMerge(std::vector<Index> summits) : above_(std::move(summits)) {}
 
-  /// above: for every node one that is higher, or itself where it is a summit.
+  /// above: per node a higher one, or itself if it is a summit.
   [[nodiscard]] Index summit(Index node) {
     while (above(node) != node) {
       above(node) = above(above(node));
@@ -56,8 +56,8 @@ Index count_maxima(const NodeGraph& graph, std::span<const double> values, std::
     }
     above[static_cast<std::size_t>(i)] = highest;
   }
-  // A hill is a summit with the nodes from which the steepest way up leads there. What joins hills are their passes,
-  // the highest first: nodes in between change nothing, and there are far fewer hills than nodes.
+  // A hill is a summit with the nodes whose steepest ascent leads there. Hills are joined at their passes, the highest
+  // first; other nodes need no step, and there are far fewer hills than nodes.
   PersistenceMerge hills(std::move(above));
   std::vector<Pass> passes;
   std::vector<double> low(values.begin(), values.end());
@@ -87,7 +87,7 @@ Index count_maxima(const NodeGraph& graph, std::span<const double> values, std::
     lowest = std::min(lowest, low[static_cast<std::size_t>(lower)]);
     if (counts(lower, pass.value)) ++count;
   }
-  // What was never overtopped stands over the lowest node that it leads to.
+  // A summit that was never exceeded stands out over the lowest node of its group.
   for (Index i = 0; i < graph.size(); ++i) {
     if (is_used(i) && hills.summit(i) == i && counts(i, low[static_cast<std::size_t>(i)])) ++count;
   }
@@ -96,7 +96,7 @@ Index count_maxima(const NodeGraph& graph, std::span<const double> values, std::
 
 namespace {
 
-/// How often the values rise and fall in turn, each time by more than the threshold, from place `begin` on around.
+/// How often the values rise and fall in turn, each time by more than the threshold, once around from place `begin`.
 std::size_t count_swings(std::span<const double> values, std::size_t begin, std::size_t count, double threshold) {
   std::size_t swings = 0;
   int direction = 0;
@@ -123,7 +123,7 @@ std::size_t count_swings(std::span<const double> values, std::size_t begin, std:
 
 Index count_extrema(std::span<const double> values, bool closed, double threshold) {
   if (values.size() < 3) return 0;
-  // Around a closed line, from its lowest place back to it: the last fall is followed by the first rise.
+  // A closed line starts and ends at its lowest place, so the first rise follows the last fall.
   const auto lowest = static_cast<std::size_t>(std::min_element(values.begin(), values.end()) - values.begin());
   if (closed) return static_cast<Index>(count_swings(values, lowest, values.size() + 1, threshold));
   const std::size_t swings = count_swings(values, 0, values.size(), threshold);

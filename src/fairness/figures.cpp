@@ -31,7 +31,7 @@ std::vector<Figure> list(const Figures& figures, const Description<Figures> (&de
       if (!measured) continue;
       figure.value = *measured;
     }
-    figure.value += 0.0;  // −0 reads as a figure of a sign
+    figure.value += 0.0;  // −0 would be printed with its sign
     listed.push_back(figure);
   }
   return listed;

@@ -1,10 +1,10 @@
 #include "fairness/height_field.hpp"
 
-// Seen along a direction that all triangles face, each is a triangle that turns counter-clockwise. So the number of
-// triangles over a place of the view is the number of times that their outlines wind around it. Edges that two
-// triangles run along in opposite ways cancel; what is left is the boundary. Where it is a set of simple curves apart
-// from each other, and one alone winds counter-clockwise, it winds around no place more than once. Then there are never
-// two triangles over one place, and two that cross have a point within both.
+// Seen along a direction that all triangles face, each triangle turns counter-clockwise. So the number of triangles
+// over a place of the view is how often their outlines wind around it. Edges along which two triangles run in opposite
+// directions cancel; the boundary remains. If it consists of simple curves apart from each other, only one of which is
+// counter-clockwise, it winds around no place more than once. Then no place has two triangles over it, while two
+// crossing triangles would have one in common.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -19,8 +19,8 @@ namespace vspring {
 
 namespace {
 
-// Of coordinates of at most 2, and of lengths. Rounding moves a place of the view by less than 16 ε; this is 4,096 ε,
-// and still far below what is between the nodes of a mesh.
+// A margin for coordinates of at most 2. Rounding moves a place of the view by less than 16 ε; this is 4,096 ε, and
+// still far below the distances of nodes of a mesh.
 constexpr double view_margin = 0x1p-40;
 
 class HeightField {
@@ -64,16 +64,16 @@ class HeightField {
     parallel_ranges(team_, triangles_.size(), faces_per_task, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end && all; ++k) {
         const auto [u, v] = two_edges(triangles_[k]);
-        // The product rounds by the product of the lengths, which is at most this.
+        // The rounding of the cross product goes with the product of the lengths, which is at most this.
         if (!(u.cross(v).dot(direction_) > view_margin * (u.squaredNorm() + v.squaredNorm()))) all = false;
       }
     });
     return all;
   }
 
-  /// Sets boundary_: what is left of edges, as often as it is left, in the order of the nodes that it comes from.
+  /// Sets boundary_: the edges that do not cancel, with multiplicity, by their first nodes.
   void find_boundary() {
-    // At the lower node of each edge: twice the other one, and 1 more where the triangle runs towards the lower one.
+    // At the lower node of each edge: twice the other node, plus 1 if the triangle runs towards the lower one.
     std::vector<std::size_t> end_of(positions_.size() + 1, 0);
     const auto for_each_edge = [&](const auto& use) {
       for (const Triangle& triangle : triangles_) {
@@ -85,7 +85,7 @@ class HeightField {
     };
     for_each_edge([&](Index from, Index to) { ++end_of[static_cast<std::size_t>(std::min(from, to)) + 1]; });
     for (std::size_t i = 1; i < end_of.size(); ++i) end_of[i] += end_of[i - 1];
-    // Where those of a node begin; it moves on to where they end.
+    // Where those of a node begin; advances to their end.
     std::vector<std::uint32_t> uses(3 * triangles_.size());
     for_each_edge([&](Index from, Index to) {
       const auto [low, high] = std::minmax(from, to);
@@ -111,8 +111,8 @@ class HeightField {
     std::sort(boundary_.begin(), boundary_.end(), [](const Edge& a, const Edge& b) { return a.from < b.from; });
   }
 
-  /// As many edges of the boundary come to a node as go from it. Where that is one, they are closed curves; where it is
-  /// more, only the first follows, and the others touch what comes there.
+  /// As many boundary edges arrive at a node as leave it. With one of each they form closed curves. With more, only the
+  /// first is followed; the others touch the curve and are found by that.
   [[nodiscard]] bool winds_once() {
     const Vector3 across = direction_.unitOrthogonal();
     const Vector3 upwards = direction_.cross(across);
@@ -129,7 +129,7 @@ class HeightField {
 
   static double cross(const Place& u, const Place& v) { return u.x() * v.y() - u.y() * v.x(); }
 
-  /// Whether both c and d lie on one side of the line ab, and not next to it.
+  /// Whether c and d lie clearly on one side of the line ab.
   static bool beside(const Place& a, const Place& b, const Place& c, const Place& d) {
     const Place along = b - a;
     const double nearest = view_margin * along.norm();
@@ -138,7 +138,7 @@ class HeightField {
     return std::min(at_c, at_d) > nearest || std::max(at_c, at_d) < -nearest;
   }
 
-  /// An edge that goes back over the one before touches the one after, too, but for curves of three nodes, which then
+  /// An edge that goes back over the one before also touches the one after, except in curves of three nodes, which then
   /// have no area.
   [[nodiscard]] bool curves_are_simple(const std::vector<Place>& seen, const std::vector<std::size_t>& next) {
     std::vector<Box> boxes;
@@ -183,7 +183,7 @@ class HeightField {
         length += (seen[next[k]] - seen[k]).norm();
         ++edges;
       }
-      // Each edge rounds the area by its share of the length at most.
+      // Each edge adds rounding to the area of at most its share of the length.
       if (edges > 0 && !(std::abs(area) > view_margin * edges * length)) return false;
       if (area > 0) ++counter_clockwise;
     }

@@ -7,9 +7,9 @@ namespace vspring {
 
 namespace {
 
-// Triangles at a node, from which on it is worth a search of its own.
+// From this many triangles on, a node is worth a search of its own.
 constexpr std::uint32_t many = 64;
-// Of the unit sphere: far more than rounding, and far less than what is between the neighbours of a hub.
+// On the unit sphere: far more than rounding, and far less than the distance of a hub's neighbours.
 constexpr double margin_on_sphere = 0x1p-30;
 
 }  // namespace
@@ -20,7 +20,7 @@ Hubs find_hubs(const std::vector<Triangle>& triangles, std::size_t node_count) {
     for (const Index i : triangle.nodes) ++uses[static_cast<std::size_t>(i)];
   }
   Hubs result;
-  // Where the hub of a node is among the others.
+  // The index of a node's hub.
   std::vector<std::size_t> place(node_count, 0);
   for (std::size_t i = 0; i < node_count; ++i) {
     if (uses[i] < many) continue;

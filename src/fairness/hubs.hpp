@@ -7,22 +7,22 @@
 
 namespace vspring {
 
-/// The triangles of a mesh, each at one of the nodes at which very many meet, or at none.
+/// The triangles of a mesh, grouped by hubs: nodes at which very many meet.
 struct Hubs {
   struct Hub {
     Index node = -1;
     std::vector<Index> triangles;  ///< ascending
   };
   std::vector<Hub> hubs;      ///< by the number of their node, ascending
-  std::vector<Index> others;  ///< triangles at none, ascending
+  std::vector<Index> others;  ///< triangles at no hub, ascending
 };
 
-/// A triangle at several goes to that at which most meet. Cost: linear.
+/// A triangle at several hubs belongs to the one with the most triangles. Cost: linear.
 [[nodiscard]] Hubs find_hubs(const std::vector<Triangle>& triangles, std::size_t node_count);
 
-/// Around where the rays from `hub` through the line from a to b meet the unit sphere around it, with room for
-/// rounding. Two triangles that share the hub alone and cross do so along a line from it, so there these places meet:
-/// where their boxes are apart, they do not cross.
+/// A box around the edge from a to b as projected onto the unit sphere around `hub`, with room for rounding. Two
+/// triangles that share only the hub cross along a line from it, so their projections meet: if their boxes are apart,
+/// they do not cross.
 [[nodiscard]] Box box_seen_from(const Vector3& hub, const Vector3& a, const Vector3& b);
 
 }  // namespace vspring

@@ -9,11 +9,11 @@ namespace vspring {
 
 namespace {
 
-// The monomials of degree d end before terms[d], and that many points and a few more determine them.
+// The monomials of degree d end before terms[d]; that many points and a few more determine them.
 constexpr std::array<std::size_t, 5> terms = {0, 2, 5, 9, 14};
 constexpr std::array<std::size_t, 5> points_needed = {0, 2, 5, 11, 17};
-// The square of the sine of the angle between a monomial and the space of those before it, as the points see them.
-// On one side of a boundary it is some 1e-4; below this the points lie on a curve of lower degree.
+// The squared sine of the angle, at the points, between a monomial and the space of those before it. Next to a boundary
+// it is about 1e-4; below this value the points lie on a curve of lower degree.
 constexpr double independent = 1e-6;
 
 template <std::size_t lanes>
@@ -23,8 +23,8 @@ struct VectorOf {
 
 }  // namespace
 
-/// Sums up and eliminates row by row, each when those above it are done. The sums of an entry, then what is subtracted
-/// from it, come one after the other in one order, so the bits do not depend on how many entries are worked on at once.
+/// Sums up and eliminates row by row, each when those above it are done. Every entry is summed and reduced in one fixed
+/// order, so the bits do not depend on how many entries are processed at once.
 template <std::size_t lanes>
 class NormalEquations {
  public:
@@ -57,12 +57,12 @@ class NormalEquations {
     (void)(next<k>() && ...);
   }
 
-  /// False where nothing beyond row k can be told.
+  /// False if the points determine nothing beyond row k.
   template <std::size_t k>
   VSPRING_INLINE bool next() {
     const auto degree = static_cast<std::size_t>(degree_);
     if (k == terms[degree] && count_ < points_needed[degree + 1]) return false;
-    // As many rows at once as sums stay in registers.
+    // As many rows at once as have their sums in registers.
     constexpr std::size_t together = lanes == 4 ? (k < 8 ? 2 : k < 12 ? 4 : 2) : (k < 8 ? 1 : 2);
     if constexpr (k % together == 0) sum_up<k>(std::make_index_sequence<together>(), chunks<k>());
     const double squares = rows_[k].entry[k];
@@ -76,7 +76,7 @@ class NormalEquations {
     return true;
   }
 
-  /// Those of a row that have an entry of the upper triangle.
+  /// The first chunk of a row with an entry of the upper triangle.
   static constexpr std::size_t first_chunk(std::size_t k) { return k / lanes; }
   template <std::size_t k>
   static constexpr auto chunks() {

@@ -14,27 +14,28 @@ struct Jet {
 };
 
 /// Fits polynomials of up to fourth degree through the origin to heights by least squares (F. Cazals, M. Pouget,
-/// "Estimating differential quantities using polynomial fitting of osculating jets", CAGD 22, 2005). Through the node
-/// itself, so that a ripple from node to node is seen and not averaged away.
+/// "Estimating differential quantities using polynomial fitting of osculating jets", CAGD 22, 2005). They go through
+/// the node itself, so ripples from node to node are not averaged away.
 ///
-/// The normal equations, with the monomials in the order of their degree: as elimination goes, every lower degree is
-/// solved on the way, and where the points cannot tell a degree from those below it, the fit is that of the degree
-/// before. In coordinates of size 1 they lose no more than half of the digits, and cost a third of a QR.
+/// Uses the normal equations, with the monomials by degree. Elimination solves every lower degree on the way; if the
+/// points do not determine a degree, the fit is that of the degree before. In coordinates of size 1 the normal
+/// equations lose no more than half of the digits, and cost a third of a QR.
 ///
-/// Room for one fit after the other.
+/// One object serves one fit after the other.
 class JetFit {
  public:
   static constexpr std::size_t most_points = 96;
 
   void clear() noexcept { points_ = 0; }
-  /// A point at (u, v) with its height; `weight` counts squared. Coordinates of size 1. No more than most_points.
+  /// Adds a point at (u, v) with its height; `weight` counts squared. Coordinates must be of size 1. At most
+  /// most_points.
   void add(double u, double v, double height, double weight) noexcept;
 
   /// The same bits whatever vector instructions the processor has.
   [[nodiscard]] Jet solve() const noexcept;
 
  private:
-  /// The monomials of a point and its height, all times its weight; filled up to whole vectors.
+  /// The monomials of a point and its height, all times its weight; padded to whole vectors.
   struct alignas(32) Row {
     std::array<double, 16> entry;
   };

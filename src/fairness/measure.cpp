@@ -38,7 +38,7 @@ Index end_of(const PolygonMesh& mesh, Corner corner, bool forward) {
   return forward ? face[(place + 1) % face.size()] : face[(place + face.size() - 1) % face.size()];
 }
 
-/// Edges of faces at a node, gathered: room for one node after the other.
+/// Gathers the pairs of faces at a node's edges; one object serves one node after the other.
 class NeighbouringFaces {
  public:
   explicit NeighbouringFaces(const PolygonMesh& mesh) : mesh_(&mesh) {}

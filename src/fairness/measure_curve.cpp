@@ -12,7 +12,7 @@ namespace vspring {
 
 namespace {
 
-/// The same constraints, but fixed nodes where the curve has them.
+/// The constraints with fixed nodes at their present positions.
 Constraints at_present(const PolygonCurve& curve, const Constraints* constraints) {
   Constraints present = constraints != nullptr ? *constraints : Constraints(curve.node_count());
   for (Index i = 0; i < curve.node_count(); ++i) {

@@ -30,8 +30,8 @@ namespace {
 
 constexpr std::size_t nodes_per_sum = 4096;
 
-/// The area that each node stands for: linear functions integrate exactly over flat faces. A face is taken as triangles
-/// about the mean of its nodes, which has the mean of their values.
+/// The area of each node; sums weighted by it integrate linear functions exactly over flat faces. A face is split into
+/// triangles about the mean of its nodes, which gets the mean of their values.
 std::vector<double> node_areas(const PolygonMesh& mesh, const std::vector<Vector3>& positions,
                                const std::vector<std::uint8_t>& counted) {
   std::vector<double> areas(positions.size(), 0);
@@ -118,7 +118,7 @@ struct Measured {
   /// known: curvatures of the mesh, or none.
   Measured(const PolygonMesh& given, std::span<const NodeCurvature> known, const std::vector<std::uint8_t>& faces)
       : mesh(&given), box(box_around(given, faces)), frame(box), positions(placed(given.positions(), frame)) {
-    // Derivatives of curvature of shapes too large or small are no numbers in their units.
+    // For shapes too large or small, derivatives of curvature overflow in units of the input.
     constexpr int most_doublings = 300;
     if (std::abs(std::ilogb(frame.scale())) <= most_doublings) curvatures = known;
   }
@@ -130,11 +130,11 @@ struct Measured {
   std::vector<Vector3> positions;
   double diagonal = 0;
   std::vector<double> mean_curvatures = {};
-  std::vector<std::uint8_t> used = {};  ///< nodes that have one
+  std::vector<std::uint8_t> used = {};  ///< nodes that have a curvature
   SurfaceFigures figures = {};
 };
 
-/// Of meshes that differ in their positions only, and are finite at the same nodes.
+/// Measures meshes that differ in their positions only and are finite at the same nodes.
 class SurfaceMeasurement {
  public:
   SurfaceMeasurement(const PolygonMesh& mesh, const Constraints* constraints, const Context& context)
@@ -147,7 +147,7 @@ class SurfaceMeasurement {
 
   void add(const PolygonMesh& mesh, std::span<const NodeCurvature> known) { shapes_.emplace_back(mesh, known, faces_); }
 
-  /// The figures of those that were added, in their order.
+  /// The figures of the added meshes, in their order.
   std::vector<SurfaceFigures> measure() {
     const CancellationScope cancellation(context_);
     {
@@ -211,7 +211,7 @@ class SurfaceMeasurement {
     }
   }
 
-  /// For every shape the sums over runs of nodes; sets oriented_. Looks around each node once for all of them.
+  /// Per shape the sums over runs of nodes; sets oriented_. Finds the nodes around each node once for all shapes.
   std::vector<std::vector<Bending>> add_up(const Incidence& incidence) {
     const std::size_t count = nodes_.size();
     oriented_.assign(count, 0);
@@ -280,7 +280,7 @@ class SurfaceMeasurement {
     figures.zero_area_faces = quality.zero_area_faces;
   }
 
-  /// Among the faces that are measured.
+  /// Counts among the measured faces only.
   [[nodiscard]] Index count_intersections(const PolygonMesh& mesh) {
     const auto is_counted = [](std::uint8_t counted) { return counted != 0; };
     if (std::all_of(faces_.begin(), faces_.end(), is_counted))
@@ -299,12 +299,12 @@ class SurfaceMeasurement {
   ThreadTeam team_;
   std::vector<std::uint8_t> faces_;
   std::vector<std::uint8_t> nodes_;
-  std::vector<std::uint8_t> oriented_;  // nodes around which faces go all in one sense
+  std::vector<std::uint8_t> oriented_;  // nodes with consistently oriented faces around
   std::optional<Incidence> incidence_;
   std::vector<Measured> shapes_;
 };
 
-/// None where somebody cancels.
+/// No figures if cancelled.
 SurfaceFigures measure_one(const PolygonMesh& mesh, const Constraints* constraints,
                            std::span<const NodeCurvature> curvatures, const Context& context) {
   try {

@@ -8,9 +8,9 @@
 
 namespace vspring {
 
-/// What the edges and faces of a mesh are like.
+/// Figures of the edges and faces of a mesh.
 struct MeshQuality {
-  double shortest_edge = std::numeric_limits<double>::infinity();  ///< of those that have a length
+  double shortest_edge = std::numeric_limits<double>::infinity();  ///< of those with a length
   double longest_edge = 0;
   double neighbouring_edge_spread = 1;                              ///< at one node
   double smallest_angle = std::numeric_limits<double>::infinity();  ///< radians; at corners between two edges of some
@@ -22,10 +22,9 @@ struct MeshQuality {
   void add(const MeshQuality& other);
 };
 
-/// Of the faces with a mark. A face is flipped where at each of its nodes it points against the vector area of the
-/// faces around that node, which stays the same wherever the node lies within a closed fan. Nodes that are not
-/// oriented, being non-manifold or between faces that disagree in their sense, have no say, so no face there is called
-/// flipped.
+/// Measures the marked faces. A face is flipped if, at each of its nodes, it is opposite to the vector area of the
+/// faces around that node; within a closed fan that does not depend on the place of the node. A face with a node that
+/// is not oriented (non-manifold, or between inconsistently oriented faces) does not count as flipped.
 MeshQuality mesh_quality(const PolygonMesh& mesh, const Incidence& incidence, const std::vector<Vector3>& positions,
                          const std::vector<std::uint8_t>& marked_faces, const std::vector<std::uint8_t>& oriented_nodes,
                          ThreadTeam& team);

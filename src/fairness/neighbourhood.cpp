@@ -6,12 +6,12 @@ namespace vspring {
 
 namespace {
 
-// At the hub of a large fan only evenly spread faces are looked at, and in large faces only the nodes near by:
-// otherwise the hub's neighbours together would cost the square of their number.
+// At the hub of a large fan only evenly spread faces are used, and in large faces only near nodes: otherwise the cost
+// would be quadratic in the number of neighbours.
 constexpr std::size_t most_corners = 32;
 constexpr Index reach_in_face = 8;
 
-/// use(i) for nodes of the face of a corner, without its own.
+/// Calls use(i) for the nodes of a corner's face, except its own.
 template <typename Use>
 void for_face(const PolygonMesh& mesh, Corner corner, const Use& use) {
   const auto face = mesh.face(corner.face);

@@ -10,11 +10,11 @@
 
 namespace vspring {
 
-/// For every node the other nodes of its faces, in a fixed order and each once: what neighbourhoods are gathered from.
+/// Per node the other nodes of its faces, each once and in a fixed order; neighbourhoods are gathered from these.
 class FaceNeighbours {
  public:
-  /// usable: one entry per node, 0 for nodes that are left out. At hubs of many faces and in large faces only some
-  /// nodes are taken, so that memory stays linear. Cost: linear.
+  /// usable: one entry per node, 0 for nodes to leave out. At hubs of many faces and in large faces only some nodes are
+  /// taken, so memory stays linear. Cost: linear.
   FaceNeighbours(const PolygonMesh& mesh, const Incidence& incidence, std::span<const std::uint8_t> usable,
                  ThreadTeam& team);
 
@@ -33,8 +33,8 @@ class FaceNeighbours {
   std::vector<Part> parts_;
 };
 
-/// Gathers the nodes around a node, ring by ring over the faces, until there are enough of them for a polynomial of
-/// fourth degree. Work per node is bounded whatever the mesh. Holds a buffer, so use one per task.
+/// Gathers the nodes around a node, ring by ring over the faces, until there are enough for a polynomial of fourth
+/// degree. The work per node is bounded for any mesh. Holds a buffer, so use one per task.
 class Neighbourhood {
  public:
   explicit Neighbourhood(const FaceNeighbours& neighbours) : neighbours_(&neighbours) {}
@@ -42,19 +42,19 @@ class Neighbourhood {
   /// Fourteen coefficients, and some to spare: three rings of triangles (36 nodes), two of quads (24); at boundaries
   /// one or two rings more.
   static constexpr std::size_t enough = 20;
-  /// Where these lie badly.
+  /// If these do not determine the polynomial.
   static constexpr std::size_t plenty = 40;
-  /// There are never more.
+  /// An upper bound.
   static constexpr std::size_t most_nodes = 96;
 
   void go_to(Index node);
-  /// At least `wanted` nodes around where a few rings have them, without the node itself; valid until the next call.
+  /// At least `wanted` nodes around, if a few rings have them, without the node itself; valid until the next call.
   std::span<const Index> around(std::size_t wanted);
 
  private:
   static constexpr std::size_t fewest_rings = 2;
   static constexpr std::size_t most_rings = 5;
-  // More than 64 nodes are looked up in it, so that runs stay short.
+  // Much more than the nodes stored, so probe runs stay short.
   static constexpr std::size_t slots = 256;
   struct Slot {
     Index node = -1;
@@ -65,7 +65,7 @@ class Neighbourhood {
 
   const FaceNeighbours* neighbours_;
   std::vector<Index> nodes_;
-  std::array<std::size_t, most_rings + 1> end_{};  // of each ring that was gathered, the node itself the first
+  std::array<std::size_t, most_rings + 1> end_{};  // of each gathered ring; the first is the node itself
   std::size_t rings_ = 0;
   std::array<Slot, slots> seen_;
   std::uint32_t round_ = 0;

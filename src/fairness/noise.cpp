@@ -18,22 +18,22 @@ namespace vspring {
 
 namespace {
 
-// In standard deviations of the noise: places that are narrower across have no direction that noise is seen along.
+// In standard deviations of the noise: at narrower places the direction of noise cannot be told.
 constexpr double least_extent = 2;
-// Of the way to the neighbours' mean, before slopes are looked at; and the least cosine of them.
+// Steps to the neighbours' mean before slopes are measured, and the least cosine of a slope.
 constexpr int steps_of_slopes = 5;
 constexpr double least_cosine = 0.3;
-// Of nodes, beyond which they are hubs that everybody is a neighbour of.
+// Nodes with more faces are hubs, of which too many nodes are neighbours.
 constexpr std::size_t most_faces = 100;
 constexpr std::size_t most_neighbours = 2 * most_faces;
 constexpr std::size_t places_per_task = 256;
 constexpr double three_deviations = 0.0027;
-// A square over the variance of what is spread evenly over its side.
+// The square of an interval over the variance of a uniform distribution on it.
 constexpr double deviations_of_step = 12;
-// Beyond what any number of nodes leads to.
+// More than any number of nodes leads to.
 constexpr double most_deviations = 10;
 
-/// Unit normals of nodes, once steps to the mean of their neighbours have taken noise off.
+/// Unit normals of nodes after steps to the mean of neighbours have removed noise.
 std::vector<Vector3> smooth_normals(const PolygonMesh& mesh, const NodeGraph& graph, ThreadTeam& team) {
   const auto nodes = static_cast<std::size_t>(mesh.node_count());
   std::vector<Vector3> now = mesh.positions();
@@ -63,7 +63,7 @@ std::vector<Vector3> smooth_normals(const PolygonMesh& mesh, const NodeGraph& gr
   return normals;
 }
 
-/// Heights above a slope have the noise along it too: how many times as much as across the surface.
+/// Heights above a slope also contain the noise along it: the factor relative to noise across the surface.
 double greater_by_slopes(std::span<const Index> nodes, const std::vector<Vector3>& normals) {
   Vector3 axis = Vector3::Zero();
   for (const Index j : nodes) axis += normals[static_cast<std::size_t>(j)];
@@ -87,7 +87,7 @@ std::vector<double> edges_of(const PolygonMesh& mesh, const NodeGraph& graph) {
   return edges;
 }
 
-/// Nodes lie anywhere within half a voxel.
+/// Nodes are uniformly distributed within half a voxel.
 NoiseEstimate noise_of_steps(const Vector3& voxel, std::vector<double> edges, Index nodes) {
   NoiseEstimate result;
   result.voxel = voxel;

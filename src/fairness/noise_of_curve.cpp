@@ -17,31 +17,31 @@ namespace {
 
 constexpr std::size_t nodes_in_a_row = 7;
 constexpr std::size_t most_in_a_row = 127;
-// In standard deviations of the heights over it.
+// Least length of a run, in standard deviations of the heights over it.
 constexpr double long_way = 4;
 constexpr double flatness = 1e-3;
-// Of the noise: rows that near to the one before say the same once more, if they are more of all than come so near by
-// chance (one in sixty, or in seven with noise in one direction alone).
+// In units of the noise: rows so near to the one before are repeats, if there are more than by chance (one in sixty, or
+// in seven with noise in one direction alone).
 constexpr double same_again = 0.25;
 constexpr double more_than_by_chance = 0.2;
-// Of steps, that are long; repeats are looked for among those that are shorter by up to so many factors of two.
+// The share of steps below a long step; repeats are searched among steps shorter by up to so many factors of two.
 constexpr double long_steps = 0.9;
 constexpr int halvings = 14;
-// Of the squares of what lies across a curve, that a coordinate has at places that tell of its noise; and least of all
-// places, and how many, where it has.
+// The share across the curve that a coordinate must have for a place to tell its noise; then the least share, and the
+// least number, of such places.
 constexpr double least_across = 0.5;
 constexpr double least_share_across = 0.2;
 constexpr std::size_t least_across_places = 50;
-// The most noise of a coordinate over the least: what less data than these may have by chance.
+// The ratio of the largest to the smallest noise of a coordinate above which they differ by more than chance.
 constexpr double evident_ratio = 2;
 constexpr int turns_of_coordinates = 5;
-// Of the most variance, so that what has none divides nothing.
+// Least variance, as a share of the largest, to avoid division by zero.
 constexpr double least_share = 1e-6;
 
-/// What lies across a stretch of curve, by coordinate.
+/// Noise across a stretch of curve, by coordinate.
 struct Stretch {
-  Vector3 squares = Vector3::Zero();                 ///< mean squares of what a quartic leaves
-  Eigen::Matrix3d across = Eigen::Matrix3d::Zero();  ///< the projection to what is across
+  Vector3 squares = Vector3::Zero();                 ///< mean squares of the residuals of a quartic
+  Eigen::Matrix3d across = Eigen::Matrix3d::Zero();  ///< the projection across the curve
   double freedom = 0;                                ///< of one direction
 };
 
@@ -64,7 +64,7 @@ Stretches stretches_of(const PolygonCurve& curve, int directions) {
       end_if_cancelled_at(k);
       std::optional<NoisyPlace> best;
       places.clear();
-      // As many in a row as it takes to see which way they go.
+      // Runs are lengthened until their direction is clear.
       for (std::size_t row = nodes_in_a_row; row <= most_in_a_row; row = 2 * row + 1) {
         if (chain.closed ? row > count : k + row > count) break;
         while (places.size() < row) places.push_back(at(k + places.size()));
@@ -93,8 +93,8 @@ Stretches stretches_of(const PolygonCurve& curve, int directions) {
   return found;
 }
 
-/// The variances of the noise of each coordinate, from the stretches where the curve goes across it: a quartic follows
-/// bends that a quadratic takes for noise, which are often all on one side of a shape. 0 where they tell too little.
+/// The variances of the noise of each coordinate, from stretches where the curve runs across it. A quartic follows
+/// bends that a quadratic would take for noise, often all on one side of a shape. 0 if there is too little data.
 Vector3 variances_by_coordinate(const std::vector<Stretch>& stretches) {
   std::array<std::vector<std::size_t>, 3> across;
   for (std::size_t k = 0; k < stretches.size(); ++k) {
@@ -115,7 +115,7 @@ Vector3 variances_by_coordinate(const std::vector<Stretch>& stretches) {
       std::vector<NoisyPlace> places;
       for (const std::size_t k : across[static_cast<std::size_t>(axis)]) {
         const Stretch& stretch = stretches[k];
-        // What is seen of the noise of all coordinates, in units of that of this one.
+        // The part of the noise of all coordinates along this axis, in units of this one's variance.
         const double seen = stretch.across.row(axis).cwiseAbs2().dot(variances) / variances[axis];
         places.push_back({std::sqrt(stretch.squares[axis] / seen), stretch.freedom});
       }
@@ -123,7 +123,7 @@ Vector3 variances_by_coordinate(const std::vector<Stretch>& stretches) {
     }
     const double most = next.maxCoeff();
     if (!(most > 0)) return Vector3::Zero();
-    // Those of which nothing is known may have as much.
+    // Unknown ones are taken to have as much.
     for (int axis = 0; axis < 3; ++axis)
       variances[axis] =
           across[static_cast<std::size_t>(axis)].empty() ? most : std::max(next[axis], least_share * most);
@@ -134,13 +134,13 @@ Vector3 variances_by_coordinate(const std::vector<Stretch>& stretches) {
   return variances;
 }
 
-/// Whether those that are known are too unlike for chance.
+/// Whether the known ones differ by more than chance.
 bool differ(const Vector3& variances) {
   const double most = variances.maxCoeff();
   return most > 0 && (variances.array() > 0 && variances.array() < most / (evident_ratio * evident_ratio)).any();
 }
 
-/// Without nodes that are nearer than that to the one before.
+/// The curve without nodes nearer than `distance` to the one before.
 PolygonCurve without_near_ones(const PolygonCurve& curve, double distance) {
   std::vector<PolygonCurve::Chain> chains;
   for (const auto& chain : curve.chains()) {
@@ -160,8 +160,8 @@ std::size_t visited(const PolygonCurve& curve) {
   return nodes;
 }
 
-/// Rows that come twice, a little apart, would pass for a curve without noise: without them where the noise that is
-/// left is what they are near by. None where there are none.
+/// Rows repeated a little apart would look like a curve without noise. Removes them if the noise of the rest explains
+/// their distance; nothing if there are none.
 std::optional<Stretches> without_repeats(const PolygonCurve& curve, std::vector<double> steps, int directions) {
   if (steps.empty()) return std::nullopt;
   double distance = value_at_share(steps, long_steps);
@@ -202,7 +202,7 @@ NoiseEstimate estimate_noise(const PolygonCurve& whole_curve) {
 
 NoiseEstimate estimate_noise(const PolygonCurve& curve, const std::array<bool, 3>& moving_axes) {
   if (moving_axes == std::array{true, true, true}) return estimate_noise(curve);
-  // So flat that what is across it is what moves.
+  // So flat that all moving coordinates are across it.
   std::vector<Vector3> flat(curve.positions().size(), Vector3::Zero());
   std::vector<PolygonCurve::Chain> chains = curve.chains();
   for (auto& chain : chains) {

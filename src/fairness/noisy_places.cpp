@@ -16,21 +16,21 @@ struct Share {
   double of_places;
   double quantile;
 };
-// What a shape bends only adds to heights, so each of these bounds the noise from above, and the least counts. Below
-// the first may be what somebody has smoothed or filled in.
+// Bends of the shape only increase heights, so each percentile bounds the noise from above, and the smallest estimate
+// counts. Values below the first may be smoothed or filled parts.
 constexpr Share shares[] = {{0.1, -1.2816}, {0.2, -0.8416}, {0.3, -0.5244}};
-// Of all places, that are looked at at least, and in so many turns.
+// The least share of places to use, and the number of rounds.
 constexpr double least_share_wide = 0.2;
 constexpr int most_turns = 5;
-// Of degrees of freedom, that tell anything: a quadratic's in one direction, and a quartic's.
+// The least degrees of freedom to use: of a quadratic in one direction, and of a quartic.
 constexpr Eigen::Index least_freedom = 3;
 constexpr Eigen::Index least_freedom_of_quartics = 2;
 constexpr double least_pivot = 1e-5;
-// Of the greatest coordinate.
+// As a share of the greatest coordinate.
 constexpr double last_digits = 16 * std::numeric_limits<double>::epsilon();
 
-/// The mean square, over its degrees of freedom, that a share of samples of unit noise is below (E. B. Wilson, M. M.
-/// Hilferty, "The distribution of chi-square", 1931).
+/// The quantile of the mean square, over its degrees of freedom, of unit noise (E. B. Wilson, M. M. Hilferty, "The
+/// distribution of chi-square", 1931).
 double expected_square(double freedom, double quantile) {
   const double spread = 2 / (9 * freedom);
   const double root = 1 - spread + quantile * std::sqrt(spread);

@@ -20,10 +20,10 @@ void include(std::optional<double>& greatest, double angle) {
   greatest = std::max(greatest.value_or(0), degrees_per_radian * angle);
 }
 
-/// What a curve does on one side of a node.
+/// The curve on one side of a node.
 struct Side {
   bool moves = false;
-  Vector3 tangent = Vector3::Zero();  ///< away from the node; zero where there is none
+  Vector3 tangent = Vector3::Zero();  ///< away from the node; zero if there is none
 };
 
 /// Of the circle through the node and the next two: exact on circles, of second order elsewhere.

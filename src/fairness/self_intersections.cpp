@@ -39,8 +39,8 @@ struct PairCount {
   void add(const PairCount& others) { count += others.count; }
 };
 
-/// The room that a triangle takes: its box, and between sides of its plane, with room for rounding. Of boxes around
-/// long thin ones that lie askew, most lie in each other but few meet that plane.
+/// A triangle's box and a slab around its plane, with room for rounding. The boxes of oblique long thin triangles
+/// mostly overlap, but few meet the slab.
 class TriangleReach {
  public:
   TriangleReach(const Box& box, const Vector3& a, const Vector3& b, const Vector3& c) : box_(box), corner_(a) {
@@ -64,7 +64,8 @@ class TriangleReach {
   double unsure_ = 0;
 };
 
-/// Whether two faces have an edge in common, or with ends at the same places as where sheets meet. They fold there.
+/// Whether two faces share an edge, or have edges with ends at the same places, as where sheets meet. They may fold
+/// there.
 bool share_an_edge(const PolygonMesh& mesh, Index a, Index b) {
   const auto first = mesh.face(a);
   const auto second = mesh.face(b);
@@ -107,8 +108,8 @@ class Cuts {
   std::span<const Triangle> given_;
 };
 
-/// Looks for triangles that cross. Around a node all boxes of triangles lie in each other. So those at one hub are told
-/// apart by where they are seen from it, and those at different hubs, or at one and at none, by their planes.
+/// Finds triangles that cross. Around a node all boxes of triangles overlap. So triangles at one hub are separated by
+/// their projections onto a sphere around it, others by their planes.
 template <typename Pairs>
 class CrossingSearch {
  public:
@@ -116,7 +117,8 @@ class CrossingSearch {
                  ThreadTeam& team)
       : mesh_(mesh), triangles_(triangles), most_(most), context_(context), team_(team) {}
 
-  /// The pairs of their faces, each as often as it has triangles that cross. Ends early once it has `most` or more.
+  /// Returns the pairs of their faces, each as often as it has crossing triangles. Ends early once it has `most` or
+  /// more.
   Pairs find() {
     const Hubs hubs = find_hubs(triangles_.triangles(), triangles_.positions().size());
     const Group others = group_of(hubs.others);
@@ -126,7 +128,7 @@ class CrossingSearch {
   }
 
  private:
-  /// Triangles with a tree of their boxes; items of the tree are places among the numbers.
+  /// Triangles with a tree of their boxes; items of the tree are indices into the numbers.
   struct Group {
     const std::vector<Index>* numbers;
     BoxTree tree;
@@ -148,7 +150,8 @@ class CrossingSearch {
     if (a.face != b.face && triangles_.cross(a, b) && faces_cross(a.face, b.face)) pairs.add(a.face, b.face);
   }
 
-  /// Of faces with triangles that do: by all diagonals of quads, as those that are not flat may be either.
+  /// Whether faces with crossing triangles cross: for all diagonals of quads, as a quad that is not flat may be split
+  /// by either.
   [[nodiscard]] bool faces_cross(Index a, Index b) const {
     if (mesh_.face(a).size() == 3 && mesh_.face(b).size() == 3) return true;
     if (share_an_edge(mesh_, a, b)) return false;
@@ -173,7 +176,7 @@ class CrossingSearch {
     for (const Pairs& part : parts) pairs_.add(part);
   }
 
-  /// Those of one tree whose boxes overlap.
+  /// Tests triangles of one tree whose boxes overlap.
   void within(const BoxTree& tree, const std::vector<Index>& numbers) {
     const auto number = [&](Index item) { return numbers[static_cast<std::size_t>(item)]; };
     const auto test_leaves = [&](std::size_t begin, std::size_t end, Pairs& pairs) {
@@ -215,7 +218,7 @@ class CrossingSearch {
           top.for_each_leaf([&](const Box& box) { return reach.meets(box); }, 0,
                             [&](std::size_t leaf) {
                               for (const Index item : top.leaf_items(leaf)) {
-                                // Each two hubs once.
+                                // Each pair of hubs once.
                                 if (static_cast<std::size_t>(item) > k)
                                   between(one, reach, groups[static_cast<std::size_t>(item)], pairs);
                               }
@@ -227,7 +230,7 @@ class CrossingSearch {
     }
   }
 
-  /// Those at one hub, by the edges opposite it.
+  /// Tests triangles at one hub, by the edges opposite it.
   void around(const Hubs::Hub& hub) {
     std::vector<Box> boxes;
     boxes.reserve(hub.triangles.size());
@@ -267,7 +270,7 @@ Pairs crossings(const PolygonMesh& mesh, std::size_t most, const Context& contex
   return CrossingSearch<Pairs>(mesh, triangles, most, context, team).find();
 }
 
-/// As the public function, but that it ends early once `most` or more pairs of triangles cross.
+/// As the public function, but ends early once `most` or more pairs of triangles cross.
 std::vector<std::pair<Index, Index>> face_pairs(const PolygonMesh& mesh, std::size_t most, const Context& context,
                                                 ThreadTeam& team) {
   auto pairs = crossings<FacePairs>(mesh, most, context, team).list;
@@ -287,8 +290,8 @@ std::size_t count_self_intersections(const PolygonMesh& mesh, const Context& con
                                      std::size_t most) {
   std::size_t sides = 3;
   for (Index f = 0; f < mesh.face_count(); ++f) sides = std::max(sides, mesh.face(f).size());
-  // Two faces have so many pairs of triangles at most: with that many times as many pairs there are enough of faces,
-  // whichever triangles were found first.
+  // The most pairs of triangles of two faces. With `most` times as many pairs found, at least `most` pairs of faces are
+  // among them.
   const std::size_t of_two_faces = (sides - 2) * (sides - 2);
   const std::size_t of_triangles = most * of_two_faces;
   const std::size_t count = sides == 3 ? crossings<PairCount>(mesh, of_triangles, context, team).count

@@ -14,16 +14,16 @@ namespace {
 
 using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
 
-// Of the largest coordinate, between coordinates that are one but for rounding of single precision.
+// Coordinates closer than this share of the largest are equal, to the rounding of single precision.
 constexpr double rounding = 1e-6;
-// Of a step: how far coordinates may be from whole numbers of steps.
+// How far coordinates may be from whole numbers of steps, as a share of a step.
 constexpr double whole = 0.02;
-// Coordinates that come so much less often than nodes lie on planes.
+// Nodes per different coordinate, at least, for coordinates to lie on planes.
 constexpr double least_repeats = 4;
 // A box of a few faces is no mask.
 constexpr std::ptrdiff_t least_nodes = 50;
 
-/// What coordinates are whole numbers of, from the least one on, or none.
+/// The step of which coordinates, relative to the least, are whole multiples; or none.
 std::optional<double> step_of(std::vector<double> values) {
   const std::size_t count = values.size();
   std::sort(values.begin(), values.end());
@@ -36,7 +36,7 @@ std::optional<double> step_of(std::vector<double> values) {
     return std::nullopt;
   double least = levels.back() - levels.front();
   for (std::size_t k = 1; k < levels.size(); ++k) least = std::min(least, levels[k] - levels[k - 1]);
-  // The mean of all steps is less rounded.
+  // The mean of all steps has less rounding.
   const double step = (levels.back() - levels.front()) / std::round((levels.back() - levels.front()) / least);
   const bool is_even = std::all_of(levels.begin(), levels.end(), [&](double level) {
     const double steps = (level - levels.front()) / step;
@@ -45,12 +45,12 @@ std::optional<double> step_of(std::vector<double> values) {
   return is_even ? std::optional(step) : std::nullopt;
 }
 
-/// Cells of the nodes, and how far edges go in these.
+/// Nodes as cells of the grid, and faces in these.
 class VoxelFaces {
  public:
   VoxelFaces(const PolygonMesh& mesh, std::vector<Cell> cells) : mesh_(mesh), cells_(std::move(cells)) {}
 
-  /// The sides of voxels: faces in planes of the grid, over one voxel each.
+  /// Whether faces are sides of voxels: in planes of the grid, over one voxel each.
   [[nodiscard]] bool are_sides() const {
     return all_faces([&](std::span<const Index> face) {
       const Cell away = extent(face);
@@ -58,8 +58,8 @@ class VoxelFaces {
     });
   }
 
-  /// What marching cubes and tetrahedra make of a mask: nodes half way between points of the grid, none at these, and
-  /// faces within one voxel.
+  /// Whether marching cubes or tetrahedra made the faces from a mask: nodes half way between points of the grid, none
+  /// at them, and each face within one voxel.
   [[nodiscard]] bool are_between_points() const {
     for (int base = 0; base < 8; ++base) {
       const auto is_middle = [&](Index node) {

@@ -12,9 +12,9 @@
 
 namespace vspring {
 
-// Eigen's bit_cast: not every C++20 library has std::bit_cast, that of Emscripten among them.
+// Eigen's bit_cast: some C++20 libraries, such as Emscripten's, lack std::bit_cast.
 
-/// A number at an address that need not be aligned. swapped: its bytes are in the other order than this machine's.
+/// A number at an address that need not be aligned. swapped: whether its byte order is not this machine's.
 template <typename Number>
 Number load(const char* from, bool swapped) {
   std::array<char, sizeof(Number)> bytes;
@@ -31,10 +31,10 @@ void store(char* to, Number number, bool swapped) {
 /// Whether numbers in this order have to be swapped on this machine.
 constexpr bool swapped_here(std::endian order) { return order != std::endian::native; }
 
-/// Of numbers in little-endian order, which binary STL has and fresh files get.
+/// The same for little-endian numbers, as in binary STL and new files.
 inline constexpr bool little_swapped = swapped_here(std::endian::little);
 
-/// Appends a number, in little-endian order where nothing else is said.
+/// Appends a number, by default in little-endian order.
 template <typename Number>
 void append_bytes(std::string& bytes, Number number, bool swapped = little_swapped) {
   std::array<char, sizeof(Number)> room;
@@ -42,14 +42,14 @@ void append_bytes(std::string& bytes, Number number, bool swapped = little_swapp
   bytes.append(room.data(), room.size());
 }
 
-/// What is left of a value in single precision, infinite beyond its range.
+/// A value rounded to single precision, infinite beyond its range.
 inline double as_single(double value) {
-  // So that it is rounded: g++ 12 takes a cast to float and back for nothing where it vectorises.
+  // volatile forces the rounding: where it vectorises, g++ 12 drops a cast to float and back.
   const volatile float single = static_cast<float>(value);
   return single;
 }
 
-/// A coordinate of a node in single precision. Throws Error(invalid_argument) for one that is beyond its range.
+/// A coordinate of a node in single precision. Throws Error(invalid_argument) beyond its range.
 inline float single(double value, std::size_t node) {
   const auto narrow = static_cast<float>(value);
   if (std::isfinite(value) && !std::isfinite(narrow))

@@ -1,4 +1,4 @@
-// Which coordinates of a curve a person names.
+// Coordinates of a curve as users name them.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Which columns a header calls coordinates, and which ones a person chooses.
+// Columns of coordinates, as a header names them or a user chooses them.
 #include "io/column_names.hpp"
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ constexpr std::array<Axes, 6> known_axes = {{{"x", "y", "z"},
                                              {"points:0", "points:1", "points:2"},
                                              {"points_0", "points_1", "points_2"}}};
 
-/// What may stand behind a name: units of length, and words for a coordinate.
+/// What may follow a name: units of length, and words for a coordinate.
 constexpr std::array<std::string_view, 27> known_words = {
     "mm",    "cm",     "dm",     "m",      "km",         "um",          "\u00b5m", "\u03bcm",  "nm",
     "in",    "inch",   "inches", "ft",     "feet",       "foot",        "yd",      "mi",       "px",
@@ -38,7 +38,7 @@ bool is_same(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char p, char q) { return lower(p) == lower(q); });
 }
 
-/// "x" of "x [mm]". What is per something else, as in "x [m/s]", is no coordinate, and stays.
+/// "x" of "x [mm]". A rate, as in "x [m/s]", is no coordinate and keeps its brackets.
 std::string_view without_brackets(std::string_view cell) {
   const std::size_t open = cell.find_first_of("[({");
   if (open == std::string_view::npos || cell.find('/', open) != std::string_view::npos ||
@@ -49,7 +49,7 @@ std::string_view without_brackets(std::string_view cell) {
   return cell;
 }
 
-/// Whether a cell is the name with a unit.
+/// Whether a cell is the name followed by a unit.
 bool has_name(std::string_view cell, std::string_view name) {
   constexpr std::string_view separators = " \t_-.:";
   cell = without_brackets(cell);
@@ -75,7 +75,7 @@ bool has_name(std::string_view cell, std::string_view name) {
 
 /// A column by its name, alone or with a unit.
 struct Found {
-  std::size_t column;  ///< the number of cells where there is none
+  std::size_t column;  ///< the number of cells if there is none
   std::string doubt = {};
 };
 
@@ -110,7 +110,7 @@ NamedCoordinates find_axes(const Cells& header, const Axes& axes) {
   return named;
 }
 
-/// Whether a cell begins with one of the names, and has a unit of degrees behind it or nothing.
+/// Whether a cell is one of the names, alone or followed by a unit of degrees.
 bool has_name_in_degrees(std::string_view cell, std::span<const std::string_view> names) {
   constexpr std::string_view separators = " \t_-.";
   constexpr std::array<std::string_view, 5> units = {"", "deg", "degree", "degrees", "\u00b0"};
@@ -132,7 +132,7 @@ std::string list_of(const Cells& header) {
   return list + (header.size() > most ? ", …" : "");
 }
 
-/// The number that a choice is; 0 for a name.
+/// The column number of a choice; 0 for a name.
 std::size_t number_chosen(const std::string& chosen) {
   if (chosen.find_first_not_of("0123456789") != std::string::npos) return 0;
   std::size_t number = 0;

@@ -20,21 +20,21 @@
 namespace vspring {
 namespace {
 
-/// How the rows of a CSV file are to be read.
+/// How to read the rows of a CSV file.
 struct CsvLayout {
   CellCutter cutter;
   std::vector<std::size_t> columns;   ///< of x, y and, in space, z
-  std::optional<std::size_t> header;  ///< offset of the row that names columns, or of one of units below it
+  std::optional<std::size_t> header;  ///< offset of the row that names columns, or of a row of units below it
   std::optional<std::size_t> weight;  ///< column that the header names weight or, without one, confidence
   std::vector<std::size_t> normal;    ///< columns that the header names nx, ny and nz; or none
-  std::string warning;                ///< of columns that had to be guessed; empty without
+  std::string warning;                ///< set if columns had to be guessed
   bool degrees = false;               ///< the first two columns are longitude and latitude
   std::vector<std::string> names;     ///< of the columns in the header; none without
 };
 
-/// Finds the columns of coordinates: those that are chosen, else those that a header names, see
-/// find_coordinates() and find_degrees(), else the first ones of numbers, where these can be told from others. Throws
-/// Error(unusable_file), and Error(invalid_argument) for a choice that is none.
+/// Finds the columns of coordinates: the chosen ones, else those that a header names (find_coordinates(),
+/// find_degrees()), else the first ones of numbers. Throws Error(unusable_file), also if these may be something else,
+/// and Error(invalid_argument) for an invalid choice.
 CsvLayout find_csv_layout(const InputFile& file, const ColumnChoice& choice);
 
 std::optional<std::size_t> weight_column(const Cells& header) {
@@ -52,7 +52,7 @@ std::vector<std::size_t> normal_columns(const Cells& header) {
   return columns;
 }
 
-/// The cells of a header between blanks, of which a unit in brackets is none of its own.
+/// The cells of a header separated by blanks: a unit in brackets belongs to the cell before.
 Cells with_units(const Cells& cells) {
   Cells header;
   bool open = false;
@@ -91,14 +91,14 @@ bool counts_rows(std::span<const TableLine> rows, CellCutter cutter, std::size_t
   return first == 0 || first == 1;
 }
 
-/// "2,3" of columns 1 and 2.
+/// "2,3" for columns 1 and 2.
 std::string numbers_of(std::span<const std::size_t> columns, const char* between) {
   std::string text;
   for (const std::size_t column : columns) text += (text.empty() ? "" : between) + fmt::to_string(column + 1);
   return text;
 }
 
-/// Takes the first two or three columns of numbers for coordinates, where nothing speaks against it.
+/// Takes the first two or three columns of numbers for coordinates, if they can be nothing else.
 void guess_columns(const InputFile& file, std::span<const TableLine> rows, CsvLayout& layout) {
   std::vector<std::size_t> columns = number_columns(layout.cutter.cut(rows.front().text), layout.cutter.decimal_mark());
   if (columns.size() > 3)
@@ -142,13 +142,13 @@ bool is_header(const Cells& first, char decimal_mark, const std::vector<std::siz
   return count_numbers(first, decimal_mark) == 0 || std::any_of(columns.begin(), columns.end(), is_there);
 }
 
-/// Below names, above numbers: "mm,mm".
+/// Such as "mm,mm", below names and above numbers.
 bool is_row_of_units(CellCutter cutter, const TableLine& row, const TableLine& next) {
   const char mark = cutter.decimal_mark();
   return count_numbers(cutter.cut(row.text), mark) == 0 && count_numbers(cutter.cut(next.text), mark) > 1;
 }
 
-/// Of columns that were chosen, longitude and latitude are x and y, in whatever order; what is chosen besides is z.
+/// Among chosen columns, longitude and latitude are x and y in either order; a third one is z.
 void put_degrees_first(const Cells& header, CsvLayout& layout) {
   Cells chosen;
   for (const std::size_t column : layout.columns) chosen.push_back(column < header.size() ? header[column] : "");

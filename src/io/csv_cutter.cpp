@@ -1,4 +1,4 @@
-// How the cells of CSV are parted, and whether its numbers have decimal points or commas.
+// Finds what separates the cells of CSV, and whether its numbers have decimal points or commas.
 #include "io/csv_cutter.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ bool is_two_numbers(std::string_view cell) {
 
 constexpr std::array delimiters = {';', '\t', ',', ' '};
 
-/// What a delimiter and a decimal mark make of rows.
+/// A pair of delimiter and decimal mark, and how well it fits the rows.
 struct TriedCutter {
   CellCutter cutter;
   std::size_t numbers = 0;
@@ -37,8 +37,8 @@ TriedCutter try_cutter(const std::vector<TableLine>& rows, char delimiter, char 
   return tried;
 }
 
-/// Whether the first row with a number that is none with the other decimal mark has a comma. The first rows of a table
-/// may be whole numbers alone.
+/// Whether decimals have commas, by the first number that allows one decimal mark only. The first rows of a table may
+/// hold whole numbers only.
 bool has_commas_below(std::string_view bytes, CellCutter cutter) {
   bool commas = false;
   walk_lines(bytes, [&](const TableLine& line) {
@@ -83,7 +83,7 @@ CellCutter find_cutter(const InputFile& file, const std::vector<TableLine>& rows
     whole = same;
     cuts = delimiter;
   }
-  // Between blanks the program would have to guess which commas are decimal ones.
+  // With blanks as delimiters, which commas are decimal ones would be a guess.
   for (const TableLine& row : rows) {
     if (best.fitting > 0) break;
     const Cells& cells = best.cutter.cut(row.text);

@@ -8,15 +8,15 @@
 
 namespace vspring {
 
-/// The rows that a CSV file is known by.
+/// The first rows of a CSV file, from which its layout is found.
 std::vector<TableLine> first_rows(std::string_view bytes);
 
 /// How many cells of a row are numbers.
 std::size_t count_numbers(const Cells& cells, char decimal_mark);
 
-/// How the rows of a CSV file are cut, and how its numbers are written: the delimiter that leaves two numbers in most
-/// of its first rows, of several the first of ; tab , blank; and decimal commas where they leave more numbers than
-/// points. Throws Error(unusable_file) for decimal commas between blanks.
+/// Finds how to cut the rows of a CSV file, and its decimal mark. The delimiter is the one that leaves two numbers in
+/// most of the first rows, in doubt the first of ; tab , blank. Numbers have decimal commas if that reads more of them
+/// than points. Throws Error(unusable_file) for decimal commas between blanks.
 CellCutter find_cutter(const InputFile& file, const std::vector<TableLine>& rows);
 
 }  // namespace vspring

@@ -56,7 +56,7 @@ void require_order(const CurveFile& file) {
         fmt::format("{}: the order of its rows is not one of all its nodes; leave it out", file.source->file.name));
 }
 
-/// A file in another format than the source's, or of a curve that no file gave.
+/// The bytes in a format other than the source's, or of a curve that no file gave.
 std::string converted(CurveFormat format, const CurveFile& file, const std::vector<Vector3>& positions,
                       std::vector<std::string>& losses) {
   if (file.source) {

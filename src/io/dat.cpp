@@ -62,7 +62,8 @@ void DatReader::read_name() {
   rest_ = rest_.subspan(1);
 }
 
-/// Lednicer's files say how many nodes each side has: two whole numbers above 1, which are no place on an aerofoil.
+/// Lednicer's files give the number of nodes of each side: two whole numbers above 1, which cannot be a place on an
+/// aerofoil.
 bool DatReader::read_counts() {
   skip_to_row();
   if (rest_.empty()) return false;
@@ -75,7 +76,7 @@ bool DatReader::read_counts() {
   }
   const auto rows = static_cast<std::size_t>(std::count_if(rest_.begin(), rest_.end(), is_row)) - 1;
   if (rows == counts_[0] + counts_[1]) return true;
-  // A Selig file in millimetres may begin like this too, but goes on in the next line.
+  // A Selig file in millimetres may begin with such numbers, too, but goes on in the next line.
   const bool apart = rest_.size() < 2 || !is_row(rest_[1]);
   if (apart)
     file_.refuse_line(rest_.front().offset,

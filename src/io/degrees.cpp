@@ -23,7 +23,7 @@ LocalPlane take_to_plane(std::vector<Vector3>& positions, const std::optional<Lo
   double north = -infinity;
   double west = infinity;
   double east = -infinity;
-  // From the first one on, as the others may lie on both sides of the date line.
+  // Longitudes are taken relative to the first, as they may lie on both sides of the date line.
   const double first = positions.front().x();
   for (const Vector3& position : positions) {
     const double eastward = std::remainder(position.x() - first, 360);

@@ -13,17 +13,17 @@ namespace vspring {
 /// More nodes than this are refused.
 constexpr std::int64_t most_nodes = std::int64_t{1} << 30;
 
-/// Collects faces, or lines of a curve, whose nodes may come later in the file, and remembers where the highest node
-/// number stands, so that one that does not exist can be named once all nodes are known.
+/// Collects faces, or lines of a curve, whose nodes may come later in the file. It remembers where the highest node
+/// number stands, so a message can name it if there is no such node.
 class FaceList {
  public:
-  /// node: 0-based, not negative. where: what locates it in a message, such as an offset.
+  /// node: 0-based, not negative. where: its place for messages, such as an offset.
   void add_corner(std::int64_t node, std::size_t where) {
     if (node > highest_) {
       highest_ = node;
       highest_where_ = where;
     }
-    // A number beyond all limits is refused later; until then any node will do.
+    // A number beyond all limits is refused later; until then 0 stands for it.
     corners_.push_back(node < most_nodes ? static_cast<Index>(node) : 0);
   }
   void end_face() { face_begin_.push_back(static_cast<Index>(corners_.size())); }
@@ -40,7 +40,7 @@ class FaceList {
   [[nodiscard]] std::int64_t highest() const { return highest_; }
   [[nodiscard]] std::size_t highest_where() const { return highest_where_; }
 
-  /// highest() has to be a node.
+  /// highest() must be a node.
   [[nodiscard]] PolygonMesh take(std::vector<Vector3> positions) {
     return {std::move(positions), std::move(face_begin_), std::move(corners_)};
   }

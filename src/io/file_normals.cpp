@@ -51,7 +51,7 @@ bool comes_before(const Vector3& a, const Vector3& b) {
   return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
 }
 
-/// Of every node the first one that was at its place. Those that are not finite are alone.
+/// Per node the first one at the same place. Nodes that are not finite are alone.
 std::vector<Index> first_at_place(const PolygonMesh& mesh, std::span<const Vector3> positions) {
   std::vector<std::uint8_t> used(positions.size(), 0);
   for (const Index node : mesh.corners()) used[static_cast<std::size_t>(node)] = 1;
@@ -65,8 +65,8 @@ std::vector<Index> first_at_place(const PolygonMesh& mesh, std::span<const Vecto
   return near_nodes(positions, std::move(nodes), box, 0).first;
 }
 
-/// Normals that were the same at one place stay the same, where that stays one: along seams, and where each corner
-/// names one of its own.
+/// Joins equal normals at one place, if its nodes stay together: along seams, and where each corner has a normal of its
+/// own.
 DisjointSets equal_normals(const PolygonMesh& mesh, std::span<const Index> corner_normals,
                            std::span<const Vector3> before, std::span<const Vector3> old_positions,
                            std::span<const Vector3> positions) {
@@ -83,7 +83,7 @@ DisjointSets equal_normals(const PolygonMesh& mesh, std::span<const Index> corne
     if (normal >= 0 && before[static_cast<std::size_t>(normal)].allFinite())
       corners.push_back({places[static_cast<std::size_t>(node)], node, normal});
   }
-  // Most places have one normal alone.
+  // Most places have a single normal.
   std::vector<Index> first(positions.size(), -1);
   std::vector<std::uint8_t> has_several(positions.size(), 0);
   for (const Corner& corner : corners) {

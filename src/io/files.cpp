@@ -1,4 +1,4 @@
-// All that is asked of the system: whole files in, and whole files out or none.
+// Calls of the system: reads whole files, and writes them whole or not at all.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -59,15 +59,15 @@ class FileDescriptor {
 
   [[nodiscard]] bool valid() const noexcept { return number_ >= 0; }
   [[nodiscard]] int number() const noexcept { return number_; }
-  /// False, with errno set, where the system could not keep what was written.
+  /// False, with errno set, if the system could not keep the bytes written.
   [[nodiscard]] bool close() noexcept { return ::close(std::exchange(number_, -1)) == 0; }
 
  private:
   int number_;
 };
 
-/// The whole of an open file, which stays as it is meanwhile. What has no size, such as a pipe or a device, may go on
-/// for ever: it is read up to a limit.
+/// Reads the whole of an open file; refuses one that changes meanwhile. A pipe or device has no size and may never end,
+/// so it is read up to a limit.
 std::string read_all(int number, const std::string& name) {
   constexpr std::size_t most_without_size = std::size_t{1} << 30;
   struct stat before {};
@@ -75,7 +75,7 @@ std::string read_all(int number, const std::string& name) {
   if (S_ISDIR(before.st_mode)) refuse_file(name, "read", EISDIR);
   const std::size_t size = S_ISREG(before.st_mode) ? static_cast<std::size_t>(before.st_size) : 0;
   const std::size_t most = std::max(size, most_without_size);
-  // One byte more than the size, so that the end is seen without growing.
+  // One byte more than the size, so the end is found without growing the buffer.
   std::size_t room = size > 0 ? size + 1 : std::size_t{1} << 16;
   std::string bytes;
   std::size_t filled = 0;
@@ -106,7 +106,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* written = "written";
 
-/// False with errno set where not all bytes could be written.
+/// False, with errno set, if not all bytes could be written.
 bool write_all(int number, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t count = ::write(number, bytes.data(), bytes.size());
@@ -119,8 +119,8 @@ bool write_all(int number, std::string_view bytes) {
   return true;
 }
 
-/// False with errno set where the system could not write to its disk what a file or folder has become; some file
-/// systems have no such thing.
+/// False, with errno set, if the system could not flush a file or folder to its disk; true on file systems that cannot
+/// flush.
 bool reaches_the_disk(int number) {
   while (::fsync(number) != 0) {
     if (errno == EINTR) continue;
@@ -134,8 +134,8 @@ void write_directly(const std::string& path, std::string_view bytes) {
   if (!target.valid() || !write_all(target.number(), bytes) || !target.close()) refuse_file(path, written, errno);
 }
 
-/// The file that symbolic links lead to, whether it exists or not; nothing where they lead into /proc, whose links
-/// stand for open files and not for paths.
+/// The file that symbolic links lead to, whether it exists or not; nothing for links into /proc, which stand for open
+/// files, not for paths.
 std::optional<fs::path> followed(const std::string& path) {
   constexpr int most_links = 40;
   fs::path place = path;
@@ -157,7 +157,7 @@ class TemporaryFile {
     static std::atomic<unsigned> counter = 0;
     for (;;) {
       path_ = target.parent_path() / fmt::format(".vspring-{}-{}.tmp", ::getpid(), counter++);
-      // The mode is what any new file gets: the system takes the umask off.
+      // The mode of any new file: the system applies the umask.
       number_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (number_ >= 0) return;
       if (errno != EEXIST) refuse_file(name, written, errno);
@@ -186,35 +186,35 @@ void write_beside(const std::string& path, const fs::path& target, const struct 
   FileDescriptor descriptor(temporary.number());
   if (!write_all(descriptor.number(), bytes)) refuse_file(path, written, errno);
   if (before != nullptr) {
-    // Another owner can be kept only by those who may give files away. Owner first: changing it can clear mode bits.
+    // Only privileged users can keep another owner. Owner first, as changing it can clear mode bits.
     const bool owner_kept = ::fchown(descriptor.number(), before->st_uid, before->st_gid) == 0;
     const mode_t mode = before->st_mode & (owner_kept ? 07777 : 0777);
     if (::fchmod(descriptor.number(), mode) != 0) refuse_file(path, written, errno);
   }
-  // After a power cut there is the old file or the new one: its bytes are there before its name is.
+  // The bytes reach the disk before the name, so a power cut leaves the old file or the new one.
   if (!reaches_the_disk(descriptor.number()) || !descriptor.close() || !temporary.move_to(target))
     refuse_file(path, written, errno);
-  // What cannot be told of the folder is no reason to fail: the file is there.
+  // A folder that cannot be flushed is no reason to fail: the file is there.
   const fs::path parent = target.parent_path();
   const FileDescriptor folder(::open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (folder.valid()) (void)reaches_the_disk(folder.number());
 }
 
-/// Where a file goes, and what is there already.
+/// Where a file is written, and what is there already.
 struct Place {
   std::optional<fs::path> target;  ///< nothing: what is at the path is written directly
   struct stat status {};
   bool exists = false;
 };
 
-/// Throws where the path cannot be written, as far as that shows without a new file.
+/// Throws if the path cannot be written, as far as that can be known without a new file.
 Place place_of(const std::string& path) {
   Place place;
   place.exists = ::stat(path.c_str(), &place.status) == 0;
   if (place.exists && S_ISDIR(place.status.st_mode)) refuse_file(path, written, EISDIR);
   place.target = followed(path);
   if (place.exists && !S_ISREG(place.status.st_mode)) place.target.reset();
-  // Renaming would replace even a file that nobody may write to.
+  // Renaming would replace even a write-protected file.
   if (place.exists && ::access(path.c_str(), W_OK) != 0) refuse_file(path, written, errno);
   return place;
 }

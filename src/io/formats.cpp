@@ -1,4 +1,4 @@
-// Which format a file has, by its name and by its content.
+// Finds the format of a file from its name and its content.
 #include "io/formats.hpp"
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ std::string listed(FormatNames names, const Change& change) {
   return text;
 }
 
-/// Lines that may come before one that shows the format.
+/// How much may come before the line that shows the format.
 constexpr std::size_t bytes_looked_at = std::size_t{1} << 20;
 
 std::string_view first_word(std::string_view text) {
@@ -56,7 +56,7 @@ bool begins_off(std::string_view word) {
          (word.size() == letters + 3 || (word[letters + 3] >= '0' && word[letters + 3] <= '9'));
 }
 
-/// What the first line that is neither empty nor a comment shows, and for OBJ the first that could be nothing else.
+/// The format shown by the first line that is neither empty nor a comment, for OBJ by the first unmistakable one.
 std::optional<SurfaceFormat> format_of_lines(std::string_view bytes) {
   std::string_view rest = bytes.substr(0, bytes_looked_at);
   bool first = true;
@@ -82,7 +82,7 @@ bool is_text_stl(std::string_view bytes) {
   return start.find("facet") != std::string_view::npos || start.find("endsolid") != std::string_view::npos;
 }
 
-/// XML whose first element may well be <gpx>.
+/// Whether it is XML whose first element may be <gpx>.
 bool is_gpx(std::string_view bytes) {
   const std::string_view start = bytes.substr(byte_order_mark_length(bytes), bytes_looked_at);
   return first_word(start).starts_with('<') &&
@@ -160,7 +160,7 @@ CurveFormat detect_curve_format(const InputFile& file) {
   CellCutter cutter(' ', true);
   const auto second = std::find_if(first + 1, lines.end(), is_row);
   const bool text_first = !begins_with_numbers(cutter.cut(first->text));
-  // Names of columns are cut like the rows below them; the name of an aerofoil may hold anything.
+  // Names of columns have the same delimiters as the rows below; the name of an aerofoil may hold anything.
   if (!text_first) return CurveFormat::xyz;
   const Cells& names = cutter.cut(first->text);
   if (names_x(names) || !find_coordinates(names).columns.empty() || find_degrees(names) || second == lines.end())

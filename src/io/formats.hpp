@@ -11,17 +11,17 @@
 
 namespace vspring {
 
-/// The names of formats, as their extensions have them. A format goes by its number among them.
+/// The names of formats, as in extensions. A format is identified by its index here.
 using FormatNames = std::span<const char* const>;
 
-/// With its dot; empty for a path without one and for "-".
+/// The extension with its dot; empty for a path without one and for "-".
 std::string extension_of(const std::string& path);
 
-/// An extension in any case, with or without a dot before it; nothing where no format has it.
+/// The format of an extension, in any case, with or without a dot before it; nothing if no format has it.
 std::optional<std::size_t> format_of_extension(std::string_view extension, FormatNames names);
 
-/// The format to write: asked for, of the extension, or `own` where there is no extension. Throws
-/// Error(invalid_argument) naming the formats there are.
+/// The format to write: `asked`, else that of the extension, else `own`. Throws Error(invalid_argument) listing the
+/// formats for an unknown extension.
 std::size_t format_to_write(const std::string& path, std::optional<std::size_t> asked, std::optional<std::size_t> own,
                             FormatNames names);
 
@@ -47,7 +47,7 @@ class Formats {
   FormatNames names_;
 };
 
-/// The format that the content of a file shows; nothing where it is open. Cost: the beginning of the file.
+/// The format that the content of a file shows; nothing if that is ambiguous. Reads the beginning of the file.
 std::optional<SurfaceFormat> detect_format(std::string_view bytes);
 
 /// "OBJ", "OFF", "PLY" or "STL".

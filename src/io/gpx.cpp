@@ -38,7 +38,7 @@ class GpxSource : public CurveSource {
     Span element;
     Span latitude;
     Span longitude;
-    Span elevation = {0, 0};  ///< where elevations are a coordinate
+    Span elevation = {0, 0};  ///< set if elevations are a coordinate
   };
   std::vector<Point> points;  ///< ascending
   std::optional<LocalPlane> plane;
@@ -94,12 +94,12 @@ class GpxReader {
   void begin_point();
   void end_point();
   void read_elevation();
-  /// The span of an attribute of the element that begins here, and the number that it is.
+  /// The span and value of a numeric attribute of the element that begins here.
   std::pair<Span, double> number_of_attribute(std::string_view name) const;
 
   const InputFile& file_;
   XmlScanner scanner_;
-  bool elevations_;  ///< are a coordinate
+  bool elevations_;  ///< whether they are a coordinate
   std::shared_ptr<GpxSource> source_ = std::make_shared<GpxSource>();
   std::vector<PolygonCurve::Chain> chains_;
   bool in_chain_ = false;
@@ -126,7 +126,7 @@ void GpxReader::read() {
   }
 }
 
-/// Looks at what other formats are not given, and refuses what is no GPX.
+/// Notes what other formats would lose, and refuses files that are not GPX.
 void GpxReader::begin_element() {
   constexpr std::array<std::pair<std::string_view, const char*>, 6> known = {{{"time", "times"},
                                                                               {"ele", "elevations"},

@@ -5,7 +5,7 @@
 
 namespace vspring {
 
-/// A file read whole, and the name it goes by in messages.
+/// The bytes of a file, and its name for messages.
 struct InputFile {
   std::string name;
   std::string bytes;
@@ -18,10 +18,10 @@ struct InputFile {
   [[noreturn]] void refuse_line(std::size_t offset, std::string_view what) const;
 };
 
-/// Bytes in memory as a file of that name. Throws Error(unusable_file) where there are none.
+/// A file of that name with these bytes. Throws Error(unusable_file) if there are none.
 InputFile input_of(std::string bytes, const std::string& name);
 
-/// Reads a file, or standard input for "-". Throws Error(unusable_file) for what cannot be read, and for nothing in it.
+/// Reads a file, or standard input for "-". Throws Error(unusable_file) if it cannot be read or is empty.
 InputFile read_input(const std::string& path);
 
 }  // namespace vspring

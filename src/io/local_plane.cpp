@@ -1,6 +1,5 @@
-// The oblique stereographic map of the ellipsoid: to Gauss's sphere, and from there to a plane. Stereographic, because
-// of all maps that keep angles it stretches a disc least; a transverse Mercator map stretches twice as much along the
-// parallel.
+// The oblique stereographic map of the ellipsoid: to Gauss's sphere, and from there to a plane. Of all conformal maps
+// the stereographic one stretches a disc least; a transverse Mercator map stretches twice as much along the parallel.
 #include "vspring/local_plane.hpp"
 
 #include <algorithm>
@@ -19,7 +18,7 @@ constexpr double eccentricity2 = flattening * (2 - flattening);
 
 constexpr double radians = std::numbers::pi / 180;
 
-/// The latitude on Mercator's map of an ellipsoid; of a sphere where the eccentricity is 0.
+/// The isometric latitude (that of Mercator's map) on the ellipsoid, or on a sphere if the eccentricity is 0.
 double isometric_latitude(double latitude) {
   const double e = std::sqrt(eccentricity2);
   return std::asinh(std::tan(latitude)) - e * std::atanh(e * std::sin(latitude));

@@ -29,7 +29,7 @@ class ObjSource : public SurfaceSource {
   std::vector<std::size_t> node_rows;    ///< offset of the first coordinate of each node
   std::vector<std::size_t> normal_rows;  ///< offset of the first component of each `vn`
   std::vector<Vector3> normals;          ///< of each `vn`, as it is given
-  std::vector<Index> corner_normals;     ///< the `vn` of each corner, −1 for none; empty where no face names any
+  std::vector<Index> corner_normals;     ///< the `vn` of each corner, −1 for none; empty if no face names any
 
  private:
   void append_added(std::string& text, const Rewrite& rewrite) const;
@@ -70,7 +70,7 @@ void ObjSource::append_added(std::string& text, const Rewrite& rewrite) const {
   for (std::size_t k = 0; k < added.node_like.size(); ++k)
     append_row("v ", rewrite.positions[node_rows.size() + k],
                behind_words(file.bytes, node_rows[static_cast<std::size_t>(added.node_like[k])], 3));
-  // Of nodes of the file one that it gives there.
+  // Per node of the file one of its `vn`.
   std::vector<Index> normal_of(rewrite.positions.size(), -1);
   for (std::size_t corner = corner_normals.size(); corner-- > 0;) {
     if (corner_normals[corner] >= 0)
@@ -108,7 +108,7 @@ class ObjReader : public ObjStatements {
   using ObjStatements::ObjStatements;
 
   void check_numbers() const;
-  /// Hands over what was read; file becomes the source's.
+  /// Returns the surface; `file` becomes the source's.
   SurfaceFile take(InputFile file);
 
  protected:
@@ -176,7 +176,7 @@ void ObjReader::read_face() {
     if (normal >= 0 || !corner_normals.empty()) corner_normals.push_back(normal);
   }
   if (corners == 0) cursor_.refuse_word("the number of a node");
-  // Faces of one or two nodes are kept, but at the very end one is what a cut-off file looks like.
+  // Faces of one or two nodes are kept, but at the very end one means a truncated file.
   if (corners < 3 && cursor_.at_end()) cursor_.refuse("the file ends inside a face; it is cut off");
   elements_.end_face();
 }
@@ -190,7 +190,7 @@ void ObjReader::check_numbers() const {
                                   highest_normal_ + 1, source_->normals.size()));
 }
 
-/// Whether corners of one node name several normals, as at sharp edges.
+/// Whether corners of one node have different normals, as at sharp edges.
 bool ObjReader::normals_differ_at_a_node() const {
   std::vector<Index> first(positions_.size(), -1);
   for (std::size_t corner = 0; corner < source_->corner_normals.size(); ++corner) {
@@ -241,7 +241,7 @@ class ObjCurveReader : public ObjStatements {
   using ObjStatements::ObjStatements;
 
   void check() const;
-  /// Hands over what was read; file becomes the source's.
+  /// Returns the curve; `file` becomes the source's.
   CurveFile take(InputFile file);
 
  protected:
@@ -284,7 +284,7 @@ std::vector<PolygonCurve::Chain> ObjCurveReader::chains(const InputFile& file) {
     for (Index k = elements_.face_begin()[line] + 1; k < elements_.face_begin()[line + 1]; ++k)
       segments.emplace_back(elements_.corners()[k - 1], elements_.corners()[k]);
   }
-  // A segment given twice would make a closed curve of two nodes, or a branch where there is none.
+  // A segment given twice would make a closed curve of two nodes, or a false branch.
   struct Known {
     std::pair<Index, Index> ends;
     std::size_t number;
@@ -329,7 +329,7 @@ class ObjPoints : public ObjStatements {
  public:
   explicit ObjPoints(const InputFile& file) : ObjStatements(file) {
     const auto lines = static_cast<std::size_t>(std::count(file.bytes.begin(), file.bytes.end(), '\n')) + 1;
-    // Room that is not used is never touched.
+    // Reserved memory that stays unused is never touched.
     positions_.reserve(lines);
     node_rows_.reserve(lines);
   }
@@ -337,7 +337,7 @@ class ObjPoints : public ObjStatements {
   ScatteredPoints take() {
     read();
     if (positions_.empty()) file_.refuse("no node (a line that begins with v) is in it; choose another file");
-    // Of normals in another order than the nodes nobody knows here which is whose.
+    // Normals in another order than the nodes cannot be assigned.
     if (normals_.size() != positions_.size() || mixed_) normals_.clear();
     return {.positions = std::move(positions_), .normals = std::move(normals_)};
   }

@@ -61,7 +61,7 @@ void ObjStatements::read() {
       continue;
     }
     const std::string_view keyword = cursor_.word();
-    // A lone backslash at a line end was skipped as a blank, so a word is never empty here.
+    // A lone backslash at a line end is skipped as a blank, so a word is never empty here.
     if (keyword == "v") {
       read_node();
     } else if (keyword == "g") {

@@ -22,7 +22,7 @@ class ObjGroups {
   /// The name of an `o` line.
   void start_object(std::string name, Index next_element);
 
-  /// element_begin: where each element's nodes begin, and where the last one's end. Ends what is open and returns the
+  /// element_begin: where each element's nodes begin, and where the last one's end. Ends open groups and returns the
   /// nodes of every group, ascending. Cost: linear in the elements of all groups.
   [[nodiscard]] std::map<std::string, std::vector<Index>> take(std::span<const Index> element_begin,
                                                                std::span<const Index> nodes, Index node_count);
@@ -37,8 +37,8 @@ class ObjGroups {
   std::map<std::string, std::vector<std::pair<Index, Index>>> elements_;
 };
 
-/// Reads the statements of an OBJ file: nodes and groups here, elements (faces or lines) in a class that derives from
-/// this one. What neither takes is named in what is carried, and kept as it stands.
+/// Reads the statements of an OBJ file: nodes and groups here, elements (faces or lines) in a derived class. Other
+/// statements are kept as they stand, and listed as carried.
 class ObjStatements {
  public:
   explicit ObjStatements(const InputFile& file)
@@ -50,16 +50,17 @@ class ObjStatements {
   void read();
 
  protected:
-  /// Reads what follows the keyword of an element; false where it is none.
+  /// Reads what follows the keyword of an element; false if it is none.
   virtual bool read_element(std::string_view keyword) = 0;
 
-  /// A node of an element, its number only.
+  /// Reads a node of an element: its number only.
   void read_node_number();
-  /// Counts from 1, or back from the latest with negative numbers. kind: what is counted, for the message.
+  /// The index of a number that counts from 1 or, if negative, back from the latest. kind: what it counts, for the
+  /// message.
   Index number_of(std::int64_t number, std::size_t count, std::size_t where, const char* kind) const;
   /// Refuses elements of nodes that do not exist.
   void check_node_numbers() const;
-  /// file: the one that was read, which may have moved since.
+  /// file: the one that was read, which may have been moved since.
   [[nodiscard]] std::vector<std::string> take_warnings(const InputFile& file);
 
   const InputFile& file_;

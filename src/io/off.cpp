@@ -1,6 +1,7 @@
-// Object File Format (Geomview), with normals, colours and texture coordinates at the nodes. It is a stream of words,
-// in which lines have no say; but nearly all files have a line for each node and each face, and many end lines with
-// colours that the keyword does not tell of. So lines are believed where they fit, and else the stream.
+// Object File Format (Geomview), with normals, colours and texture coordinates at the nodes. By definition it is a
+// stream of words in which line ends mean nothing. But nearly all files have a line for each node and face, and many
+// end lines with colours that the keyword does not announce. So the file is read by lines if they fit, else as a
+// stream.
 #include "io/off.hpp"
 
 #include <fmt/format.h>
@@ -24,15 +25,15 @@
 namespace vspring {
 namespace {
 
-/// An OFF file: where its nodes are. Throws Error(unusable_file) where lines have no say and the new numbers would make
-/// it a file that is read in another way.
+/// An OFF file: where its nodes are. Throws Error(unusable_file) if the file is read as a stream and new numbers would
+/// make it readable by lines.
 class OffSource : public SurfaceSource {
  public:
   [[nodiscard]] std::string rewritten(Rewrite& rewrite) const override;
 
   std::vector<std::size_t> rows;  ///< offset of the first coordinate of each node
-  bool in_stream = false;         ///< its lines have no say in where a node begins
-  int normal_column = 0;  ///< of the normal's first component in the words of a node; 0 where there are no normals
+  bool in_stream = false;         ///< read as a stream: nodes may begin anywhere
+  int normal_column = 0;  ///< of the normal's first component among the words of a node; 0: no normals
   std::size_t nodes_begin = 0;  ///< where the numbers of nodes and of faces stand
   std::size_t faces_begin = 0;
 
@@ -43,13 +44,13 @@ class OffSource : public SurfaceSource {
 enum class NodeLayout {
   by_line,
   in_stream,
-  in_stream_behind_edges  ///< the number of edges stands on another line than that of faces
+  in_stream_behind_edges  ///< the number of edges stands on a line after that of faces
 };
 
-/// Readings of the same words, of which the first one that fits is taken.
+/// Tries interpretations of the same words; the first one that fits is taken.
 class OffInterpretations {
  public:
-  /// read(progress) may throw, and counts what it could read.
+  /// read(progress) may throw, and counts what it has read.
   template <typename Read>
   bool fits(const Read& read) {
     std::int64_t progress = 0;
@@ -71,7 +72,7 @@ class OffInterpretations {
   std::int64_t furthest_ = -1;
 };
 
-/// What follows the counts.
+/// The part of the file after the counts.
 class OffBody {
  public:
   OffBody(const OffHeader& header, const OffCursor& cursor) : header_(header), cursor_(cursor) {}
@@ -135,7 +136,7 @@ void OffBody::read_node_lines() {
       const int component = column - normal_column_;
       if (normal_column_ > 0 && component >= 0 && component < 3) vectors[1][component] = value;
     }
-    // A line with a number too many or too few would shift all that follow without a word.
+    // A line with a number too many or too few would silently shift all that follow.
     if (column != words)
       cursor_.refuse(
           fmt::format("node {} has {} numbers, those before it have {}; correct the line or the number of nodes", node,
@@ -165,7 +166,7 @@ void OffBody::read_node_stream() {
   }
 }
 
-/// broken: gets the end of the first line behind which corners go on.
+/// broken: gets the end of the first line after which the corners of a face go on.
 void OffBody::read_corners(std::int64_t count, std::optional<OffCursor>& broken) {
   const char* const what = "the number of a node";
   for (std::int64_t k = 0; k < count; ++k) {
@@ -187,11 +188,11 @@ void OffBody::read_corners(std::int64_t count, std::optional<OffCursor>& broken)
   }
 }
 
-/// by_line: what stands behind a face in its last line are colours; else the next face.
+/// by_line: words after a face on its last line are colours; else they are the next face.
 void OffBody::read_faces(bool by_line, std::int64_t& count) {
   faces_ = {};
   faces_.reserve(static_cast<std::size_t>(header_.faces), static_cast<std::size_t>(header_.faces) * 3);
-  // Where a line that ends inside a face is not meant to, the next one has more words than its face takes from it.
+  // If a line ends inside a face by mistake, the next line has more words than its face takes.
   std::optional<OffCursor> cut_off;
   for (count = 0; count < header_.faces; ++count) {
     cursor_.skip_to_word();
@@ -219,7 +220,7 @@ void OffBody::read_faces(bool by_line, std::int64_t& count) {
 void OffBody::read(NodeLayout layout, std::int64_t& progress) {
   positions_.reserve(static_cast<std::size_t>(header_.nodes));
   rows_.reserve(static_cast<std::size_t>(header_.nodes));
-  // A line of another length is the fault, unless the stream goes on to the second half of the faces.
+  // A line of another length is the fault, unless the stream gets to the second half of the faces.
   if (layout == NodeLayout::by_line) progress = header_.nodes + header_.faces / 2;
   if (layout == NodeLayout::in_stream_behind_edges) static_cast<void>(cursor_.count("the number of edges"));
   in_stream_ = layout != NodeLayout::by_line;
@@ -260,7 +261,7 @@ SurfaceFile OffBody::take(InputFile file) {
   return surface;
 }
 
-/// A coordinate may be no number: nodes that do not move keep it.
+/// Bit by bit, as a coordinate may be NaN: nodes that do not move keep it.
 bool same_places(const std::vector<Vector3>& some, const std::vector<Vector3>& others) {
   return std::equal(some.begin(), some.end(), others.begin(), others.end(), [](const Vector3& a, const Vector3& b) {
     return ((a.array() == b.array()) || (a.array().isNaN() && b.array().isNaN())).all();
@@ -331,7 +332,7 @@ std::string OffSource::rewritten(Rewrite& rewrite) const {
   return text;
 }
 
-/// Lines, each behind a line end.
+/// Lines, each preceded by a line end.
 std::string OffSource::added_nodes(const Rewrite& rewrite) const {
   const SurfaceFile& surface = rewrite.surface;
   const std::vector<Index>& like = surface.added.node_like;

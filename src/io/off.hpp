@@ -29,13 +29,13 @@ class OffCursor : public TextCursor {
   bool saw_comments_ = false;
 };
 
-/// What stands before the nodes of an OFF file.
+/// What comes before the nodes of an OFF file.
 struct OffHeader {
   bool normals = false;
   bool colours = false;
   bool textures = false;
-  bool colours_first = false;  ///< NCOFF as MeshLab writes it has them before the normals, CNOFF behind
-  bool edges = false;          ///< the number of edges stands behind that of faces
+  bool colours_first = false;  ///< MeshLab's NCOFF has them before the normals, CNOFF after
+  bool edges = false;          ///< the number of edges follows that of faces
   std::int64_t nodes = 0;
   std::int64_t faces = 0;
   std::size_t nodes_begin = 0;  ///< where their numbers stand

@@ -37,7 +37,7 @@ void read_keyword(OffCursor& cursor, OffHeader& header) {
       cursor.refuse(fmt::format("{} is not a kind of OFF; correct the first line", in_quotes(word)));
     }
   }
-  // Some files have the counts right behind the keyword, without a blank.
+  // Some files have the counts right after the keyword, without a blank.
   cursor.skip(end + 3);
   if (!cursor.at_word_end() && !(cursor.peek() >= '0' && cursor.peek() <= '9'))
     cursor.file().refuse_line(begin, fmt::format("{} is not a kind of OFF; correct the first line", in_quotes(word)));

@@ -38,7 +38,7 @@ struct PlyElement {
   std::vector<PlyProperty> properties;
 
   [[nodiscard]] bool has_lists() const;
-  /// Bytes of one, taking lists as empty. Text: a digit and a blank for each number.
+  /// Least bytes of one row: lists are empty, and text has a digit and a blank for each number.
   [[nodiscard]] std::size_t least_size(PlyEncoding encoding) const;
   /// Number of a property, or −1.
   [[nodiscard]] int find(std::string_view property) const;
@@ -50,7 +50,7 @@ struct PlyHeader {
   bool comments = false;
   std::size_t end = 0;  ///< where the data begins
 
-  /// Null where there is none.
+  /// Null if there is none.
   [[nodiscard]] const PlyElement* find(std::string_view element) const;
 };
 
@@ -60,7 +60,8 @@ PlyHeader read_ply_header(const InputFile& file);
 /// The number of a property that is no list, or −1.
 int find_number(const PlyElement& element, std::string_view property);
 
-/// The element of the nodes. Throws Error(unusable_file) where there are none, more than can be, or no numbers x, y, z.
+/// The element of the nodes. Throws Error(unusable_file) if there are none or too many, or x, y, z are not all there as
+/// numbers.
 const PlyElement& ply_nodes(const InputFile& file, const PlyHeader& header);
 
 class TextRewriter;
@@ -76,27 +77,27 @@ class PlySource : public SurfaceSource {
   std::array<int, 6> fields = {-1, -1, -1, -1, -1, -1};
   [[nodiscard]] bool has_normals() const { return fields[3] >= 0; }
   [[nodiscard]] const PlyElement& node_element() const { return *header.find("vertex"); }
-  /// Lets go of the bytes of data that can be made again to the last one.
+  /// Frees data that can be made again to the byte.
   void forget_plain_data();
 
   PlyHeader header;
   std::size_t first_row = 0;  ///< where the first node begins
-  /// There is nothing but positions and faces, which the mesh has: the bytes of the file are those of its header.
+  /// The data are positions and faces only, which the mesh has, so `file` keeps just the header.
   bool is_plain = false;
-  std::vector<std::size_t> rows;  ///< where each begins; empty where all are of one length
+  std::vector<std::size_t> rows;  ///< where each begins; empty if all have one length
 
  private:
-  /// Where the fields of the row that begins here are: in text their columns, else their bytes from its beginning.
+  /// The places of the fields of the row that begins at `row`: columns in text, else bytes from its beginning.
   [[nodiscard]] std::array<int, 6> places_in(std::size_t row) const;
   [[nodiscard]] bool any_whole(int first_field) const;
   [[nodiscard]] bool has_plain_elements() const;
-  /// Whether numbers are in the other order than this machine's.
+  /// Whether the byte order is not this machine's.
   [[nodiscard]] bool swapped() const;
   /// The header, and plain data with these positions.
   [[nodiscard]] std::string with_plain_data(std::span<const Vector3> new_positions) const;
-  /// With other positions and normals of the file's own nodes.
+  /// The bytes with new positions and normals of the file's own nodes.
   [[nodiscard]] std::string moved(Rewrite& rewrite) const;
-  /// Such a file with what was added.
+  /// These bytes with added nodes and faces.
   [[nodiscard]] std::string extended(std::string bytes, const Rewrite& rewrite) const;
   template <typename Data>
   [[nodiscard]] std::string extended_by(const InputFile& grown, const Rewrite& rewrite) const;

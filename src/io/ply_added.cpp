@@ -1,4 +1,4 @@
-// PLY with nodes and faces behind those that it had.
+// PLY with added nodes and faces.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -109,7 +109,7 @@ class RowMaker {
     for (const Index node : nodes) (text += is_text() ? " " : "") += whole(property.type, node);
     return text;
   }
-  /// Behind what is there.
+  /// Appended to the rows that are there.
   [[nodiscard]] std::string row(const std::vector<std::string>& values) const {
     std::string text(is_text() ? line_ending(file_.bytes) : "");
     for (std::size_t k = 0; k < values.size(); ++k) (text += is_text() && k > 0 ? " " : "") += values[k];

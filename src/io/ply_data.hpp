@@ -11,7 +11,7 @@ namespace vspring {
 
 /// Appends a whole number as a binary file has it.
 inline void append_whole_number(std::string& out, PlyType type, std::int64_t number, bool swapped) {
-  // Both signs have the same bytes.
+  // Signed and unsigned types have the same bytes.
   switch (size_of(type)) {
     case 1:
       return append_bytes(out, static_cast<std::uint8_t>(number), swapped);
@@ -30,14 +30,14 @@ struct PlyPlace {
   [[nodiscard]] std::string text() const { return fmt::format("{} {} of {}", element->name, number, element->count); }
 };
 
-/// The numbers of a text PLY one after the other. They may be on any lines.
+/// Reads the numbers of a text PLY in turn. They may be on any lines.
 class PlyText {
  public:
   PlyText(const InputFile& file, const PlyHeader& header) : cursor_(file, header.end) {}
 
   [[nodiscard]] std::size_t offset() const { return cursor_.offset(); }
   [[nodiscard]] std::size_t bytes_left() const { return cursor_.bytes_left() + 1; }
-  /// To where the next number begins.
+  /// Goes to where the next number begins.
   void align() { cursor_.skip_space(); }
   [[nodiscard]] double number(PlyType, const PlyPlace&) {
     cursor_.skip_space();
@@ -68,7 +68,7 @@ class PlyText {
   TextCursor cursor_;
 };
 
-/// The numbers of a binary PLY one after the other.
+/// Reads the numbers of a binary PLY in turn.
 class PlyBinary {
  public:
   PlyBinary(const InputFile& file, const PlyHeader& header)

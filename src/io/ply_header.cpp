@@ -1,4 +1,4 @@
-// What a PLY file says of its elements and their properties.
+// Reads the elements and properties that a PLY header declares.
 #include <fmt/format.h>
 
 #include <algorithm>

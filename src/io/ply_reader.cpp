@@ -169,7 +169,7 @@ void find_fields(const InputFile& file, PlySource& source) {
     source.fields[3] = source.fields[4] = source.fields[5] = -1;
 }
 
-/// What other formats are not given.
+/// What other formats would lose.
 std::vector<std::string> carried_by(const PlySource& source) {
   static const std::set<std::string_view> colours = {"red",         "green",         "blue",        "alpha",
                                                      "diffuse_red", "diffuse_green", "diffuse_blue"};
@@ -228,7 +228,7 @@ class PointReader : private PlyElements<Data> {
   ScatteredPoints read_points(const PlyElement& element) {
     constexpr std::size_t normal = 3;
     constexpr std::size_t weight = 6;
-    // Which of these each property is.
+    // Which of these fields each property is.
     std::vector<std::size_t> field_of(element.properties.size(), weight + 1);
     constexpr std::array names = {"x", "y", "z", "nx", "ny", "nz"};
     bool faces = true;

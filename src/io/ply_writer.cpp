@@ -23,7 +23,7 @@ std::array<int, 6> PlySource::places_in(std::size_t row) const {
   const bool text = header.encoding == PlyEncoding::text;
   std::array<int, 6> places{};
   int place = 0;
-  // Reads lists again, which were found whole when the file was read.
+  // Lists are not checked again: they were whole when the file was read.
   const auto list_length = [&](const PlyProperty& property) {
     PlyHeader here;
     here.encoding = header.encoding;

@@ -7,18 +7,18 @@
 
 namespace vspring {
 
-/// Each reads the points of a file that is said to be of its format. They throw Error(unusable_file), and
-/// Error(invalid_argument) for a choice of columns that is none.
+/// Each reads the points of a file of its format. They throw Error(unusable_file), and Error(invalid_argument) for an
+/// invalid choice of columns.
 ScatteredPoints read_obj_points(const InputFile& file);
 ScatteredPoints read_ply_points(const InputFile& file);
 ScatteredPoints read_csv_points(const InputFile& file, const ColumnChoice& choice,
                                 const std::optional<LocalPlane>& plane);
 ScatteredPoints read_xyz_points(const InputFile& file, const ColumnChoice& choice);
 
-/// Whether a point may have this weight.
+/// Whether it is a valid weight of a point.
 bool is_point_weight(double weight);
 
-/// Whether a point may have this normal: of length 1, to 1 %, or zero.
+/// Whether it is a valid normal of a point: of length 1, to 1 %, or zero.
 bool is_point_normal(const Vector3& normal);
 
 }  // namespace vspring

@@ -1,4 +1,4 @@
-// Rows that come in no order, put in order along the curve.
+// Puts the rows of a file in order along the curve.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -73,7 +73,7 @@ class VtpWriter {
     text_ += fmt::format("</Points>\n<{}>\n", cells_);
   }
 
-  /// for_each(action): calls action with the nodes of every cell, in order.
+  /// for_each(action) calls action with the nodes of every cell, in order.
   template <typename ForEach>
   std::string finish(const ForEach& for_each) {
     array("Int64", "connectivity", "", [&] {

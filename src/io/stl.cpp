@@ -33,7 +33,7 @@ constexpr std::size_t header_size = 80;
 constexpr std::size_t facets_begin = 84;
 constexpr std::size_t facet_size = 50;
 
-/// Bytes of a binary file, by the number of facets that it promises; 0 where it is too short to promise any.
+/// Bytes of a binary file according to its number of facets; 0 if it is too short to have one.
 std::size_t promised_size(std::string_view bytes) {
   if (bytes.size() < facets_begin) return 0;
   return facets_begin + facet_size * std::size_t{load<std::uint32_t>(bytes.data() + header_size, little_swapped)};
@@ -55,11 +55,11 @@ class StlSource : public SurfaceSource {
   [[nodiscard]] std::string rewritten(Rewrite& rewrite) const override;
   [[nodiscard]] bool has_single_precision() const override { return rows.empty(); }
 
-  std::vector<Index> corner_nodes;  ///< three per facet, those that are no faces among them
+  std::vector<Index> corner_nodes;  ///< three per facet, also of facets that are no faces
   std::vector<std::size_t> rows;    ///< text: offset of the first number of each facet's normal
 
  private:
-  /// The corners of the facets that were added.
+  /// The corners of added facets.
   [[nodiscard]] static std::vector<std::array<Vector3, 3>> added_facets(const Rewrite& rewrite);
   [[nodiscard]] std::string rewritten_text(const Rewrite& rewrite) const;
   [[nodiscard]] std::string rewritten_binary(const Rewrite& rewrite) const;
@@ -88,7 +88,7 @@ std::string StlSource::rewritten_text(const Rewrite& rewrite) const {
     numbers.insert(numbers.begin(), {{0, normal.x()}, {1, normal.y()}, {2, normal.z()}});
     out.replace_words(rows[facet], numbers);
   }
-  // Behind the last facet, which ends with the next such word.
+  // After the last facet, which ends with this word.
   const std::string_view text = file.bytes;
   constexpr std::string_view word = "facet";
   std::size_t end = rows.back();
@@ -161,13 +161,13 @@ std::string StlSource::rewritten_binary(const Rewrite& rewrite) const {
 /// Gives one number to all positions whose coordinates are the same bits; 0 and −0 are the same.
 class Weld {
  public:
-  /// corners: how many positions will come.
+  /// corners: the number of positions to come.
   explicit Weld(std::size_t corners);
 
-  /// The node at this position, a new one where there is none yet. Nodes are numbered as they come.
+  /// The node at this position, a new one if there is none yet. Nodes are numbered as they come.
   Index node_at(const Vector3& position);
 
-  /// Of each node, as it first came.
+  /// Per node, as it first came.
   std::vector<Vector3> positions;
 
  private:
@@ -314,13 +314,13 @@ class StlText {
   SurfaceFile take(InputFile file) { return facets_.take(std::move(file), std::move(source_)); }
 
  private:
-  /// Of a facet with short numbers and no indentation; a guess to reserve room by.
+  /// A guess, to reserve memory: a facet with short numbers and no indentation.
   static constexpr std::size_t bytes_per_facet = 120;
 
   void expect(const char* wanted);
   /// "endloop" or "end loop", and so on.
   void expect_end(const std::string& of);
-  /// "color" and what else is in its line.
+  /// "color" and the rest of its line.
   void skip_colours();
   Vector3 vector();
   void read_facet();

@@ -20,7 +20,7 @@ namespace {
 constexpr std::array surface_format_names = {"obj", "off", "ply", "stl"};
 constexpr Formats<SurfaceFormat> surface_formats(surface_format_names);
 
-/// A file in another format than the source's, or of a mesh that no file gave.
+/// The bytes in a format other than the source's, or of a mesh that no file gave.
 std::string converted(SurfaceFormat format, const Rewrite& rewrite, std::vector<std::string>& losses) {
   const SurfaceFile& surface = rewrite.surface;
   std::vector<Vector3> normals;
@@ -61,7 +61,7 @@ SurfaceFile surface_of(InputFile file, std::optional<SurfaceFormat> format) {
   return surface;
 }
 
-/// Whether the mesh is that of the source, with what was added behind it.
+/// Whether the mesh is that of the source, followed by added elements.
 bool is_of(const SurfaceSource& source, const SurfaceFile& surface) {
   const PolygonMesh& given = source.mesh;
   const PolygonMesh& mesh = surface.mesh;
@@ -124,7 +124,7 @@ double rounding_of(const SurfaceFile& surface) {
     if (!(coordinate > 0) || !std::isfinite(coordinate)) continue;
     squares += std::pow(std::ldexp(1.0, std::ilogb(coordinate) + 1 - std::numeric_limits<float>::digits), 2);
   }
-  // Evenly spread between two numbers, a step apart.
+  // The rounding error is uniform over the step between two numbers.
   return std::sqrt(squares / 3 / 12);
 }
 

@@ -12,12 +12,12 @@
 
 namespace vspring {
 
-/// What a file is to be written with.
+/// What to write into a file.
 struct Rewrite {
   const SurfaceFile& surface;
   const std::vector<Vector3>& positions;
-  std::vector<std::uint8_t> moved;   ///< per node: its position is not the one that the file gave
-  std::vector<std::string> remarks;  ///< what could not be written as it was
+  std::vector<std::uint8_t> moved;   ///< per node: whether its position is not the file's
+  std::vector<std::string> remarks;  ///< what could not be written unchanged
 };
 
 /// The bytes of a file and, in the formats that derive from it, where its coordinates and normals are.
@@ -30,30 +30,29 @@ class SurfaceSource {
 
   /// The bytes with other positions, and with normals computed anew where nodes moved. Cost: linear.
   [[nodiscard]] virtual std::string rewritten(Rewrite& rewrite) const = 0;
-  /// Whether coordinates of nodes that move are written so.
+  /// Whether new coordinates are written in single precision.
   [[nodiscard]] virtual bool has_single_precision() const { return false; }
 
   InputFile file;
   PolygonMesh mesh;                  ///< as the file gives it
-  std::vector<std::string> carried;  ///< what other formats are not given, one line each
+  std::vector<std::string> carried;  ///< what is lost in other formats, one line each
 };
 
-/// Each reads the whole of a file that is said to be of its format. They throw Error(unusable_file).
+/// Each reads a whole file of its format. They throw Error(unusable_file).
 SurfaceFile read_obj(InputFile file);
 SurfaceFile read_off(InputFile file);
 SurfaceFile read_ply(InputFile file);
 SurfaceFile read_stl(InputFile file);
 
-/// Whether the size of a file is what its number of facets asks for.
+/// Whether the size of a file fits its number of facets.
 bool is_binary_stl(std::string_view bytes);
 
-/// A file of a format made from nothing but a mesh. normals: one per node, or none. losses: what the format cannot hold
-/// is added.
+/// Makes a file from a mesh alone. normals: one per node, or none. losses: gets what the format cannot hold.
 std::string fresh_surface(SurfaceFormat format, const PolygonMesh& mesh, std::span<const Vector3> positions,
                           std::span<const Vector3> normals, std::vector<std::string>& losses);
 
-/// The same of each format. PLY is binary, little-endian, in double precision, with any more numbers at nodes; STL is
-/// binary, its faces cut into triangles from their first node.
+/// Make such files of one format each. PLY is binary, little-endian, in double precision, and may have more numbers at
+/// nodes; STL is binary, its faces cut into triangles from their first node.
 std::string fresh_surface_obj(const PolygonMesh& mesh, std::span<const Vector3> positions,
                               std::span<const Vector3> normals);
 std::string fresh_off(const PolygonMesh& mesh, std::span<const Vector3> positions, std::span<const Vector3> normals);

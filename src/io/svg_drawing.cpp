@@ -11,7 +11,7 @@
 namespace vspring {
 namespace {
 
-/// Of the two senses of a direction the one whose largest component is positive.
+/// The sense of a direction in which its largest component is positive.
 Vector3 forward(const Vector3& direction) {
   Eigen::Index largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
@@ -41,7 +41,7 @@ Drawing::Run run_of(const std::vector<Vector3>& nodes, bool closed, const CurveV
   return run;
 }
 
-/// Adds a run's stretches. Nodes beyond the last are those of another round.
+/// Adds a run's stretches. Nodes beyond the last continue a closed run from its beginning.
 class Cutter {
  public:
   Cutter(const Drawing::Run& run, const Window& window, Drawing& part) : run_(run), window_(window), part_(part) {}
@@ -53,7 +53,7 @@ class Cutter {
       part_.runs.push_back(run_);
       return;
     }
-    // A closed run is cut where it is outside, so that no stretch is in two.
+    // A closed run is cut outside the window, so no stretch is divided.
     const auto count = run_.nodes.size();
     const auto first = run_.closed ? static_cast<std::size_t>(std::distance(run_.nodes.begin(), outside)) : 0;
     const std::size_t last = run_.closed ? first + count : count - 1;
@@ -113,7 +113,7 @@ CurveView::CurveView(const DrawnCurve& curve) {
   if (extent > 0) extent_ = extent;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for_each([&](const Vector3& p) { spread += (p - centre_) * (p - centre_).transpose() / (extent_ * extent_); });
-  // What lies in a plane of x and y, but for rounding, is drawn as it lies.
+  // A curve in a plane parallel to x and y, to rounding, is not turned.
   if (spread(2, 2) > 1e-24 * spread.trace()) turn(spread);
 }
 
@@ -124,7 +124,7 @@ void CurveView::turn(const Eigen::Matrix3d& spread) {
 }
 
 Drawing drawing_of(const DrawnCurve& curve, const CurveView& view) {
-  constexpr double level = 1e-9;  // more than rounding and less than anyone sees
+  constexpr double level = 1e-9;  // more than rounding, less than visible
   Drawing drawing;
   for (const PolygonCurve::Chain& chain : curve.chains) {
     std::vector<Vector3> nodes;

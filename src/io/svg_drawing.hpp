@@ -16,7 +16,7 @@ struct DrawnCurve {
   std::span<const Vector3> positions;
 };
 
-/// Shows positions in the plane of the picture, at a size near one so that squares neither overflow nor vanish.
+/// Maps positions to the plane of the picture, at a size near one, so squares neither overflow nor vanish.
 class CurveView {
  public:
   explicit CurveView(const DrawnCurve& curve);
@@ -25,7 +25,7 @@ class CurveView {
   [[nodiscard]] Vector2 flat(const Vector3& vector) const { return {across_.dot(vector), up_.dot(vector)}; }
   /// Towards the eye.
   [[nodiscard]] Vector3 normal() const { return across_.cross(up_); }
-  /// The length outside that is 1 in the picture.
+  /// The length in units of the input that is 1 in the picture.
   [[nodiscard]] double unit() const { return size_ * extent_; }
 
  private:
@@ -38,19 +38,19 @@ class CurveView {
   Vector3 up_ = Vector3::UnitY();
 };
 
-/// What is drawn of one curve, in the plane of the view.
+/// The drawing of one curve, in the plane of the view.
 struct Drawing {
   struct Run {
     std::vector<Vector2> nodes;
-    std::vector<Vector2> curvatures;  ///< zero where there is none, as at ends
-    std::vector<double> arc;          ///< the length from the first node on
+    std::vector<Vector2> curvatures;  ///< zero if there is none, as at ends
+    std::vector<double> arc;          ///< the arc length from the first node on
     std::vector<double> bends;        ///< curvature, negative where the curve bends to the right
-    double begin = 0;                 ///< the length of the runs before
+    double begin = 0;                 ///< the total length of earlier runs
     double length = 0;                ///< of the whole run
     bool closed = false;
   };
   std::vector<Run> runs;
-  bool planar = true;  ///< whether all of it lies in the plane of the view
+  bool planar = true;  ///< whether the curve lies in the plane of the view
   double sharpest = 0;
 };
 
@@ -58,8 +58,8 @@ Drawing drawing_of(const DrawnCurve& curve, const CurveView& view);
 
 using Window = Eigen::AlignedBox<double, 2>;
 
-/// The stretches of a drawing inside a window, each with the next node at either end, so that its line goes on to the
-/// edge. Arc lengths stay; through the beginning of a closed run they go on. Cost: linear.
+/// The stretches of a drawing inside a window, each extended by one node at either end, so its line reaches the edge.
+/// Arc lengths stay, and continue past the beginning of a closed run. Cost: linear.
 Drawing part_inside(const Drawing& drawing, const Window& window);
 
 }  // namespace vspring

@@ -16,9 +16,9 @@ namespace {
 
 constexpr double drawing_size = 1000;         ///< of the longer side, in pixels
 constexpr double longest_tooth = 0.15;        ///< of the comb, in diagonals of the drawing
-constexpr double longest_tooth_behind = 0.4;  ///< where that of the curve before is cut off
+constexpr double longest_tooth_behind = 0.4;  ///< of the curve before: longer ones are cut off
 constexpr double plot_height = 300;           ///< of the plot of curvature below, in pixels
-constexpr double least_width = 600;           ///< in pixels, for the plot to be read
+constexpr double least_width = 600;           ///< in pixels, so the plot can be read
 constexpr std::size_t most_dots = 400;        ///< more nodes than this would hide the curve
 constexpr std::size_t most_points = 20'000;
 
@@ -34,7 +34,7 @@ bool mostly_longer(const Drawing& drawing, double scale, double longest) {
   return 2 * longer > all;
 }
 
-/// The tips of a run's teeth, not longer than `longest`.
+/// The tips of a run's teeth, cut off at `longest`.
 std::vector<Vector2> tips_of(const Drawing::Run& run, double scale, double longest) {
   std::vector<Vector2> tips;
   tips.reserve(run.nodes.size());
@@ -94,7 +94,7 @@ class Pen {
     else
       text_ += "\"/>\n";
   }
-  /// Each a line without length, to be drawn with round ends.
+  /// Each point is a line without length, drawn with round ends.
   void points(const std::vector<Vector2>& points) {
     text_ += "<path d=\"";
     for (const Vector2& p : points) append("M{:.1f} {:.1f}h0", p);
@@ -160,7 +160,7 @@ Window window_of(const Eigen::AlignedBox<double, 3>& part, const CurveView& view
   return window;
 }
 
-/// The bytes of the UTF-8 character at the front, beyond ASCII; 0 where there is none that XML may hold.
+/// The length of the non-ASCII UTF-8 character at the front; 0 if there is none that XML may hold.
 std::size_t character_length(std::string_view text) {
   const auto lead = static_cast<std::uint8_t>(text.front());
   const auto length = static_cast<std::size_t>(std::countl_one(lead));
@@ -225,7 +225,7 @@ std::string svg_picture(const DrawnCurve& curve, const DrawnCurve* before, std::
   for (const Drawing::Run& run : after.drawing.runs) node_count += run.nodes.size();
   const double diagonal = box.empty() || box.size().norm() == 0 ? 1 : box.size().norm();
 
-  // A straight curve has no comb to take the scale from, then the one before it gives it.
+  // A straight curve has no comb to take the scale from; then the curve before gives it.
   constexpr double straight = 1e-9;
   const double longest = longest_tooth_behind * diagonal;
   double scale = 0;

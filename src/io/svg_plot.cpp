@@ -14,9 +14,9 @@ constexpr double left_edge = 90;
 constexpr double right_edge = 25;
 constexpr double bottom_edge = 55;
 constexpr double letter = 8;  ///< the width of one, about
-/// By how much more than that of the curve after it the curvature of the one before is shown.
+/// How far the range of curvature may be widened, as a factor, for the curve before.
 constexpr double most_behind = 2.5;
-constexpr double nearly_straight = 1e-9;  ///< less than anyone sees, in radians along the curve
+constexpr double nearly_straight = 1e-9;  ///< less than visible, in radians along the curve
 
 struct Range {
   double low;
@@ -29,7 +29,7 @@ struct Range {
   [[nodiscard]] double size() const { return high - low; }
 };
 
-/// Round numbers within a range, some six of them.
+/// About six round numbers within a range.
 std::vector<double> ticks_of(const Range& range) {
   std::vector<double> ticks;
   const double rough = range.size() / 6;
@@ -82,7 +82,7 @@ class Plot {
         left_edge, place_.top, right - left_edge, bottom - place_.top);
   }
 
-  /// Name and line above the plot, to the left of the one before.
+  /// A name and a sample line above the plot, to the left of the last key.
   void key(std::string& text, const std::string& name, const char* colour) {
     keys_ += 50 + letter * static_cast<double>(name.size());
     const double at = place_.width - right_edge - keys_;
@@ -113,7 +113,7 @@ struct Series {
   Range across = {.low = HUGE_VAL, .high = -HUGE_VAL};
   Range up = {.low = 0, .high = 0};
 
-  /// Whether most of it lies beyond a curvature.
+  /// Whether most of the series lies beyond a curvature.
   [[nodiscard]] bool mostly_beyond(double curvature) const {
     std::ptrdiff_t beyond = 0;
     std::ptrdiff_t all = 0;
@@ -126,8 +126,8 @@ struct Series {
   }
 };
 
-/// Where along a run the curvature of the circle through a node and its neighbours is that of the curve, to second
-/// order: at the mean of the three.
+/// The place along a run at which the circle through a node and its neighbours has the curve's curvature to second
+/// order: the mean of the three.
 double middle_of_circle(const Drawing::Run& run, std::size_t k) {
   const std::size_t last = run.nodes.size() - 1;
   const double before = k > 0 ? run.arc[k - 1] : run.closed ? run.arc[last] - run.length : run.arc[k];
@@ -168,7 +168,7 @@ void draw(std::string& text, const Plot& plot, const Series& series, const char*
 }  // namespace
 
 std::string curvature_plot(const Drawing& curve, const Drawing* before, double length_unit, const PlotPlace& place) {
-  const double unit = std::clamp(length_unit, 1e-250, 1e250);  // no picture has an infinity in it
+  const double unit = std::clamp(length_unit, 1e-250, 1e250);  // keeps infinities out of the picture
   const bool planar = curve.planar && (before == nullptr || before->planar);
   const Series after = series_of(curve, unit, planar);
   if (after.lines.empty()) return {};
@@ -178,7 +178,7 @@ std::string curvature_plot(const Drawing& curve, const Drawing* before, double l
   bool noise = false;
   if (before != nullptr) {
     behind = series_of(*before, unit, planar);
-    // A straight curve has no curvature to take the range from, then the one before it gives it.
+    // A straight curve gives no range of curvature; then the curve before gives it.
     const bool bent = after.up.size() * after.across.size() > nearly_straight;
     const double most =
         bent ? most_behind * std::max(-after.up.low, after.up.high) : std::numeric_limits<double>::infinity();
@@ -201,7 +201,7 @@ std::string curvature_plot(const Drawing& curve, const Drawing* before, double l
   if (before != nullptr) {
     if (!noise) draw(text, plot, behind, "#b0b0b0");
     plot.key(text, "after", "#1b3a6b");
-    // Noise would hide the curve after it.
+    // A noisy curve before would hide the result.
     const double greatest = std::max(-behind.up.low, behind.up.high);
     plot.key(text, noise ? fmt::format("before (curvature up to {:.2g}, not drawn)", greatest) : "before", "#b0b0b0");
   }

@@ -1,4 +1,4 @@
-// Rows of cells: what CSV, XYZ and DAT have in common.
+// Rows of cells, for CSV, XYZ and DAT.
 #include "io/table.hpp"
 
 #include <fmt/format.h>
@@ -65,7 +65,7 @@ std::size_t CellCutter::cell_end(std::string_view row, std::size_t begin) const 
   std::size_t at = begin;
   if (quotes_ && row.substr(at).starts_with('"')) {
     std::size_t close = row.find('"', at + 1);
-    // Two quotes are one that belongs to the text.
+    // Two quotes stand for one in the text.
     while (close != std::string_view::npos && row.substr(close + 1).starts_with('"')) close = row.find('"', close + 2);
     if (close != std::string_view::npos) at = close + 1;
   }
@@ -137,12 +137,12 @@ std::string TableSource::with_numbers(std::string_view row, std::size_t node, co
 
 std::string TableSource::rewritten(const Rewriting& what) const {
   TextRewriter out(file.bytes);
-  // Columns may stand in any order, places in the file have to ascend.
+  // Columns may have any order, but places in the file must ascend.
   std::vector<std::size_t> by_place(columns.size());
   std::iota(by_place.begin(), by_place.end(), std::size_t{0});
   std::sort(by_place.begin(), by_place.end(), [&](std::size_t a, std::size_t b) { return columns[a] < columns[b]; });
   for (std::size_t slot = 0; slot < rows.size(); ++slot) {
-    // Where the order is another one, every node has one row.
+    // If the order changed, every node has one row.
     const std::size_t from = what.node_in(slot);
     const auto node = static_cast<std::size_t>(rows[from].node);
     if (from == slot && what.moved[node] == 0) continue;
@@ -244,7 +244,7 @@ CurveFile TableReader::take(InputFile file, CurveFormat format, const std::optio
 ScatteredPoints read_point_rows(const InputFile& file, CellCutter cutter, const PointColumns& columns,
                                 std::size_t behind, const RowCheck& check, const std::optional<LocalPlane>& plane) {
   ScatteredPoints points;
-  // Room that is not used is never touched.
+  // Reserved memory that stays unused is never touched.
   const auto lines =
       static_cast<std::size_t>(std::count(file.bytes.begin(), file.bytes.end(), line_end_of(file.bytes))) + 1;
   points.positions.reserve(lines);

@@ -7,10 +7,10 @@
 
 namespace vspring {
 
-/// White space of every text format here; line ends are among it.
+/// White space of every text format here, line ends included.
 constexpr bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
-/// The length of a backslash and the line end behind it, which OBJ reads as a blank; 0 where there is none.
+/// The length of a backslash and the line end after it, which OBJ reads as a blank; else 0.
 inline std::size_t continuation_length(const char* p, const char* end) {
   if (p == end || *p != '\\' || p + 1 == end) return 0;
   if (p[1] == '\n') return 2;
@@ -18,12 +18,12 @@ inline std::size_t continuation_length(const char* p, const char* end) {
   return p + 2 != end && p[2] == '\n' ? 3 : 2;
 }
 
-/// Of the mark that some programs put before UTF-8 text; 0 where there is none.
+/// The length of the mark that some programs put before UTF-8 text; 0 if there is none.
 constexpr std::size_t byte_order_mark_length(std::string_view bytes) {
   return bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0;
 }
 
-/// Reads a number as far as it goes and returns its end, or null where none begins. "nan" and "inf" are numbers too.
+/// Reads a number as far as it goes and returns its end, or null if none begins here. "nan" and "inf" are numbers too.
 const char* parse_number(const char* begin, const char* end, double& value, char decimal_mark = '.');
 
 /// Walks the words and lines of a file. Numbers mean the same in every locale.
@@ -58,26 +58,26 @@ class TextCursor {
   }
   /// Goes to the end of this line, over joined lines.
   void skip_to_line_end();
-  /// Goes to the next line end, even where a backslash stands before it, as at the end of a comment.
+  /// Goes to the next line end, even one after a backslash, as at the end of a comment.
   void skip_comment();
 
-  /// Up to the end of a word; empty at white space and at the end.
+  /// Reads up to the end of a word; empty at white space and at the end.
   [[nodiscard]] std::string_view word();
   [[nodiscard]] bool at_word_end() const {
     return at_ == end_ || is_space(*at_) || (continued_ && continuation_length(at_, end_) > 0) ||
            (commented_ && *at_ == '#');
   }
 
-  /// A number, up to the end of a word. what: what it is, for the message.
+  /// Reads a number, up to the end of a word. what: its name in messages.
   [[nodiscard]] double number(const char* what);
-  /// A whole number with a sign or without; may stand at the front of a longer word.
+  /// Reads a whole number, with or without a sign; it may begin a longer word.
   [[nodiscard]] std::int64_t integer(const char* what);
-  /// A whole number that is a word of its own.
+  /// Reads a word that is a whole number.
   [[nodiscard]] std::int64_t whole_word(const char* what);
 
   [[nodiscard]] const InputFile& file() const { return *file_; }
   [[noreturn]] void refuse(std::string_view what) const { file_->refuse_line(offset(), what); }
-  /// Says that `what` belongs here, and what stands here.
+  /// Throws: says that `what` is expected here, and what is here.
   [[noreturn]] void refuse_word(const char* what) const;
 
  private:

@@ -11,7 +11,7 @@
 namespace vspring {
 namespace {
 
-/// Of names; all bytes of characters beyond ASCII count as letters.
+/// Whether a name may have this byte; all bytes of non-ASCII characters count as letters.
 bool is_name_byte(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == ':' ||
          c == '-' || c == '.' || static_cast<unsigned char>(c) >= 0x80;

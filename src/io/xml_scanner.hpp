@@ -7,35 +7,35 @@
 
 namespace vspring {
 
-/// Walks the elements of an XML file in UTF-8 or another encoding that has ASCII in it, and says where they stand.
-/// Text, comments, CDATA and processing instructions are passed over; references in values stay as they are.
+/// Walks the elements of an XML file in UTF-8 or another superset of ASCII, and tells their offsets. It skips text,
+/// comments, CDATA and processing instructions, and leaves references in values as they are.
 ///
-/// Our own, as Debian's libraries (expat, pugixml, libxml2) are not there for WebAssembly, and do not say where in the
-/// file the value of an attribute stands, which has to be known to change nothing else.
+/// Our own, as Debian's libraries (expat, pugixml, libxml2) are not available for WebAssembly and do not tell the
+/// offset of an attribute's value, which is needed to change nothing else.
 class XmlScanner {
  public:
-  /// Whatever it is asked, it throws Error(unusable_file), naming the line, where the file is not well-formed.
+  /// Every function throws Error(unusable_file), naming the line, if the file is not well-formed.
   explicit XmlScanner(const InputFile& file);
 
   enum class Event { element_begins, element_ends, file_ends };
 
   struct Attribute {
     std::string_view name;
-    std::string_view value;  ///< in the bytes of the file, between the quotes
+    std::string_view value;  ///< a view of the file's bytes between the quotes
   };
 
   /// Goes on to the next begin or end of an element; <a/> is both, one after the other.
   Event next();
 
-  /// Of the element that begins or ends here, without its prefix.
+  /// The name of the element that begins or ends here, without its prefix.
   [[nodiscard]] std::string_view name() const;
-  /// The element in which the one that begins or ends here stands; empty for the outermost.
+  /// The parent of the element that begins or ends here; empty for the outermost.
   [[nodiscard]] std::string_view parent() const;
-  /// Of the element that begins here.
+  /// The attributes of the element that begins here.
   [[nodiscard]] const std::vector<Attribute>& attributes() const { return attributes_; }
-  /// Of the first byte of the element that begins or ends here.
+  /// The offset of the first byte of the element that begins or ends here.
   [[nodiscard]] std::size_t begin() const { return begin_; }
-  /// Of the byte behind what next() has passed over.
+  /// The offset after what next() has read.
   [[nodiscard]] std::size_t end() const { return at_; }
 
  private:
@@ -46,7 +46,7 @@ class XmlScanner {
 
   [[nodiscard]] std::string_view rest() const { return std::string_view(file_.bytes).substr(at_); }
   [[nodiscard]] bool skip_space();
-  /// Goes behind the next `end`; what: what it ends, for the message.
+  /// Goes past the next `end`; what: the name, in messages, of what it ends.
   void skip_behind(std::string_view end, std::string_view what);
   void skip_document_type();
   void read_begin();
@@ -60,7 +60,7 @@ class XmlScanner {
   std::size_t begin_ = 0;
   std::vector<Element> open_;  ///< from the outermost on; the last one begins or ends here
   std::vector<Attribute> attributes_;
-  bool is_empty_ = false;   ///< its end is still to be told
+  bool is_empty_ = false;   ///< <a/>, whose end next() has yet to return
   bool has_ended_ = false;  ///< the last one of open_ has
   bool has_element_ = false;
 };

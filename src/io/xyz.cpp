@@ -1,4 +1,4 @@
-// XYZ: rows of two or three numbers and anything behind them, separated by white space.
+// XYZ: rows of two or three numbers, and anything after them, separated by white space.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -49,7 +49,7 @@ CurveFile read_xyz_curve(InputFile file, const ColumnChoice& choice) {
     require_columns(file, cells, first->offset, columns);
   }
   TableReader reader(file, cutter, std::move(columns));
-  // Of a planar curve and one in space mixed, one of the two would be misread.
+  // In a file of planar and space curves one kind would be misread.
   for (const TableLine& line : lines) {
     if (!choice.empty() || count != 2 || !is_row(line) || count_coordinates(cutter.cut(line.text)) < 3) continue;
     file.refuse_line(line.offset, "this row has three numbers, the first row has two; correct one of them");
@@ -77,7 +77,7 @@ ScatteredPoints read_xyz_points(const InputFile& file, const ColumnChoice& choic
     return false;
   });
   if (cells_of_first == 0) file.refuse("no row of two or three numbers is in it; choose another file");
-  // Where a person says what is what, nothing is guessed.
+  // With chosen columns nothing is guessed.
   if (!choice.empty()) return read_point_rows(file, cutter, {chosen}, 0);
   const bool planar = numbers < 3;
   PointColumns columns{{0, 1}};
@@ -85,7 +85,7 @@ ScatteredPoints read_xyz_points(const InputFile& file, const ColumnChoice& choic
   if (numbers == cells_of_first && (numbers == 4 || numbers == 7)) columns.weight = numbers - 1;
   if (faces) columns.normal = {3, 4, 5};
   return read_point_rows(file, cutter, columns, 0, [&](const TableLine& line, const auto& cells) {
-    // Of points in a plane and in space mixed, or with weights and without, some would be misread.
+    // In a mix of planar and space points, or of points with and without weights, some would be misread.
     if ((planar && count_leading_numbers(cells) > 2) || ((columns.weight || faces) && cells.size() != cells_of_first))
       file.refuse_line(line.offset, fmt::format("this row has {} numbers, the first row has {}; correct one of them",
                                                 count_leading_numbers(cells), numbers));

@@ -4,7 +4,7 @@
 
 namespace vspring {
 
-/// How far around the nearest node one that faces alike is looked for, in mean edges.
+/// How far around the nearest node to search for one that faces alike, in mean edges.
 inline constexpr double reach_in_edges = 10;
 
 /// Whether a point may be tied to a node, by the normals of both: within 90° of each other, or one of them unknown

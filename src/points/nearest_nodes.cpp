@@ -15,7 +15,7 @@ namespace vspring {
 
 namespace {
 
-/// frame: in which squares are safe.
+/// frame: coordinates in which squares neither overflow nor vanish.
 std::vector<Index> nearest_in(const Frame& frame, std::span<const Vector3> points, std::span<const Vector3> nodes,
                               std::span<const std::uint8_t> usable, ThreadTeam& team, const Preference& preference) {
   constexpr std::size_t points_per_task = 512;
@@ -36,7 +36,7 @@ std::vector<Index> nearest_in(const Frame& frame, std::span<const Vector3> point
       const Vector3 point = frame.to_local(points[j]);
       const auto square = [&](Index k) { return (places[static_cast<std::size_t>(k)] - point).squaredNorm(); };
       const auto found = tree.nearest(point, square);
-      if (found.item < 0) continue;  // squares have overflowed
+      if (found.item < 0) continue;  // squares overflowed
       nearest[j] = number[static_cast<std::size_t>(found.item)];
       const auto content = [&](Index k) {
         return preference.content(j, static_cast<std::size_t>(number[static_cast<std::size_t>(k)]));

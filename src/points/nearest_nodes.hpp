@@ -10,25 +10,25 @@
 
 namespace vspring {
 
-/// How far from the nodes points may lie, in sizes of the box around the nodes: squares must not overflow.
+/// How far from the nodes points may lie, in sizes of the box around the nodes, so that squares do not overflow.
 inline constexpr double furthest_point = 1e50;
 
-/// Which nodes points had rather be tied to.
+/// Which nodes points are preferably tied to.
 struct Preference {
-  /// Whether a point, by its number, is content with a node. Empty: with every one.
+  /// Whether a node suits a point. Empty: every node does.
   std::function<bool(std::size_t point, std::size_t node)> content = nullptr;
-  /// How much further than twice as far as the nearest of all nodes one may be for that.
+  /// A suitable node may be this much further away than twice the distance of the nearest node.
   double reach = 0;
 };
 
-/// The node nearest to each of the points, of those that it is content with where one is in reach; of several the one
-/// with the smallest number; −1 where there is none that is finite. usable: one entry per node, 0 for nodes that do not
-/// count. Throws Error(invalid_argument) naming a point beyond furthest_point. Cost: n log n.
+/// Returns per point the nearest suitable node within reach, else the nearest node; of equally near ones the smallest
+/// number; −1 if no node is finite. usable: one entry per node, 0 for nodes that do not count. Throws
+/// Error(invalid_argument) naming a point beyond furthest_point. Cost: n log n.
 std::vector<Index> nearest_nodes(std::span<const Vector3> points, std::span<const Vector3> nodes,
                                  std::span<const std::uint8_t> usable, ThreadTeam& team,
                                  const Preference& preference = {});
 
-/// The same without a limit to how far points lie; squares of distances must not overflow.
+/// nearest_nodes() without a limit to the distance of points; squares of distances must not overflow.
 std::vector<Index> nearest_places(std::span<const Vector3> points, std::span<const Vector3> nodes,
                                   std::span<const std::uint8_t> usable, ThreadTeam& team,
                                   const Preference& preference = {});

@@ -10,7 +10,7 @@ namespace vspring {
 
 namespace {
 
-// Cells in each direction: beyond, a point counts as in the last one.
+// Cells in each direction; points beyond count as in the last one.
 constexpr double most_cells = 1 << 20;
 
 /// The number of the cell that a point lies in.
@@ -23,7 +23,7 @@ std::uint64_t cell_of(const Vector3& point, double cell) {
   return number;
 }
 
-/// Which of six ways a normal points; 0 where there is none.
+/// Which of six directions a normal has; 0 without a normal.
 std::uint32_t way_of(const TiedPoints& points, std::size_t j) {
   if (points.normals.empty() || points.normals[j].isZero(0)) return 0;
   Eigen::Index axis = 0;

@@ -4,12 +4,11 @@
 
 namespace vspring {
 
-/// Points drawn together, for versions of a shape too coarse to tell them apart: those in one cell of a cubic grid
-/// become one in their mean place, weighted and with the sum of their weights. Points with normals become one only with
-/// those that face the same way: up, down or to one of four sides.
+/// Points merged for coarse levels: those in one cell of a cubic grid become one at their weighted mean, with the sum
+/// of their weights. Points with normals merge only with points that face the same of six directions.
 struct PointClusters {
-  TiedPoints points;          ///< not tied to anything
-  std::vector<Index> counts;  ///< how many points each stands for
+  TiedPoints points;          ///< not tied to nodes
+  std::vector<Index> counts;  ///< how many points each represents
 };
 
 /// cell: the edge of a cell, in the coordinates of the points. Cost: n log n.

@@ -12,7 +12,7 @@ namespace vspring {
 
 namespace {
 
-// Beyond it nodes go to their points all the same.
+// Beyond it nodes reach their points anyway.
 constexpr double greatest_factor = 1e50;
 
 /// The mean of powers of the lengths of a node's edges.
@@ -40,7 +40,7 @@ void set_factors(Net& net, const Factor& factor) {
   }
 }
 
-/// A node's share of the faces around it, which share theirs evenly among their nodes.
+/// A node's area: faces divide theirs evenly among their nodes.
 double area_at(const Net& net, std::size_t i) {
   const auto links = net.rings.links(i);
   if (links.empty()) return 0;
@@ -71,7 +71,7 @@ double area_at(const Net& net, std::size_t i) {
   return area;
 }
 
-/// Half of the edges beside a node of a curve.
+/// Half the length of the edges at a node of a curve.
 double length_at(const Net& net, std::size_t i) {
   return mean_power(net, i, 1) * static_cast<double>(net.rings.links(i).size()) / 2;
 }

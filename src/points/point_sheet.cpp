@@ -17,14 +17,14 @@ namespace vspring {
 
 namespace {
 
-// Points about a point, and of how many these are counted.
+// How many points around a point to use, and for how many points to count them.
 constexpr std::size_t points_about = 24;
 constexpr std::size_t most_counted = 1000;
-// So few do not make a surface.
+// Fewer do not make a surface.
 constexpr std::size_t fewest_about = 6;
-// In radii, for points that stand for the others in their cell.
+// Size of a cell, in radii, of which one point represents the others.
 constexpr double cell_of_few = 0.25;
-// Without a point in the plane: where a surface ends in a line, a little less than on one side of that.
+// Widest angle in the plane without a point inside the surface: a little less than at a straight end, 180°.
 constexpr double widest_gap = 150 * std::numbers::pi / 180;
 
 }  // namespace
@@ -88,7 +88,7 @@ std::optional<PointSheet::About> PointSheet::about(Index point) const {
   about.normal = principal_axes(squares).col(0);
   look_for_end(point, others, about);
   if (!about.ends) return about;
-  // Others may lie where those few do not.
+  // Other points may lie where those few do not.
   tree_.within(place, radius_, found);
   others.clear();
   for (const Index k : found) {

@@ -15,14 +15,14 @@ namespace vspring {
 
 namespace {
 
-// Around a hub of many faces everybody is everybody's neighbour of second order: a search through it would take the
-// square of their number. Points get past it by being tied to it.
+// Around a hub of many faces all nodes are neighbours of second order: a search through it would cost the square of
+// their number. Points can still cross by being tied to the hub itself.
 constexpr std::size_t most_passed_on = 100;
-// Of a factor.
+// Least relative change of a factor.
 constexpr double notable_change = 1e-3;
 constexpr std::uint32_t none = UINT32_MAX;
 
-/// Places for the members of groups, from their numbers: each group's begin, and at last the end.
+/// Turns counts of groups into the begin of each group, and the end.
 template <typename Count>
 void add_up(std::vector<Count>& counts) {
   std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), Count{0});
@@ -50,7 +50,7 @@ PointTies::PointTies(Net& net, std::span<const Vector3> points, std::span<const 
     const auto node = static_cast<std::size_t>(nearest[j]);
     return nearest[j] < 0 || node >= local.size() || !(weights[j] > 0) ? none : local[node];
   };
-  // Points of one node, and of nodes that are close in memory, lie together.
+  // Points of one node, and of nodes close in memory, lie together.
   std::vector<std::uint32_t> place(net.node.size() + 1, 0);
   for (std::size_t j = 0; j < points.size(); ++j) {
     end_if_cancelled_at(j);
@@ -109,7 +109,7 @@ void PointTies::tie_to_nearest(ThreadTeam& team) {
   if (!tied.normals.empty())
     alike = {[&](std::size_t k, std::size_t node) { return may_pull(k, node, 0); }, reach_in_edges * mean_edge(*net_)};
   const std::vector<Index> nearest = nearest_places(tied.positions, net_->positions, first, team, alike);
-  // Where a shape has gone astray, nodes have no place, and ties stay as they are.
+  // If the shape has diverged, nodes have no finite place, and ties stay as they are.
   node_.resize(nearest.size(), 0);
   for (std::size_t k = 0; k < nearest.size(); ++k) {
     if (nearest[k] >= 0) node_[k] = static_cast<std::uint32_t>(nearest[k]);
@@ -146,7 +146,7 @@ void PointTies::join_neighbours() {
   add_up(end);
   std::vector<std::uint32_t> all(end.back());
   for_each_link([&](std::uint32_t from, std::uint32_t to) { all[end[from]++] = to; });
-  // Those inside come twice, once from each of their nodes.
+  // Inner edges come twice, once from each node.
   neighbours_.reserve(all.size() / 2);
   first_neighbour_.reserve(nodes + 1);
   auto begin = all.begin();
@@ -244,7 +244,7 @@ void PointTies::group() {
     tied.end.assign(tied.begin.begin(), tied.begin.end() - 1);
     put(true);
   }
-  // Each begin has gone on to the next one's.
+  // Each begin has advanced to the next one's.
   std::rotate(tied.begin.begin(), tied.begin.end() - 1, tied.begin.end());
   tied.begin.front() = 0;
 }

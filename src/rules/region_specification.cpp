@@ -1,4 +1,4 @@
-// Regions as words of a command line or a rule name them.
+// Parses regions as command lines and rules specify them.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -22,7 +22,7 @@ using nlohmann::json;
 using Flags = std::vector<std::uint8_t>;
 using Directions = std::vector<Vector3>;
 
-/// What rules ask of a surface or a curve.
+/// A surface or curve as rules see it.
 struct RuledShape {
   const std::vector<Vector3>& positions;
   std::function<Flags()> boundary;
@@ -56,18 +56,17 @@ Flags non_manifold_nodes(const PolygonCurve& curve) {
   return times;
 }
 
-/// What nodes that are welded into one are told. Whoever is told nothing agrees.
+/// What rules say of nodes that are welded into one. A node without a rule agrees with any.
 class Agreement {
  public:
   struct Told {
-    Index node = -1;  ///< the one that was told last, by its own number
+    Index node = -1;  ///< the last one named, by its number before welding
     int rule = 0;
-    bool named = false;  ///< and not only one of all, of the boundary or the like
+    bool named = false;  ///< itself, by a group or a region; not by "all", "boundary" or the like
     Vector3 value = Vector3::Zero();
   };
 
-  /// Notes what `told.node`, for which `first` stands, is told. Returns a node that was told something else and has a
-  /// say beside it, else −1.
+  /// Notes what is said of `told.node`, which `first` represents. Returns a node that contradicts it, else −1.
   Index differing(std::size_t node_count, Index first, const Told& told, const auto& same) {
     told_.resize(node_count);
     Told& last = told_[static_cast<std::size_t>(first)];
@@ -82,7 +81,7 @@ class Agreement {
   }
 
  private:
-  std::vector<Told> told_;  // by the node that stands for them
+  std::vector<Told> told_;  // by representative
 };
 
 /// Applies the rules of one text. Every fault names the rule, counted from 1.
@@ -169,12 +168,12 @@ class RuleReader {
   [[nodiscard]] bool curve() const { return shape_.tangents != nullptr; }
   [[nodiscard]] Index node_count() const { return static_cast<Index>(positions_.size()); }
 
-  /// The node that stands for this one.
+  /// The representative of this node.
   [[nodiscard]] Index first(Index node) const {
     return input_.welded != nullptr ? input_.welded->representative[static_cast<std::size_t>(node)] : node;
   }
 
-  /// Refuses what another node that is one with this one was told otherwise.
+  /// Refuses a value that contradicts one of a node joined with this one.
   void agree(Agreement& agreement, Index node, const Vector3& value, const char* what, const auto& same) {
     if (input_.welded == nullptr) return;
     const Index other = agreement.differing(positions_.size(), first(node), {node, rule_, named_, value}, same);
@@ -312,7 +311,7 @@ class RuleReader {
     }
   }
 
-  /// side: which one's, of corners; none: that of both.
+  /// side: of a corner; none: for both sides.
   void apply_tangents(const std::vector<Index>& nodes, const json& value, std::optional<NodeSide> side = {}) {
     if (value == "free") {
       for (const Index i : nodes) {

@@ -18,16 +18,17 @@ namespace vspring {
 
 namespace {
 
-// From waves of two edges to some thirty.
+// From waves of two edges to about thirty.
 constexpr Band low_passes[] = {{1.6, 4},   {0.8, 4},   {0.4, 4},   {0.2, 4},   {0.1, 4},   {0.05, 4},
                                {0.035, 5}, {0.025, 6}, {0.018, 6}, {0.013, 6}, {0.009, 6}, {1.2, 2},
                                {0.6, 2},   {0.3, 2},   {0.15, 2},  {0.075, 2}};
-// Whose normals noise is looked at along.
+// The band whose normals noise is measured along.
 constexpr std::size_t band_of_normals = 1;
-// Small features ask for few nodes around, much noise and smooth shapes for many; last the same everywhere.
+// Small features need averages over few nodes, much noise and smooth shapes over many; the last choice is the same
+// everywhere.
 constexpr Choice choices_of_bands[] = {{6, 0, 5}, {12, 0, 8}, {30, 0, 20}, {120, 0.2, 60}, {120, 1, 1e4}};
 constexpr Choice last_choice[] = {{300, 0.3, 100}};
-// Which of these get flat faces, and in how many turns.
+// Which of these get flat faces, and after how many rounds.
 constexpr std::size_t sharpest = 0;
 constexpr std::size_t middle = 2;
 constexpr std::size_t whole = 4;
@@ -35,25 +36,25 @@ constexpr std::array turns_of_sharpest = {6, 15};
 constexpr std::array turns_of_middle = {12};
 constexpr std::array turns_of_whole = {10};
 
-// Random fields that tell how much of its own noise a node's place follows: the low passes'; and of the choices,
-// where they are disturbed by so much of the noise (S. Ramani, T. Blu, M. Unser, "Monte-Carlo SURE", IEEE TIP 17,
+// Numbers of random fields that measure how much a node's place follows its own noise, for low passes and for choices;
+// the latter are disturbed by this share of the noise (S. Ramani, T. Blu, M. Unser, "Monte-Carlo SURE", IEEE TIP 17,
 // 2008).
 constexpr int fields_of_bands = 2;
 using Four = Eigen::Array4d;
 constexpr int fields_of_choices = 3;
 constexpr double disturbed = 0.05;
 
-// Of the way to the neighbours' mean.
+// Steps to the neighbours' mean for nodes of unknown place.
 constexpr int steps_of_unknown = 20;
 
 // Edges that turn by more than 115° are folds: those of blocks turn by about 90°.
 constexpr double folded = -0.42;
 constexpr int most_rounds = 20;
 constexpr int steps_of_round = 3;
-// In standard deviations of the noise, which is what noise folds nodes by.
+// In standard deviations of the noise: how far noise folds nodes.
 constexpr double most_unfolding = 1;
 
-/// Pairs of faces at an edge between which normals have less than this cosine.
+/// Pairs of faces at an edge whose normals have less than this cosine.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> turned_pairs(const ScanMesh& mesh, const Places& places,
                                                                   double cosine, ThreadTeam& team) {
   std::vector<Vector3> normals = face_areas(mesh, places, team);
@@ -90,8 +91,8 @@ std::vector<std::uint8_t> nodes_at_folds(const ScanMesh& mesh, const Places& pla
   return found;
 }
 
-/// Where more edges turn back than did in the noisy nodes, as inside lips and ears that lie close, nodes at those that
-/// did not go back to where they were.
+/// Where more edges fold than in the noisy mesh, as inside close lips and ears, nodes at newly folded edges return to
+/// their places.
 void take_back_new_folds(const ScanMesh& mesh, Places& places, const Places& noisy, ThreadTeam& team) {
   const auto before = turned_pairs(mesh, noisy, beyond_right, team);
   for (int round = 0; round < most_rounds; ++round) {
@@ -108,8 +109,8 @@ void take_back_new_folds(const ScanMesh& mesh, Places& places, const Places& noi
   }
 }
 
-/// Steps towards the neighbours' mean where faces are folded, no further than noise explains: tips and blades would
-/// shrink. Where half of these nodes stay folded, that is what the shape is like, and it is left alone.
+/// Moves folded nodes towards their neighbours' mean, no further than noise explains, as tips and blades would shrink.
+/// If half of them stay folded, the shape itself is so, and nothing changes.
 void unfold(const ScanMesh& mesh, Places& places, double deviation, ThreadTeam& team) {
   const double furthest = most_unfolding * deviation;
   const Places start = places;
@@ -193,7 +194,7 @@ class Denoiser {
     }
   }
 
-  /// The diagonals of the low passes.
+  /// Estimates the diagonals of the low passes.
   void find_followed() {
     const std::size_t width = std::size(low_passes) + 1;
     followed_.assign(mesh_.moving * width, 0);
@@ -213,7 +214,7 @@ class Denoiser {
     }
   }
 
-  /// All that stand to choose from. low: what the low passes make of these places.
+  /// All shapes to choose from. low: these places after each low pass.
   std::vector<Places> shapes_of(const Places& places, const std::vector<Places>& low) {
     std::vector<const Places*> all = {&places};
     for (const Places& one : low) all.push_back(&one);

@@ -10,9 +10,9 @@ namespace vspring {
 
 namespace {
 
-// Between normals of length 1.
+// Distance between unit normals.
 constexpr double alike = 0.3;
-// Of the lengths of edges.
+// In edge lengths.
 constexpr double near = 1.5;
 constexpr int steps_of_nodes = 10;
 
@@ -28,7 +28,7 @@ std::vector<Vector3> centres_of(const ScanMesh& mesh, const std::vector<Vector3>
   return centres;
 }
 
-/// What the neighbours of each face count, as ScanMesh::around has them, but for their normals.
+/// The weights of the neighbours of each face, as in ScanMesh::around, without the factor of normals.
 std::vector<double> weights_of(const ScanMesh& mesh, const std::vector<Vector3>& places,
                                const std::vector<Vector3>& areas, ThreadTeam& team) {
   const std::vector<Vector3> centres = centres_of(mesh, places, team);
@@ -54,7 +54,7 @@ std::vector<double> weights_of(const ScanMesh& mesh, const std::vector<Vector3>&
   return weights;
 }
 
-/// Moves nodes until faces have these normals.
+/// Moves nodes so that faces get these normals.
 std::vector<Vector3> turned(const ScanMesh& mesh, std::vector<Vector3> places, const std::vector<Vector3>& normals,
                             ThreadTeam& team) {
   std::vector<Vector3> next = places;

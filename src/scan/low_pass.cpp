@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t most_degree = 200;
 // Places at which responses are sampled.
 constexpr std::size_t samples = 1024;
-// Coefficients below are left out.
+// Smaller coefficients are left out.
 constexpr double negligible = 2e-5;
 
 /// Cuts off what is negligible at the end; the rest gives 1 at the eigenvalue 0.

@@ -18,15 +18,15 @@ struct Band {
 };
 
 /// Low passes of fields over the nodes of a surface: polynomials of the mean over neighbours in Chebyshev's basis (G.
-/// Taubin, T. Zhang, G. Golub, "Optimal Surface Smoothing as Filter Design", ECCV 1996), all from one recurrence.
-/// Flat at 0, where windowed sinc functions waver by 0.3 %: that much of a shape's size is many edges. Held nodes keep
-/// their values; constant fields stay.
+/// Taubin, T. Zhang, G. Golub, "Optimal Surface Smoothing as Filter Design", ECCV 1996), all from one recurrence. They
+/// are flat at eigenvalue 0, where windowed sinc functions deviate by 0.3 %, which would move large shapes by many
+/// edges. Held nodes keep their values; constant fields stay.
 class LowPass {
  public:
   explicit LowPass(std::span<const Band> bands);
 
-  /// Filtered by each band in turn. field: of all nodes; Value: double, Vector3 or an array. Cost: linear, some 150
-  /// means over neighbours; the same bits on any number of threads.
+  /// Returns the field filtered by each band. field: of all nodes; Value: double, Vector3 or an array. Cost: linear,
+  /// about 150 means over neighbours; the same bits on any number of threads.
   template <typename Value>
   std::vector<std::vector<Value>> filter(const ScanMesh& mesh, const std::vector<Value>& field,
                                          ThreadTeam& team) const {

@@ -10,7 +10,7 @@ namespace vspring {
 
 namespace {
 
-// Around a hub of many faces everybody is everybody's neighbour.
+// Around a hub of many faces all faces are neighbours of each other.
 constexpr std::size_t most_faces = 64;
 constexpr std::uint32_t absent = ~std::uint32_t{0};
 
@@ -49,7 +49,7 @@ ScanMesh scan_mesh(const Net& net, const PolygonMesh& mesh) {
     for (const Index node : face) scan.faces.items.push_back(local[static_cast<std::size_t>(node)]);
     scan.faces.close();
   }
-  // By counting.
+  // A counting sort.
   scan.faces_of.begin.assign(net.moving + 1, 0);
   for (const std::uint32_t i : scan.faces.items) {
     if (i < net.moving) ++scan.faces_of.begin[i + 1];

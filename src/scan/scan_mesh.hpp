@@ -23,24 +23,24 @@ struct Lists {
   void close() { begin.push_back(static_cast<std::uint32_t>(items.size())); }
 };
 
-/// Connectivity of the part of a surface that moves, as filters of noise need it. Nodes are those of the net.
+/// Connectivity of the moving part of a surface, for filters of noise. Nodes are those of the net.
 struct ScanMesh {
   std::size_t nodes = 0;
   std::size_t moving = 0;
   Lists neighbours;         ///< along edges, of every moving node
-  Lists moving_neighbours;  ///< those of them that move
+  Lists moving_neighbours;  ///< those neighbours that move
   Lists faces;              ///< corners of every face that has a moving node
   Lists faces_of;           ///< of every moving node
-  Lists around;             ///< of every face, those that share a node with it, and itself
+  Lists around;             ///< per face, itself and the faces that share a node with it
 };
 
 /// Cost: linear in the mesh.
 ScanMesh scan_mesh(const Net& net, const PolygonMesh& mesh);
 
-/// Half the cross products of a face's corners in turn, its vector area. Cost: linear.
+/// The vector area of every face: half the sum of cross products of successive corners. Cost: linear.
 std::vector<Vector3> face_areas(const ScanMesh& mesh, const std::vector<Vector3>& places, ThreadTeam& team);
 
-/// Unit normals of the moving nodes: the sums of the areas of their faces. Zero where that has none.
+/// Unit normals of the moving nodes, from the sums of the vector areas of their faces; zero if that sum is zero.
 std::vector<Vector3> node_normals(const ScanMesh& mesh, const std::vector<Vector3>& places, ThreadTeam& team);
 
 }  // namespace vspring

@@ -2,13 +2,13 @@
 
 // V-Spring for curves, in the whole normal plane (§4.8: "along both N_i and B_i").
 //
-// Let R take a frame along the edge from i to j without spin, T_i to T_j (double reflection: W. Wang, B. Jüttler, D.
-// Zheng, Y. Liu, "Computation of rotation minimizing frames", ACM Trans. Graph. 27(1), 2008). Eq. 4 for a normal N of
-// T_i and its companion R N is N·(d + Rᵀd)/(1 + T_i·T_j), where d = P_j − P_i; so the displacement of node i by node j
-// is the part of d + Rᵀd across T_i, over 1 + T_i·T_j, whatever frame is chosen. With b_i, the part of d across T_i,
-// and b_j, the part of −d across T_j, that is (b_i − Rᵀ b_j)/(1 + T_i·T_j). On a planar curve it is Eq. 5 with the
-// in-plane normals, through straight runs and inflections too. With the circle's tangent b_i = (ℓ²/2) k_i, k the
-// curvature vector.
+// Let R be the rotation that carries a frame along the edge from i to j without spin, and T_i to T_j (double
+// reflection: W. Wang, B. Jüttler, D. Zheng, Y. Liu, "Computation of rotation minimizing frames", ACM Trans. Graph.
+// 27(1), 2008). Eq. 4 for a normal N of T_i and its companion R N is N·(d + Rᵀd)/(1 + T_i·T_j), where d = P_j − P_i; so
+// the displacement of node i by node j is the part of d + Rᵀd across T_i, over 1 + T_i·T_j, whatever frame is chosen.
+// This is (b_i − Rᵀ b_j)/(1 + T_i·T_j), where b_i is the part of d across T_i, and b_j the part of −d across T_j. On a
+// planar curve it is Eq. 5 with the in-plane normals, also through straight runs and inflections. With the circle's
+// tangent b_i = (ℓ²/2) k_i, k the curvature vector.
 
 #include <Eigen/Geometry>
 #include <cmath>
@@ -21,19 +21,20 @@
 
 namespace vspring {
 
-/// Carries a vector along an edge d (or −d) from where the tangent is `from` to where it is `to`, without spin.
+/// Carries a vector along an edge d (or −d) without spin, from the end with tangent `from` to the end with tangent
+/// `to`.
 inline Vector3 carried(const Vector3& vector, const Vector3& d, const Vector3& from, const Vector3& to) {
   const double factor = 2 / d.dot(d);
   Vector3 mirrored = vector - (factor * d.dot(vector)) * d;
   const Vector3 mirror = to - from + (factor * d.dot(from)) * d;
   const double length2 = mirror.dot(mirror);
-  // Where the mirrored tangent is already the other one, there is nothing to turn.
+  // If the mirrored tangent equals the other one already, nothing remains to rotate.
   if (length2 > 1e-24) mirrored -= (2 * mirror.dot(mirrored) / length2) * mirror;
   return mirrored;
 }
 
 /// Displacement of node i by its neighbour j, with d = P_j − P_i not zero. bend_i: the part of d across T_i; bend_j:
-/// the part of −d across T_j. Zero where the tangents are opposite: no carrying without spin joins them.
+/// the part of −d across T_j. Zero if the tangents are opposite: then no rotation without spin is defined.
 inline Vector3 curve_spring(const Vector3& bend_i, const Vector3& bend_j, const Vector3& d, const Vector3& tangent_i,
                             const Vector3& tangent_j) {
   const double denominator = 1 + tangent_i.dot(tangent_j);
@@ -41,8 +42,8 @@ inline Vector3 curve_spring(const Vector3& bend_i, const Vector3& bend_j, const 
   return (bend_i - carried(bend_j, d, tangent_j, tangent_i)) / denominator;
 }
 
-/// The part of d, an edge from node i, across the tangent of i: from the curvature where the tangent is that of the
-/// circle, which is more precise.
+/// The part of d, an edge from node i, across the tangent of i. If the tangent is that of the circle it is taken from
+/// the curvature, which is more precise.
 inline Vector3 bend(const Net& net, std::size_t i, const Vector3& d) {
   if (!net.curvatures.empty() && net.given[i] == 0) return (0.5 * d.dot(d)) * net.curvatures[i];
   const Vector3& tangent = net.tangents[i];
@@ -56,8 +57,8 @@ inline Vector3 curve_spring(const Net& net, std::size_t i, std::size_t j) {
   return curve_spring(bend(net, i, d), bend(net, j, -d), d, net.tangents[i], net.tangents[j]);
 }
 
-/// use(spring, d) for every edge whose springs moving nodes have a part in, once: those of moving nodes, and those
-/// between held neighbours of moving nodes, whose curvature changes with these.
+/// Calls use(spring, d) once for every edge whose springs depend on moving nodes: edges of moving nodes, and edges
+/// between held neighbours of moving nodes, whose curvature they change.
 template <typename Use>
 void for_each_curve_spring(const Net& net, const Use& use) {
   for (std::size_t i = 0; i < net.computed; ++i) {
@@ -80,9 +81,9 @@ struct InverseWeight {
   static double of(double length) { return 1 / length; }
 };
 
-/// The average of the displacements spring(j) by the neighbours j of node i, and the regularisation along the tangent:
-/// to the mean of the neighbours (§4.4), or, with shares, to where the lengths of the edges before and after are as
-/// their opposite shares, or, with targets, to the target. A node without a tangent (zero) goes to the mean of its
+/// The average of the displacements spring(j) by the neighbours j of node i, and the regularisation along the tangent.
+/// This moves the node to the mean of its neighbours (§4.4), with shares to where the edges before and after are as
+/// long as the opposite shares, with targets to the target. A node without a tangent (zero) goes to the mean of its
 /// neighbours.
 template <typename Weight, typename Spring>
 NodeForce curve_force(const Net& net, std::size_t i, const Spring& spring) {

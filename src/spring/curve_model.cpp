@@ -13,7 +13,7 @@ namespace vspring {
 
 namespace {
 
-/// A given normal takes one direction out of those that the tangent may have.
+/// Removes the component along a given normal from a tangent.
 Vector3 across_normal(const Vector3& tangent, const Vector3& normal) {
   return direction(tangent - tangent.dot(normal) * normal, 1);
 }
@@ -46,19 +46,19 @@ struct CurveRulesOf {
     return curve_force<Weight>(net, i, [&](std::size_t j) { return curve_spring(net, i, j); });
   }
 
-  /// Nothing for a node without a tangent.
+  /// Zero for a node without a tangent.
   [[nodiscard]] Vector3 sprung(const Net& net, std::size_t i, const Vector3& d) const {
     const Vector3& tangent = net.tangents[i];
     return tangent.squaredNorm() * d - d.dot(tangent) * tangent;
   }
 
-  /// By the lengths of the edges, which noise does not turn round as it does the edges themselves.
+  /// By the lengths of edges: noise may reverse the edges themselves.
   void present_laplacian_weights(const Net& net, std::size_t i, std::span<double> shares) const {
     share_by_length(net, i, net.positions, shares);
   }
 };
 
-/// curve_force() with the regularisation as printed (§4.4): of the way to the mean of the neighbours all but its part
+/// curve_force() with the regularisation as printed (§4.4): the vector to the mean of the neighbours, without its part
 /// along N_i.
 template <typename Weight, typename Spring>
 NodeForce printed_force(const Net& net, std::size_t i, const Spring& spring) {
@@ -84,8 +84,8 @@ struct PrincipalRulesOf : CurveRulesOf<Tangent, Weight> {
   [[nodiscard]] NodeForce force(const Net& net, std::size_t i) const {
     const Vector3& normal = net.normals[i];
     const auto spring = [&](std::size_t j) -> Vector3 {
-      // A neighbour without a principal normal (an end, a node of a straight run) takes this one's, carried over; as
-      // printed, ends alone, of which the paper says nothing.
+      // A neighbour without a principal normal (an end, a node of a straight run) takes this node's, carried over. With
+      // printed forces only ends do so, of which the paper says nothing.
       const bool is_end = j >= net.computed || net.rings.links(j).size() < 2;
       const double difference = net.normals[j].isZero(0) && (is_end || forces_ == Forces::steady)
                                     ? normal.dot(curve_spring(net, i, j))
@@ -95,7 +95,8 @@ struct PrincipalRulesOf : CurveRulesOf<Tangent, Weight> {
     return forces_ == Forces::printed ? printed_force<Weight>(net, i, spring) : curve_force<Weight>(net, i, spring);
   }
 
-  /// A node of a straight run, without a principal normal, may be pulled to all sides; as printed, to none.
+  /// A node of a straight run has no principal normal: it is pulled in all directions across; with printed forces in
+  /// none.
   [[nodiscard]] Vector3 sprung(const Net& net, std::size_t i, const Vector3& d) const {
     const Vector3& normal = net.normals[i];
     if (normal.isZero(0) && forces_ == Forces::steady) return CurveRulesOf<Tangent, Weight>::sprung(net, i, d);
@@ -106,8 +107,8 @@ struct PrincipalRulesOf : CurveRulesOf<Tangent, Weight> {
   Forces forces_;
 };
 
-/// Curves in a plane as printed: no extension of surfaces (§4.8), so the normal of a node is the mean of the normals of
-/// its two segments in that plane (§4.2), of an end that of its one.
+/// Planar curves with printed forces: the normal of a node is the mean of the in-plane normals of its two segments
+/// (§4.2); that of an end is the normal of its one segment.
 template <typename Weight>
 class PlanarRulesOf {
  public:
@@ -169,8 +170,8 @@ std::unique_ptr<const Model> model_with(const CurveRules& rules, Forces forces) 
   return model_along<Tangent, InverseCubeWeight>(rules.normal_plane, forces);
 }
 
-/// The normal of the plane in which everything lies, so that normals in it are all there is. Given directions count as
-/// far as nodes do: a straight start lies in the plane of its end tangents.
+/// The normal of the plane in which everything lies, if there is one; then all normals lie in it. Given directions
+/// count as nodes do: a straight start lies in the plane of its end tangents.
 std::optional<Vector3> plane_of(const Net& net) {
   std::vector<Vector3> places = net.positions;
   for (std::size_t i = 0; i < net.node.size(); ++i) {
@@ -180,7 +181,7 @@ std::optional<Vector3> plane_of(const Net& net) {
   return plane_normal(places);
 }
 
-/// The same of a straight line of nodes and the points beside it.
+/// The normal of the plane of a straight line of nodes and the points beside it.
 std::optional<Vector3> plane_of(const Net& net, std::span<const Vector3> points) {
   std::vector<Vector3> places = net.positions;
   for (const Vector3& point : points) places.push_back(net.frame.to_local(point));

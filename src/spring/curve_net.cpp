@@ -6,10 +6,10 @@ namespace vspring {
 
 namespace {
 
-// A node's displacement looks at its neighbours' tangents, and these at the next nodes.
+// A node's displacement depends on its neighbours' tangents, and these on the next nodes.
 constexpr std::size_t reach = 2;
 
-/// The places of a chain, once around from a held one where it is closed.
+/// The places of a chain; a closed one is unrolled from a held node on.
 std::vector<Index> unrolled(const PolygonCurve::Chain& chain, const Constraints& constraints) {
   std::vector<Index> nodes = chain.nodes;
   if (chain.closed)
@@ -62,8 +62,7 @@ class Gathering {
       add_run(nodes, true);
       return;
     }
-    // A closed chain begins with a held node, but not always with a gap: what lies before the first gap follows the
-    // end.
+    // A closed chain begins with a held node, but not always with a gap: the part before the first gap follows the end.
     std::size_t first_gap = 0;
     if (chain.closed) first_gap = static_cast<std::size_t>(std::find(near.begin(), near.end(), 0) - near.begin());
     std::vector<Index> run;
@@ -119,7 +118,7 @@ class Gathering {
     }
   }
 
-  /// Of a corner, at which chains end and begin again, that of its side.
+  /// At a corner, where chains end and begin again, the tangent of that side.
   void take_tangents() {
     Net& net = result_;
     net.tangents.assign(net.node.size(), Vector3::Zero());
@@ -137,7 +136,7 @@ class Gathering {
   const PolygonCurve& curve_;
   const Constraints& constraints_;
   Net result_;
-  std::vector<std::vector<Index>> nodes_;  // of every run, by their numbers in the curve
+  std::vector<std::vector<Index>> nodes_;  // per run, by their numbers in the curve
 };
 
 }  // namespace

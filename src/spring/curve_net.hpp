@@ -5,7 +5,7 @@
 
 namespace vspring {
 
-/// Adds the rings of nodes 0 … computed − 1 to a net: the node before them in their run, then the next.
+/// Adds the rings of nodes 0 … computed − 1 to a net: the node before in the run, then the next.
 void add_rings(Net& net);
 
 /// Gathers the net of a curve under constraints; the curve must have passed check_constraints(). A held node that

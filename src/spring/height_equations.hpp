@@ -12,14 +12,14 @@
 
 namespace vspring {
 
-/// Calls use(0) … use(n − 1) with numbers that are constants there: what is indexed by them alone stays in registers.
+/// Calls use(0) … use(n − 1) with compile-time constants, so arrays indexed by them stay in registers.
 template <std::size_t n, typename Use>
 void unrolled(const Use& use) {
   [&]<std::size_t... k>(std::index_sequence<k...>) { (use(std::integral_constant<std::size_t, k>()), ...); }
   (std::make_index_sequence<n>());
 }
 
-/// value: a number, or one for each of several nodes.
+/// Value: a number, or one for each of several nodes.
 template <std::size_t n, typename Value = double>
 using Unknowns = std::array<Value, n>;
 
@@ -31,7 +31,7 @@ struct LowerTriangle {
   Value& operator()(std::size_t row, std::size_t column) { return values[row * (row + 1) / 2 + column]; }
 };
 
-// What nothing tells of gets nothing.
+// Unknowns without data become zero.
 inline double inverse_of_pivot(double pivot) { return pivot > 0 ? 1 / pivot : 0; }
 
 template <int count>
@@ -39,8 +39,7 @@ Eigen::Array<double, count, 1> inverse_of_pivot(const Eigen::Array<double, count
   return (pivots > 0).select(pivots.inverse(), 0);
 }
 
-/// Puts x of a x = b in the place of b, for a symmetric positive definite a, which is replaced by its factor L of L D
-/// Lᵀ.
+/// Replaces b by x of a x = b, for a symmetric positive definite a, and a by its factor L of L D Lᵀ.
 template <std::size_t n, typename Value>
 void solve_in_place(LowerTriangle<n, Value>& a, Unknowns<n, Value>& b) {
   Unknowns<n, Value> inverse;
@@ -64,7 +63,7 @@ void solve_in_place(LowerTriangle<n, Value>& a, Unknowns<n, Value>& b) {
   }
 }
 
-/// Σ r rᵀ of rows r of n numbers and a right side, on and above its diagonal, without the last row: by pairs of
+/// Σ r rᵀ of rows r of n numbers and a right side; on and above its diagonal, without the last row. Sums pairs of
 /// columns, each as fast as one.
 template <std::size_t n>
 class RowProducts {
@@ -73,7 +72,7 @@ class RowProducts {
     for (auto& row : sums_) row.fill(Pair::Zero());
   }
 
-  /// A row and its right side, both times a weight.
+  /// Adds a row and its right side, both times a weight.
   void add(const Unknowns<n>& row, double right, double weight) {
     const auto at = [&](std::size_t c) { return c < n ? row[c] : c == n ? right : 0.0; };
     std::array<Pair, pairs> weighted;
@@ -115,9 +114,9 @@ struct HeightEquations {
   Unknowns<n> b;
 };
 
-/// Those of least squares of heights over a node's link, by x and y in its tangent plane: height(j, e) for node j
-/// against the n unknowns of row(x, y, |e|²), both weighed by |e|⁻². forms_ridge and slopes_ridge: what is added to the
-/// diagonal for each unknown, times the number of nodes and times Σ |e|⁻², as their units ask.
+/// Least-squares equations of heights over a node's link, by x and y in its tangent plane: height(j, e) of node j
+/// against the n unknowns of row(x, y, |e|²), both weighted by |e|⁻². forms_ridge and slopes_ridge are added to the
+/// diagonal for each unknown, times the number of nodes and times Σ |e|⁻², to fit their units.
 template <std::size_t n, typename Height, typename Row>
 HeightEquations<n> equations_of_heights(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& t1,
                                         const Vector3& t2, const Unknowns<n>& forms_ridge,

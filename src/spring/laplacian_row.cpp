@@ -8,7 +8,7 @@ namespace vspring {
 
 namespace {
 
-// Of angles of slivers.
+// Bounds the angles of slivers.
 constexpr double greatest_cotangent = 100;
 
 /// From the cosine and the inverse of the sine, which may be infinite.
@@ -18,7 +18,7 @@ double cotangent(double cosine, double inverse_sine) {
   return std::max(value, -greatest_cotangent);
 }
 
-/// Of a triangle with a corner at 0 and two others: the halves of its angles' cotangents, and twice its area.
+/// Half the cotangents of the angles of a triangle with a corner at 0, and twice its area.
 struct HalfCotangents {
   double at_origin;
   double at_a;
@@ -35,7 +35,7 @@ struct HalfCotangents {
   }
 };
 
-/// A place in a walk around a node, once around at most: a division, as for a remainder, takes as long as a face.
+/// A place in a walk around a node, at most once around. No remainder: a division takes as long as a face.
 std::size_t wrapped(std::size_t k, std::size_t count) { return k < count ? k : k - count; }
 
 /// Calls use(first, last) for every face around a node: the places in the walk of its nodes beside the centre, first to
@@ -76,7 +76,7 @@ void find_laplacian_row(Net& net, std::size_t i, const LinkEdges& edges) {
       share_of_area += half.area / 6;
       return;
     }
-    // Nodes of the face: 0 is the centre, k + 1 the place first + k of the walk.
+    // Node 0 of the face is the centre, node k + 1 the place first + k of the walk.
     const auto place = [&](std::size_t k) -> Vector3 {
       return k == 0 || k == nodes ? Vector3::Zero() : edge(first + k - 1);
     };
@@ -91,7 +91,7 @@ void find_laplacian_row(Net& net, std::size_t i, const LinkEdges& edges) {
     }
     middle /= static_cast<double>(nodes);
     share_of_area += 0.5 * area.norm() / static_cast<double>(nodes);
-    // Weights of the edges from each node to the middle go to the node by its share, and their sum to all.
+    // Each node's weight of the edge to the middle is shared out evenly among all nodes of the face.
     const double share = 1 / static_cast<double>(nodes);
     double sum = 0;
     double own = 0;

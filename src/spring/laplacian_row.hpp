@@ -7,8 +7,8 @@
 
 namespace vspring {
 
-/// The row of the cotangent Laplacian of a node with a ring, and the node's share of area, see SphereSprings. Cost: the
-/// links.
+/// Finds the row of the cotangent Laplacian of a node with a ring, and the node's share of area, see SphereSprings.
+/// Cost: linear in the links.
 void find_laplacian_row(Net& net, std::size_t i, const LinkEdges& edges);
 
 }  // namespace vspring

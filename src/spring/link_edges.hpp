@@ -34,7 +34,7 @@ class LinkEdges {
   [[nodiscard]] double square(std::size_t k) const { return squares_[k]; }
 
  private:
-  // Hardly any node has more; room on the stack costs nothing.
+  // Hardly any node has more, and space on the stack costs nothing.
   static constexpr std::size_t few = 24;
 
   std::span<const Link> links_;

@@ -9,7 +9,7 @@
 
 namespace vspring {
 
-/// A model from rules for one node, which may be made from the kind of forces:
+/// A model made of rules for one node. Rules are constructed from the kind of forces:
 ///   static void prepare(Net&);
 ///   void update_direction(Net&, std::size_t node) const;  or, for several at once,
 ///   void update_directions(Net&, std::size_t begin, std::size_t end) const;
@@ -44,13 +44,13 @@ class ModelOf final : public Model {
     double greatest = 0;
     for (std::size_t i = block.begin; i < block.end; ++i) {
       const NodeForce force = force_with_points(net, i);
-      // Points pull at where the node comes to be. So any weight is stable, small ones act as the paper's, and what the
-      // iteration ends in is the same.
+      // Points pull at the node's next place. So any weight is stable, small ones act as the paper's, and the iteration
+      // ends in the same shape.
       const double divisor = forces_ == Forces::printed ? 1 : 1 + force.stiffness;
       const Vector3 displacement = force.spring / divisor + force.regularisation;
       net.positions[i] += displacement;
       if (force.mean_edge == 0) continue;
-      // std::max would pass over what is not a number.
+      // std::max would ignore NaN.
       const double step = displacement.norm() / force.mean_edge;
       greatest = std::max(greatest, std::isfinite(step) ? step : std::numeric_limits<double>::infinity());
     }

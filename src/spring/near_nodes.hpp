@@ -14,8 +14,8 @@ constexpr std::size_t enough_near_nodes = 5;
 /// Links of a node beyond which those of its neighbours are not near to each other.
 constexpr std::size_t most_links_beside = 64;
 
-/// Calls use(node) for the nodes that a quadratic around a node is fitted to: those of its link, and where these are
-/// fewer than its unknowns those of their links too, but for nodes with very many.
+/// Calls use(node) for the nodes that a quadratic around a node is fitted to: those of its link; if these are fewer
+/// than its unknowns, also those of their links, unless they are very many.
 template <typename Use>
 void for_near_nodes(const Net& net, std::size_t i, const Use& use) {
   const auto links = net.rings.links(i);

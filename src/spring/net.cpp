@@ -55,7 +55,7 @@ bool of_one_chain(std::span<const Link> links) {
   return std::count_if(links.begin(), links.end(), [](Link link) { return link.start(); }) <= 1;
 }
 
-/// Whether the walks around two neighbours, j at place k of that around i, go round the face between them in two
+/// Whether the walks around i and its neighbour j, at place k of i's walk, go round the face between them in opposite
 /// senses.
 bool disagree(const Rings& rings, std::size_t i, std::size_t k) {
   const auto here = rings.links(i);
@@ -78,7 +78,7 @@ bool disagree(const Rings& rings, std::size_t i, std::size_t k) {
   return false;
 }
 
-/// Turns walks over until neighbours go round their faces in one sense, so far as the surface has two sides.
+/// Reverses walks until neighbours go round their faces in one sense, as far as the surface has two sides.
 void agree_on_sides(Net& net) {
   std::vector<std::uint8_t> reached(net.computed, 0);
   std::vector<std::size_t> queue;
@@ -101,8 +101,8 @@ void agree_on_sides(Net& net) {
   }
 }
 
-/// Given normals of moving nodes point to the side that the walks say: else their linear equations would have a sign of
-/// their own.
+/// Points given normals of moving nodes to the side of the walks: else their linear equations would have the wrong
+/// sign.
 void agree_on_given_normals(Net& net) {
   for (std::size_t i = 0; i < net.moving; ++i) {
     end_if_cancelled_at(i);
@@ -112,8 +112,8 @@ void agree_on_given_normals(Net& net) {
   }
 }
 
-/// Adds the rings of the nodes numbered so far, which move, and of the held ones whose direction is to be computed;
-/// with the numbers of the mesh. Returns whether faces beside them run in different senses.
+/// Adds the rings of the nodes numbered so far, which move, and of held nodes whose direction is computed; with the
+/// numbers of the mesh. Returns whether faces there are inconsistently oriented.
 bool add_rings(Net& net, const NodeGraph& graph, FanWalker& walker, Numbering& number, const Constraints& constraints,
                bool for_spheres) {
   bool flipped = false;
@@ -142,7 +142,7 @@ bool add_rings(Net& net, const NodeGraph& graph, FanWalker& walker, Numbering& n
   return flipped;
 }
 
-/// cut: where the mesh is one that was cut.
+/// cut: set if the mesh was cut.
 Net gather_net_of(const PolygonMesh& mesh, const CutMesh* cut, const Constraints& constraints, bool for_spheres) {
   Net net;
   const Incidence incidence(mesh);

@@ -15,39 +15,39 @@
 
 namespace vspring {
 
-/// A run of nodes of one chain of a curve that hangs together by moving nodes: local numbers, in order. Moving ones
+/// A run of nodes of one chain of a curve, connected by moving nodes: local numbers, in order. Those of moving nodes
 /// ascend.
 struct MovingRun {
   std::vector<std::uint32_t> nodes;
-  /// The last node joins the first. The first is held, so that what moves is cut there.
+  /// Whether the last node joins the first, which is held.
   bool closed = false;
-  /// Where its nodes lie along it: what the lengths of edges go by. A closed run has one more entry, the first node
+  /// Arc length at each node, from which edges take their lengths. A closed run has one more entry, for the first node
   /// again. Set by curve_levels().
   std::vector<double> along = {};
 };
 
-/// Which nodes there are, what holds them and what pulls at them: what one run of a solver leaves as it is.
+/// The nodes, what holds them and what pulls at them: constant during one run of a solver.
 struct NetProblem {
   static constexpr std::uint8_t given_normal = 1;
   static constexpr std::uint8_t given_tangent = 2;
 
   bool is_curve = false;  ///< else a surface
   // Nodes and their neighbours.
-  std::vector<Index> node;          ///< number in the shape of every local node
+  std::vector<Index> node;          ///< per local node its number in the shape
   std::size_t moving = 0;           ///< nodes 0 … moving − 1 move
   std::size_t computed = 0;         ///< nodes 0 … computed − 1 have rings; directions are computed where not given
-  std::vector<std::uint8_t> given;  ///< which directions constraints give, for every node
+  std::vector<std::uint8_t> given;  ///< per node, which directions constraints give
   Rings rings;
   WholeFaces whole_faces;              ///< those that are cut in the rings
   std::vector<MovingRun> moving_runs;  ///< of curves: the order of nodes
   Frame frame;                         ///< the coordinates
   double tiny = 0;                     ///< see node_force()
-  /// Places of all nodes in the input, where constraints put some of them elsewhere; else empty.
+  /// Places of all nodes in the input, if constraints put some of them elsewhere; else empty.
   std::vector<Vector3> input;
 
-  // What acts on moving nodes besides the V-Springs of Eq. 4; each is empty where it does not.
-  std::vector<double> laplacian_weights;  ///< what links count in the regularisation (§4.4); empty: all the same
-  std::vector<Vector3> target_positions;  ///< to where the regularisation draws the nodes, on surfaces too
+  // What acts on moving nodes besides the V-Springs of Eq. 4; each is empty if it does not.
+  std::vector<double> laplacian_weights;  ///< share of every link in the regularisation (§4.4); empty: equal
+  std::vector<Vector3> target_positions;  ///< to which the regularisation draws nodes, also of surfaces
   SphereSprings spheres;                  ///< of surfaces, in place of those V-Springs
   TiedPoints points;                      ///< scattered points (§4.5)
 
@@ -59,53 +59,52 @@ struct NetProblem {
   }
 };
 
-/// Where the nodes are and which way they face, one entry for every node: what a solver changes. Held nodes have the
-/// places and directions that constraints give.
+/// Places and directions of the nodes, which a solver changes; one entry per node. Held nodes have those that
+/// constraints give.
 struct NetState {
   std::vector<Vector3> positions;
-  std::vector<Vector3> normals;     ///< unit, or zero where there is none; of curves only where a rule needs them
+  std::vector<Vector3> normals;     ///< of unit length, or zero for none; of curves only if a rule needs them
   std::vector<Vector3> tangents;    ///< of curves, unit or zero; empty for surfaces
-  std::vector<Vector3> curvatures;  ///< of curves, where Model::prepare() asks for them; else empty
+  std::vector<Vector3> curvatures;  ///< of curves, if Model::prepare() asks for them; else empty
 };
 
-/// The part of a shape that takes part in fairing, in coordinates and an order of its own: all that the sweep and the
-/// solvers see.
+/// The part of a shape that takes part in fairing, in coordinates and an order of its own. The sweep and the solvers
+/// see nothing else.
 ///
 /// Local nodes: first those that move, numbered so that neighbours lie close in memory; then held nodes whose direction
-/// is computed; then all other nodes that a moving node looks at. Coordinates are centred and scaled by a power of two
+/// is computed; then all other nodes on which moving nodes depend. Coordinates are centred and scaled by a power of two
 /// to a box of about 1.
 struct Net : NetProblem, NetState {};
 
 /// The mean length of the edges of the moving nodes, in the coordinates of the net. Cost: linear.
 double mean_edge(const Net& net);
-/// That of one node, 0 without any.
+/// The mean length of the edges of one node; 0 if it has none.
 double mean_edge(const Net& net, std::size_t node);
 
-/// The mean of the places of a node's neighbours; its own where it has none.
+/// The mean of the places of a node's neighbours; its own place if it has none.
 Vector3 mean_of_neighbours(const Net& net, std::size_t node);
 
 /// Gathers the net of a mesh under constraints. The mesh must have passed check_constraints(). Cost: linear in the
-/// mesh, once, and in the moving nodes.
-/// Large faces are cut, see with_large_faces_cut(), and kept whole beside.
-/// for_spheres: with rings of all held nodes of the faces around moving ones, also where their normal is given.
+/// mesh, once, and in the moving nodes. Large faces are cut, see with_large_faces_cut(); Net::whole_faces has them
+/// whole. for_spheres: adds rings of all held nodes of the faces around moving ones, also of those with a given normal.
 Net gather_net(const PolygonMesh& mesh, const Constraints& constraints, bool for_spheres = false);
 
-/// The part of gathering that no longer looks at connectivity: places nodes, takes given directions over and sets
-/// `tiny`. Needs node, rings, moving and computed.
+/// The part of gathering that does not depend on connectivity: places nodes, copies given directions and sets `tiny`.
+/// Needs node, rings, moving and computed.
 void place_net(Net& net, const std::vector<Vector3>& positions, const Constraints& constraints);
 
-/// Where place_net() puts the nodes, in the net's coordinates.
+/// The places at which place_net() puts the nodes, in the net's coordinates.
 std::vector<Vector3> start_places(const Net& net, const std::vector<Vector3>& positions,
                                   const Constraints& constraints);
 
-/// The positions of a shape, with those of held nodes where constraints have them.
+/// The positions of a shape, held nodes at the positions of their constraints.
 std::vector<Vector3> positions_as_held(std::vector<Vector3> positions, const Constraints& constraints);
 
-/// The shape's positions with those of the net in place: moving nodes go the share `strength` of their way, fixed nodes
-/// are exactly where the constraints say, all others untouched.
+/// The shape's positions, updated from the net: moving nodes go the share `strength` of their way, fixed nodes are
+/// exactly where constraints say, all others do not change.
 std::vector<Vector3> scatter_positions(const Net& net, std::vector<Vector3> positions, const Constraints& constraints,
                                        double strength);
-/// The same with other places of the moving nodes, in the net's coordinates.
+/// scatter_positions() with these places of the moving nodes, in the net's coordinates.
 std::vector<Vector3> scatter_places(const Net& net, std::span<const Vector3> places, std::vector<Vector3> positions,
                                     const Constraints& constraints, double strength);
 

@@ -36,7 +36,7 @@ std::vector<Index> order_for_locality(const NodeGraph& graph, std::span<const In
   order.reserve(nodes.size());
   for (const Index i : nodes) {
     if (state[static_cast<std::size_t>(i)] != State::waiting) continue;
-    // The node that a first search reaches last lies at the rim; from there the fronts are short.
+    // The node that a first search reaches last lies at the rim; fronts from there are short.
     const std::size_t begin = order.size();
     append_component(graph, i, State::waiting, State::probed, state, order);
     const Index rim = order.back();

@@ -6,16 +6,16 @@
 
 namespace vspring {
 
-/// What the points that are tied to a node ask of it.
+/// The force of the points tied to a node.
 struct PointForce {
   Vector3 displacement = Vector3::Zero();  ///< dPc_i of §4.5
-  double stiffness = 0;                    ///< by how much it falls per length that the node moves along it
+  double stiffness = 0;                    ///< how much it falls per length that the node moves along it
 };
 
-/// Eq. 9 and the average of its displacements with w_j = 1/‖P_i − Q_j‖. sprung(d): the part of d along which the
-/// springs of the node act; the rest of V_j − P_i leads to the foot Q_j. Feet nearer than a hundredth of the mean edge
-/// count as that near: the weights stay bounded, and do not jump while a node slides past the foot of a point. All of
-/// it times the node's factor.
+/// Eq. 9 and the average of its displacements with w_j = 1/‖P_i − Q_j‖, times the node's factor. sprung(d): the part of
+/// d along which the springs of the node act; the rest of V_j − P_i leads to the foot Q_j. Feet nearer than a hundredth
+/// of the mean edge count as that near: so weights are bounded, and do not jump when a node slides past the foot of a
+/// point.
 template <typename Sprung>
 PointForce point_force(const Net& net, std::size_t i, double mean_edge, const Sprung& sprung) {
   const double nearest_foot = 0.01 * mean_edge;

@@ -1,8 +1,7 @@
 #pragma once
 
-// Pseudo-normals (§4.2). All are sums over the faces around a node, taken from its link alone: within one face the
-// cross products of successive edge vectors to the face's nodes add up to twice its vector area, so no face has to be
-// looked up.
+// Pseudo-normals (§4.2). All are sums over the faces around a node, computed from its link alone: within one face the
+// cross products of successive edge vectors to the face's nodes add up to twice its vector area.
 //
 // Link: Nelson Max, "Weights for computing vertex normals from facet normals", Journal of Graphics Tools 4(2), 1999.
 // With u = e/|e|² in place of e (the inversion that takes a sphere through the node to a plane) the sum around a closed
@@ -45,9 +44,9 @@ struct LinkNormal {
   }
 };
 
-/// A sum over the adjoining faces of their vector areas, each weighted by Weight::of(vector area, first edge, last
-/// edge). whole(first, last, area): twice the vector area of the face between these neighbours, of which the link has
-/// passed `area`.
+/// The sum of the vector areas of the adjoining faces, each weighted by Weight::of(vector area, first edge, last edge).
+/// whole(first, last, area): twice the vector area of the face between these neighbours, given that of its part in the
+/// link.
 template <typename Weight>
 struct FaceNormal {
   template <typename Positions>
@@ -85,7 +84,7 @@ struct FaceNormal {
         first = links[k].node();
         area.setZero();
       } else {
-        // A chain that closes on itself repeats its first node without the mark of a spoke.
+        // A closed chain repeats its first node without the mark of a spoke.
         const bool chain_ends = k + 1 == links.size() ? links.front().start() : links[k + 1].start();
         step(links[k].node(), edge, links[k].spoke() || chain_ends);
       }

@@ -9,7 +9,7 @@
 
 namespace vspring {
 
-/// Whether the faces around a node leave a gap, so that the walk around it begins with one.
+/// Whether the faces around a node leave a gap; the walk then begins there.
 inline bool on_boundary(std::span<const Link> links) { return !links.empty() && links.front().start(); }
 
 /// The links of many nodes, one after the other (CSR).
@@ -22,7 +22,7 @@ class Rings {
   [[nodiscard]] std::span<Link> mutable_links(std::size_t node) noexcept {
     return {links_.data() + begin_[node], begin_[node + 1] - begin_[node]};
   }
-  /// Place of the node's first link among all links.
+  /// The place of the node's first link among all links.
   [[nodiscard]] std::size_t begin(std::size_t node) const noexcept { return begin_[node]; }
   [[nodiscard]] std::size_t link_count() const noexcept { return links_.size(); }
 
@@ -37,7 +37,7 @@ class Rings {
 
   /// Calls use(i, k, j, back) for edges between nodes i and j of 0 … count − 1, with the places of the two spokes among
   /// all links. Each edge comes once, with the node of begin … end − 1 that has the longer walk, so the search is short
-  /// beside nodes with very many neighbours, too.
+  /// also next to nodes with very many neighbours.
   template <typename Use>
   void for_spoke_pairs(std::size_t begin, std::size_t end, std::size_t count, const Use& use) const {
     for (std::size_t i = begin; i < end; ++i) {
@@ -54,7 +54,7 @@ class Rings {
     }
   }
 
-  /// The same walk in the other sense. It must be of one chain.
+  /// Reverses the walk around a node, which must be of one chain.
   void turn_over(std::size_t node) {
     const auto links = mutable_links(node);
     if (links.empty()) return;

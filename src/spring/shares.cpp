@@ -12,20 +12,20 @@ namespace vspring {
 
 namespace {
 
-// Of shares that go by the inverse squares of distances. Nodes that lie beside their neighbours, or on a line with two
-// of them, would else be held by next to nothing on some side.
+// Least share, relative to that by inverse squares of distances. Without it, nodes outside their neighbours, or on a
+// line with two of them, would hardly be held on some side.
 constexpr double least_share = 0.25;
-// Coarser levels need not keep a spacing, but must unfold, whatever edges they have.
+// Coarser levels must unfold whatever edges they have, rather than keep a spacing.
 constexpr double least_share_of_coarse = 0.8;
-// The sine of an angle that is as good as none.
+// The sine of an angle that counts as zero.
 constexpr double least_sine = 1e-9;
-// Of what inverse squares make it, where a node lies outside its neighbours.
+// Least share, relative to that by inverse squares, of a node outside its neighbours.
 constexpr double least_mean_value = 0.01;
-// Of the sum of shares, what has to be left where they are made to leave a node in its place.
+// What must be left of the sum of shares when they are corrected to keep a node in its place.
 constexpr double least_left = 0.2;
 
-/// Mean value coordinates of a node among all its neighbours, `ways` to whom lie in a plane. None where it is not among
-/// them.
+/// Mean value coordinates of a node among its neighbours. ways: vectors to them, in a plane. None if the node lies
+/// outside them.
 void find_mean_value_shares(std::span<const Vector3> ways, const Vector3& normal, std::vector<double>& shares) {
   const std::size_t count = ways.size();
   shares.assign(count, 0);
@@ -33,7 +33,7 @@ void find_mean_value_shares(std::span<const Vector3> ways, const Vector3& normal
     const std::size_t next = (k + 1) % count;
     const double lengths = ways[k].norm() * ways[next].norm();
     const double product = ways[k].cross(ways[next]).dot(normal);
-    // The tangent of half the angle between the two; where they are opposite, very large.
+    // The tangent of half the angle between the two; very large if they are opposite.
     const double least = least_sine * lengths;
     const double half = (lengths - ways[k].dot(ways[next])) / (std::abs(product) > least ? product : least);
     shares[k] += half;
@@ -48,8 +48,8 @@ void find_mean_value_shares(std::span<const Vector3> ways, const Vector3& normal
   for (double& share : shares) share /= sum;
 }
 
-/// Of a node among its neighbours, see laplacian_weights_at(). tiny: see Net. least: the least one, of what inverse
-/// squares would make it.
+/// Shares of a node among its neighbours, see laplacian_weights_at(). tiny: see Net. least: least share, relative to
+/// that by inverse squares.
 void find_shares(std::span<const Vector3> ways, const Vector3& normal, double tiny, double least,
                  std::vector<double>& shares) {
   double inverse_squares = 0;
@@ -94,8 +94,7 @@ void even_shares(const Net& net, std::size_t i, const Vector3& normal, std::span
     if (link.spoke()) spread += (across(link) - mean) * (across(link) - mean).transpose();
   }
   spread += spread.trace() * normal * normal.transpose();
-  // Neighbours all on a line or at a point leave directions open; the smallest solution is meant, so they get none of
-  // it.
+  // If all neighbours lie on a line or at a point, directions are undetermined: the smallest solution is zero there.
   const Vector3 a = smallest_solution(spread, mean);
   for (std::size_t k = 0; k < links.size(); ++k)
     shares[k] = links[k].spoke() ? 1 / spokes - (across(links[k]) - mean).dot(a) : 0;

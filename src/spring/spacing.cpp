@@ -16,18 +16,17 @@ namespace vspring {
 namespace {
 
 constexpr int sweeps = 10;
-// Where noise has turned over more than this share of all corners it is about as long as edges: then these are too
-// few.
+// If noise has flipped more than this share of all corners, it is about as long as edges, and these sweeps are too few.
 constexpr double often_turned = 0.12;
 constexpr int sweeps_where_turned = 160;
-// And where it has turned over more than this, it is longer than two of them.
+// If it has flipped more than this share, it is longer than two edges.
 constexpr double about_all_turned = 0.21;
-// The sine of the angle from which on a corner counts.
+// Corners with a smaller sine of their angle do not count.
 constexpr double turned_sine = 0.2;
 constexpr int stretch_passes = 4;
 
-/// By how much the mesh is longer one way than the other around a node, and which way: with θ the angle around the node
-/// if the mesh were regular there, the logarithms of squared edges are a constant and Re(s̄ exp 2iθ).
+/// The anisotropy of the mesh around a node: the logarithms of squared edges are a constant plus Re(s̄ exp 2iθ), θ
+/// being the angle around the node if the mesh were regular there.
 using Stretch = std::complex<double>;
 
 /// A spoke around a node with faces all around, if the mesh were regular there.
@@ -36,8 +35,7 @@ struct RegularSpoke {
   Stretch turn;  ///< exp 2iθ
 };
 
-/// The spokes of such nodes, which are the same for all with so many: sines and cosines take their time. Use one per
-/// thread.
+/// Keeps the regular spokes for each number of spokes, as sines and cosines are slow. Use one per thread.
 class RegularSpokes {
  public:
   /// Valid until the next call.
@@ -70,12 +68,12 @@ void find_spokes(std::span<const Link> links, std::vector<std::size_t>& spokes) 
   }
 }
 
-/// What the stretch makes of the logarithm of a squared edge.
+/// The stretch's part of the logarithm of a squared edge.
 double stretched(const Stretch& stretch, const RegularSpoke& spoke) {
   return stretch.real() * spoke.turn.real() + stretch.imag() * spoke.turn.imag();
 }
 
-/// The spacing is that of the input, whatever is pulled out of it.
+/// The spacing is that of the input, even if constraints put nodes elsewhere.
 const std::vector<Vector3>& input_places(const Net& net) { return net.input.empty() ? net.positions : net.input; }
 
 double log_square(const Net& net, std::size_t i, std::size_t j) {
@@ -83,7 +81,7 @@ double log_square(const Net& net, std::size_t i, std::size_t j) {
   return std::log((places[j] - places[i]).squaredNorm() + net.tiny);
 }
 
-/// Of a node with faces all around. spokes: the places of its spokes in its walk.
+/// The stretch at a node with faces all around. spokes: the places of its spokes in its walk.
 Stretch stretch_around(const Net& net, std::size_t i, std::span<const std::size_t> spokes,
                        std::span<const RegularSpoke> regular) {
   const auto links = net.rings.links(i);
@@ -91,14 +89,14 @@ Stretch stretch_around(const Net& net, std::size_t i, std::span<const std::size_
   for (std::size_t s = 0; s < spokes.size(); ++s) sum += regular[s].turn * log_square(net, i, links[spokes[s]].node());
   const auto count = static_cast<double>(spokes.size());
   if (count < 3) return 0;
-  // Around four spokes the sines vanish, and the squared cosines are all ones.
+  // With four spokes all sines are zero and all squared cosines one.
   return sum * ((count == 4 ? 1 : 2) / count);
 }
 
-/// The stretch around every node with faces all around, noise evened out over neighbours; else none.
+/// The stretch at every node with faces all around, its noise averaged over neighbours; else zero.
 std::vector<Stretch> stretches(const Net& net, ThreadTeam& team) {
   std::vector<Stretch> stretch(net.computed);
-  // What turns the stretch of a neighbour into the terms of the node, for every link.
+  // Per link the factor that rotates a neighbour's stretch into the node's angles.
   std::vector<Stretch> turn(net.rings.link_count(), 0);
   std::vector<double> angle(net.rings.link_count(), 0);
   std::vector<std::uint8_t> open(net.computed, 0);
@@ -144,7 +142,7 @@ std::vector<Stretch> stretches(const Net& net, ThreadTeam& team) {
   return stretch;
 }
 
-/// The logarithms of squared edges beyond what is common to all of a node and its stretch make them.
+/// The logarithms of squared edges less the node's constant and the stretch's part.
 void find_further(const Net& net, std::size_t i, std::span<const std::size_t> spokes,
                   std::span<const RegularSpoke> regular, std::vector<double>& further) {
   const auto links = net.rings.links(i);
@@ -158,8 +156,8 @@ void find_further(const Net& net, std::size_t i, std::span<const std::size_t> sp
   for (std::size_t s = 0; s < further.size(); ++s) further[s] = further[s] - mean - stretched(own, regular[s]);
 }
 
-/// What the links of moving nodes count in a sweep, of sum 1 at each: the inverse squares of the lengths that edges
-/// have but for noise.
+/// Weights of the links of moving nodes in a sweep, of sum 1 at each node: inverse squares of edge lengths without
+/// noise.
 std::vector<double> sweep_weights(const Net& net, ThreadTeam& team) {
   const std::vector<Stretch> stretch = stretches(net, team);
   std::vector<double> weights(net.rings.link_count(), 0);
@@ -173,14 +171,14 @@ std::vector<double> sweep_weights(const Net& net, ThreadTeam& team) {
       find_spokes(links, spokes);
       if (spokes.empty()) continue;
       if (on_boundary(links)) {
-        // Along a free boundary only, as on a curve: the mean of all would draw it in.
+        // On a free boundary only along it, as on a curve: the mean of all would draw it in.
         of_node[spokes.front()] += 0.5;
         of_node[spokes.back()] += 0.5;
         continue;
       }
       const std::size_t count = spokes.size();
       const auto regular = regular_spokes.of(count);
-      // What edges that lie opposite have in common beyond the stretch: of eight, four may be diagonals.
+      // Opposite edges may share more than the stretch: of eight, four may be diagonals.
       const bool has_more = count >= 8 && count % 2 == 0;
       if (has_more) find_further(net, i, spokes, regular, further);
       double sum = 0;
@@ -195,7 +193,7 @@ std::vector<double> sweep_weights(const Net& net, ThreadTeam& team) {
   return weights;
 }
 
-/// Of a curve, which is stretched no way.
+/// Weights of a curve, which has no stretch.
 std::vector<double> even_weights(const Net& net) {
   std::vector<double> weights(net.rings.link_count(), 0);
   for (std::size_t i = 0; i < net.moving; ++i) {
@@ -206,9 +204,9 @@ std::vector<double> even_weights(const Net& net) {
   return weights;
 }
 
-/// Nodes of bricks lie on a line with two of their three neighbours: shares that keep them there leave it open how far
-/// rows are apart. So nodes of three neighbours go half of their way to the mean of these, which leaves even hexagons
-/// as they are.
+/// Nodes of bricks lie on a line with two of their three neighbours: shares that keep them there do not determine the
+/// distance of rows. So nodes of three neighbours go half of the way to the mean of these, which does not change even
+/// hexagons.
 void turn_bricks_to_hexagons(const Net& net, std::vector<Vector3>& places) {
   std::vector<std::pair<std::size_t, Vector3>> moved;
   for (std::size_t i = 0; i < net.moving; ++i) {
@@ -226,13 +224,14 @@ void turn_bricks_to_hexagons(const Net& net, std::vector<Vector3>& places) {
   for (const auto& [i, place] : moved) places[i] = place;
 }
 
-/// Corners of faces, and how many of them are turned over against all corners at their node together.
+/// Counts corners of faces, and those flipped against the sum of all corners at their node.
 struct Corners {
   std::size_t count = 0;
   std::size_t turned = 0;
 };
 
-/// At a node with faces all around. sines: room for those of its corners, along their normals.
+/// Counts the corners at a node with faces all around. sines: a buffer for the sines of its corners, along their
+/// normals.
 Corners corners_at(const Net& net, std::size_t i, std::vector<Vector3>& sines) {
   const auto links = net.rings.links(i);
   if (on_boundary(links)) return {};
@@ -253,14 +252,14 @@ Corners corners_at(const Net& net, std::size_t i, std::vector<Vector3>& sines) {
     }
     before = way;
   }
-  // Corners of bricks may be straight: the least noise turns them over, and means nothing.
+  // Corners of bricks may be straight: the least noise flips them, which means nothing.
   const double least = -turned_sine * sum.norm();
   const auto turned =
       std::count_if(sines.begin(), sines.end(), [&](const Vector3& sine) { return sine.dot(sum) < least; });
   return {sines.size(), static_cast<std::size_t>(turned)};
 }
 
-/// The share of corners in the input that are turned over: a third to two fifths where places are nothing but noise.
+/// The share of flipped corners in the input: a third to two fifths if places are pure noise.
 double share_turned_over(const Net& net, ThreadTeam& team) {
   std::atomic<std::size_t> count = 0;
   std::atomic<std::size_t> turned = 0;
@@ -278,7 +277,7 @@ double share_turned_over(const Net& net, ThreadTeam& team) {
   return count > 0 ? static_cast<double>(turned) / static_cast<double>(count) : 0;
 }
 
-/// Moves nodes half of their way to the means of their neighbours by `weights`, so many times.
+/// Moves nodes half of the way to the mean of their neighbours by `weights`, `times` times.
 void sweep_places(const Net& net, std::span<const double> weights, int times, std::vector<Vector3>& places,
                   ThreadTeam& team) {
   std::vector<Vector3> next = places;
@@ -299,7 +298,7 @@ void sweep_places(const Net& net, std::span<const double> weights, int times, st
   }
 }
 
-/// As rest_positions(), where that share of corners is turned over.
+/// rest_positions(), given the share of flipped corners.
 std::vector<Vector3> swept(const Net& net, double turned, ThreadTeam& team) {
   const std::vector<double> weights = !net.is_curve ? sweep_weights(net, team) : even_weights(net);
   std::vector<Vector3> places = input_places(net);

@@ -10,15 +10,15 @@
 
 namespace vspring {
 
-/// Where the nodes of a surface's net lie in the input once its noise is taken out of their spacing: after some sweeps
-/// to the mean of neighbours, which count by the inverse square of how long the mesh is towards them. Held nodes stay.
-/// Rough spacing goes within some three edges; aspects and gradings of cells stay, so the shape of a lathe does not
-/// sink between wide cells. Where noise is so long that it has turned many faces over, there are more sweeps. Bricks
-/// become hexagons. Cost: linear; the same result on any number of threads.
+/// The places of the nodes of a surface's net in the input, after noise is removed from their spacing. Some sweeps move
+/// nodes to the mean of their neighbours, weighted by the inverse square of the mesh's length towards each. Held nodes
+/// stay. Roughness within about three edges goes; aspects and gradings of cells stay, so the shape of a lathe does not
+/// sink between wide cells. If noise has flipped many faces there are more sweeps. Bricks become hexagons. Cost:
+/// linear; the same result on any number of threads.
 std::vector<Vector3> rest_positions(const Net& net, ThreadTeam& team);
 
-/// The same where the input of a surface's net tells how nodes are to be spaced; else none: noise of several edges
-/// turns faces over as it likes, and leaves nothing of it.
+/// rest_positions(), if the input still shows how nodes are spaced. None if noise of several edges has flipped faces at
+/// random.
 std::optional<std::vector<Vector3>> told_rest_positions(const Net& net, ThreadTeam& team);
 
 }  // namespace vspring

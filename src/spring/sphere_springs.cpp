@@ -22,17 +22,18 @@ namespace vspring {
 
 namespace {
 
-// Of the normal equations' diagonal: what four neighbours leave open, and slopes that so few nodes tell nothing of.
+// Shares of the diagonal of the normal equations: for forms that four neighbours do not determine, and for slopes that
+// so few nodes do not.
 constexpr double ridge_of_forms = 1e-4;
 constexpr double ridge_of_slopes = 1e-6;
-// Of 4 M, to which the Laplacian's entries times squared edges add up in the plane.
+// As a share of 4 M, the sum in the plane of the Laplacian's entries times squared edges.
 constexpr double least_spread = 2;
-// Of heights over a given normal's tangent plane, what those over the neighbours' planes count: takes the terms of
-// third order out where the neighbours' normals are computed.
+// Weight of heights over the neighbours' planes, relative to heights over a given normal's tangent plane: removes terms
+// of third order if the neighbours' normals are computed.
 constexpr double of_neighbours = 0.5;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The form q of heights without its trace, and the slopes by which the plane is to tilt.
+/// The traceless form q of heights, and the slopes by which to tilt the plane.
 struct HeightFit {
   double q1 = 0;
   double q2 = 0;
@@ -61,7 +62,7 @@ HeightFit fit_given(const Net& net, std::size_t i, const LinkEdges& edges, const
   return {x[0], x[1], 0, 0};
 }
 
-/// At a rim, along which t1 goes: not curved across it.
+/// At a rim along t1: no curvature across it.
 HeightFit fit_rim(const Net& net, std::size_t i, const LinkEdges& edges, const Vector3& normal, const Vector3& t1,
                   const Vector3& t2) {
   auto [a, x] = equations_of_heights<4>(
@@ -74,13 +75,13 @@ HeightFit fit_rim(const Net& net, std::size_t i, const LinkEdges& edges, const V
   return {x[0], x[1], x[2], x[3]};
 }
 
-/// Two directions across a normal.
+/// Two tangents perpendicular to a normal and each other.
 std::pair<Vector3, Vector3> tangents_of(const Vector3& normal) {
   const Vector3 t1 = normal.unitOrthogonal();
   return {t1, normal.cross(t1)};
 }
 
-/// What forces on a node are divided by.
+/// Sets the divisor of forces on a node.
 void find_weight(Net& net, std::size_t i, const LinkEdges& edges) {
   const auto links = edges.links();
   double squares = 0;
@@ -111,12 +112,12 @@ double curvature_by_row(const Net& net, std::size_t i, const LinkEdges& edges, c
   return spread.sum > 0 ? sum / spread.sum : unknown;
 }
 
-/// Whether faces lie around a node in one run, from rim to rim.
+/// Whether the faces around a node form one run, from rim to rim.
 bool has_one_run(std::span<const Link> links) {
   return std::count_if(links.begin(), links.end(), [](Link link) { return link.start(); }) == 1;
 }
 
-/// Tilts the normal by the slopes. Returns by how much that lengthens it.
+/// Tilts the normal by the slopes. Returns the factor by which that lengthens it.
 double tilt(Vector3& normal, const HeightFit& fit, const Vector3& t1, const Vector3& t2) {
   const Vector3 tilted = normal + fit.slope1 * t1 + fit.slope2 * t2;
   const double length = tilted.norm();
@@ -124,9 +125,9 @@ double tilt(Vector3& normal, const HeightFit& fit, const Vector3& t1, const Vect
   return length;
 }
 
-/// Normal, from the guess that it is, and curvature of a node at a rim.
+/// Updates normal and curvature of a node at a rim; its normal is a guess at first.
 void update_rim(Net& net, std::size_t i, const LinkEdges& edges) {
-  // Several runs have no line through the node in common that would be the rim.
+  // With several runs there is no single line through the node that would be the rim.
   if (!has_one_run(edges.links())) return;
   Vector3& normal = net.normals[i];
   const Vector3& before = edges[0];
@@ -140,20 +141,20 @@ void update_rim(Net& net, std::size_t i, const LinkEdges& edges) {
                                       after.dot(normal) / std::max(after.squaredNorm(), net.tiny));
 }
 
-/// One value for each of the nodes whose equations are solved together: divisions follow on one another, and those of
-/// one node alone would be waited for.
+/// One value for each of the nodes whose equations are solved together, as the divisions of a single node would wait
+/// for each other.
 using Together = Eigen::Array<double, spheres_together, 1>;
 
-/// Nodes with faces all around, whose equations are solved together. Their normals are guesses at first.
+/// Solves the equations of several nodes with faces all around together. Their normals are guesses at first.
 class SpheresInside {
  public:
   SpheresInside() {
-    // What is solved where there are fewer nodes.
+    // Solvable values if there are fewer nodes.
     for (Together& values : a_.values) values.setZero();
     for (Together& values : b_) values.setZero();
   }
 
-  /// Of the node that may be added next.
+  /// The edges of the node that may be added next.
   const LinkEdges& edges(const Net& net, std::size_t i) { return nodes_[count_].edges.emplace(net, i); }
 
   void add(const Net& net, std::size_t i) {
@@ -251,7 +252,7 @@ void find_given_curvature(Net& net, std::size_t i) {
   const auto height = [&](std::size_t j, const Vector3& e) {
     const Vector3& other = net.normals[j];
     const double own = e.dot(normal);
-    // Beyond, normals may be of another shape.
+    // Further nodes have no normal of this state.
     if (!(j < net.computed || net.normal_given(j)) || other.isZero(0)) return own;
     const double theirs = other.dot(normal) < 0 ? -e.dot(other) : e.dot(other);
     return (1 + of_neighbours) * own + of_neighbours * theirs;

@@ -7,11 +7,10 @@
 
 namespace vspring {
 
-/// How many times what neighbours ask across the normal the regularisation is divided by: a target counts as much as
-/// all of them together.
+/// The divisor of the regularisation: a target counts as much as all neighbours together.
 inline double regularisation_divisor(const Net& net) { return net.target_positions.empty() ? 1 : 2; }
 
-/// What its neighbours, and its target where nodes have one, ask of a node of a surface.
+/// The force of its neighbours, and of its target if there is one, on a node of a surface.
 inline NodeForce surface_force(const Net& net, std::size_t i, Forces forces = Forces::steady) {
   const auto links = net.rings.links(i);
   const auto from_neighbours = [&]<SpringKind kind>(std::integral_constant<SpringKind, kind>) {

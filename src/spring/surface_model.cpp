@@ -42,9 +42,9 @@ struct SurfaceRules {
     return d.dot(net.normals[i]) * net.normals[i];
   }
 
-  /// Those nearest to even ones. Negative ones of a node that noise has put outside its neighbours, so that faces lie
-  /// upside down, would drive nodes apart: to unfold these all are raised to a tenth of an even one at least, and the
-  /// node goes in among its neighbours.
+  /// The shares nearest to equal ones. If noise has put a node outside its neighbours and flipped faces, negative
+  /// shares would drive nodes apart: then all are raised to at least a tenth of an equal share, which sends the node
+  /// among its neighbours.
   void present_laplacian_weights(const Net& net, std::size_t i, std::span<double> shares) const {
     const auto links = net.rings.links(i);
     const Vector3& normal = net.normals[i];
@@ -56,7 +56,7 @@ struct SurfaceRules {
       return d - d.dot(normal) * normal;
     };
     const double least = spokes * *std::min_element(shares.begin(), shares.end());
-    // Beside larger polygons, and with three neighbours, a node may rightly lie outside these.
+    // At larger polygons, and with three neighbours, a node may rightly lie outside its neighbours.
     const auto around = static_cast<double>(links.size());
     const bool inside_if_flat = spokes > 3 && (around == spokes || around == 2 * spokes);
     if (!(inside_if_flat && least < -tolerated_share) && !(least < 0 && has_turned_face(links, across, normal))) return;
@@ -69,7 +69,7 @@ struct SurfaceRules {
 
  private:
   Forces forces_;
-  // Of an even share.
+  // As a share of an equal one.
   static constexpr double least_share = 0.1;
   static constexpr double tolerated_share = 0.5;
 
@@ -87,7 +87,7 @@ struct SurfaceRules {
     return Normal()(net.positions[i], links, net.positions);
   }
 
-  /// Whether a face around the node lies upside down.
+  /// Whether a face around the node is flipped.
   template <typename Across>
   static bool has_turned_face(std::span<const Link> links, const Across& across, const Vector3& normal) {
     double area = 0;

@@ -13,8 +13,8 @@
 
 namespace vspring {
 
-/// Edges before and after a node of a curve, from its links: the previous node, then the next. An end has only one of
-/// them, and both edges are that one: the tangent of an end is its chord.
+/// Edges before and after a node of a curve, from its links: the previous node, then the next. An end has one edge
+/// only, which stands for both, so the tangent of an end is its chord.
 struct CurveEdges {
   Vector3 before;
   Vector3 after;
@@ -26,7 +26,7 @@ struct CurveEdges {
       before = -first;
       after = positions[links[1].node()] - centre;
     } else {
-      // Only the first link of a curve's first node leads forwards; it has no mark of a start.
+      // Only at a curve's first node does the first link lead forwards; it has no mark of a start.
       before = after = links.front().start() ? Vector3(-first) : first;
     }
   }
@@ -72,8 +72,8 @@ inline double product_error(double a, double b, double p) {
 }
 
 /// The curvature vector of the circle through the three nodes, across its tangent at the middle one; zero at ends,
-/// whose chord is straight. Its relative error is that of rounding: edges are nearly parallel, so their cross product
-/// is taken of one and of its difference from the other. Along n nodes that makes errors smaller n times.
+/// whose chord is straight. Its relative error is that of rounding: as edges are nearly parallel, their cross product
+/// is computed from one edge and its difference from the other. Along n nodes that reduces errors by a factor n.
 template <typename Positions>
 Vector3 circle_curvature(const Vector3& centre, std::span<const Link> links, const Positions& positions,
                          const Vector3& tangent) {
@@ -93,7 +93,7 @@ Vector3 circle_curvature(const Vector3& centre, std::span<const Link> links, con
   return (2 / product) * edges.before.cross(difference).cross(tangent);
 }
 
-/// The paper's principal normal N ∝ B × T, B across the plane of the three nodes; zero where they lie on a line.
+/// The paper's principal normal N ∝ B × T, B across the plane of the three nodes; zero if they lie on a line.
 template <typename Positions>
 Vector3 principal_normal(const Vector3& centre, std::span<const Link> links, const Positions& positions,
                          const Vector3& tangent) {

@@ -11,16 +11,16 @@
 
 namespace vspring {
 
-/// Eq. 4: t_j − t_i, the difference of the spring lengths of two nodes, from d = P_j − P_i and the unit normals. Where
-/// the normals point away from each other, N_j is turned round. Never larger than √2 |d|.
+/// Eq. 4: t_j − t_i, the difference of the spring lengths of two nodes, from d = P_j − P_i and the unit normals. If the
+/// normals are more than 90° apart, N_j is reversed. At most √2 |d|.
 inline double spring_difference(const Vector3& d, const Vector3& normal_i, const Vector3& normal_j) {
   const double cosine = normal_i.dot(normal_j);
   const double along_j = d.dot(normal_j);
   return (d.dot(normal_i) + (cosine < 0 ? -along_j : along_j)) / (1 + std::abs(cosine));
 }
 
-/// The same as it acts on nodes: within 3.6° of a right angle N_j is turned round by degrees, as a force that jumps may
-/// have no equilibrium.
+/// spring_difference() without its jump: within 3.6° of a right angle N_j is reversed gradually, as a force that jumps
+/// may have no equilibrium.
 inline double steady_difference(const Vector3& d, const Vector3& normal_i, const Vector3& normal_j) {
   constexpr double steepness = 16;
   const double cosine = normal_i.dot(normal_j);
@@ -32,22 +32,21 @@ inline double steady_difference(const Vector3& d, const Vector3& normal_i, const
 enum class SpringKind {
   steady,   ///< Eq. 4 by steady_difference()
   printed,  ///< by spring_difference()
-  other     ///< none of Eq. 8
+  other     ///< no springs of Eq. 8
 };
 
-/// What the neighbours of a node ask of it.
+/// The force on a node.
 struct NodeForce {
-  Vector3 spring = Vector3::Zero();          ///< dP_i of Eq. 8, along the normal; of a model with points, + dPc_i
+  Vector3 spring = Vector3::Zero();          ///< dP_i of Eq. 8, along the normal; with points + dPc_i
   Vector3 regularisation = Vector3::Zero();  ///< dPu_i of §4.4, across the normal
   double mean_edge = 0;                      ///< mean length of the node's edges
-  /// Of the points that are tied to the node, whose displacement dPc_i is in `spring`: by how much that falls per
-  /// length that the node moves along it.
+  /// Of the points tied to the node: by how much dPc_i falls per length that the node moves along it.
   double stiffness = 0;
 };
 
-/// Eq. 8 with w_j = 1/‖P_i − P_j‖, and §4.4. A node without a normal (zero) is not sprung and goes to the mean of its
-/// neighbours. shares: what each link counts in that mean, aligned with links and of sum 1 over the spokes; empty
-/// counts them evenly. tiny: what is added to squared lengths, so that an edge of length zero has a finite weight.
+/// Eq. 8 with w_j = 1/‖P_i − P_j‖, and §4.4. A node without a normal (zero) has no spring force and goes to the mean of
+/// its neighbours. shares: of each link in that mean, aligned with links and of sum 1 over the spokes; empty: equal.
+/// tiny: added to squared lengths, so an edge of length zero has a finite weight.
 template <SpringKind kind = SpringKind::steady, typename Positions>
 NodeForce node_force(std::size_t i, std::span<const Link> links, const Positions& positions, const Positions& normals,
                      std::span<const double> shares, double tiny) {

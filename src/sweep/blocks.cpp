@@ -7,8 +7,8 @@ namespace vspring {
 
 namespace {
 
-// Small enough that a few hundred nodes make work for several threads, large enough that handing one out costs little
-// beside sweeping it and that most neighbours of a node lie in its own block.
+// Small enough that a few hundred nodes occupy several threads; large enough that handing a block out costs little
+// compared to sweeping it, and that most neighbours of a node lie in its block.
 constexpr std::size_t smallest_block = 64;
 constexpr std::size_t largest_block = 4096;
 constexpr std::size_t blocks_wanted = 64;
@@ -21,8 +21,7 @@ std::vector<std::vector<Block>> parallel_order(const Net& net) {
   std::vector<std::vector<Block>> groups;
   std::vector<std::size_t> group_of(count);
   std::vector<std::size_t> taken_by;  // the last block that found a group taken by a neighbour
-  // A block and a later neighbour may see each other's edges from one side only where the mesh is not manifold, so both
-  // sides are noted.
+  // Where the mesh is not manifold, an edge between blocks may be known to one of them only, so both are noted.
   std::vector<std::vector<std::size_t>> neighbours(count);
   const auto note = [&](std::size_t a, std::size_t b) {
     if (neighbours[a].empty() || neighbours[a].back() != b) neighbours[a].push_back(b);

@@ -7,8 +7,8 @@
 namespace vspring {
 
 /// The order of a Gauss–Seidel sweep (§4.1) that may run on any number of threads: blocks in groups, no two blocks of a
-/// group joined by an edge. Groups go one after the other, the blocks of a group side by side, nodes of a block in
-/// order. Which newest positions a node sees so depends on the net alone.
+/// group joined by an edge. Groups follow each other, blocks of a group run in parallel, nodes of a block in order. So
+/// the newest positions that a node sees depend on the net alone.
 std::vector<std::vector<Block>> parallel_order(const Net& net);
 
 /// The order of Fig. 3: the moving nodes by their numbers in the shape, each a block of its own.

@@ -16,10 +16,10 @@ namespace vspring {
 
 namespace {
 
-// Of the work of fairing, for progress: what the first patches take.
+// The share of the first fairing of patches in all, for progress.
 constexpr double first_share = 0.6;
 
-/// Per node, whether it is asked for.
+/// Per node, whether FillOptions::at names it.
 std::vector<std::uint8_t> asked_for(const FillOptions& options, const std::vector<Hole>& holes, Index node_count) {
   std::vector<std::uint8_t> at_hole(static_cast<std::size_t>(node_count), 0);
   for (const Hole& hole : holes) {
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> asked_for(const FillOptions& options, const std::vecto
   return asked;
 }
 
-/// Of a hole that nothing is wrong with, or is left.
+/// The state of a hole that can be filled: whether it will be, or why it is left open.
 HoleState state_to_be(const Hole& hole, const FillOptions& options, const std::vector<std::uint8_t>& asked) {
   const bool is_asked = std::any_of(hole.rim.begin(), hole.rim.end(),
                                     [&](Index node) { return asked[static_cast<std::size_t>(node)] != 0; });
@@ -67,10 +67,10 @@ void fill_all(Filling& filling, const FillOptions& options, ProgressReporter& pr
   }
 }
 
-/// Fairs flat patches, refines them again where they have become larger, and fairs them so.
+/// Fairs flat patches, refines those again that have grown, and fairs them anew.
 void fair_patches(Filling& filling, FilledHoles& filled, const FairOptions& given, Context& context) {
   FairOptions options = given;
-  // The shares of the flat patch turn no face over.
+  // The shares of the flat patch flip no face.
   if (!options.distribution) options.distribution = Distribution::keep;
   PatchFairing fairing(filling.input(), filling.incidence(), options, context);
   fairing.run(filled, std::vector<std::uint8_t>(filled.holes.size(), 1), 0, first_share);

@@ -20,7 +20,7 @@ namespace {
 
 using Holes = std::vector<std::size_t>;
 
-/// While it lives, calls tell of their progress as of a part of a longer one.
+/// While it lives, calls report their progress as part of a longer call.
 class PartOfProgress {
  public:
   PartOfProgress(Context& context, double begin)
@@ -51,7 +51,7 @@ class PartOfProgress {
 /// Patches and the faces around them.
 struct Part {
   PolygonMesh mesh;
-  std::vector<Index> node;    ///< number in the whole of every node, ascending
+  std::vector<Index> node;    ///< per node its number in the whole mesh, ascending
   std::vector<Index> region;  ///< the new ones
 };
 
@@ -64,7 +64,7 @@ Part part_around(const FilledHoles& filled, const Holes& group, const PolygonMes
   std::vector<Index> nodes;
   for (const std::size_t h : group) nodes.insert(nodes.end(), filled.holes[h].rim.begin(), filled.holes[h].rim.end());
   std::vector<Index> faces;
-  // The solver looks at the faces around the rim, estimates of normals at boundaries there at those around them.
+  // The solver needs the faces around the rim, and estimates of normals at boundaries there need those around them.
   for (int ring = 0; ring < 2; ++ring) {
     faces.clear();
     for (const Index node : nodes) {
@@ -109,7 +109,7 @@ std::string called(const FilledHoles& filled, const Holes& group) {
   return text + (group.size() > most ? fmt::format(" and {} more", group.size() - most) : "");
 }
 
-/// How much worse an outcome is than others.
+/// A rank of outcomes, from good to bad.
 int rank(Outcome outcome) {
   switch (outcome) {
     case Outcome::converged:
@@ -132,7 +132,7 @@ void worsen(Outcome& outcome, Outcome other) {
   if (rank(other) > rank(outcome)) outcome = other;
 }
 
-/// Adds what was done before, or elsewhere.
+/// Adds work done before, or elsewhere.
 void add_work(FairReport& all, const FairReport& other) {
   all.iterations += other.iterations;
   all.history.insert(all.history.begin(), other.history.begin(), other.history.end());
@@ -141,7 +141,7 @@ void add_work(FairReport& all, const FairReport& other) {
   all.most_work += other.most_work;
 }
 
-/// Adds the report of some patches to that of all. most: moving nodes of the largest so far.
+/// Adds the report of some patches to that of all. most: number of moving nodes of the largest part so far.
 void add(FairReport& all, const FairReport& part, const std::string& name, Index& most) {
   worsen(all.outcome, part.outcome);
   all.method = part.method;
@@ -158,7 +158,7 @@ void add(FairReport& all, const FairReport& part, const std::string& name, Index
     all.warnings.emplace_back(warning.code, fmt::format("{}: {}", name, warning.text));
 }
 
-/// Which of the pairs of faces that cross have a face of each group; pairs of others are left out.
+/// Per group the pairs of crossing faces with a face of the group; other pairs are left out.
 std::vector<std::vector<std::pair<Index, Index>>> crossings(const FilledHoles& filled, const PolygonMesh& mesh,
                                                             const std::vector<Holes>& groups, const Context& context) {
   std::vector<std::size_t> group_of(filled.face_like.size(), groups.size());
@@ -183,7 +183,7 @@ std::vector<std::vector<std::pair<Index, Index>>> crossings(const FilledHoles& f
   return result;
 }
 
-/// Makes patches flat again that cross more faces than flat ones, and warns of those that cross any.
+/// Undoes the fairing of patches that made them cross more faces, and warns of patches that cross any.
 void look_for_crossings(FilledHoles& filled, const std::vector<Holes>& groups, Context& context) {
   PolygonMesh fair_mesh = filled.mesh;
   fair_mesh.set_positions(filled.positions);

@@ -9,19 +9,19 @@
 
 namespace vspring {
 
-/// Fairs the patches of a mesh whose holes are filled: those that touch together, others one by one, each with the
-/// faces around it, so that its tolerance is a share of its own size and one that fails leaves the others alone.
+/// Fairs the patches of a mesh whose holes are filled, with the faces around them. Patches that touch are faired
+/// together, others separately: so the tolerance is relative to their own size, and a failure does not affect others.
 class PatchFairing {
  public:
   /// incidence: of the input, which is the mesh without patches. All must outlive it.
   PatchFairing(const PolygonMesh& input, const Incidence& incidence, const FairOptions& options, Context& context)
       : input_(input), incidence_(incidence), options_(options), context_(context) {}
 
-  /// Fairs patches from where their nodes are, those of `due` holes (one entry each) and those that touch them. Sets
-  /// positions and outcomes. share: of the whole call, for progress. When cancelled, patches that are left stay.
+  /// Fairs the patches of `due` holes (one entry per hole), and those that touch them, from their present positions.
+  /// Sets positions and outcomes. share: of the whole call, for progress. When cancelled, remaining patches stay.
   void run(FilledHoles& filled, const std::vector<std::uint8_t>& due, double begin, double share);
 
-  /// Fills the report with all that was done, and makes patches flat again that cross more faces than flat ones.
+  /// Completes the report, and undoes the fairing of patches that made them cross more faces.
   void finish(FilledHoles& filled);
 
  private:
@@ -32,7 +32,7 @@ class PatchFairing {
   const Incidence& incidence_;
   const FairOptions& options_;
   Context& context_;
-  std::map<std::size_t, FairReport> reports_;  ///< of holes that touch, by the first of them
+  std::map<std::size_t, FairReport> reports_;  ///< of groups of holes that touch, by their first hole
 };
 
 }  // namespace vspring

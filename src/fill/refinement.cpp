@@ -1,4 +1,4 @@
-// Patches as dense as what is around (P. Liepa, Filling holes in meshes, 2003, §3).
+// Makes patches as dense as the mesh around (P. Liepa, Filling holes in meshes, 2003, §3).
 #include "fill/refinement.hpp"
 
 #include <Eigen/Geometry>
@@ -18,11 +18,11 @@ namespace vspring {
 
 namespace {
 
-// Liepa's α: a triangle is split where its centroid is further than the spacing over this from all corners.
+// Liepa's α: a triangle is split if its centroid is further than spacing / α from all corners.
 constexpr double density = 1.4142135623730951;
-// Opposite angles whose sine sums up to less, of lengths 1, are as good as 180°.
+// If the sine of the sum of opposite angles is smaller, they sum up to 180°.
 constexpr double as_good = 1e-9;
-// Swaps of one edge, on average, after which edges are left as they are: in space they might be swapped in circles.
+// Limit of swaps per edge, on average: in space edges might be swapped for ever.
 constexpr std::size_t most_swaps = 20;
 
 class Refiner {
@@ -37,7 +37,7 @@ class Refiner {
 
   bool run() {
     const std::size_t count = patch_.places.size();
-    // A patch that has been refined before has none.
+    // A patch that was refined before has none.
     keeps_off_rim_ = static_cast<Index>(count) > rim_;
     for (std::size_t t = 0; t < triangles().size(); ++t) touched_.push_back(static_cast<Index>(t));
     swap_edges();
@@ -57,7 +57,7 @@ class Refiner {
 
   [[nodiscard]] std::vector<Corners>& triangles() { return patch_.triangles; }
   [[nodiscard]] Corners& triangle(Index t) { return patch_.triangles[static_cast<std::size_t>(t)]; }
-  /// Of a triangle, beyond the edge opposite to each corner; −1 at the rim.
+  /// The neighbours of a triangle, beyond the edge opposite to each corner; −1 at the rim.
   [[nodiscard]] Corners& neighbours(Index t) { return neighbours_[static_cast<std::size_t>(t)]; }
   [[nodiscard]] const Vector3& place(Index node) const { return patch_.places[static_cast<std::size_t>(node)]; }
   [[nodiscard]] static std::uint64_t key(Index a, Index b) {
@@ -94,7 +94,7 @@ class Refiner {
     });
   }
 
-  /// Whether there were any to split.
+  /// Returns whether there were any to split.
   bool split_triangles() {
     const auto count = static_cast<Index>(triangles().size());
     for (Index t = 0; t < count; ++t) {
@@ -112,7 +112,7 @@ class Refiner {
     return sum / static_cast<double>(nodes.size());
   }
 
-  /// In the middle of others.
+  /// Adds a node at the mean of others.
   Index add_node(std::span<const Index> around) {
     const Vector3 middle = mean(patch_.places, around);
     const auto nearer = [&](Index i, Index j) { return (place(i) - middle).norm() < (place(j) - middle).norm(); };
@@ -132,8 +132,7 @@ class Refiner {
     return {s, static_cast<std::size_t>(std::find(around.begin(), around.end(), t) - around.begin())};
   }
 
-  /// Puts a node into the middle of the edge opposite to a corner, where it leads from rim to rim across the patch and
-  /// is not short.
+  /// Splits the edge opposite to a corner in the middle, if it leads across the patch from rim to rim and is not short.
   void cut(Index t, std::size_t c) {
     const auto [s, d] = beyond(t, c);
     const Index p = triangle(t)[c];
@@ -197,7 +196,7 @@ class Refiner {
     touched_.clear();
   }
 
-  /// Puts the other diagonal into the quad around the edge opposite to a corner, where that is better.
+  /// Swaps the edge opposite to a corner for the other diagonal of its quad, if that is better.
   bool swap(Index t, std::size_t c) {
     const auto [s, d] = beyond(t, c);
     if (s < 0) return false;
@@ -245,10 +244,10 @@ class Refiner {
   Patch& patch_;
   Index rim_ = 0;  ///< nodes of the rim
   bool has_swapped_ = false;
-  bool keeps_off_rim_ = false;  ///< no edge from rim to rim is made any more
+  bool keeps_off_rim_ = false;  ///< whether no more edges from rim to rim are made
   std::vector<Corners> neighbours_;
-  std::unordered_set<std::uint64_t> edges_;  ///< all that there are, outside between nodes of the rim as well
-  std::vector<Index> touched_;               ///< triangles whose edges may have to be swapped
+  std::unordered_set<std::uint64_t> edges_;  ///< all edges, also those outside between nodes of the rim
+  std::vector<Index> touched_;               ///< triangles whose edges may need swaps
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace vspring {
 
 namespace {
 
-/// The loops that a closed walk is made of where it comes back to a node.
+/// Splits a closed walk into loops where it comes back to a node.
 std::vector<std::vector<Index>> simple_loops(const std::vector<Index>& walk, std::vector<std::uint8_t>& on_path) {
   std::vector<std::vector<Index>> loops;
   std::vector<Index> path;
@@ -40,7 +40,7 @@ class HoleFinder {
   HoleFinder(const PolygonMesh& mesh, const Incidence& incidence)
       : mesh_(mesh), incidence_(incidence), walker_(mesh, incidence) {}
 
-  /// loop: in the order in which the face beside its first edge runs.
+  /// loop: in the direction of the face at its first edge.
   Hole hole(std::vector<Index> loop) {
     Hole hole;
     std::reverse(loop.begin(), loop.end());
@@ -60,7 +60,7 @@ class HoleFinder {
 
  private:
   double facing_of(const std::vector<Index>& rim) const {
-    // As faces run along it.
+    // In the direction of the faces along it.
     const Vector3 area = -twice_vector_area(std::span(rim), mesh_.positions());
     Vector3 sum = Vector3::Zero();
     double total = 0;

@@ -7,10 +7,10 @@
 
 namespace vspring {
 
-/// The face beside an edge of a rim, which runs along it the other way; −1 where there is none.
+/// The face at an edge of a rim, which runs along it in the opposite direction; −1 if there is none.
 Index face_beside(const PolygonMesh& mesh, const Incidence& incidence, Index from, Index to);
 
-/// As find_holes(), with what is known of the mesh.
+/// As the public find_holes(), with the incidence known.
 std::vector<Hole> find_holes(const PolygonMesh& mesh, const Incidence& incidence);
 
 /// "the hole at node 17", as all messages call it.

@@ -22,7 +22,7 @@ constexpr double angle_step = 1e-7;
 constexpr auto full_turn = static_cast<std::int32_t>(2 / angle_step);
 constexpr std::int32_t turn_of_folds = full_turn - static_cast<std::int32_t>(0.0038 / angle_step);  // 175°
 
-/// What is to be least: the greatest angle, then the area.
+/// The quantity to minimise: the greatest angle, then the area.
 struct Weight {
   std::int32_t turn = 0;
   double area = 0;
@@ -33,7 +33,7 @@ struct Weight {
 };
 
 struct Triangle3 {
-  Vector3 normal;  ///< zero where it has none
+  Vector3 normal;  ///< zero if it has none
   double area;
 };
 
@@ -44,7 +44,7 @@ Triangle3 triangle(const Vector3& a, const Vector3& b, const Vector3& c) {
   return {direction(sum, ab.squaredNorm() + ac.squaredNorm()), sum.norm() / 2};
 }
 
-/// Between a triangle and what lies beside one of its edges.
+/// The angle between a triangle and the face across one of its edges.
 std::int32_t turn_between(const Vector3& normal, const Vector3& beside) {
   if (beside.isZero(0)) return 0;
   if (normal.isZero(0)) return full_turn;
@@ -59,11 +59,11 @@ bool joins(const Rim& rim, Index a, Index b) {
 /// A closed polygon of nodes of a rim.
 struct Polygon {
   std::vector<Index> nodes;
-  std::vector<Vector3> normals;  ///< beside the edge from each to the next
+  std::vector<Vector3> normals;  ///< of the face at the edge from each node to the next
 };
 
-/// Cuts ears off until the polygon has no more than `most` edges: those with the shortest new edge first, so that it
-/// grows coarser evenly, and those that fold over last.
+/// Cuts ears off until the polygon has at most `most` edges: those with the shortest new edge first, so it coarsens
+/// evenly, and those that fold over last.
 class EarCutter {
   template <typename Values>
   static auto& at(Values& values, Index node) {
@@ -71,7 +71,7 @@ class EarCutter {
   }
   struct Ear {
     bool folds = false;
-    double chord = -1;  ///< negative: it cannot be cut
+    double chord = -1;  ///< negative: cannot be cut
     Vector3 normal = Vector3::Zero();
   };
 
@@ -140,7 +140,7 @@ class EarCutter {
   Index last_ = 0;
 };
 
-/// The best triangulation of each part of a polygon from one node to a later one, and so that of all.
+/// Finds the best triangulation of each part of a polygon from one node to a later one, and so of the whole.
 class BestTriangulation {
  public:
   BestTriangulation(const Rim& rim, const Polygon& polygon)
@@ -174,7 +174,7 @@ class BestTriangulation {
   struct Part {
     Weight weight;
     std::size_t tip = 0;
-    Vector3 normal = Vector3::Zero();  ///< of what lies on the polygon's side of the edge that closes it
+    Vector3 normal = Vector3::Zero();  ///< of the triangle at the edge that closes the part
     bool is_possible = false;
   };
   [[nodiscard]] Part& part(std::size_t i, std::size_t j) { return parts_[i * count_ + j]; }
@@ -214,7 +214,7 @@ RimTriangles triangulate(const Rim& rim, std::size_t at_once) {
   RimTriangles result;
   if (rim.places.size() < 3) return result;
   const Polygon polygon = EarCutter(rim).cut(std::max<std::size_t>(at_once, 3), result.triangles);
-  // Where no ear may be cut.
+  // No more ear may be cut.
   const bool is_stuck = polygon.nodes.size() > std::max<std::size_t>(at_once, 3);
   if (is_stuck) return {};
   const BestTriangulation best(rim, polygon);

@@ -13,10 +13,10 @@ struct Place {
   Vector3 normal;
 };
 
-/// Where the V-Springs (Eq. 4) to other nodes j balance. for_each(use) calls use(j, weight), weights of sum 1. Of a
-/// sphere, the weighted means q of positions and n of normals lie on one ray from the centre, and each V-Spring from q
-/// along n ends on the sphere: d·(n + N) / (1 + n·N) is the same for all nodes. On other surfaces the error of n counts
-/// little because the weighted mean of all d is zero.
+/// The place at which the V-Springs (Eq. 4) to other nodes j balance. for_each(use) calls use(j, weight), weights of
+/// sum 1. On a sphere, the weighted means q of positions and n of normals lie on one ray from the centre, and each
+/// V-Spring from q along n ends on the sphere: d·(n + N) / (1 + n·N) is the same for all nodes. On other surfaces the
+/// error of n matters little, because the weighted mean of all d is zero.
 template <typename ForEach>
 Place balance(const Net& net, const ForEach& for_each) {
   Place place = {Vector3::Zero(), Vector3::Zero()};

@@ -10,11 +10,12 @@ namespace vspring {
 
 namespace {
 
-// Nodes that a boundary loop keeps, if it has them: with fewer it is no smooth curve any more.
+// Nodes that a boundary loop keeps, if it has so many: with fewer it is no smooth curve.
 constexpr std::size_t least_loop = 6;
-// Nodes of more neighbours are kept: no neighbour could take over so many.
+// Nodes with more neighbours are kept: no other node could take them all over.
 constexpr std::size_t many_neighbours = 12;
-// Nodes of fewer neighbours are kept where no other will do: of a mesh of fours and eights the fours would be half.
+// Nodes with fewer neighbours are kept only if no other will do: in a mesh of valences four and eight they would be
+// half of all.
 constexpr std::size_t few_neighbours = 6;
 
 class IndependentSet {
@@ -51,7 +52,7 @@ class IndependentSet {
     }
   }
 
-  /// Goes on from what is kept, like a front, over everything else.
+  /// Advances from kept nodes, like a front, over all others.
   void keep_rest() {
     advance();
     for (std::size_t i = 0; i < triangulation_.size(); ++i) {
@@ -69,14 +70,14 @@ class IndependentSet {
   }
 
  private:
-  /// waiting: free, and two steps from a node that is kept.
+  /// waiting: free, and two steps from a kept node.
   enum class State : std::uint8_t { free, waiting, covered, kept };
 
   [[nodiscard]] bool is_free(std::size_t i) const { return state_[i] == State::free || state_[i] == State::waiting; }
 
   [[nodiscard]] double square(std::size_t i, std::size_t j) const { return (places_[i] - places_[j]).squaredNorm(); }
 
-  /// Whether one of two neighbours can stand for the other.
+  /// Whether one of two neighbours can represent the other.
   [[nodiscard]] bool near(std::size_t i, std::size_t j) const {
     return places_.empty() || square(i, j) <= far_neighbour * far_neighbour * std::max(shortest_[i], shortest_[j]);
   }
@@ -97,8 +98,8 @@ class IndependentSet {
     });
   }
 
-  /// First come, first kept: one in four, as many sixes among the valences as with any other order that was tried at
-  /// this rate. Nodes that the kept ones reach in most ways first leaves more sixes, but one in three and a half.
+  /// First come, first kept: keeps one node in four. Of all orders tried at this rate none left more valences of six.
+  /// Preferring nodes with the most ways to kept ones leaves more, but keeps one node in three and a half.
   void advance() {
     for (;;) {
       const bool later = next_ == front_.size();
@@ -131,7 +132,8 @@ class IndependentSet {
       for (std::size_t k = 0; k < wanted; ++k) keep(loop_[k * size / wanted]);
       return;
     }
-    // Nodes kept already give the beat. Where two beats meet, two edges between kept nodes may be three.
+    // Nodes kept already set the rhythm. Where two rhythms meet, there may be three edges between kept nodes instead of
+    // two.
     const auto kept = [&](std::size_t k) { return state_[node(k)] == State::kept; };
     const auto is_near_kept = [&](std::size_t k, std::size_t other) { return kept(k) && near(node(k), node(other)); };
     std::size_t begin = 0;
@@ -144,7 +146,7 @@ class IndependentSet {
 
   const Triangulation& triangulation_;
   std::span<const Vector3> places_;
-  std::vector<double> shortest_;  ///< squared, of the edges at every node; empty without places
+  std::vector<double> shortest_;  ///< squared length of the shortest edge at every node; empty without places
   std::vector<State> state_;
   std::vector<std::uint32_t> front_;
   std::size_t next_ = 0;

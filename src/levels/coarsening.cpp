@@ -20,7 +20,7 @@ class Coarsening {
   Coarsening(Triangulation& triangulation, std::vector<std::uint8_t>& kept, std::span<const Vector3> places)
       : triangulation_(triangulation), kept_(kept), places_(places) {}
 
-  /// Removes the nodes of a run whose neighbours all lie in the run. Returns those left.
+  /// Removes the nodes of a run whose neighbours all lie in the run. Returns the others.
   std::vector<std::uint32_t> remove_within(std::size_t begin, std::size_t end, Removals& removals) {
     std::vector<std::uint32_t> waiting;
     std::vector<std::uint32_t> outside;
@@ -76,8 +76,8 @@ class Coarsening {
     }
   }
 
-  /// The neighbour to draw a node into: one that stays, so that edges of the coarse level go from cell to cell of nodes
-  /// drawn together; of those that are not far away the one of fewest neighbours.
+  /// The neighbour to collapse a node into: a kept one, so that edges of the coarse level join neighbouring cells of
+  /// collapsed nodes; of those not far away the one with the fewest neighbours.
   [[nodiscard]] std::size_t best_place(std::uint32_t i, bool any) const {
     const auto ring = triangulation_.ring(i);
     std::size_t best = none;
@@ -97,7 +97,7 @@ class Coarsening {
     return (places_[i] - places_[j]).squaredNorm();
   }
 
-  /// The squared distance of the nearest neighbour that stays.
+  /// The squared distance of the nearest kept neighbour.
   [[nodiscard]] double nearest_kept(std::uint32_t i) const {
     double nearest = std::numeric_limits<double>::infinity();
     if (places_.empty()) return nearest;
@@ -107,7 +107,7 @@ class Coarsening {
     return nearest;
   }
 
-  /// How many neighbours more than it should have.
+  /// The number of neighbours beyond the ideal one.
   [[nodiscard]] long excess(std::uint32_t i) const {
     return static_cast<long>(triangulation_.ring(i).size()) -
            (triangulation_.kind(i) == Triangulation::Kind::closed ? 6 : 4);
@@ -135,7 +135,7 @@ class Coarsening {
     for (const std::uint32_t j : {b, c, d}) {
       if (triangulation_.kind(j) == Triangulation::Kind::fixed) return false;
     }
-    // The sum of squares falls.
+    // The sum of squares must fall.
     if (excess(a) + excess(b) - excess(c) - excess(d) <= 2) return false;
     if (triangulation_.kind(c) == Triangulation::Kind::open && triangulation_.kind(d) == Triangulation::Kind::open)
       return false;

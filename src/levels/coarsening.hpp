@@ -10,8 +10,8 @@
 
 namespace vspring {
 
-/// Nodes that a coarser level lacks, in the order in which they were removed, with the neighbours that they had then
-/// (their parents). In the reverse order, every node comes after its parents.
+/// Nodes that a coarser level lacks, in the order of their removal, with the neighbours that they had then (their
+/// parents). In reverse order every node comes after its parents.
 struct Removals {
   std::vector<std::uint32_t> nodes;
   std::vector<std::uint32_t> begin = {0};  ///< of each node's parents; one more entry than nodes
@@ -26,7 +26,7 @@ struct Removals {
     parents.insert(parents.end(), neighbours.begin(), neighbours.end());
     begin.push_back(static_cast<std::uint32_t>(parents.size()));
   }
-  /// Gives back the room for more.
+  /// Frees unused memory.
   void close() {
     nodes.shrink_to_fit();
     begin.shrink_to_fit();
@@ -34,10 +34,10 @@ struct Removals {
   }
 };
 
-/// Removes from a triangulation all nodes but those kept, each drawn into a neighbour, so far as it stays a surface;
-/// marks those that have to stay as kept. Afterwards edges are turned where that brings the numbers of neighbours
-/// nearer to six inside and four at the boundary. Returns the removals in groups: the last came after all others, which
-/// do not look at each other's nodes. places: as for choose_coarse_nodes(). Cost: linear.
+/// Removes all nodes but the kept ones from a triangulation: each collapses into a neighbour, as long as the result is
+/// a surface; nodes that must stay are marked as kept. Afterwards edges are flipped where that brings the numbers of
+/// neighbours nearer to six inside and four at the boundary. Returns the removals in groups: the last group came after
+/// all others, which are independent of each other. places: as for choose_coarse_nodes(). Cost: linear.
 std::vector<Removals> coarsen(Triangulation& triangulation, std::vector<std::uint8_t>& kept, ThreadTeam& team,
                               std::span<const Vector3> places = {});
 

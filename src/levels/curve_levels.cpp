@@ -12,16 +12,17 @@ namespace vspring {
 
 namespace {
 
-// Edges between two anchors below which no node is left out: enough for a full turn or two.
+// With fewer edges between two anchors no node is left out: enough for a full turn or two.
 constexpr std::size_t enough_edges = 48;
-// An edge is aimed at no less than this share of the mean edge of its run; with Distribution::keep, of this.
+// The least length aimed at for an edge, as a share of the mean edge of its run; the second one with
+// Distribution::keep.
 constexpr double least_share = 0.01;
 constexpr double least_share_kept = 1e-6;
-// Turns of up to about 60° tell the shape; sharper ones are noise, and too far from linear to start with.
+// Turns of up to about 60° belong to the shape; sharper ones are noise, and too far from linear for a start.
 constexpr double sharp_cosine = 0.5;
 constexpr int most_rounds = 100;
 
-/// A node that coarser levels keep, and that averages leave alone.
+/// A node that coarser levels keep and averages do not move.
 bool is_anchor(const Net& net, std::size_t node) { return node >= net.moving || net.given[node] != 0; }
 
 /// A quarter of each neighbour and half of itself for every node that is no anchor.
@@ -35,7 +36,7 @@ std::vector<Vector3> averaged(const Net& net) {
   return positions;
 }
 
-/// Sets where nodes lie along their runs.
+/// Sets the places of nodes along their runs.
 void set_places_along(Net& net, Distribution distribution) {
   ThreadTeam alone(1);
   const std::vector<Vector3> nodes_at =
@@ -61,7 +62,7 @@ void set_places_along(Net& net, Distribution distribution) {
   }
 }
 
-/// Shares that make the lengths of edges go by the places along the runs.
+/// Sets shares that make the lengths of edges follow the places along the runs.
 void set_laplacian_weights(Net& net) {
   net.laplacian_weights.assign(net.rings.link_count(), 0);
   for (const MovingRun& moving_run : net.moving_runs) {

@@ -9,12 +9,14 @@ namespace vspring {
 
 namespace {
 
-// The cosine of turns, one way and then the other, that are noise: a coarse nose turns as sharply, but one way.
+// Sharper turns than this cosine, first to one side and then to the other, are noise: a coarse nose turns as sharply,
+// but to one side.
 constexpr double noisy_cosine = 0.5;
 constexpr double noisy_cosine_beside = 0.7;
-// Of two turns in a row, whichever way, or of one beside a node that stays: there and back again.
+// The cosine of two turns in a row, to any side, or of one next to a node that stays, from which on the curve runs
+// back.
 constexpr double reversing_cosine = -0.2;
-// Nodes on either side of a sharp turn that are averaged with it.
+// How many nodes on either side of a sharp turn are averaged with it.
 constexpr int reach = 3;
 constexpr int most_averages = 30;
 

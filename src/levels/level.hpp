@@ -11,12 +11,12 @@ namespace vspring {
 /// One level of the hierarchy of a shape (§4.7).
 struct Level {
   Net net;
-  /// For every node its number in the net of the next finer level; empty on the finest.
+  /// Per node its number in the net of the next finer level; empty on the finest.
   std::vector<std::uint32_t> finer;
   /// Of surfaces: the nodes of the next finer level that this one lacks, in its numbers; empty on the finest. Groups as
   /// from coarsen().
   std::vector<Removals> removals;
-  /// Of surfaces: where the nodes lie by rest_positions() of the finest net; empty on that, and with
+  /// Of surfaces: the rest_positions() of the nodes in the finest net; empty on the finest level, and with
   /// Distribution::even.
   std::vector<Vector3> places;
 };

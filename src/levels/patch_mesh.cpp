@@ -10,7 +10,7 @@ namespace vspring {
 
 namespace {
 
-// Up to here the best of all ears is looked for; larger polygons lose every second node as an ear at a time.
+// In polygons up to this size the best ear is cut; larger ones lose every second node at a time.
 constexpr std::size_t small_polygon = 8;
 
 /// Calls use(face) for every face around node i, nodes in order, i first.
@@ -27,7 +27,7 @@ void for_each_face(const Net& net, std::size_t i, std::vector<Index>& face, cons
       continue;
     }
     face.push_back(node(k));
-    // A chain that closes on itself repeats its first node without the mark of a spoke.
+    // A closed chain repeats its first node without the mark of a spoke.
     const bool chain_ends = k + 1 == links.size() ? links.front().start() : links[k + 1].start();
     if (!links[k].spoke() && !links[k].cut() && !chain_ends) continue;
     use(face);
@@ -38,7 +38,7 @@ void for_each_face(const Net& net, std::size_t i, std::vector<Index>& face, cons
   use(face);
 }
 
-/// Collects triangles, but for those that name a node twice.
+/// Collects triangles, except those with a node twice.
 class TriangleList {
  public:
   explicit TriangleList(std::size_t nodes) { corners_.reserve(3 * faces_per_node * nodes); }
@@ -69,7 +69,7 @@ class EarClipper {
   /// Empties the face.
   void cut(std::vector<Index>& face) {
     while (face.size() > small_polygon) {
-      // In pairs: the first node of each is left, the second cut off.
+      // In pairs: the first node of each is kept, the second cut off.
       std::size_t left = 0;
       for (std::size_t k = 0; k + 1 < face.size(); k += 2) {
         add(face[k], face[k + 1], face[k + 2 < face.size() ? k + 2 : 0]);
@@ -119,8 +119,8 @@ bool has_triangles_alone(const Net& net) {
   return true;
 }
 
-// Of each face, the node with the lowest number has it in its ring, as nodes with rings have the lowest numbers: there
-// it is added.
+// Each face is added at its node with the lowest number: that one has a ring, as nodes with rings have the lowest
+// numbers.
 
 void add_triangles(const Net& net, TriangleList& triangles) {
   for (std::size_t i = 0; i < net.computed; ++i) {

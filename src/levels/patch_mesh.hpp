@@ -5,9 +5,9 @@
 
 namespace vspring {
 
-/// The faces that nodes with rings look at, cut into triangles, over the local nodes of a net. Polygons are cut so that
-/// edges spread evenly over the nodes: by connectivity alone, so that a moved copy is cut alike. Cost: linear; within a
-/// face n log n.
+/// The faces in the rings of a net, cut into triangles, over its local nodes. Polygons are cut so that edges spread
+/// evenly over the nodes: by connectivity alone, so that a moved copy is cut alike. Cost: linear; within a face n log
+/// n.
 PolygonMesh triangulated_patch(const Net& net);
 
 }  // namespace vspring

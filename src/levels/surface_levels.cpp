@@ -13,11 +13,11 @@ namespace vspring {
 
 namespace {
 
-// Moving nodes of the coarsest level: the sweep alone takes few iterations there, and shapes are still told apart.
+// Moving nodes of the coarsest level: few enough for few iterations, enough to show the shape.
 constexpr std::size_t few_enough = 24;
-// With fewer they tell no shape.
+// Fewer nodes do not show the shape.
 constexpr std::size_t too_few = 6;
-// A level that keeps more of the nodes than this is not worth having.
+// A level that keeps a larger share of the nodes is not worth its work.
 constexpr double worthwhile = 0.85;
 
 /// The nodes of a finer net that a coarser one keeps, in its order: moving ones, held ones with a ring, others.
@@ -81,7 +81,7 @@ Net coarse_net(const Net& fine, const Selection& selection, const Triangulation&
 }  // namespace
 
 std::vector<Level> surface_levels(Net net, const Model& model, Distribution distribution, ThreadTeam& team) {
-  // Coarser levels do not keep a distribution: that of a coarse one may ask for faces that turn over.
+  // Coarser levels do not keep a distribution: it might flip faces there.
   std::vector<Vector3> places;
   if (distribution == Distribution::smooth) {
     if (auto told = told_rest_positions(net, team))

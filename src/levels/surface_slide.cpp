@@ -13,9 +13,10 @@ namespace vspring {
 namespace {
 
 constexpr int longest_walk = 1000;
-// Of the squared mean edge, added to squared distances: a node in the very place does not settle it alone.
+// Added to squared distances, as a share of the squared mean edge, so that a node at the very place does not count
+// alone.
 constexpr double blur = 0.1;
-// Of its length: by how much weights may miss the place.
+// How far weights may miss the place, as a share of the length.
 constexpr double greatest_miss = 0.05;
 
 /// The node nearest to a place, on the way down from `from`.
@@ -41,8 +42,8 @@ struct Neighbour {
   double weight;
 };
 
-/// A node and its neighbours, with weights of sum 1 near those of inverse squared distances from a place that put it in
-/// its place between them. False where no weights from zero on do. ways: room for the ways there, in the tangent plane.
+/// Finds weights of sum 1, near inverse squared distances, of a node and its neighbours whose mean is the place. False
+/// if no weights without negative ones do. ways: a buffer for vectors in the tangent plane.
 bool weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector<Neighbour>& neighbours,
            std::vector<Vector3>& ways) {
   neighbours.assign(1, {centre, 0});
@@ -82,9 +83,9 @@ bool weigh(const Net& net, std::size_t centre, const Vector3& place, std::vector
   return missed.squaredNorm() <= greatest_miss * greatest_miss * square;
 }
 
-/// The corners of the triangle that a place lies over, looked for from a moving node, with the weights that put it
-/// there: a node and two that follow on one another in the walk around it, so that all of its faces are covered. The
-/// node nearest to a place is none of them where triangles are wide and uneven. False where the search ends elsewhere.
+/// Finds, from a moving node on, the triangle that a place lies over, and the weights of its corners. Triangles consist
+/// of a node and two successive ones in the walk around it, which covers all faces. In wide uneven triangles the node
+/// nearest to the place may be no corner. False if the search ends elsewhere.
 bool weigh_corners(const Net& net, std::size_t from, const Vector3& place, std::vector<Neighbour>& corners) {
   for (int step = 0; step < longest_walk && from < net.moving; ++step) {
     const Vector3& normal = net.normals[from];
@@ -129,7 +130,7 @@ void slide(Net& net, std::span<const Vector3> steps, ThreadTeam& team) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vector3 to = net.positions[i] + steps[i];
       const std::size_t there = walk(net, i, to);
-      // Beside what is held the walk may end there; what lies behind is not known.
+      // The walk may end at a held node; what lies beyond is unknown.
       const std::size_t centre = there < net.moving ? there : i;
       if (!weigh(net, centre, to, neighbours, ways) && weigh_corners(net, i, to, corners)) neighbours.swap(corners);
       places[i] = balance(net, [&](const auto& use) {

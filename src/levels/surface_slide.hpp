@@ -7,9 +7,9 @@
 
 namespace vspring {
 
-/// Moves the moving nodes along the surface that they form: each by about its step, which may be many edges long, to
-/// where the V-Springs to the nodes there balance: exactly along spheres, elsewhere with an error that falls with the
-/// third power of the spacing. Needs directions, and sets them. Cost: linear in the nodes and the edges on the way.
+/// Moves the moving nodes along the surface that they form, each by about its step, which may be many edges long, to
+/// where the V-Springs to the nodes there balance. That is exact on spheres; elsewhere the error is of third order in
+/// the spacing. Needs directions, and sets them. Cost: linear in the nodes and the edges on the way.
 void slide(Net& net, std::span<const Vector3> steps, ThreadTeam& team);
 
 }  // namespace vspring

@@ -7,8 +7,8 @@ namespace vspring {
 
 namespace {
 
-// Passes over a shape that was handed up until its nodes lie about as the regularisation (§4.4) wants them: a sweep
-// would move them along their tangent planes, off curved surfaces, by the square of how far they have to go.
+// Passes over a shape that was handed up, until its nodes are about where the regularisation (§4.4) wants them. A sweep
+// instead would move nodes in their tangent planes, off curved surfaces by the square of their way.
 constexpr int passes = 3;
 
 void put(Net& net, std::size_t i, const Place& place) {
@@ -16,7 +16,7 @@ void put(Net& net, std::size_t i, const Place& place) {
   if (!net.normal_given(i)) net.normals[i] = place.normal;
 }
 
-/// Places what a coarser level lacks.
+/// Places the nodes that a coarser level lacks.
 void place_removed(Net& net, const Removals& removals) {
   for (std::size_t k = removals.size(); k-- > 0;) {
     const auto parents = removals.parents_of(k);
@@ -28,7 +28,7 @@ void place_removed(Net& net, const Removals& removals) {
   }
 }
 
-/// Places every moving node anew between its neighbours, itself counted as one more of them.
+/// Places every moving node anew between itself and its neighbours.
 void relax(Net& net, std::vector<Place>& places, ThreadTeam& team) {
   places.resize(net.moving);
   parallel_ranges(team, net.moving, light_nodes_per_task, [&](std::size_t begin, std::size_t end) {

@@ -8,7 +8,7 @@ namespace vspring {
 
 namespace {
 
-// Room for neighbours: a node into which several others are drawn has up to so many for a while.
+// Space for neighbours: a node into which several others collapse may have so many for a while.
 constexpr std::uint32_t least_room = 14;
 
 }  // namespace
@@ -112,7 +112,7 @@ void Triangulation::collapse(std::size_t node, std::size_t place) {
     erase(along(1), gone);
     erase(along(size - 1), gone);
     for (std::size_t k = 2; k + 1 < size; ++k) replace(along(k), gone, target);
-    // In the place of `node`, the target has what lies between the two nodes beside it, in its own sense.
+    // In place of `node`, the target gets the nodes between its two neighbours there, in its own sense.
     const bool same_sense = to[at > 0 ? at - 1 : count_[target] - 1] == along(1);
     const std::size_t gained = size - 3;
     widen(target, at, gained);
@@ -167,7 +167,7 @@ void Triangulation::insert_between(std::size_t node, std::uint32_t a, std::uint3
   std::uint32_t* const to = first(node);
   const std::size_t one = place_of(node, a);
   const std::size_t other = place_of(node, b);
-  // Neighbours that are the first and the last meet where the ring closes.
+  // The first and last neighbours meet where the ring closes.
   const std::size_t at = one + 1 == other ? other : other + 1 == one ? one : count_[node];
   std::copy_backward(to + at, to + count_[node], to + count_[node] + 1);
   to[at] = inserted;

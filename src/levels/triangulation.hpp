@@ -10,29 +10,29 @@
 
 namespace vspring {
 
-/// A triangulated surface that can lose nodes: the neighbours of every node in order around it, in its own sense, so
-/// that one-sided surfaces are like any other. Flat: every node has room of its own for some more neighbours.
+/// A triangulated surface that can lose nodes. It holds the neighbours of every node in order around it, in the node's
+/// own sense, so one-sided surfaces need no care. Stored flat: every node has space for some more neighbours.
 class Triangulation {
  public:
   /// closed: triangles all around; open: one fan at a boundary; fixed: anything else (none, several fans, an edge of
   /// more than two triangles). Fixed nodes and those next to them stay as they are.
   enum class Kind : std::uint8_t { closed, open, fixed };
 
-  /// Of a mesh of triangles. Cost: linear, mostly on all threads.
+  /// The triangulation of a mesh of triangles. Cost: linear, mostly on all threads.
   Triangulation(const PolygonMesh& mesh, ThreadTeam& team);
 
-  /// Of the nodes kept, ascending, of a triangulation from which all others have been removed; they get the numbers
+  /// The triangulation of the nodes kept, ascending, after all others were removed from `finer`; they get the numbers
   /// number[node].
   Triangulation(const Triangulation& finer, std::span<const std::uint32_t> kept, std::span<const std::uint32_t> number,
                 ThreadTeam& team);
 
   [[nodiscard]] std::size_t size() const noexcept { return kind_.size(); }
   [[nodiscard]] Kind kind(std::size_t node) const { return kind_[node]; }
-  /// The neighbours in order; at an open node from boundary to boundary. Of a fixed node the codes of its links.
+  /// The neighbours in order; at an open node from boundary to boundary. For a fixed node the codes of its links.
   [[nodiscard]] std::span<const std::uint32_t> ring(std::size_t node) const {
     return {rings_.data() + begin_[node], count_[node]};
   }
-  /// use(neighbour) for every neighbour; of a fixed node, some come twice.
+  /// Calls use(neighbour) for every neighbour; at a fixed node some come twice.
   template <typename Use>
   void for_each_neighbour(std::size_t node, const Use& use) const {
     for (const std::uint32_t code : ring(node)) use(code & Link::node_mask);
@@ -43,20 +43,21 @@ class Triangulation {
   /// Appends the links of a node to `rings`.
   void add_links(std::size_t node, std::vector<Link>& buffer, Rings& rings) const;
 
-  /// Whether the surface stays a surface, and no node gets too few or too many neighbours, when `node` is drawn into
-  /// its neighbour ring(node)[place]: the link condition (Dey, Edelsbrunner, Guha, Nekhayev, "Topology preserving edge
-  /// contraction", 1999). Nodes of a boundary can only be drawn along it. `node` and its neighbours must not be fixed.
+  /// Whether `node` may collapse into its neighbour ring(node)[place]: the result is a surface, and no node gets too
+  /// few or too many neighbours. This is the link condition (Dey, Edelsbrunner, Guha, Nekhayev, "Topology preserving
+  /// edge contraction", 1999). Nodes of a boundary can collapse only along it. `node` and its neighbours must not be
+  /// fixed.
   [[nodiscard]] bool can_collapse(std::size_t node, std::size_t place) const;
-  /// Does it. `node` has no ring afterwards.
+  /// Collapses `node`, which has no ring afterwards.
   void collapse(std::size_t node, std::size_t place);
 
-  /// Turns the edge from `node` to ring(node)[place] in the quadrilateral of its two triangles. None of the four nodes
-  /// may be fixed, the edge must be inside, and the two that it will join must not be joined.
+  /// Flips the edge from `node` to ring(node)[place] in the quadrilateral of its two triangles. None of the four nodes
+  /// may be fixed, the edge must be an inner one, and the nodes that it will join must not be joined already.
   void flip(std::size_t node, std::size_t place);
 
-  /// Fewest neighbours of a node of this kind: with fewer, triangles would coincide or an edge would stand alone.
+  /// Fewest neighbours of a node of this kind: with fewer, triangles would coincide or an edge would have no triangle.
   [[nodiscard]] static std::size_t fewest(Kind kind) { return kind == Kind::closed ? 3 : 2; }
-  /// Neighbours that there is room for.
+  /// Number of neighbours that there is space for.
   [[nodiscard]] std::size_t room(std::size_t node) const { return begin_[node + 1] - begin_[node]; }
 
  private:
@@ -64,7 +65,7 @@ class Triangulation {
   std::uint32_t* first(std::size_t node) { return rings_.data() + begin_[node]; }
   [[nodiscard]] std::size_t place_of(std::size_t node, std::uint32_t neighbour) const;
   void erase(std::size_t node, std::uint32_t neighbour);
-  /// Makes one place of a ring into several, or none.
+  /// Replaces one place of a ring by several, or none.
   void widen(std::size_t node, std::size_t at, std::size_t places);
   void replace(std::size_t node, std::uint32_t neighbour, std::uint32_t by);
   void insert_between(std::size_t node, std::uint32_t a, std::uint32_t b, std::uint32_t inserted);

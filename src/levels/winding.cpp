@@ -17,33 +17,33 @@ namespace vspring {
 
 namespace {
 
-// Of a piece, in all, from which it may have to be kept from unwinding.
+// Total turn from which on a piece may unwind.
 constexpr double least_turn = std::numbers::pi;
-// The same in space, where a bump that should go turns as well.
+// That of space curves, where a bump that should go turns, too.
 constexpr double least_turn_in_space = 1.25 * std::numbers::pi;
-// Nodes of a piece that its five numbers are looked for with.
+// Nodes of a piece with which its five unknowns are determined.
 constexpr std::size_t enough_nodes = 120;
 constexpr double sharpest_turn = 1.8;
-// Nodes that tell how often it winds: between more of them noise may turn the curve around.
+// Nodes with which windings are counted: with more, noise may add windings.
 constexpr std::size_t enough_to_count = 64;
 constexpr int most_corrections = 40;
-// Corrections after which the gap must have become small, or it stays.
+// Corrections after which the gap must be small, else the search fails.
 constexpr int enough_corrections = 12;
-// Of the gap at the end, in sizes of the piece, and of the tangent there.
+// A small gap at the end, in sizes of the piece, and of the tangent there.
 constexpr double small = 0.1;
 constexpr double closed = 1e-10;
 constexpr double nearly_closed = 1e-7;
-// In the plane the sum of all turns tells how often a piece winds; where it winds as often but elsewhere, to and fro
-// or in a knot at one end, it is bent more and far off, in its lengths.
+// In the plane the sum of all turns shows how often a piece winds. If it winds as often but elsewhere, to and fro or in
+// a knot at one end, it is bent more and far away, in units of its length.
 constexpr double same_winding = 1;
 constexpr double far_off = 0.05;
-// In space, of what it turned by and of what it was bent by.
+// In space: least share of the former turn and bending.
 constexpr double less_winding = 0.7;
 constexpr double more_bending = 1.5;
-// What a piece is divided into, so that noise does not count as turns.
+// Number of parts of a piece, so that noise does not count as turns.
 constexpr std::size_t parts = 24;
 
-/// A turn of the tangent, as a vector across it in a frame that is carried along without spin.
+/// A turn of the tangent, as a vector across it in a frame carried along without spin.
 using Turn = Eigen::Vector2d;
 
 struct Frame3 {
@@ -51,10 +51,10 @@ struct Frame3 {
   Vector3 first;
   Vector3 second;
 
-  /// across: a direction across the tangent; what lies in the plane across it then stays there to the bit.
+  /// across: a direction across the tangent; a curve in the plane perpendicular to it stays there to the bit.
   Frame3(const Vector3& along, const Vector3& across) : tangent(along), first(across.cross(along)), second(across) {}
 
-  /// Of the length of the angle.
+  /// The axis of a turn; its length is the angle.
   [[nodiscard]] Vector3 axis_of(const Turn& by) const { return by[0] * second - by[1] * first; }
 
   void turn(const Turn& by) {
@@ -67,7 +67,7 @@ struct Frame3 {
     second = tangent.cross(first);
   }
 
-  /// What turns the tangent to another one.
+  /// The turn from the tangent to another one.
   [[nodiscard]] Turn turn_to(const Vector3& other) const {
     const Vector3 across = other - other.dot(tangent) * tangent;
     const double sine = across.norm();
@@ -124,21 +124,21 @@ class Piece {
     }
   }
 
-  /// In all, without what is taken back a few nodes on.
+  /// The total turn, without turns taken back a few nodes on.
   [[nodiscard]] double turned() const {
     double sum = 0;
     for_each_part([&](const Turn& turn, double /*length*/) { sum += turn.norm(); });
     return sum;
   }
 
-  /// Whether it turns by so much that it may unwind. Where a node turns very sharply it is tangled, rather than wound.
+  /// Whether the piece turns enough to unwind. A very sharp turn at a node means that it is tangled, not wound.
   [[nodiscard]] bool winds() const {
     const auto sharp = [](const Turn& turn) { return turn.norm() > sharpest_turn; };
     return (is_flat_ ? turned() >= least_turn : winding_.norm() >= least_turn_in_space) &&
            std::none_of(turns_.begin(), turns_.end(), sharp);
   }
 
-  /// By how much it is bent, without what is taken back a few nodes on.
+  /// The bending, without turns taken back a few nodes on.
   [[nodiscard]] double bending() const {
     double sum = 0;
     for_each_part([&](const Turn& turn, double length) { sum += turn.squaredNorm() / length; });
@@ -153,10 +153,10 @@ class Piece {
            (other.bending() > bending() && rms_distance(spread_places(), other.spread_places()) > far_off * size_);
   }
 
-  /// Constant and linear turn, over the whole piece, and the logarithm of how many times as long as the input it is.
+  /// Constant and linear turn, over the whole piece, and the logarithm of its length over that of the input.
   using Unknowns = Eigen::Matrix<double, 5, 1>;
 
-  /// The linear turns nearest to the input that end as they should; none where none were found.
+  /// The linear turns nearest to the input that end at the right place and tangent; none if none were found.
   [[nodiscard]] std::optional<Unknowns> nearest() const {
     std::optional<Unknowns> best;
     double least = std::numeric_limits<double>::infinity();
@@ -173,7 +173,7 @@ class Piece {
     return best;
   }
 
-  /// Bends it so. False where that does not end as it should.
+  /// Bends the piece accordingly. False if it does not end as it should.
   bool bend(const Unknowns& unknowns) {
     const std::optional<Unknowns> found = close(unknowns, most_corrections);
     if (found) places_ = bent(*found).places;
@@ -183,7 +183,7 @@ class Piece {
   [[nodiscard]] const std::vector<Vector3>& places() const { return places_; }
 
  private:
-  /// look(turn, length) for each of some parts, of the whole length.
+  /// Calls look(turn, length) for each part; lengths are shares of the whole.
   template <typename Look>
   void for_each_part(const Look& look) const {
     Turn turn = Turn::Zero();
@@ -202,7 +202,7 @@ class Piece {
     }
   }
 
-  /// The polygon's points at as many shares of its length as nodes are to end up with, which may be spaced otherwise.
+  /// The polygon's points at the shares of its length at which nodes are to lie.
   [[nodiscard]] std::vector<Vector3> spread_places() const {
     std::vector<Vector3> result = {places_.front()};
     std::size_t edge = 0;
@@ -273,7 +273,7 @@ class Piece {
     return result;
   }
 
-  /// The unknowns near to some for which the piece ends where and as it should, by the method of Levenberg and
+  /// Unknowns, near given ones, for which the piece ends at the right place and tangent, by the method of Levenberg and
   /// Marquardt.
   [[nodiscard]] std::optional<Unknowns> close(Unknowns unknowns, int corrections) const {
     constexpr double difference = 1e-6;
@@ -311,7 +311,7 @@ class Piece {
   Vector3 end_;
   Vector3 across_;  ///< the normal of its plane, or any direction across its first tangent
   std::vector<Turn> turns_;
-  std::vector<double> even_;           ///< lengths to end with, of the same sum
+  std::vector<double> even_;           ///< lengths of the edges in the end, of the same sum
   std::vector<double> shares_;         ///< of the length at each node
   std::vector<double> at_;             ///< of the length up to each node, from −1/2 to 1/2
   Vector3 winding_ = Vector3::Zero();  ///< sum of the turns about their axes, which noise and bumps hardly add to
@@ -319,11 +319,11 @@ class Piece {
   Turn slope_ = Turn::Zero();
   double size_ = 0;
   bool is_flat_ = false;
-  std::vector<Eigen::Index> free_ = {0, 1, 2, 3, 4};  ///< which of the unknowns there are
+  std::vector<Eigen::Index> free_ = {0, 1, 2, 3, 4};  ///< the unknowns in use
 };
 
 /// Calls look(run, from, to) for each piece of a curve between two held nodes with given tangents that has nodes in
-/// between; stops where it says false.
+/// between; stops if it returns false.
 template <typename Look>
 bool for_each_piece(const Net& net, const Look& look) {
   for (const MovingRun& moving_run : net.moving_runs) {
@@ -343,7 +343,7 @@ bool for_each_piece(const Net& net, const Look& look) {
   return true;
 }
 
-/// Places from to to of a run, every stride-th of them, where `positions` has the nodes.
+/// The piece of a run from place `from` to place `to`, by every stride-th node, at `positions`.
 Piece piece_of(const Net& net, std::span<const Vector3> positions, const MovingRun& moving_run, std::size_t from,
                std::size_t to, std::size_t stride) {
   const auto& nodes = moving_run.nodes;

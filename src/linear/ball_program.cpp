@@ -17,27 +17,27 @@ namespace vspring {
 namespace {
 
 constexpr int most_steps = 80;
-// Of the objective.
+// Relative to the objective.
 constexpr double enough_gap = 1e-6;
 constexpr double next_to_nothing_left = 1e-5;
-// Of the bounds.
+// Relative to the bounds.
 constexpr double enough_miss = 1e-6;
-// Of the gradient of the objective at the start.
+// Relative to the gradient of the objective at the start.
 constexpr double enough_balance = 1e-6;
-// Of half a bound.
+// As a share of half a bound.
 constexpr double first_slack = 0.1;
 constexpr double first_gap = 0.1;
-// Of a bound: rows that are nearer to it have a part in a step, others do not yet.
+// Rows beyond this share of their bound take part in a step, others not yet.
 constexpr double near_share = 0.9;
-// Of fewer all have a part from the start: that takes little.
+// If bounds are fewer, all take part from the start: that costs little.
 constexpr std::size_t few_bounds = 2000;
-// So many windows one after the other: of their rows those that are furthest out have a part from the start.
+// Number of successive windows of whose rows the furthest out takes part from the start.
 constexpr std::uint32_t windows_together = 8;
-// Of the objective.
+// Relative to the objective.
 constexpr double hopeless_gap = 1e4;
-// Of the way to where a slack or a multiplier vanishes.
+// Share of the way to where a slack or a multiplier vanishes.
 constexpr double share_to_bound = 0.99;
-// Of the greatest entry: so that no unknown is left without a row.
+// As a share of the greatest entry, so that no unknown is without a row.
 constexpr double least_diagonal = 1e-12;
 
 template <int K>
@@ -46,7 +46,7 @@ class InteriorPoint {
   using Value = Eigen::Matrix<double, K, 1>;
   using Local = Eigen::Matrix<double, 4 * K, 1>;
 
-  /// What a bounded row has.
+  /// The state of a bounded row.
   struct Bound {
     std::size_t row;
     std::size_t first;  ///< block of the row
@@ -54,13 +54,13 @@ class InteriorPoint {
     double multiplier = 0;
     double slack_step = 0;
     double multiplier_step = 0;
-    double target = 0;  ///< of slack · multiplier, less what the predictor makes of both steps
-    double bend = 0;    ///< what the predictor leaves of the bound, as that is not linear
-    // Of those with a price, which multiplier and spare add up to.
+    double target = 0;  ///< of slack · multiplier, less the product of the predictor's steps
+    double bend = 0;    ///< the part of the bound that the predictor misses, as it is not linear
+    // Of bounds with a price, which is multiplier + spare.
     double beyond = 0;
     double spare = 0;
     double beyond_step = 0;
-    double beyond_target = 0;  ///< of beyond · spare, as of slack · multiplier
+    double beyond_target = 0;  ///< of beyond · spare, likewise
   };
 
  public:
@@ -90,13 +90,13 @@ class InteriorPoint {
         result.found = true;
         break;
       }
-      // Multipliers that grow so far have no bounds to go to; a price stops them.
+      // Multipliers that grow so far mean that bounds cannot be kept; a price limits them.
       if (!has_prices_ && !(gap <= hopeless_gap * std::max(objective_, next_to_nothing_left * first_objective_))) break;
       factor();
       for (Bound& bound : bounds_) bound.target = bound.beyond_target = bound.bend = 0;
       find_step();
       if (!bounds_.empty()) {
-        // The predictor goes straight for the optimum; what it finds tells how far to aim.
+        // The predictor goes straight for the optimum; its step decides how far to aim.
         const double ahead = std::min(1.0, share_of_step());
         double after = 0;
         std::size_t products = 0;
@@ -168,7 +168,7 @@ class InteriorPoint {
     bound.multiplier = target / bound.slack;
   }
 
-  /// Those with a part in the program from the start: near their bounds, or furthest out of those about them.
+  /// Takes in the rows that take part from the start: near their bounds, or furthest out among those around.
   void take_in_first() {
     std::vector<std::uint8_t> taken(values_.size(), 0);
     std::array<std::size_t, 1U << K> furthest{};
@@ -205,7 +205,7 @@ class InteriorPoint {
     std::sort(bounds_.begin(), bounds_.end(), is_before);
   }
 
-  /// Those that have come near their bounds since.
+  /// Takes in the rows that have come near their bounds since.
   void take_in_near() {
     if (left_out_.empty()) return;
     const auto before = static_cast<std::ptrdiff_t>(bounds_.size());
@@ -221,24 +221,24 @@ class InteriorPoint {
     std::inplace_merge(bounds_.begin(), bounds_.begin() + before, bounds_.end(), is_before);
   }
 
-  /// In the order of their first unknown rows take few rotations each.
+  /// In the order of their first unknown, rows need few rotations each.
   static bool is_before(const Bound& a, const Bound& b) {
     return a.first != b.first ? a.first < b.first : a.row < b.row;
   }
 
   [[nodiscard]] bool has_price(const Bound& bound) const { return program_.rows[bound.row].price > 0; }
 
-  /// (|value|² − bound²) / (2 bound) and its slack, less what is paid for: what is to vanish.
+  /// (|value|² − bound²) / (2 bound) plus its slack, less what is paid for; must vanish.
   [[nodiscard]] double miss(const Bound& bound) const {
     return excess(bound) + bound.slack - bound.beyond + bound.bend;
   }
 
-  /// How its multiplier grows with the value.
+  /// How fast the multiplier grows with the value.
   [[nodiscard]] double steepness(const Bound& bound) const {
     return 1 / (bound.slack / bound.multiplier + (has_price(bound) ? bound.beyond / bound.spare : 0));
   }
 
-  /// What its multiplier grows by where the value stays, over its steepness.
+  /// The growth of the multiplier at a fixed value, over its steepness.
   [[nodiscard]] double pull(const Bound& bound) const {
     const double paid = has_price(bound) ? bound.beyond_target / bound.spare - bound.beyond : 0;
     return miss(bound) + bound.target / bound.multiplier - bound.slack - paid;
@@ -262,13 +262,13 @@ class InteriorPoint {
       values_[r] = program_.rows[r].offset + product(program_.rows[r], x_);
   }
 
-  /// (|value|² − bound²) / (2 bound): what is to be negative.
+  /// (|value|² − bound²) / (2 bound), which must be negative.
   [[nodiscard]] double excess(const Bound& bound) const {
     const double most = program_.rows[bound.row].bound;
     return (values_[bound.row].squaredNorm() - most * most) / (2 * most);
   }
 
-  /// Its slope by the value.
+  /// The derivative of excess() by the value.
   [[nodiscard]] Value slope(const Bound& bound) const { return values_[bound.row] / program_.rows[bound.row].bound; }
 
   void add_to(std::vector<double>& right, const Row& row, const Value& factor) const {
@@ -280,7 +280,7 @@ class InteriorPoint {
     }
   }
 
-  /// Of the Lagrangian; and its size without the bounds.
+  /// Finds the gradient of the Lagrangian, and its size without the bounds.
   void find_gradient() {
     std::fill(gradient_.begin(), gradient_.end(), 0);
     objective_ = 0;
@@ -311,10 +311,10 @@ class InteriorPoint {
     });
   }
 
-  /// Rows of the objective stay the same from step to step.
+  /// Rows of the objective are the same in every step.
   void begin_triangle() {
     double greatest = 0;
-    // Where rows that begin with each block begin among all, once these are in the order of their first unknown.
+    // Per block the first row that begins with it, with rows in the order of their first unknown.
     std::vector<std::size_t> begins(program_.blocks + 2, 0);
     for (const Row& row : program_.rows) {
       if (!(row.weight > 0)) continue;
@@ -416,7 +416,7 @@ class InteriorPoint {
   std::vector<double> gradient_;
   std::vector<Value> values_;
   std::vector<Bound> bounds_;
-  std::vector<std::size_t> left_out_;  // rows with bounds that have no part yet
+  std::vector<std::size_t> left_out_;  // rows with bounds that do not take part yet
   BandTriangle objective_triangle_;
   BandTriangle triangle_;
   bool has_prices_ = false;

@@ -8,12 +8,12 @@
 
 namespace vspring {
 
-/// A convex program over blocks of K unknowns along curves: least Σ weight |row · x + offset|² with |row · x + offset|
-/// ≤ bound for some of the rows, or with a price for what some are beyond. Rows see the four blocks of a window.
+/// A convex program over blocks of K unknowns along curves: minimise Σ weight |row · x + offset|², with |row · x +
+/// offset| ≤ bound for some rows, or with a price for exceeding it. A row involves the four blocks of a window.
 template <int K>
 struct BallProgram {
   static constexpr std::int32_t none = -1;
-  /// Four blocks, `none` for what does not move. They lie near each other.
+  /// Four blocks, `none` if fixed. They lie near each other.
   using Window = std::array<std::int32_t, 4>;
 
   struct Row {
@@ -22,7 +22,7 @@ struct BallProgram {
     Eigen::Matrix<double, K, 1> offset = Eigen::Matrix<double, K, 1>::Zero();
     double weight = 0;
     double bound = 0;  ///< 0: none
-    double price = 0;  ///< of what it is beyond, in halves of the objective a length; 0: it may not be
+    double price = 0;  ///< for exceeding the bound, in halves of the objective per length; 0: not allowed
   };
 
   std::size_t blocks = 0;
@@ -32,18 +32,18 @@ struct BallProgram {
 
 struct BallSolution {
   std::vector<double> x;  ///< K for each block
-  bool found = false;     ///< all bounds without a price are kept, and no x that keeps them is better by more than 1e-5
+  bool found = false;     ///< whether x keeps all bounds without a price, and no such x is better by more than 1e-5
   int steps = 0;
-  /// Of each row: |row · x + offset|.
+  /// Per row: |row · x + offset|.
   std::vector<double> distances;
-  /// For each row, the multiplier of its bound.
+  /// Per row, the multiplier of its bound.
   std::vector<double> multipliers;
 };
 
-/// By a primal-dual interior-point method with a predictor (Mehrotra 1992; Boyd and Vandenberghe, Convex Optimization,
-/// §11.7), for constraints (|row · x + offset|² − bound²) / (2 bound) ≤ 0, or ≤ what is paid for. x = 0 need not keep
-/// the bounds. Of many bounds those without a price have a part once x comes near
-/// them. At most 40 steps. Cost of one: linear.
+/// Solves a program by a primal-dual interior-point method with a predictor (Mehrotra 1992; Boyd and Vandenberghe,
+/// Convex Optimization, §11.7), for constraints (|row · x + offset|² − bound²) / (2 bound) ≤ 0, or ≤ what is paid for.
+/// x = 0 need not keep the bounds. If bounds are many, those without a price take part only once x comes near them. At
+/// most 40 steps; each is linear.
 template <int K>
 BallSolution solve(const BallProgram<K>& program);
 

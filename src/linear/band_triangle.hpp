@@ -11,18 +11,18 @@
 
 namespace vspring {
 
-/// The triangle R of an orthogonal factorisation (Givens) of rows whose entries lie within a few columns: Rᵀ R is the
-/// sum of their products, whose condition it does not square. For third differences along n nodes that is n³ in place
-/// of n⁶.
+/// The triangle R of an orthogonal factorisation (Givens) of rows whose entries lie within a few columns. Rᵀ R is the
+/// sum of products of rows, but never formed, which would square the condition: for third differences along n nodes
+/// that is n³ in place of n⁶.
 class BandTriangle {
  public:
-  /// Columns within which the entries of a row lie.
+  /// Most columns over which the entries of a row may extend.
   static constexpr std::size_t most_width = 14;
   using Row = std::array<double, most_width>;
 
   BandTriangle(std::size_t size, std::size_t width)
       : size_(size),
-        // Those of curves in the plane and in space, open and closed.
+        // The widths of curves in the plane and in space, open and closed.
         width_(width <= 4   ? 4
                : width <= 7 ? 7
                : width <= 8 ? 8
@@ -31,15 +31,15 @@ class BandTriangle {
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
 
-  /// diagonal: what there is in each column at the start.
+  /// diagonal: the initial diagonal entry of each column.
   void clear(double diagonal) {
     std::fill(entries_.begin(), entries_.end(), 0);
     for (std::size_t i = 0; i < size_; ++i) entries_[i * width_] = diagonal;
   }
 
-  /// A row, times a factor, whose entries begin at column `first`: in the order of these, or it takes as many rotations
-  /// as there are columns below. Calls rotate(column, cosine, sine) for each rotation
-  /// of a row of the triangle with it: for right-hand sides. Cost: width².
+  /// Adds a row, times a factor, whose entries begin at column `first`. Rows should come with ascending `first`, else
+  /// each needs as many rotations as there are later columns. Calls rotate(column, cosine, sine) for each rotation, for
+  /// right-hand sides. Cost: width².
   template <typename Rotate>
   void add(std::size_t first, std::span<const double> row, double factor, Rotate rotate) {
     for_width([&](auto width) { rotate_in<width>(first, row.data(), factor, rotate); });
@@ -48,12 +48,12 @@ class BandTriangle {
     add(first, row, factor, [](std::size_t, double, double) {});
   }
 
-  /// The diagonal and what is right of it.
+  /// The diagonal entry and those right of it.
   [[nodiscard]] std::span<const double> row(std::size_t column) const {
     return std::span(entries_).subspan(column * width_, width_);
   }
 
-  /// R x = right, in place. Value: a number or a vector.
+  /// Solves R x = right in place. Value: a number or a vector.
   template <typename Value>
   void solve_upper(std::span<Value> right) const {
     for_width([&](auto width) {
@@ -66,7 +66,7 @@ class BandTriangle {
     });
   }
 
-  /// Rᵀ R x = right, in place.
+  /// Solves Rᵀ R x = right in place.
   void solve(std::span<double> right) const {
     for_width([&](auto width) {
       for (std::size_t i = 0; i < size_; ++i) {
@@ -80,7 +80,7 @@ class BandTriangle {
   }
 
  private:
-  /// Loops of a length that is known are twice as fast.
+  /// Loops of constant length are twice as fast.
   template <typename Use>
   void for_width(Use use) const {
     switch (width_) {
@@ -102,12 +102,12 @@ class BandTriangle {
     std::size_t rest = Width;
     for (std::size_t column = first; column < size_ && rest > 0; ++column) {
       double* above = &entries_[column * Width];
-      // What is left of a row dwindles along the band, until its square is no number any more.
+      // The rest of a row dwindles along the band, until its square underflows.
       if (left[0] * left[0] >= std::numeric_limits<double>::min()) {
         const double length = std::sqrt(above[0] * above[0] + left[0] * left[0]);
         const double cosine = above[0] / length;
         const double sine = left[0] / length;
-        // Nothing stands there yet.
+        // The column is still empty.
         const bool ends = above[0] == 0;
         above[0] = length;
         for (std::size_t k = 1; k < Width; ++k) {
@@ -127,7 +127,7 @@ class BandTriangle {
 
   std::size_t size_;
   std::size_t width_;
-  std::vector<double> entries_;  // of each row the diagonal and what is right of it
+  std::vector<double> entries_;  // per row the diagonal entry and those right of it
 };
 
 }  // namespace vspring

@@ -53,7 +53,7 @@ void BandedQr::solve_banded(std::span<Value> right) const {
   for (std::size_t i = 0; i < size; ++i) {
     if (i > 0) right[i] -= rows_[i - 1][1] * right[i - 1];
     if (i > 1) right[i] -= rows_[i - 2][2] * right[i - 2];
-    // A column that no row touches is left alone.
+    // Skips columns without a row.
     if (rows_[i][0] != 0) right[i] *= 1 / rows_[i][0];
   }
   for (std::size_t i = size; i-- > 0;) {

@@ -10,16 +10,16 @@ namespace vspring {
 
 namespace {
 
-// What is added to the diagonal where it does not do.
+// Added to the diagonal if a pivot vanishes.
 constexpr double share_of_greatest = 1e-10;
-// In iterations, for a node whose column has one entry; columns of 12 to 118 entries were timed.
+// In iterations, per node and entry of its column; timed for columns of 12 to 118 entries.
 constexpr double work_of_products = 4e-4;
 constexpr double work_of_entries = 5e-3;
 
 }  // namespace
 
-// Row by row of L, each a solution with what there is of it, the columns in the order of the elimination tree: T. A.
-// Davis, "Algorithm 849: a concise sparse Cholesky factorization package", ACM Transactions on Mathematical Software
+// Computes L row by row; each row is a solution with the rows before, columns in the order of the elimination tree: T.
+// A. Davis, "Algorithm 849: a concise sparse Cholesky factorization package", ACM Transactions on Mathematical Software
 // 31(4), 2005. Eigen's own does the same operations in the same order.
 void CholeskySolver::Factor::factorize(const Matrix& matrix) {
   const auto size = static_cast<int>(matrix.rows());
@@ -72,7 +72,7 @@ void CholeskySolver::Factor::factorize(const Matrix& matrix) {
 }
 
 void CholeskySolver::build(const Eigen::SparseMatrix<double>& matrix) {
-  // As many entries at other places would be written beyond the factor's memory.
+  // Equally many entries at other places would be written beyond the factor's memory.
   std::vector<int> pattern(matrix.outerIndexPtr(), matrix.outerIndexPtr() + matrix.outerSize() + 1);
   pattern.insert(pattern.end(), matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
   if (pattern != ordered_pattern_) {
@@ -82,7 +82,7 @@ void CholeskySolver::build(const Eigen::SparseMatrix<double>& matrix) {
   factor_.setShift(0);
   factor_.factorize(matrix);
   if (factor_.info() == Eigen::Success) return;
-  // Of tangled shapes a pivot may vanish.
+  // With tangled shapes a pivot may vanish.
   factor_.setShift(share_of_greatest * matrix.diagonal().cwiseAbs().maxCoeff());
   factor_.factorize(matrix);
 }
@@ -95,7 +95,7 @@ double CholeskySolver::work_of_building() const {
 }
 
 Eigen::VectorXd CholeskySolver::solution(const Eigen::VectorXd& column) const {
-  // Eigen leaves what it returns as the memory was.
+  // Eigen returns uninitialised memory then.
   if (factor_.info() != Eigen::Success)
     return Eigen::VectorXd::Constant(column.size(), std::numeric_limits<double>::quiet_NaN());
   return factor_.solve(column);

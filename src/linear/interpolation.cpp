@@ -11,7 +11,7 @@ namespace vspring {
 namespace {
 
 constexpr std::size_t most_sources = 4;
-// Of the unscaled shares, what has to be left where they are made to reproduce linear functions.
+// What must be left of the unscaled shares when they are corrected to reproduce linear functions.
 constexpr double least_share_left = 0.2;
 constexpr double ridge_share = 0.01;
 constexpr auto none = static_cast<std::uint32_t>(-1);
@@ -21,8 +21,7 @@ struct Source {
   std::uint32_t node;
 };
 
-/// Shares of sum 1 near 1/distance² that put the centre in its place between the sources, in the plane in which they
-/// lie most nearly.
+/// Shares of sum 1, near 1/distance², with which the sources' mean is the centre, in the best plane through them.
 void find_shares(const Vector3& centre, std::span<const Vector3> positions, std::span<const Source> sources,
                  std::vector<double>& shares) {
   shares.clear();

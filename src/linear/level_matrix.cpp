@@ -28,7 +28,7 @@ void multiply(Sources row, const Matrix& matrix, SparseSum& image) {
   }
 }
 
-/// inner: for row · Gᵀ.
+/// inner: a buffer for row · Gᵀ.
 void multiply(Sources row, const FactoredMatrix& matrix, SparseSum& inner, SparseSum& image) {
   inner.clear();
   for (const FloatRows::Entry& outer : row) {
@@ -59,7 +59,7 @@ std::size_t inner_size_of(const LevelMatrix& matrix) {
   return factored ? factored->inner_size() : 0;
 }
 
-/// Rows of upᵀ matrix up, one after the other.
+/// Makes rows of upᵀ matrix up, one after the other.
 class GalerkinRow {
  public:
   GalerkinRow(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up)
@@ -70,7 +70,7 @@ class GalerkinRow {
         there_(up.rows()),
         row_(up.columns()) {}
 
-  /// Valid until the next one.
+  /// Valid until the next call.
   const SparseSum& operator()(std::size_t i) {
     const Sources here = down_->row(i);
     there_.clear();
@@ -98,13 +98,13 @@ class GalerkinRow {
   SparseSum row_;
 };
 
-/// As many as work at a time, each for one run of rows after the other: they are as large as a column of the matrix.
+/// Lends out as many objects as work at a time, as each is as large as a column of the matrix.
 class GalerkinRows {
  public:
   GalerkinRows(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up)
       : make_([&] { return std::make_unique<GalerkinRow>(down, matrix, up); }) {}
 
-  /// One of them until it is destroyed.
+  /// Holds one object until destroyed.
   class Lent {
    public:
     explicit Lent(GalerkinRows& from) : from_(&from), row_(from.take()) {}
@@ -148,7 +148,7 @@ class GalerkinRows {
 class RoundedDiagonal {
  public:
   void add(double entry) { value_ += entry; }
-  /// Rounds an entry beside it, and takes in what that changes.
+  /// Rounds an entry of the row, and adds the rounding error to the diagonal.
   float add_rounding(double entry) {
     const auto rounded = static_cast<float>(entry);
     value_ += entry;
@@ -161,7 +161,7 @@ class RoundedDiagonal {
   double value_ = 0;
 };
 
-/// Takes entries in for row i: those beside the diagonal go into the row, and their rounding onto the diagonal.
+/// Collects entries for row i: off-diagonal ones go into the row, their rounding errors to the diagonal.
 class RoundedRow {
  public:
   RoundedRow(std::size_t i, FloatRows::Row& row) : i_(i), row_(&row) {}

@@ -16,16 +16,16 @@ class GraphLaplacian;
 class LinkMatrix;
 using LevelMatrix = std::variant<AssembledMatrix, LinkMatrix, FactoredMatrix, GraphLaplacian>;
 
-/// Symmetric, in single precision but for the diagonal, which makes up for the rounding of the entries beside it: what
-/// the matrix makes of a constant stays exact.
+/// A symmetric matrix in single precision. The diagonal is in double precision and compensates the rounding of the
+/// other entries, so the product with a constant is exact.
 class AssembledMatrix {
  public:
-  /// upᵀ matrix up. Cost: linear; nothing between is kept.
+  /// The matrix upᵀ matrix up. Cost: linear; stores no intermediate matrix.
   AssembledMatrix(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up, ThreadTeam& team);
 
   [[nodiscard]] std::size_t size() const noexcept { return diagonal_.size(); }
   [[nodiscard]] double diagonal(std::size_t i) const { return diagonal_[i]; }
-  /// use(column, value) for the entries of row i.
+  /// Calls use(column, value) for the entries of row i.
   template <typename Use>
   void for_row(std::size_t i, const Use& use) const {
     use(i, diagonal_[i]);
@@ -37,17 +37,16 @@ class AssembledMatrix {
   std::vector<double> diagonal_;
 };
 
-/// The same where entries beside the diagonal are between neighbours: as the net says where they are, it takes half the
-/// memory.
+/// Such a matrix whose off-diagonal entries join neighbours. The net gives their columns, so it takes half the memory.
 class LinkMatrix {
  public:
-  /// From all entries: of row i those of its neighbours, in the order of its links, and the diagonal last. The net must
-  /// outlive it.
+  /// From a matrix whose row i has the entries of its neighbours, in the order of its links, and the diagonal last. The
+  /// net must outlive it.
   LinkMatrix(const Net& net, const SparseRows& matrix, ThreadTeam& team);
 
   [[nodiscard]] std::size_t size() const noexcept { return diagonal_.size(); }
   [[nodiscard]] double diagonal(std::size_t i) const { return diagonal_[i]; }
-  /// use(column, value) for the entries of row i.
+  /// Calls use(column, value) for the entries of row i.
   template <typename Use>
   void for_row(std::size_t i, const Use& use) const {
     use(i, diagonal_[i]);
@@ -64,30 +63,30 @@ class LinkMatrix {
   std::vector<double> diagonal_;
 };
 
-/// A matrix with a row and a column for every moving node of a net, whose entries beside the diagonal are between
-/// neighbours, and with further rows below.
+/// A matrix with a row and a column for every moving node of a net, whose off-diagonal entries join neighbours, and
+/// with further rows below.
 struct EdgeAlignedRows {
   std::vector<float> diagonal;
   std::vector<float> beside;  ///< one for every link of a moving node; zero for those to held ones
   FloatRows further;
 };
 
-/// Gᵀ G. A product that is not multiplied out stays positive and exact for what the rows of G take to zero, in single
-/// precision too; and where its entries are is known from the net.
+/// Gᵀ G, stored as G. So it stays positive, and exact for vectors that the rows of G take to zero, also in single
+/// precision; and the net gives the columns of its entries.
 class FactoredMatrix {
  public:
-  /// From G. The net must outlive it. Cost: linear.
+  /// rows: G. The net must outlive it. Cost: linear.
   FactoredMatrix(const Net& net, EdgeAlignedRows rows, ThreadTeam& team);
 
   [[nodiscard]] std::size_t size() const noexcept { return net_->moving; }
-  /// Rows of G.
+  /// The number of rows of G.
   [[nodiscard]] std::size_t inner_size() const noexcept { return size() + rows_.further.rows(); }
   [[nodiscard]] double diagonal(std::size_t i) const {
     double sum = 0;
     for_column(i, [&](std::size_t, float value) { sum += static_cast<double>(value * value); });
     return sum;
   }
-  /// use(column, value) for the entries of row i of G.
+  /// Calls use(column, value) for the entries of row i of G.
   template <typename Use>
   void for_row(std::size_t i, const Use& use) const {
     if (i < size()) {
@@ -97,7 +96,7 @@ class FactoredMatrix {
       for (const FloatRows::Entry& entry : rows_.further.row(i - size())) use(entry.column, entry.value);
     }
   }
-  /// use(row, value) for the entries of column i of G.
+  /// Calls use(row, value) for the entries of column i of G.
   template <typename Use>
   void for_column(std::size_t i, const Use& use) const {
     use(i, rows_.diagonal[i]);
@@ -118,12 +117,11 @@ class FactoredMatrix {
 
   const Net* net_;
   EdgeAlignedRows rows_;
-  std::vector<float> across_;  // for every link the entry of the neighbour's row
+  std::vector<float> across_;  // per link the entry in the neighbour's row
   FloatRows further_columns_;
 };
 
-/// The Laplacian of the moving nodes' graph with weights of one, which takes no memory of its own. The net must outlive
-/// it.
+/// The Laplacian of the moving nodes' graph with weights of one; needs no memory. The net must outlive it.
 class GraphLaplacian {
  public:
   explicit GraphLaplacian(const Net& net) : net_(&net) {}
@@ -145,7 +143,7 @@ class GraphLaplacian {
   const Net* net_;
 };
 
-/// upᵀ matrix up in double precision. Cost: linear; nothing between is kept.
+/// upᵀ matrix up in double precision. Cost: linear; stores no intermediate matrix.
 SparseRows galerkin(const FloatRows& down, const LevelMatrix& matrix, const FloatRows& up, ThreadTeam& team);
 
 }  // namespace vspring

@@ -6,8 +6,8 @@
 
 namespace vspring {
 
-/// When a solver that iterates may end: when the next cycle would change no value by more than `enough`, or by more
-/// than this share of what the first one changed. With a share of 1 there is one cycle.
+/// When an iterating solver may end: the next cycle would change no value by more than `enough`, or by more than
+/// `share` of the first cycle's change. With a share of 1 there is one cycle.
 struct Accuracy {
   double enough = 0;
   double share = 0;
@@ -22,10 +22,10 @@ class LinearSolver {
   LinearSolver(const LinearSolver&) = delete;
   LinearSolver& operator=(const LinearSolver&) = delete;
 
-  /// Puts the solution in the right side's place; of vectors for each coordinate.
+  /// Replaces the right side by the solution; vectors by coordinates.
   virtual void solve(std::span<double> values, const Accuracy& accuracy) = 0;
   virtual void solve(std::span<Vector3> values, const Accuracy& accuracy) = 0;
-  /// The same, roughly, with the matrix of the next coarser level. False, and nothing is done, where there is none.
+  /// Solves approximately, with the matrix of the next coarser level. Returns false and does nothing if there is none.
   virtual bool solve_coarser(std::span<Vector3> /*values*/) { return false; }
 };
 

@@ -9,7 +9,8 @@ namespace vspring {
 
 namespace {
 
-// Entries from the first one of a column to the diagonal, in the mean: of curves that close some 15.
+// Mean entries from the first one of a column to the diagonal, up to which the matrix counts as a band; closed curves
+// have about 15.
 constexpr Eigen::Index entries_of_band = 32;
 
 bool is_band(const Eigen::SparseMatrix<double>& matrix) {
@@ -36,7 +37,7 @@ void EliminationOrder::operator()(const Eigen::SparseMatrix<double>& matrix, Per
 // Li, J. W. H. Liu, "A supernodal approach to sparse partial pivoting", SIAM J. Matrix Anal. Appl. 20(3), 1999. The
 // steps are Eigen's, in the order of Eigen's own.
 
-/// A part of `size` entries of each for every column of a panel, where it says so.
+/// Buffers; those marked have `size` entries for every column of a panel.
 struct LuFactor::Workspace {
   Workspace(Eigen::Index columns, const Eigen::internal::perfvalues& widths, const PermutationType& order)
       : size(columns),
@@ -53,7 +54,7 @@ struct LuFactor::Workspace {
         scratch(ScalarVector::Zero((widths.maxsuper + columns) * widths.panel_size)) {}
 
   Eigen::Index size;
-  IndexVector first_of_segment;  ///< of every column of the panel
+  IndexVector first_of_segment;  ///< per column of the panel
   IndexVector rows;              ///< likewise
   IndexVector segments;
   Eigen::Index segments_of_panel = 0;
@@ -63,7 +64,7 @@ struct LuFactor::Workspace {
   IndexVector marks;
   IndexVector relaxed_end;
   PermutationType place;
-  ScalarVector dense;  ///< of every column of the panel
+  ScalarVector dense;  ///< per column of the panel
   ScalarVector scratch;
   Eigen::Index panel = 0;  ///< its first column
 };
@@ -116,7 +117,7 @@ void LuFactor::factorize(const Eigen::SparseMatrix<double>& matrix) {
   m_glu.xlsub(0) = m_glu.xusub(0) = m_glu.xlusup(0) = 0;
   for (Eigen::Index first = 0; first < size;) {
     end_if_cancelled();
-    // It ends before the next relaxed supernode begins.
+    // The panel ends before the next relaxed supernode begins.
     Eigen::Index end = first + 1;
     while (end < std::min(first + m_perfv.panel_size, size) && work.relaxed_end(end) == nothing) ++end;
     begin_panel(work, first, end - first);

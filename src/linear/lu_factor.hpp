@@ -6,24 +6,24 @@
 
 namespace vspring {
 
-/// The order in which unknowns are eliminated: as they are where the matrix is a band but for a few columns, as along
-/// a curve, open or closed; else by minimum degree, which takes long and cannot be broken off.
+/// The order in which unknowns are eliminated: as they are if the matrix is a band except for a few columns, as along a
+/// curve; else by minimum degree, which is slow and cannot be cancelled.
 struct EliminationOrder {
   using PermutationType = Eigen::AMDOrdering<int>::PermutationType;
   void operator()(const Eigen::SparseMatrix<double>& matrix, PermutationType& permutation) const;
 };
 
-/// Eigen's factors L U with rows exchanged, but that factorising ends where it is cancelled: of a curve of very many
-/// nodes, or of nodes of very many neighbours, that takes long. What it says of determinants is not valid.
+/// Eigen's factors L U with row exchanges, but cancellation ends the factorisation, which is long for very many nodes
+/// or neighbours. Its determinants are not valid.
 class LuFactor : public Eigen::SparseLU<Eigen::SparseMatrix<double>, EliminationOrder> {
  public:
   void factorize(const Eigen::SparseMatrix<double>& matrix);
 
  private:
   struct Workspace;
-  /// Leaves in the workspace what updates its columns, from column `first` on, once it has found that.
+  /// Finds the updates of the panel's columns, from column `first` on, and leaves them in the workspace.
   void begin_panel(Workspace& work, Eigen::Index first, Eigen::Index width);
-  /// False where the column has no pivot. place: in the panel.
+  /// Returns false if the column has no pivot. place: in the panel.
   bool eliminate(Workspace& work, Eigen::Index column, Eigen::Index place);
 };
 

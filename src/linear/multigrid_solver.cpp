@@ -15,14 +15,14 @@ namespace {
 constexpr std::size_t rows_per_task = 4096;
 constexpr int degree = 2;
 constexpr int most_iterations = 60;
-// The smoother sees to eigenvalues from this share of the greatest on.
+// The smoother damps eigenvalues from this share of the greatest on.
 constexpr double smoothed_from = 1.0 / 12;
 constexpr int power_steps = 10;
 constexpr int further_power_steps = 2;
 // The power iteration stays below the greatest eigenvalue.
 constexpr double power_margin = 1.15;
 
-/// What a node has of one column, or of three.
+/// The values of a node, for one column or for three.
 using One = float;
 using Three = Eigen::Array3f;
 
@@ -39,7 +39,7 @@ void for_rows(ThreadTeam& team, std::size_t rows, const Body& body) {
   parallel_each(team, rows, rows_per_task, body);
 }
 
-/// What is summed up in double precision.
+/// The sum in double precision.
 template <typename Value>
 using Sum = std::conditional_t<std::is_same_v<Value, One>, double, Eigen::Array3d>;
 
@@ -84,7 +84,7 @@ VSPRING_INLINE Value row_times(const GraphLaplacian& matrix, std::size_t i, cons
   return std::max(spokes, 1.0F) * values[i] - sum;
 }
 
-/// In fixed pieces, so that the bits do not depend on threads.
+/// Sums in fixed pieces, so the bits do not depend on threads.
 template <typename Value>
 Sum<Value> dot(ThreadTeam& team, const std::vector<Value>& a, const std::vector<Value>& b) {
   Sum<Value> nothing = wide<Value>(zero<Value>());
@@ -124,7 +124,7 @@ Sum<Value> ratio(const Sum<Value>& a, const Sum<Value>& b) {
     return (b > 0).select(a / b, Sum<Value>::Zero());
 }
 
-/// then(i, y_i) for every i of y = matrix · values. room: for what lies between factors.
+/// Calls then(i, y_i) for every i of y = matrix · values. room: a buffer for the product with the first factor.
 template <typename Value, typename Then>
 void multiply(ThreadTeam& team, const LevelMatrix& matrix, const std::vector<Value>& values, std::vector<Value>& room,
               const Then& then) {
@@ -169,7 +169,7 @@ void MultigridSolver::build(LevelMatrix finest) {
 void MultigridSolver::add_level(LevelMatrix matrix) {
   levels_.push_back({.matrix = std::move(matrix)});
   scale(levels_.back());
-  // Only the finest level's matrix is replaced and asked again.
+  // Only the matrix of the finest level is replaced and needs this again.
   if (levels_.size() > 1) levels_.back().rough = std::vector<float>();
 }
 
@@ -190,7 +190,7 @@ void MultigridSolver::scale(Level& level) const {
       level.matrix);
   const bool first = level.rough.empty();
   if (first) {
-    // Rough, and along no eigenvector of any shape.
+    // A rough vector that is no eigenvector of any shape.
     level.rough.resize(rows);
     for (std::size_t i = 0; i < rows; ++i)
       level.rough[i] = (i % 2 == 0 ? 1.0F : -1.0F) * (1 + static_cast<float>(i * 7919 % 97) / 97);
@@ -208,11 +208,11 @@ void MultigridSolver::scale(Level& level) const {
   level.greatest = power_margin * size;
 }
 
-/// One V-cycle, with the room that it needs.
+/// A V-cycle and its buffers.
 template <typename Value>
 class MultigridSolver::Cycle {
  public:
-  /// first: the level that it is for.
+  /// first: the level on which it begins.
   explicit Cycle(MultigridSolver& solver, std::size_t first = 0)
       : solver_(&solver), first_(first), levels_(solver.levels_.size() + 1) {
     for (std::size_t k = first; k < levels_.size(); ++k) {
@@ -239,7 +239,7 @@ class MultigridSolver::Cycle {
     std::vector<Value> step;
   };
 
-  /// From the right side in `residual`; leaves the solution in `solution`.
+  /// Solves for the right side in `residual`; the result is in `solution`.
   void descend(std::size_t k) {
     Room& room = levels_[k];
     ThreadTeam& team = *solver_->team_;
@@ -263,8 +263,8 @@ class MultigridSolver::Cycle {
     smooth(k, false);
   }
 
-  /// Chebyshev iteration from the residual; from a solution of zero at first. The last residual is only worked out
-  /// before going down.
+  /// Chebyshev iteration from the residual; first: from a zero solution. The last residual is computed only before
+  /// going down.
   void smooth(std::size_t k, bool first) {
     ThreadTeam& team = *solver_->team_;
     const Level& level = solver_->levels_[k];
@@ -353,7 +353,7 @@ void MultigridSolver::solve_any(Cycle<Value>& cycle, Values values, const Accura
   const std::size_t rows = values.size();
   for_rows(*team_, rows, [&](std::size_t i) { cycle.right()[i] = narrowed(values[i]); });
   cycle.apply();
-  // What is still missing, as far as one cycle can tell.
+  // The remaining error, as one more cycle estimates it.
   double missing = greatest<Value>(*team_, cycle.solution());
   const double wanted = std::max(accuracy.enough, accuracy.share * missing);
   if (!(missing > wanted)) {
@@ -382,7 +382,7 @@ void MultigridSolver::solve_any(Cycle<Value>& cycle, Values values, const Accura
     cycle.apply();
     missing = greatest<Value>(*team_, cycle.solution());
   }
-  // That far it does no harm to believe the last cycle.
+  // At this accuracy the last cycle can be added unchecked.
   for_rows(*team_, rows, [&](std::size_t i) { widen(solution[i] + cycle.solution()[i], values[i]); });
 }
 

@@ -11,23 +11,23 @@
 
 namespace vspring {
 
-/// By conjugate gradients, preconditioned by a multigrid cycle: every level has a matrix of its own, Chebyshev
-/// polynomials of it scaled by its diagonal smooth, a sparse factor solves on the coarsest. Cost for n nodes: linear
-/// once, and linear for every column where the number of iterations does not grow.
+/// Solves by conjugate gradients, preconditioned by a multigrid cycle. Every level has a matrix of its own and is
+/// smoothed by Chebyshev polynomials of it, scaled by its diagonal; a sparse factor solves on the coarsest. Cost for n
+/// nodes: linear once, and linear for every column as long as the number of iterations does not grow.
 class MultigridSolver final : public LinearSolver {
  public:
   /// interpolations: the finest first; they must outlive the solver.
   MultigridSolver(std::span<const Interpolation> interpolations, ThreadTeam& team);
 
-  /// From the matrix of the finest level; coarser ones get Galerkin's. On nets as irregular as coarse ones are, forms
-  /// of their own would differ too much from that of the finest.
+  /// Builds from the matrix of the finest level; coarser ones get Galerkin's. On coarse nets, which are irregular,
+  /// forms of their own would differ too much from that of the finest.
   void build(LevelMatrix finest);
-  /// Keeps those of the coarser levels.
+  /// Replaces the finest matrix; keeps those of coarser levels.
   void replace_finest(LevelMatrix matrix);
 
   void solve(std::span<double> values, const Accuracy& accuracy) override;
   void solve(std::span<Vector3> values, const Accuracy& accuracy) override;
-  /// By one cycle.
+  /// Solves by one cycle.
   bool solve_coarser(std::span<Vector3> values) override;
 
  private:
@@ -35,9 +35,9 @@ class MultigridSolver final : public LinearSolver {
     LevelMatrix matrix;
     std::vector<float> inverse_diagonal = {};
     double greatest = 0;            ///< eigenvalue of the matrix scaled by its diagonal
-    std::vector<float> rough = {};  ///< nearly the vector that belongs to it
+    std::vector<float> rough = {};  ///< nearly its eigenvector
   };
-  /// What a solve works with, for as long as it lasts: two solvers never work at the same time.
+  /// Buffers of a solve, shared, as two solvers never work at the same time.
   template <typename Value>
   class Cycle;
   void add_level(LevelMatrix matrix);

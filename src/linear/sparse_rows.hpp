@@ -27,8 +27,8 @@ class BasicSparseRows {
 
   BasicSparseRows() = default;
 
-  /// From rows that are made side by side. make_worker() gives a function (i, row) that appends the entries of row i;
-  /// each is called for successive rows of one run. A column may occur once in a row.
+  /// From rows made in parallel. make_worker() returns a function (i, row) that appends the entries of row i; each is
+  /// called for successive rows of one run. A column may occur once in a row.
   template <typename MakeWorker>
   static BasicSparseRows build(ThreadTeam& team, std::size_t rows, std::size_t columns, const MakeWorker& make_worker) {
     BasicSparseRows matrix;
@@ -37,7 +37,7 @@ class BasicSparseRows {
     const auto make = [&](std::size_t begin, std::size_t end, Row& run) {
       auto worker = make_worker();
       for (std::size_t i = begin; i < end; ++i) {
-        // At a node of very many neighbours a row takes long.
+        // A row of a node with very many neighbours takes long.
         end_if_cancelled();
         const std::size_t before = run.size();
         worker(i, run);
@@ -47,7 +47,7 @@ class BasicSparseRows {
     std::vector<Row> runs = parallel_parts(team, rows, rows_per_task, Row(), make);
     std::partial_sum(matrix.begin_.begin(), matrix.begin_.end(), matrix.begin_.begin());
     matrix.entries_ = std::unique_ptr<Entry[]>(new Entry[matrix.begin_.back()]);
-    // Runs go one after the other as they are copied, so that there are never two of all.
+    // Runs are freed as they are copied, so there are never two copies of all.
     team.run(runs.size(), [&](std::size_t k) {
       std::copy(runs[k].begin(), runs[k].end(), matrix.entries_.get() + matrix.begin_[k * rows_per_task]);
       runs[k] = Row();
@@ -76,7 +76,7 @@ class BasicSparseRows {
     for (const Entry& entry : entries()) ++result.begin_[entry.column + 1];
     std::partial_sum(result.begin_.begin(), result.begin_.end(), result.begin_.begin());
     result.entries_ = std::unique_ptr<Entry[]>(new Entry[begin_.back()]);
-    // Where the next entry of each row goes; then the end of the row, which is the beginning of the next one.
+    // Where the next entry of each row goes; in the end the end of the row, which begins the next one.
     for (std::size_t i = 0; i < rows(); ++i) {
       for (const Entry& entry : row(i))
         result.entries_[result.begin_[entry.column]++] = {static_cast<std::uint32_t>(i), entry.value};
@@ -108,11 +108,11 @@ class BasicSparseRows {
 
   std::size_t columns_ = 0;
   std::vector<std::uint32_t> begin_ = {0};
-  std::unique_ptr<Entry[]> entries_;  // left as they are until they are set: pages that nothing is in cost nothing
+  std::unique_ptr<Entry[]> entries_;  // uninitialised: untouched pages cost nothing
 };
 
 using SparseRows = BasicSparseRows<double>;
-/// In single precision, half as large: for preconditioners of large shapes.
+/// In single precision, at half the size: for preconditioners of large shapes.
 using FloatRows = BasicSparseRows<float>;
 
 }  // namespace vspring

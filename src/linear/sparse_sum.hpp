@@ -9,11 +9,11 @@
 
 namespace vspring {
 
-/// A row while it is summed up: columns in the order in which they came. Nothing branches on whether a column is new,
-/// which cannot be foreseen.
+/// A row while it is summed up; columns in the order in which they came. Nothing branches on whether a column is new,
+/// which cannot be predicted.
 class SparseSum {
  public:
-  /// columns: how many there are. Cost: linear in them, once.
+  /// columns: their number. Cost: linear in them, once.
   explicit SparseSum(std::size_t columns) : place_(columns, none) {}
 
   void add(std::uint32_t column, double value) {
@@ -36,7 +36,7 @@ class SparseSum {
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
-  /// use(column, value) for every entry.
+  /// Calls use(column, value) for every entry.
   template <typename Use>
   void for_each(const Use& use) const {
     for (std::size_t k = 0; k < size_; ++k) use(columns_[k], values_[k]);
@@ -51,14 +51,14 @@ class SparseSum {
     values_.resize(columns_.size(), 0);
   }
 
-  std::vector<std::uint32_t> place_;  // of every column among the entries, or none
-  std::size_t size_ = 0;              // of another type than what is stored in between, so that it stays in a register
-  // With room for one more entry; values of those to come are zero.
+  std::vector<std::uint32_t> place_;  // per column its place among the entries, or none
+  std::size_t size_ = 0;              // of another type than the stored arrays, so it stays in a register
+  // With space for one more entry; values of future entries are zero.
   std::vector<std::uint32_t> columns_ = std::vector<std::uint32_t>(first_room);
   std::vector<double> values_ = std::vector<double>(first_room, 0);
 };
 
-/// a b. Cost: the multiplications.
+/// The product a b. Cost: linear in the multiplications.
 inline SparseRows product(const SparseRows& a, const SparseRows& b, ThreadTeam& team) {
   return SparseRows::build(team, a.rows(), b.columns(), [&] {
     return [&, sum = SparseSum(b.columns())](std::size_t i, SparseRows::Row& row) mutable {

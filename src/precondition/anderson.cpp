@@ -8,7 +8,7 @@ namespace vspring {
 
 namespace {
 
-// Sums are taken range by range and then over the ranges in order, so that they do not depend on the number of threads.
+// Sums are taken over ranges, and then over the ranges in order, so they do not depend on the number of threads.
 constexpr std::size_t vectors_per_task = 8192;
 
 }  // namespace
@@ -24,7 +24,7 @@ void Anderson<Scalar>::accelerate(std::vector<Vector3>& correction) {
   const auto columns = static_cast<Eigen::Index>(used_);
   const std::size_t newest = next_;
 
-  // The products of all columns with each other and with the correction; the newest column is made on the way.
+  // The products of all columns with each other and with the correction; also makes the newest column.
   last_correction_.resize(size_);
   const Eigen::MatrixXd nothing = Eigen::MatrixXd::Zero(columns, columns + 1);
   const auto multiply = [&](std::size_t begin, std::size_t end, Eigen::MatrixXd& part) {

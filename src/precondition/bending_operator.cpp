@@ -13,21 +13,21 @@ namespace vspring {
 
 namespace {
 
-// Shares of nodes that lie unevenly may be negative; the matrix is to stay definite.
+// Shares of unevenly placed nodes may be negative; this bound keeps the matrix definite.
 constexpr double least_weight = 0.1;
-// Of the sum of a node's weights, what has to be left of it where they are made to take linear functions to zero.
+// What must be left of the sum of a node's weights when they are corrected to take linear functions to zero.
 constexpr double least_left = 0.3;
 
-// Of a node's share of area, in its row of curvature.
+// Least share of a node's area in its row of curvature.
 constexpr double least_mass = 0.2;
 constexpr double greatest_mass = 8;
 
-// Links in the row of a node with more of them, spread evenly around it: all pairs of them have an entry in B.
+// A node with more links has only so many in its row, spread evenly: all pairs of them have an entry in B.
 constexpr std::size_t most_links = 64;
 
 bool has_many(std::span<const Link> links) { return links.size() > most_links; }
 
-/// Calls use(k) for the places of a node's links, or of some of many.
+/// Calls use(k) for the places of a node's links, or of a selection if they are many.
 template <typename Use>
 void for_some_links(std::span<const Link> links, const Use& use) {
   if (!has_many(links)) {
@@ -37,7 +37,7 @@ void for_some_links(std::span<const Link> links, const Use& use) {
   for (std::size_t part = 0; part < most_links; ++part) {
     std::size_t k = part * links.size() / most_links;
     const std::size_t end = (part + 1) * links.size() / most_links;
-    // Rows of edges alone have entries for spokes.
+    // Rows of edges only have entries for spokes.
     while (k + 1 < end && !links[k].spoke()) ++k;
     use(k);
   }
@@ -48,8 +48,8 @@ double edge_weight(const Net& net, std::size_t i, std::size_t j) {
   return 1 / std::sqrt(d.dot(d) + net.tiny);
 }
 
-/// The row of curvature of a node with a normal: what (node, share) are, times the sum of the weights. Returns that
-/// sum. for_links(use): calls use(k) for the places of the links that count.
+/// The row of curvature of a node with a normal: (node, share) times the sum of the weights. Returns that sum.
+/// for_links(use) calls use(k) for the places of the links that count.
 template <typename ForLinks>
 double curvature_row_of(const Net& net, std::size_t i, const ForLinks& for_links, SparseRows::Row& row) {
   const auto links = net.rings.links(i);
@@ -79,7 +79,7 @@ double curvature_row_of(const Net& net, std::size_t i, const ForLinks& for_links
   return sum;
 }
 
-/// The same over all links: where they are many, some stand for all.
+/// The row of curvature over all links; if they are many, a selection represents them.
 double curvature_row(const Net& net, std::size_t i, SparseRows::Row& row) {
   const auto links = net.rings.links(i);
   const double sum = curvature_row_of(
@@ -107,7 +107,7 @@ void sphere_row(const Net& net, std::size_t i, SparseRows::Row& row) {
     plain += stiffness[k];
     raised += stiffness[k] + spread.raised;
   }
-  // Forces have the plain entries, curvatures the raised ones: the symmetric form between has their geometric mean.
+  // Forces have the plain entries, curvatures the raised ones; the symmetric form takes their geometric mean.
   const double area = std::clamp(raised > 0 ? spread.sum / 4 * plain / raised : 0, least_mass * spheres.areas[i],
                                  greatest_mass * spheres.areas[i]);
   const double scale = 4 * std::sqrt(area) / spread.sum;
@@ -149,9 +149,9 @@ void sum_edge_weights(const Net& net, ThreadTeam& team, std::vector<float>& sums
 
 namespace {
 
-/// A row of G, over held nodes too.
+/// A row of G, also over held nodes.
 struct BendingRow {
-  std::size_t centre;  ///< what lies along its normal bends it
+  std::size_t centre;  ///< displacements along its normal count
   SparseRows::Row entries;
 };
 
@@ -166,7 +166,7 @@ class Extra {
     const double sum = curvature_row(*net_, i, row);
     add_bend(i, sum, std::move(row));
   }
-  /// The same over the two on the boundary.
+  /// (Σ w_j (h_j − h_i)) / √(Σ w_j) over the two boundary edges of a node.
   void add_bend_along_boundary(std::size_t i) {
     SparseRows::Row row;
     const std::size_t count = net_->rings.links(i).size();
@@ -248,8 +248,8 @@ bool bends_evenly(const Net& net, std::size_t i) {
   return !net.normal_given(i) && !on_boundary(links);
 }
 
-/// The row of G of a moving node: with_node(its own entry), and with_spoke(k, entry) for its links to neighbours. room:
-/// for the row.
+/// The row of G of a moving node: calls with_node(its own entry), and with_spoke(k, entry) for its links to neighbours.
+/// room: a buffer for the row.
 template <typename WithNode, typename WithSpoke>
 void for_bending_row(const Net& net, std::size_t i, SparseRows::Row& room, const WithNode& with_node,
                      const WithSpoke& with_spoke) {
@@ -328,7 +328,7 @@ std::vector<double> bending_residual(const Net& net, std::span<const Vector3> wa
     for (const SparseRows::Entry& entry : row) bend += entry.value * ways[entry.column].dot(net.normals[centre]);
     for (const SparseRows::Entry& entry : row) {
       if (entry.column >= net.moving) continue;
-      // Held nodes may have a normal of the other sense.
+      // Held nodes may have the opposite normal.
       const double sense = net.normals[entry.column].dot(net.normals[centre]) < 0 ? -1 : 1;
       pull[entry.column] -= sense * entry.value * bend;
     }
@@ -353,7 +353,7 @@ std::vector<double> bending_residual(const Net& net, std::span<const Vector3> wa
 }
 
 SparseRows tangential_laplacian(const Net& net, ThreadTeam& team, double shift) {
-  // Of every spoke; empty: 1.
+  // One for every spoke; empty: 1.
   std::vector<double> weights;
   if (!net.laplacian_weights.empty()) {
     std::vector<double> one_way(net.rings.begin(net.moving));
@@ -367,7 +367,7 @@ SparseRows tangential_laplacian(const Net& net, ThreadTeam& team, double shift) 
           one_way[net.rings.begin(i) + k] = std::max(spokes * shares[k], least_weight);
       }
     });
-    // Symmetric: of two different shares of an edge, half each.
+    // Symmetric: the mean of the two shares of an edge.
     weights = one_way;
     parallel_ranges(team, net.moving, nodes_per_task, [&](std::size_t begin, std::size_t end) {
       net.rings.for_spoke_pairs(begin, end, net.moving, [&](std::size_t, std::size_t k, std::size_t, std::size_t back) {

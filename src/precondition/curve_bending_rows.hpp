@@ -11,17 +11,16 @@
 
 namespace vspring {
 
-/// A row of what a run bends by: a curvature as a sum over places of the run, times the root of half the length
-/// that it stands for.
+/// A row of bending of a run: a curvature as a sum over places of the run, times the root of half its length.
 struct CurveBendingRow {
-  std::span<const std::pair<std::size_t, double>> entries;  ///< places of the run and what their nodes count
+  std::span<const std::pair<std::size_t, double>> entries;  ///< places of the run, and coefficients
   bool across_seam;                                         ///< whether it joins the end of a closed run to its start
-  /// The place with a given direction, beside which the edge between both entries should lie along it.
+  /// The place with a given direction, if the edge between both entries should have that direction.
   std::optional<std::size_t> given;
 };
 
-/// Calls row(CurveBendingRow) in the order of places: with h = ℓ₋ + ℓ₊, √(h/4) κ, κ = (2/h) (Δy₊/ℓ₊ − Δy₋/ℓ₋), at every
-/// node with two edges; one on each side of a node with a given direction; none at other ends. Cost: linear.
+/// Calls row(CurveBendingRow) in the order of places: √(h/4) κ with h = ℓ₋ + ℓ₊, κ = (2/h) (Δy₊/ℓ₊ − Δy₋/ℓ₋), at every
+/// node with two edges; one row on each side of a node with a given direction; none at other ends. Cost: linear.
 template <typename Row>
 void for_each_bending_row(const Net& net, const MovingRun& moving_run, const Row& row) {
   const auto& nodes = moving_run.nodes;

@@ -10,7 +10,7 @@ namespace vspring {
 
 namespace {
 
-// Of the weights 1/ℓ³: where lengths have changed by some 10 %, corrections are off by a third.
+// A ratio of weights 1/ℓ³: when lengths have changed by 10 %, corrections are off by a third.
 constexpr double greatest_change_of_weights = 1.3;
 
 }  // namespace
@@ -67,7 +67,7 @@ void CurvePreconditioner::build_bending(const MovingRun& moving_run) {
   if (!stiffness_.values().empty()) {
     for (std::size_t i = 0; i < size; ++i) pull[i] = weight_[begin + i] * stiffness_.values()[begin + i];
   }
-  // Without rows across the seam next to nothing may hold a free run: these are taken out again.
+  // Without rows across the seam a free run may be nearly unheld: these rows are removed again.
   std::vector<BandedQr::Entry> crutches;
   if (free(moving_run)) {
     for (const std::size_t column : {std::size_t{0}, size / 2})
@@ -81,7 +81,7 @@ void CurvePreconditioner::build_bending(const MovingRun& moving_run) {
     }
   };
   std::vector<std::vector<BandedQr::Entry>> far;
-  // Held nodes drop out, and moving ones follow each other.
+  // Held nodes are left out; moving ones are numbered in succession.
   for_each_bending_row(net, moving_run, [&](const CurveBendingRow& bent) {
     std::vector<BandedQr::Entry> row;
     for (const auto& [place, entry] : bent.entries) {
@@ -109,7 +109,7 @@ void CurvePreconditioner::build_spreading() {
   above_.assign(net.moving, 0);
   pivot_.assign(net.moving, 1);
   slides_.assign(net.moving, 1);
-  // Homes draw each node by itself.
+  // Target positions draw each node separately.
   if (!net.target_positions.empty()) return;
   for (const MovingRun& moving_run : net_->moving_runs) {
     if (free(moving_run)) slides_[moving_run.nodes.front()] = 0;
@@ -201,7 +201,7 @@ void CurvePreconditioner::correct(const Model& model, double /*enough*/, std::ve
     if (above_[i] != 0) along[i] += pivot_[i] * above_[i] * along[i + 1];
   }
   for (std::size_t i = 0; i < net.moving; ++i) {
-    // A node without a tangent is not sprung, and goes where the regularisation sends it.
+    // A node without a tangent has no spring force, and goes where the regularisation sends it.
     correction[i] += net.tangents[i].isZero(0) ? forces_[i].regularisation : Vector3(along[i] * net.tangents[i]);
   }
 }

@@ -8,9 +8,9 @@ namespace vspring {
 
 namespace {
 
-// A drag goes in two dimensions, seldom in three.
+// A drag moves in two dimensions, seldom in three.
 constexpr std::size_t depth = 4;
-// Of steps of one length: directions in which they hardly differ are told from noise.
+// Damping for steps of unit length: suppresses directions in which they hardly differ.
 constexpr double damping = 1e-3;
 
 double product(std::span<const Vector3> a, std::span<const Vector3> b) {

@@ -9,15 +9,15 @@
 
 namespace vspring {
 
-/// How moving nodes went with what holds them in the last steps of a drag, and so where they will go in the next: the
-/// multisecant prediction.
+/// Predicts where moving nodes go in the next step of a drag, from how they followed the held nodes in the last steps
+/// (multisecant prediction).
 class MultisecantPredictor {
  public:
-  /// A step that was made: of what holds, not all zero, as many vectors whenever it is called, and of the moving nodes.
+  /// Adds a step: of what is held, not all zero and equally many vectors in every call, and of the moving nodes.
   void remember(std::vector<Vector3> held, std::vector<Eigen::Vector3f> moving);
 
-  /// Of the combination of remembered steps that is nearest to the step `held` of what holds: adds to `moving` the way
-  /// of the moving nodes, and leaves in `held` what it does not make up for. Cost: linear.
+  /// Finds the combination of stored steps nearest to `held`; adds its step of the moving nodes to `moving`, and leaves
+  /// the residual in `held`. Cost: linear.
   void predict(std::span<Vector3> held, std::span<Vector3> moving) const;
 
  private:

@@ -7,9 +7,9 @@ namespace vspring {
 
 namespace {
 
-// Of all stiffness.
+// As a share of all stiffness.
 constexpr double greatest_share = 0.1;
-// A node by itself counts where its points count about as much as its springs.
+// A single node matters if its points count about as much as its springs.
 constexpr double greatest_change_of_node = 0.3;
 constexpr double notable = 0.1;
 
@@ -18,7 +18,7 @@ bool differs(std::span<const double> a, std::span<const double> b) {
   double differences = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (std::abs(a[i] - b[i]) > greatest_change_of_node * (std::min(a[i], b[i]) + notable)) return true;
-    // Beyond that of the springs it makes no more difference.
+    // Stiffness beyond that of the springs makes no difference.
     sum += std::min(a[i], 1.0);
     differences += std::abs(std::min(a[i], 1.0) - std::min(b[i], 1.0));
   }

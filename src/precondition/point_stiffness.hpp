@@ -8,15 +8,14 @@
 
 namespace vspring {
 
-/// By how much what the points of a node ask falls as it moves (NodeForce::stiffness), as a preconditioner has built it
-/// in.
+/// The stiffness of points (NodeForce::stiffness) that a preconditioner was built with.
 class PointStiffness {
  public:
-  /// Looks at the net as it is now; needs directions. True where that differs so much from what was found before that
-  /// it is taken over. Cost: that of the forces; nothing for a net without points.
+  /// Updates the values from the net if they differ enough, and returns whether it did. Needs directions. Cost: that of
+  /// the forces; nothing for a net without points.
   bool renew(const Net& net, const Model& model, ThreadTeam& team);
 
-  /// For every moving node; empty where there are no points.
+  /// One value for every moving node; empty without points.
   [[nodiscard]] std::span<const double> values() const { return values_; }
 
  private:

@@ -7,8 +7,8 @@
 
 namespace vspring {
 
-/// Turns displacements that the model asks for into the correction that would bring about equilibrium if the equations
-/// were linear: an approximate inverse of their derivative.
+/// Turns forces into the correction that would reach equilibrium if the equations were linear: an approximate inverse
+/// of their derivative.
 class Preconditioner {
  public:
   Preconditioner() = default;
@@ -16,15 +16,14 @@ class Preconditioner {
   Preconditioner(const Preconditioner&) = delete;
   Preconditioner& operator=(const Preconditioner&) = delete;
 
-  /// Looks at the shape, and the points that pull at it, as they are now. True where that has changed so much that all
-  /// was built anew. Needs directions.
+  /// Builds anew if the shape, or the points that pull at it, have changed enough; returns whether it did. Needs
+  /// directions.
   virtual bool refresh(const Model& model) = 0;
 
-  /// What building anew costs, in iterations without.
+  /// The cost of building anew, in iterations without it.
   [[nodiscard]] virtual double work_of_building() const = 0;
 
-  /// The correction of every moving node for the forces that the model puts on them. Needs directions. enough: an error
-  /// of it that does not matter.
+  /// Finds the correction of every moving node for its force. Needs directions. enough: an error that does not matter.
   virtual void correct(const Model& model, double enough, std::vector<Vector3>& correction) = 0;
 };
 

@@ -12,29 +12,27 @@ namespace vspring {
 
 namespace {
 
-// See Accuracy; the iteration around the solvers does the rest.
+// See Accuracy; the outer iteration does the rest.
 constexpr double bending_share = 0.15;
 constexpr double spreading_share = 1;
 constexpr double following_share = 0.01;
-// Of the weights 1/ℓ.
+// A ratio of weights 1/ℓ.
 constexpr float greatest_change_of_shape = 1.15F;
-// Nodes that points hold by more than this many times the springs' stiffness go to the point all the same; single
-// precision has room for no more.
+// Limits the stiffness of points relative to that of springs, for single precision; nodes reach their points anyway.
 constexpr double stiffest = 1e8;
-// What is asked of a node, in the net's coordinates; a step has its limits anyway.
+// Limits the force on a node, in the net's coordinates; steps are limited anyway.
 constexpr double greatest_asked = 1e12;
-// Of how far a surface may be taken to fall away, as a share of the step.
+// How far a surface may fall away over a step, as a share of the step.
 constexpr double steepest = 0.5;
 
-/// How far the surface, curved along the step as the normals around node i tell, falls away from the tangent plane over
-/// it.
+/// How far the surface falls away from the tangent plane over a step, by its curvature in the normals around node i.
 double sagitta(const Net& net, std::size_t i, const Vector3& step) {
   const double length = step.norm();
   if (!(length > 0)) return 0;
   const Vector3& normal = net.normals[i];
   const Vector3 ahead = step / length;
   const Vector3 aside = normal.cross(ahead);
-  // Least squares: the normal leans ahead by as much as the places of the neighbours explain.
+  // Least squares: how much the normal leans ahead per length.
   double spread_ahead = 0;
   double spread_aside = 0;
   double spread_both = 0;
@@ -86,7 +84,7 @@ bool SurfacePreconditioner::refresh(const Model& model) {
   }
   const bool pulled_otherwise = stiffness_.renew(*net_, model, *team_);
   if (fits && !pulled_otherwise) return false;
-  // What is not built to its end is built anew the next time.
+  // A build that is interrupted is repeated next time.
   built_weight_.clear();
   std::vector<double> pull(stiffness_.values().begin(), stiffness_.values().end());
   for (std::size_t i = 0; i < pull.size(); ++i)
@@ -115,7 +113,8 @@ void SurfacePreconditioner::correct(const Model& model, double enough, std::vect
 
 void SurfacePreconditioner::update(std::span<const Vector3> moves, double enough, std::vector<Vector3>& correction) {
   const Net& net = *net_;
-  // All go along first, as evenly as the regularisation asks: what is moved as a whole then goes as a whole.
+  // First all nodes move along the surface, as evenly as the regularisation asks: a part that moves as a whole then
+  // stays whole.
   correction.assign(net.moving, Vector3::Zero());
   for (std::size_t i = 0; i < net.moving; ++i) {
     const auto links = net.rings.links(i);

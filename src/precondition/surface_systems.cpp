@@ -11,7 +11,7 @@ namespace vspring {
 
 namespace {
 
-// Of the diagonal; for single precision, too.
+// As a share of the diagonal; enough for single precision.
 constexpr double shift_of_free = 1e-5;
 // In iterations.
 constexpr double work_of_levels = 1;

@@ -11,8 +11,8 @@
 
 namespace vspring {
 
-/// What a system is of, a net with directions, and the interpolations between it and coarser versions of it, the finest
-/// first. Without any a sparse factor solves, with them multigrid does. Must outlive what is made of it.
+/// A net with directions, and the interpolations between it and coarser nets, the finest first. Without interpolations
+/// a sparse factor solves, else multigrid. Must outlive the systems made from it.
 struct SystemLevels {
   const Net* net = nullptr;
   std::vector<Interpolation> interpolations = {};
@@ -26,12 +26,12 @@ class BendingSystem {
   BendingSystem(const BendingSystem&) = delete;
   BendingSystem& operator=(const BendingSystem&) = delete;
 
-  /// Builds the form from where the nodes are now, with `pull` added to its diagonal (empty: nothing); that of coarser
-  /// levels once, but where pulled_otherwise.
+  /// Builds the form from the present places, with `pull` added to its diagonal (empty: nothing); the forms of coarser
+  /// levels only once, unless pulled_otherwise.
   void build(std::span<const double> pull = {}, bool pulled_otherwise = false);
   void solve(std::span<double> values, const Accuracy& accuracy);
 
-  /// In iterations of the equilibrium solver on the net.
+  /// The cost of build(), in iterations of the equilibrium solver on the net.
   [[nodiscard]] double work_of_building() const;
 
  private:
@@ -41,8 +41,8 @@ class BendingSystem {
   std::unique_ptr<class MultigridSolver> multigrid_;
 };
 
-/// A solver with the Laplacian of the net's graph, see tangential_laplacian(). held: whether all of it hangs together
-/// with held nodes; else constants are damped.
+/// A solver with the Laplacian of the net's graph, see tangential_laplacian(). held: whether every part of it has held
+/// nodes; else constants are damped.
 std::unique_ptr<LinearSolver> spreading_solver(const SystemLevels& levels, ThreadTeam& team, bool held = true);
 
 }  // namespace vspring

@@ -55,7 +55,7 @@ void TangentialRigidModes::hold(std::span<Vector3> vectors) const {
     nodes[component_[i]] += 1;
   }
   for (std::size_t k = 0; k < count_; ++k) centre[k] /= nodes[k];
-  /// What shifts along the axes and turns about them are across the normal of a node.
+  /// The components, across the normal of a node, of translations along the axes and rotations about them.
   const auto fields_at = [&](std::size_t i) {
     const Vector3& normal = net_->normals[i];
     const Vector3 arm = net_->positions[i] - centre[component_[i]];

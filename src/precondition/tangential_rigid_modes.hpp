@@ -9,24 +9,24 @@
 
 namespace vspring {
 
-/// What keeps the nodes of a closed surface from drifting along it where no node of it is held: points pull along
-/// normals only, and the regularisation (§4.4) asks for an even distribution, not for a place. On a sphere, what shifts
-/// and turns of the whole are across the normals leaves a distribution even, nearly. Those fields are taken out of what
-/// the regularisation asks and out of steps, in each component of the surface that is not held.
+/// Keeps the nodes of a closed surface without held nodes from drifting along it: points pull along normals only, and
+/// the regularisation (§4.4) asks for an even distribution, not for a place. On a sphere, translations and rotations of
+/// the whole, projected across the normals, nearly preserve an even distribution. These fields are removed from the
+/// regularisation and from steps, in each component that is not held.
 class TangentialRigidModes {
  public:
   /// Cost: linear.
   explicit TangentialRigidModes(const Net& net);
 
-  /// Whether anything is not held.
+  /// Whether any component is not held.
   [[nodiscard]] bool needed() const noexcept { return count_ > 0; }
 
-  /// Takes those fields out of vectors across the normals, one for each moving node. Cost: linear.
+  /// Removes these fields from vectors across the normals, one for each moving node. Cost: linear.
   void hold(std::span<Vector3> vectors) const;
 
  private:
   const Net* net_;
-  std::vector<std::uint32_t> component_;  // of every moving node among those not held; their number where it is held
+  std::vector<std::uint32_t> component_;  // per moving node, among components not held; their number if it is held
   std::size_t count_ = 0;
 };
 

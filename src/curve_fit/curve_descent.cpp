@@ -10,43 +10,43 @@ namespace vspring {
 
 namespace {
 
-// Of a tolerance, so that what is not linear in a step does not go beyond.
+// Share of a tolerance to aim at, so that nonlinearity of a step does not exceed it.
 constexpr double aimed_share = 0.995;
-// Of how far the curve may go, so that it does not go beyond between nodes.
+// Share of the curve's allowed distance from the polyline, so that it is not exceeded between nodes.
 constexpr double aimed_share_of_way = 0.98;
-// Of that, across the curve, where what is away along it is nearly all.
+// Least share of that left across the curve, if most of the distance is along it.
 constexpr double least_share_across = 0.01;
-// Of what is beyond bounds, that is left after so many steps.
+// If more than this share of the excess over bounds is left after so many steps, it is hopeless.
 constexpr int steps_per_look = 10;
 constexpr double hopeless_share = 0.9;
-// Of the energy, in a step: what changes less is there.
+// Steps that change less of the energy have converged.
 constexpr double settled_energy = 1e-4;
-// Of a bound, in a step.
+// The same, as a share of a bound.
 constexpr double settled_share = 0.01;
-// Of edges, in a step.
+// Greatest turns of an edge, in a step.
 constexpr double greatest_turn_of_step = 0.5;
 constexpr double greatest_turn_of_settled = 0.2;
 constexpr int most_halvings = 6;
-// Of a step, that is taken to keep edges from turning further; damped where it were less.
+// Least share of a step taken to limit turns of edges; below it the step is damped instead.
 constexpr double least_share = 0.15;
 constexpr int most_dampings = 5;
-// Of how far edges turned with less damping: where they still turn by more, damping does not help.
+// If edges still turn by more than this share of their turn with less damping, damping does not help.
 constexpr double no_less_for_damping = 0.8;
 constexpr double first_damping = 0.01;
 constexpr double more_damping = 8;
 constexpr double less_damping = 0.1;
 constexpr double least_damping = 1e-4;
 constexpr double shrinking = 0.9;
-// Of the energy, for what is two bounds away.
+// Price, in energies, for a distance of two bounds.
 constexpr double price_of_bounds = 1e3;
-// Of what a step promises to take off.
+// Least share of the gain that a step predicts.
 constexpr double least_gain = 0.1;
-// Of the greatest curvature, where that is more than may be: what a step leaves of it, from one try to the next.
+// Shares of an excessive greatest curvature that a step leaves, from one try to the next.
 constexpr double curvature_left[] = {0.5, 0.9, 0.98, 1};
-// How far from the polyline places may be: of the root mean square, and of the furthest point at the start.
+// How far from the polyline places may be: in root mean squares, and in distances of the furthest point at the start.
 constexpr double reach_of_rms = 4;
 constexpr double spare_of_reach = 1.5;
-// Of that: places that are nearer have no bound in a step.
+// Places nearer than this share of that have no bound in a step.
 constexpr double far_share = 0.3;
 
 }  // namespace
@@ -72,12 +72,12 @@ void CurveDescent<K>::go(int most_steps) {
   last_step_ = std::numeric_limits<double>::infinity();
   const int sides = has_corners() ? 2 : 1;
   int sides_done = 0;
-  bool is_undone = false;  // whether damping was, as no step was better with it
+  bool is_undone = false;  // whether damping was undone, as no step was better with it
   double excess_at_look = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps && !is_out_of_work(); ++step) {
     end_if_cancelled();
     if (step % steps_per_look == 0) {
-      // What is far beyond its bounds and comes no nearer stays so.
+      // A curve far beyond its bounds that comes no nearer will stay so.
       if (excess_at_look > 1 && excess_ - 1 > hopeless_share * (excess_at_look - 1)) break;
       excess_at_look = excess_;
     }
@@ -120,7 +120,7 @@ void CurveDescent<K>::go(int most_steps) {
   found.converged = false;
 }
 
-/// Where edges would turn too far in it, it is damped. None where nothing moves, or where it would go anywhere.
+/// Damps the step if edges would turn too far. None if nothing moves, or the step is unbounded.
 template <int K>
 auto CurveDescent<K>::find_step() -> std::optional<Step> {
   Step step;
@@ -135,7 +135,7 @@ auto CurveDescent<K>::find_step() -> std::optional<Step> {
       found_ = solution.found;
       return found_;
     };
-    // What was too much for one step is so for the next.
+    // A reduction that was too much for one step is too much for the next.
     bool met = solve(*left_, 0);
     while (!met && task_.least_radius > 0 && left_ + 1 != std::end(curvature_left) && !is_out_of_work())
       met = solve(*++left_, 0);
@@ -144,7 +144,7 @@ auto CurveDescent<K>::find_step() -> std::optional<Step> {
       return std::nullopt;
     }
     if (!met) {
-      // What can't be kept, along with all else or at a price.
+      // Bounds that cannot be kept, together with all others or at a price.
       if (solve(1, price_of_bounds * energy_))
         loosen_bounds(solution);
       else
@@ -157,7 +157,7 @@ auto CurveDescent<K>::find_step() -> std::optional<Step> {
       return std::nullopt;
     }
     if (step.turn * least_share <= greatest_turn_of_step || is_out_of_work()) break;
-    // Bounds have to be met, however much a step is damped.
+    // Bounds must be met, however much a step is damped.
     if (step.turn > no_less_for_damping * last_turn) break;
     last_turn = step.turn;
     damping_ = damping_ > 0 ? more_damping * damping_ : first_damping * energy_ / step.squared_turns;
@@ -183,7 +183,7 @@ auto CurveDescent<K>::measured(const CurveProgram<K>& program, const BallSolutio
   return step;
 }
 
-/// The share of it that was taken: 0 where none is better.
+/// Returns the share of the step that was taken: 0 if none is better.
 template <int K>
 double CurveDescent<K>::take(const Step& step) {
   const DenseCurve before = found.curve;
@@ -197,7 +197,7 @@ double CurveDescent<K>::take(const Step& step) {
     const double beyond = std::max(1.0, excess());
     const double bend = std::max(1.0, greatest_bend());
     bool better = false;
-    // Bounds come first: a curve that is beyond them may well be fairer.
+    // Bounds come first: a curve beyond them may well be fairer.
     if (excess_ > 1)
       better = beyond - 1 <= (1 - least_gain * share) * (excess_ - 1) || (beyond <= excess_ && now < energy_);
     else
@@ -215,7 +215,7 @@ double CurveDescent<K>::take(const Step& step) {
   return 0;
 }
 
-/// After a share of a step that was not damped.
+/// Whether the curve is better after a share of a step without damping.
 template <int K>
 bool CurveDescent<K>::is_settled(double share, double last_energy) const {
   if (excess_ > 1) return false;
@@ -234,7 +234,7 @@ void CurveDescent<K>::find_places_between() {
   for (PolylineBound& one : between_) one.bound *= task_.way_share;
 }
 
-/// How far from the polyline places may be: where only points pull, a sharp turn would go out to a wide loop.
+/// How far from the polyline places may be: with points only, a sharp turn would become a wide loop.
 template <int K>
 double CurveDescent<K>::reach() const {
   if (task_.within > 0) return task_.within;
@@ -281,7 +281,7 @@ CurveProgram<K> CurveDescent<K>::program(double left, double price) {
     point.place = one.nearest(place);
     point.at = one.at;
     set_bound(point, one.bound, aimed_share_of_way);
-    // Nodes go across the curve, which may go across the polyline, as at tips.
+    // Nodes move across the curve, which may cross the polyline, as at tips.
     const double along = (place - point.place).dot(found.curve.direction(one.at));
     const double across = std::sqrt(std::max(0.0, point.bound * point.bound - along * along));
     point.bound = std::max(across, least_share_across * point.bound);
@@ -327,7 +327,7 @@ double CurveDescent<K>::bending() const {
   return sum;
 }
 
-/// Those that were paid for, to where the step goes.
+/// Moves exceeded bounds with a price to where the step goes.
 template <int K>
 void CurveDescent<K>::loosen_bounds(const BallSolution& solution) {
   gives_way_ = true;
@@ -337,7 +337,7 @@ void CurveDescent<K>::loosen_bounds(const BallSolution& solution) {
   }
 }
 
-/// All to where they are.
+/// Moves all bounds to the present distances.
 template <int K>
 void CurveDescent<K>::loosen_bounds() {
   gives_way_ = true;
@@ -348,7 +348,7 @@ void CurveDescent<K>::loosen_bounds() {
   for (PolylineBound& one : between_) one.bound = std::max(one.bound, loosened * one.distance(found.curve.at(one.at)));
 }
 
-/// The greatest share of its bound that anything is away that can be moved.
+/// The greatest distance, as a share of its bound, of anything that can be moved.
 template <int K>
 double CurveDescent<K>::excess() const {
   double greatest = 0;
@@ -361,7 +361,7 @@ double CurveDescent<K>::excess() const {
   return greatest;
 }
 
-/// The greatest share of what is allowed that curvature has; 0 where all is.
+/// The greatest curvature as a share of the allowed one; 0 if any is allowed.
 template <int K>
 double CurveDescent<K>::greatest_bend() const {
   double greatest = 0;

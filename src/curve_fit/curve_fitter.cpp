@@ -17,16 +17,16 @@ constexpr int most_grids = 4;
 // While corners move.
 constexpr int most_steps_of_corners = 8;
 constexpr int grids_of_corners = 3;
-// Of the energy at first.
+// As a share of the first energy.
 constexpr double next_to_no_energy = 1e-6;
 constexpr int most_trials_of_weight = 24;
 constexpr double near_rms = 0.985;
-// Of a root mean square, for points that can be moved: with less than that the curve follows their noise.
+// As a share of the root mean square of points that can be moved: below it the curve follows their noise.
 constexpr double least_share_of_rms = 0.95;
 constexpr double no_nearer = 0.995;
 constexpr int most_without_gain = 3;
 constexpr double next_to_no_weight = 1e-3;
-// Of the root mean square: the bound of a first curve.
+// The bound of a first curve, in root mean squares.
 constexpr double bound_of_rms = 3;
 constexpr double stride_of_weight = 10;
 constexpr double near_weight = 1.02;
@@ -41,7 +41,7 @@ class CurveFitter {
     if (task_.nodes) return run_on_nodes();
     found_ = task_.start ? *task_.start : start_of(task_);
     set_bounds(task_, found_);
-    // Each point stands for an equal share of the length.
+    // Each point represents an equal share of the length.
     if (found_.smoothing > 0)
       descent_.data_weight =
           length_of(found_.curve) / static_cast<double>(found_.points.size()) * std::pow(found_.smoothing, -4);
@@ -61,7 +61,7 @@ class CurveFitter {
   }
 
  private:
-  /// On nodes that are given, whose chords are the curve.
+  /// Fits given nodes, whose chords are the curve.
   CurveFound run_on_nodes() {
     found_.curve = *task_.nodes;
     hold_corners();
@@ -78,7 +78,8 @@ class CurveFitter {
     return std::move(found_);
   }
 
-  /// Nodes do not go along the curve, so that corners can't go far on one grid. Afterwards they stay where they are.
+  /// Moves corners to their places, and then holds them. Nodes do not move along the curve, so corners cannot go far on
+  /// one grid.
   void place_corners() {
     descent_.has_sides = task_.within > 0;
     if (descent_.has_sides) descent_.data_weight = weight_of_sides();
@@ -110,7 +111,7 @@ class CurveFitter {
     double weights = 0;
   };
 
-  /// Of the distances of points that count.
+  /// The root mean square distance of points that count.
   template <typename Counts>
   [[nodiscard]] Squares squares(Counts counts) const {
     Squares result;
@@ -122,8 +123,8 @@ class CurveFitter {
     return result;
   }
 
-  /// The root mean square that all points have where those that can be moved have what is asked for, if that is so much
-  /// more that they would have to follow their noise to make up for the others.
+  /// The root mean square to reach over all points. It is larger than asked for if otherwise the points that can be
+  /// moved would have to follow their noise to make up for the others.
   [[nodiscard]] double rms_to_reach() const {
     const Squares at_held = squares([&](const CurvePoint& point) { return found_.curve.is_at_held(point.at); });
     const double weights = weight();
@@ -140,21 +141,21 @@ class CurveFitter {
     return weights;
   }
 
-  /// What holds a wave of the whole length half.
+  /// The weight at which a wave of the whole length keeps half of its height.
   [[nodiscard]] double weight_of_wave() const {
     const double length = length_of(found_.curve);
     return std::pow(2 * std::numbers::pi / length, 6) * length / weight();
   }
 
-  /// Next to nothing beside least bending, as that is beside least change of curvature: so that sides which are
-  /// straight go through the middle of their points.
+  /// A weight that is small beside that of bending, as that is beside change of curvature: so straight sides pass
+  /// through the middle of their points.
   [[nodiscard]] double weight_of_sides() const {
     const double length = length_of(found_.curve);
     return next_to_no_weight * CurveDescent<K>::tie_break * std::pow(2 * std::numbers::pi / length, 4) * length /
            weight();
   }
 
-  /// The least weight of points with which they are near enough. From the fairest curve that has none of them much
+  /// Finds the least weight with which points are near enough. Starts from the fairest curve that has no point much
   /// further away: with small weights alone a curve may go anywhere.
   void go_to_rms() {
     if (descent_.data_weight == 0) {
@@ -165,7 +166,7 @@ class CurveFitter {
       descent_.go();
       for (CurvePoint& point : found_.points) point.bound = 0;
       if (rms() <= rms_to_reach()) return;
-      // As much as the energy is.
+      // Equal to the energy.
       const double of_wave = weight_of_wave();
       descent_.data_weight = std::max(descent_.merit() / (weight() * std::pow(task_.rms, 2)), of_wave);
       least_weight_ = next_to_no_weight * of_wave;
@@ -183,7 +184,7 @@ class CurveFitter {
         near = descent_.data_weight;
         best = found_;
         if (figure >= near_rms * wanted || (far > 0 && near < near_weight * far)) break;
-        // A curve of no energy at all is nearer than it need be.
+        // A curve without energy is nearer than it needs to be.
         if (descent_.data_weight < least_weight_) {
           best.converged = true;
           break;
@@ -191,7 +192,7 @@ class CurveFitter {
       } else {
         far = descent_.data_weight;
         if (near == 0) {
-          // Where larger weights lead no nearer, they only make it follow the noise.
+          // If larger weights lead no nearer, they only make the curve follow noise.
           without_gain = figure > no_nearer * nearest ? without_gain + 1 : 0;
           if (without_gain == most_without_gain) break;
           nearest = figure;
@@ -213,7 +214,7 @@ class CurveFitter {
     found_.steps = steps;
   }
 
-  /// More nodes where edges turn much; false where none do.
+  /// Adds nodes where edges turn much; returns false if none do.
   bool refine() {
     DenseCurve now = with_new_nodes(found_.curve, least_spacing(task_));
     if (now.size() <= found_.curve.size() + found_.curve.size() / 20) return false;

@@ -13,71 +13,72 @@ namespace vspring {
 
 struct CurveFound {
   DenseCurve curve;
-  std::vector<CurvePoint> points;  ///< with their places; those of scattered ones last
-  /// Of scattered points: the line through them in their order along the given curve, and through the nodes of that
-  /// where it has none, moved along with the points beside.
+  std::vector<CurvePoint> points;  ///< with their places; scattered ones last
+  /// The line through scattered points in their order along the given curve; in gaps it goes through the curve's nodes,
+  /// moved along with the points next to them.
   std::vector<CurvePoint> way;
   bool converged = false;
-  double greatest = 0;  ///< distance of the points
+  double greatest = 0;  ///< greatest distance of a point
   double rms = 0;
-  double beyond = 0;     ///< the greatest share of its bound that a place of the curve is away from the polyline
-  double smoothing = 0;  ///< the smoothing length, where one was given
+  double beyond = 0;     ///< greatest distance of the curve from the polyline, as a share of its bound
+  double smoothing = 0;  ///< the smoothing length, if one was given
   int steps = 0;
-  std::size_t work = 0;  ///< nodes, each for every step in which a program was solved
-  double error = 0;      ///< how far the last step went
+  std::size_t work = 0;  ///< number of nodes, summed over all steps
+  double error = 0;      ///< length of the last step
 };
 
-/// Chains and what they are drawn to, in coordinates in which all is of size 1.
+/// Chains and the points to draw them to, in coordinates in which all has size 1.
 struct CurveFitTask {
   struct Chain {
     std::vector<ChainNode> nodes;
     bool closed = false;
   };
   std::vector<Chain> chains;
-  /// Those that are no nodes of the chains.
+  /// Points that are no nodes of the chains.
   std::vector<CurvePoint> scattered;
-  /// In place of chains: nodes whose chords are the curve. The scattered points have places on them, and so has the
-  /// way.
+  /// In place of chains: nodes whose chords are the curve, on which the scattered points and the way have places.
   const DenseCurve* nodes = nullptr;
-  std::vector<CurvePoint> way;  ///< of scattered points, as it was found; where there are such nodes
-  /// What start_of() returned, if it was called: of a task that is the same but for evenly, spare and least_radius.
+  std::vector<CurvePoint> way;  ///< of scattered points, as found before; with `nodes`
+  /// The result of start_of(), if it was called for the same task; evenly, spare and least_radius may differ.
   const CurveFound* start = nullptr;
   bool in_order = true;          ///< whether points come in the order of the chains
-  bool keeps_way = true;         ///< whether the curve is held near the polyline through them
-  std::optional<Vector3> plane;  ///< its normal, where all lies in one
-  /// 1 for coordinates that move, 0 for others: one in a plane, or two in space.
+  bool keeps_way = true;         ///< whether the curve is held near the polyline of the points
+  std::optional<Vector3> plane;  ///< the normal of the plane in which everything lies, if any
+  /// 1 for coordinates that may change, 0 for others: one in a plane, or two in space.
   Vector3 moving = Vector3::Ones();
-  // One of these; the others are 0.
+  // Exactly one of these four is given; the others are 0.
   double within = 0;
-  /// What of it is not for the curve, by the number of the point: so much chords go beyond. Empty: nothing.
+  /// Per point the part of `within` that chords exceed, which the curve must leave free. Empty: zero.
   std::vector<double> spare;
-  double way_share = 1;  ///< of how far the curve may go from the polyline: the rest is for its chords
+  double way_share = 1;  ///< share of the allowed distance from the polyline for the curve; the rest is for its chords
   double rms = 0;
   double smoothing = 0;
-  /// The paper's k (Eq. 9), for so many edges of even lengths.
+  /// The paper's k (Eq. 9), for this many edges of even lengths.
   double weight = 0;
   double edges = 1;
-  bool evenly = false;      ///< change of curvature counts alike everywhere, not less where it is large
-  double noise = 0;         ///< of the points, across
+  bool evenly = false;      ///< change of curvature counts equally everywhere, not less where curvature is large
+  double noise = 0;         ///< of the points, across the curve
   double least_radius = 0;  ///< 0: any
-  double sharp = 0;  ///< where the way of the points turns by more than this are corners, in radians; 0: none are
-  double tolerance = 1e-5;                                          ///< how near to the fairest, a share of the size
-  int most_steps = 120;                                             ///< of all programs
-  std::size_t most_work = std::numeric_limits<std::size_t>::max();  ///< then it ends with what it has
+  double sharp = 0;         ///< corners are where the points' way turns by more than this, in radians; 0: no corners
+  double tolerance = 1e-5;  ///< distance from the fairest curve, as a share of
+                            ///< the size
+  int most_steps = 120;     ///< steps of all programs
+  std::size_t most_work = std::numeric_limits<std::size_t>::max();  ///< when exceeded, the present curve is returned
 };
 
-/// How far the points of a task are from a robust curve through them, by the order of the task's own nodes and then of
-/// the scattered ones, with their numbers; in standard deviations of what the nearer half of them is away.
+/// The distances of a task's points from a robust curve through them, in standard deviations estimated from the nearer
+/// half, with the points' numbers: first the task's own nodes, in order, then the scattered ones.
 std::vector<std::pair<Index, double>> robust_deviations(const CurveFitTask& task);
 
-/// The root mean square distance of the points from a curve that noise of the task's standard deviation leaves.
+/// The root mean square distance from a curve that noise of the task's standard deviation leaves.
 double rms_of_noise(const CurveFitTask& task);
 
-/// The smooth curve near the points that steps begin with, where a tolerance is given.
+/// The smooth curve near the points from which steps start, if a tolerance is given.
 CurveFound start_of(const CurveFitTask& task);
 
-/// The fairest curve through a task's held nodes that its points allow: of least change of curvature within a tolerance
-/// or a root mean square, or where springs and points balance. Each step is a convex program about the curve as it is.
+/// Finds the fairest curve through a task's held nodes that its points allow: of least change of curvature within a
+/// tolerance or a root mean square, or where springs and points balance. Each step is a convex program about the
+/// present curve.
 CurveFound fit_curve(const CurveFitTask& task, const std::function<void(double share)>& progress);
 
 }  // namespace vspring

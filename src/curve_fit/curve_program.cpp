@@ -8,12 +8,12 @@ namespace vspring {
 
 namespace {
 
-// The spacing by the inverse root of curvature: as of so many nodes, wider by no more than so much along a length.
+// For spacing by the inverse root of curvature: the number of nodes, and the steepest growth of spacing per length.
 constexpr double nodes_of_spacing = 120;
 constexpr double steepest_spacing = 0.25;
 constexpr double power_of_spacing = 3;
 constexpr double least_share_of_mean_curvature = 0.5;
-// Of a direction, across the coordinates that move: where it is less, nodes would only go along the curve.
+// Least part of a direction across the moving coordinates: below it nodes would only move along the curve.
 constexpr double least_across = 0.03;
 
 }  // namespace
@@ -40,7 +40,7 @@ CurveProgram<K>::CurveProgram(const DenseCurve& curve, const Vector3& plane, boo
   }
 }
 
-/// A closed chain goes there and back, so that neighbours across its seam are near each other too.
+/// Numbers a closed chain alternately from both ends, so that neighbours across its seam are near, too.
 template <int K>
 void CurveProgram<K>::number() {
   block_.assign(curve_.size(), BallProgram<K>::none);
@@ -83,7 +83,7 @@ typename CurveProgram<K>::Basis CurveProgram<K>::axes() const {
   return basis;
 }
 
-/// Which ways a node may go: zero for those that would not take it anywhere.
+/// The directions in which a node may move: zero if it may not.
 template <int K>
 typename CurveProgram<K>::Basis CurveProgram<K>::ways_of(const Vector3& direction) const {
   if (curve_.moves_freely()) return across(direction);
@@ -124,7 +124,7 @@ void CurveProgram<K>::add_variation(std::span<const double> weights) {
     row.offset = sideways * change;
     for (int k = 0; k < second.count; ++k) add_entry(row, second.nodes[k], sideways * second.slopes[k]);
     for (int k = 0; k < first.count; ++k) add_entry(row, first.nodes[k], -sideways * first.slopes[k]);
-    // What is across turns with the edge.
+    // The direction across turns with the edge.
     const Eigen::Matrix<double, K, 3> turn = along.dot(change) / length * sideways;
     add_entry(row, c, -turn);
     add_entry(row, b, turn);
@@ -209,7 +209,7 @@ std::size_t CurveProgram<K>::add_bound(const CurvePoint& point) {
   return add_row_of(point, 0, across(along(point)));
 }
 
-/// The direction of the curve. What is nearest to a corner may lie ahead of it as well.
+/// The direction of the curve. A point whose nearest place is a corner may also lie ahead of it.
 template <int K>
 Vector3 CurveProgram<K>::along(const CurvePoint& point) const {
   const Vector3 offset = curve_.at(point.at) - point.place;
@@ -266,7 +266,7 @@ std::vector<double> weights_of_change(const DenseCurve& curve, bool evenly) {
       nodes += edge(i) / spacing[i];
     }
     for (std::uint32_t i = chain.begin; i < end; ++i) spacing[i] *= nodes / nodes_of_spacing;
-    // Around a closed chain a second time, as it begins anywhere.
+    // Twice around a closed chain, as it begins anywhere.
     for (int around = 0; around < (chain.closed ? 2 : 1); ++around) {
       for (std::uint32_t i = chain.begin; i < end; ++i) {
         if (curve.is_edge(i))

@@ -15,39 +15,39 @@ struct CurvePoint {
   Vector3 place = Vector3::Zero();
   double weight = 1;
   CurvePlace at = {};  ///< the place that is nearest to it
-  Index number = -1;   ///< of the points as they were given; −1: a place of the polyline through them
-  double bound = 0;    ///< how far away it may be at most; 0: as far as it likes
-  double price = 0;    ///< of what it is beyond, as of rows of a program; 0: it may not be
+  Index number = -1;   ///< among the given points; −1: a place of the polyline through them
+  double bound = 0;    ///< greatest distance allowed; 0: any
+  double price = 0;    ///< for exceeding the bound, as of rows of a program; 0: not allowed
 };
 
-/// One step of Gauss and Newton: how nodes go across a curve, one way in a plane (K = 1), two in space; or along as
-/// many coordinates as move.
+/// One Gauss–Newton step: nodes move across a curve, in one direction in a plane (K = 1), two in space; or along as
+/// many coordinates as may change.
 template <int K>
 class CurveProgram {
  public:
   using Basis = Eigen::Matrix<double, 3, K>;
 
-  /// plane: its normal, for K = 1. ahead: corners go across the edge after them, or else across that before.
+  /// plane: its normal, for K = 1. ahead: corners move across the edge after them, else across the edge before.
   CurveProgram(const DenseCurve& curve, const Vector3& plane, bool ahead = true);
 
-  /// weights: for every edge, by which the squared change of curvature along it counts.
+  /// weights: per edge, of the squared change of curvature along it.
   void add_variation(std::span<const double> weights);
   void add_bending(double weight) { add_bending(weight, false); }
-  /// The same without what the change of lengths does to curvature: least squares are then where the second derivative
-  /// of curvature, which displaces springs, is balanced by the points. On circles and clothoids it is zero.
+  /// Adds variation without the effect of changing lengths on curvature. Then points balance the second derivative of
+  /// curvature, which displaces springs; on circles and clothoids it is zero.
   void add_springs(double weight) { add_bending(weight, true); }
-  /// Against edges that turn: of the squared turn, along the length.
+  /// Penalises turns of edges: the squared turn, over the length.
   void add_damping(double weight);
-  /// data_weight: times the point's own. The distance is across the curve, or in the coordinates that move. The number
-  /// of its row.
+  /// Adds a point; data_weight is multiplied by the point's own. The distance is across the curve, or in the
+  /// coordinates that may change. Returns the number of its row.
   std::size_t add_point(const CurvePoint& point, double data_weight);
-  /// How far a place may be from a point, across the curve. The number of its row.
+  /// Bounds the distance of a place from a point, across the curve. Returns the number of its row.
   std::size_t add_bound(const CurvePoint& point);
-  /// Nodes are bent by no more than that.
+  /// Bounds the curvature at nodes.
   void add_greatest_curvature(double most);
 
   [[nodiscard]] BallSolution solve() const { return vspring::solve(program_); }
-  /// Calls with every node that moves and how it would go.
+  /// Calls use() with every moving node and its displacement.
   template <typename Use>
   void for_moves(const BallSolution& solution, Use use) const {
     for (std::uint32_t i = 0; i < curve_.size(); ++i) {
@@ -77,9 +77,9 @@ class CurveProgram {
   BallProgram<K> program_;
 };
 
-/// For every edge the weight of the squared change of curvature along it: by the inverse of the length, and by the
-/// spacing that nodes would have by the inverse root of curvature, to the third power, relative to the mean. So a nose
-/// may turn at once and does not swing beside it. evenly: by the length alone.
+/// Per edge the weight of the squared change of curvature along it: the inverse length, times the cube of the relative
+/// spacing that nodes would have by the inverse root of curvature. So a nose may turn at once, and the curve does not
+/// swing next to it. evenly: the inverse length alone.
 std::vector<double> weights_of_change(const DenseCurve& curve, bool evenly);
 
 extern template class CurveProgram<1>;

@@ -15,7 +15,7 @@ namespace {
 
 using Node = DenseCurve::Node;
 
-/// The nodes of a first curve along the way of a chain, and where its points are on that.
+/// The nodes of a first curve along the way of a chain, and the places of its points on it.
 class Start {
  public:
   Start(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, Way way)
@@ -101,15 +101,14 @@ class Start {
     node.dense = false;
   }
 
-  /// Between two fixed rows, one after the other.
+  /// Whether a piece between two successive fixed rows is straight.
   [[nodiscard]] bool is_straight(std::size_t first, std::size_t last) const {
     const Stop& a = way_.stops[first];
     const Stop& b = way_.stops[last];
     return last == first + 1 && a.fixed && b.fixed && a.node + 1 == b.node;
   }
 
-  /// How far along the way the place nearest to a row is. Not further than the stops beside: the way may come back
-  /// here.
+  /// The place along the way nearest to a row, not beyond the neighbouring stops: the way may come back here.
   [[nodiscard]] double length_near(const Vector3& place, std::size_t stop) const {
     double at = length_[stop];
     double least = std::numeric_limits<double>::infinity();
@@ -141,10 +140,10 @@ class Start {
   std::vector<double> length_;  // up to each vertex
   std::vector<double> spacing_;
   std::vector<Node> nodes_;
-  std::vector<double> at_;  // how far along the way nodes are
+  std::vector<double> at_;  // the places of nodes along the way
 };
 
-/// Nothing that could be bent.
+/// Adds a chain that cannot bend.
 void add_held(const std::vector<ChainNode>& chain, bool closed, DenseCurve& curve) {
   std::vector<Node> nodes;
   for (const ChainNode& one : chain) {
@@ -227,7 +226,7 @@ void find_places(const DenseCurve& curve, std::vector<CurvePoint>& points) {
 }
 
 void carry_places(const DenseCurve& before, const DenseCurve& curve, std::vector<CurvePoint>& points) {
-  // Ends and held nodes are on both; what is between is found by the length.
+  // Ends and held nodes are on both curves; places between are found by length.
   const auto lengths_of = [](const DenseCurve& of) {
     std::vector<std::vector<double>> sums;
     for (const auto& chain : of.chains()) {

@@ -7,45 +7,44 @@
 
 namespace vspring {
 
-/// Half of what noise of a standard deviation of 1 leaves, across, is below this.
+/// The median distance, across, of noise of standard deviation 1.
 inline constexpr double median_of_noise = 0.6745;
 
-/// A first curve through a chain: equal rows and those closer together than twice the noise are one; a few rows back
-/// and forth are brought into order; nodes come as dense as the bends of that ask for. points: those of the chain's own
-/// nodes, at their places, are added. Of the rows at a corner that is found the middle one is its node.
+/// Adds a first curve through a chain. Equal rows, and rows closer together than twice the noise, become one; a few
+/// rows back and forth are reordered; nodes are as dense as the bends need. points: gets the points of the chain's own
+/// nodes, with their places. The middle one of the rows at a found corner is its node.
 void add_start(const std::vector<ChainNode>& chain, bool closed, const StartScale& scale, DenseCurve& curve,
                std::vector<CurvePoint>& points);
 
-/// The same curve with nodes as far apart as their spacing says, and no edge that turns by more than 0.3 unless it is
-/// shorter than `least`.
+/// The curve with nodes anew at their spacing; no edge turns by more than 0.3 radians unless it is shorter than
+/// `least`.
 DenseCurve with_new_nodes(const DenseCurve& curve, double least);
 
-/// Goes to the smoothing spline, by third differences, that is as smooth as it can be with no point further than
-/// `within` from its place, or not further in the root mean square than `rms`; the other is 0.
+/// Moves the curve to the smoothest spline, by third differences, with no point further than `within` from its place,
+/// or with a root mean square distance of at most `rms`; the other is 0.
 void smooth_out(DenseCurve& curve, const std::vector<CurvePoint>& points, double within, double rms);
 
-/// The same for a smoothing length.
+/// Moves the curve to the smoothing spline of a smoothing length.
 void smooth_out_by(DenseCurve& curve, const std::vector<CurvePoint>& points, double length);
 
 struct LeastRisk {
-  double rms = 0;  ///< what points are off
+  double rms = 0;  ///< root mean square distance of the points
   double smoothing = 0;
 };
 
-/// The same as smooth as it takes for the expected distance from where points without noise would lie to be least, by
-/// Mallows' C_p (Stein's unbiased estimate of the risk). noise: their standard deviation in each of so many directions
-/// across. about: the smoothing of a curve that is much the same, near which this one's is then looked for; 0:
-/// anywhere.
+/// Moves the curve to the smoothing spline with the least expected distance from points without noise, by Mallows' C_p
+/// (Stein's unbiased estimate of the risk). noise: standard deviation of the points in each direction across;
+/// directions: their number. about: the smoothing of a similar curve, near which to search; 0: anywhere.
 LeastRisk smooth_out_by_risk(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise, int directions,
                              double about);
 
-/// The same by absolute distances in place of squares, which single points that are off do not draw aside: as smooth as
-/// it can be with half of the points as near as noise of that standard deviation leaves them.
+/// Moves the curve to a robust smoothing spline, by absolute distances in place of squares, so outliers do not draw it
+/// aside: the smoothest one with half of the points as near as noise of that standard deviation leaves them.
 void smooth_out_robustly(DenseCurve& curve, const std::vector<CurvePoint>& points, double noise);
 
-/// Each to the nearest place about where it was. other: the curve on which they have places; may be the same.
+/// Moves the place of each point to the nearest one around it.
 void find_places(const DenseCurve& curve, std::vector<CurvePoint>& points);
-/// Of places on a curve that has got new nodes since.
+/// Carries places over to the curve with new nodes.
 void carry_places(const DenseCurve& before, const DenseCurve& curve, std::vector<CurvePoint>& points);
 
 }  // namespace vspring

@@ -17,11 +17,11 @@ constexpr int newton_steps_to_station = 8;
 constexpr int halvings_to_station = 4;
 // In radians.
 constexpr double greatest_turn_back = 0.1;
-// What coordinates that move count for where a place with the others is sought: next to nothing, unless the curve runs
-// along them.
+// The weight of moving coordinates when a place is sought by the others: small, but decides where the curve runs along
+// them.
 constexpr double share_of_moving = 1e-4;
 
-/// Of e/|e|².
+/// The inverse e/|e|² of an edge.
 Vector3 inverted(const Vector3& e) { return e / e.squaredNorm(); }
 Matrix3 inversion_slope(const Vector3& e) {
   const double square = e.squaredNorm();
@@ -84,7 +84,7 @@ DenseCurve::CurvatureRow DenseCurve::curvature_row(std::uint32_t node, bool afte
   const Vector3& tangent = this->tangent(node, after);
   const std::uint32_t other = after ? next_[node] : before_[node];
   if (tangent.isZero(0) || other == none) return row;
-  // Of the circle with that tangent through the other node.
+  // From the circle with that tangent through the other node.
   const Vector3 e = place(other) - here;
   const double square = e.squaredNorm();
   if (!(square > 0)) return row;
@@ -112,7 +112,7 @@ DenseCurve::Bend DenseCurve::bend(std::uint32_t node, bool after) const {
   }
   const Vector3& tangent = this->tangent(node, after);
   if (!tangent.isZero(0)) return {tangent, curvature_row(node, after).curvature};
-  // Curvature goes on as it is at the other end of the edge.
+  // Curvature continues from the other end of the edge.
   const std::uint32_t other = after ? next_[node] : before_[node];
   const Vector3 edge = (after ? 1 : -1) * (place(other) - here).normalized();
   const std::uint32_t beyond = after ? next_[other] : before_[other];
@@ -122,7 +122,7 @@ DenseCurve::Bend DenseCurve::bend(std::uint32_t node, bool after) const {
   return {-mirrored(there.tangent, edge), mirrored(there.curvature, edge)};
 }
 
-// Where curvature changes by k' per length, directions at a node are that of the circle through it and its neighbours,
+// If curvature changes by k' per length, the direction at a node is that of the circle through it and its neighbours,
 // at distances a and b, turned back by k' a b / 6.
 DenseCurve::Bend DenseCurve::exact_bend(std::uint32_t node, bool after) const {
   Bend found = bend(node, after);
@@ -131,7 +131,7 @@ DenseCurve::Bend DenseCurve::exact_bend(std::uint32_t node, bool after) const {
   const std::uint32_t before = before_[node];
   const Vector3 ahead = place(next) - place(node);
   const Vector3 behind = place(node) - place(before);
-  // As they would be here on a circle.
+  // Vectors carried here as on a circle.
   const auto here = [](const Vector3& there, const Vector3& way) { return mirrored(there, way.normalized()); };
   Vector3 first = found.curvature;
   Vector3 last = found.curvature;
@@ -147,7 +147,7 @@ DenseCurve::Bend DenseCurve::exact_bend(std::uint32_t node, bool after) const {
   if (!(way > 0)) return found;
   const Vector3 change = (last - first) / way;
   const Vector3 back = ahead.norm() * behind.norm() / 6 * (change - change.dot(found.tangent) * found.tangent);
-  // More is no small turn.
+  // The formula holds for small turns only.
   if (!(back.squaredNorm() < greatest_turn_back * greatest_turn_back)) return found;
   found.tangent = (found.tangent - back).normalized();
   return found;
@@ -206,7 +206,7 @@ Vector3 DenseCurve::at(const CurvePlace& at) const {
 
 Vector3 DenseCurve::direction(const CurvePlace& at) const {
   if (straight_) {
-    // At a node between both edges, as what is nearest is then.
+    // At a node: midway between both edges, like the direction to nearest points.
     if (at.share == 0) return bend(at.edge, true).tangent;
     if (at.share == 1) return bend(next_[at.edge], false).tangent;
     return (place(next_[at.edge]) - place(at.edge)).normalized();
@@ -239,7 +239,7 @@ DenseCurve::PlaceRow DenseCurve::place_row(const CurvePlace& at) const {
     } else if (outer != none) {
       const double outside = (place(outer) - place(node)).norm();
       const double sum = length + outside;
-      // Of (other − here) by the outer length, and of (here − beyond) by the inner.
+      // Weights of (other − here) by the outer length, and of (here − beyond) by the inner one.
       const double near = outside / sum;
       const double far = length * length / (outside * sum);
       row.weights[static_cast<std::size_t>(other)] += sense * factor * near;
@@ -295,7 +295,7 @@ CurvePlace DenseCurve::nearest(const Vector3& point, const CurvePlace& about, do
     if (!(square > 0)) break;
     const Vector3 away = sought(point - curve.at(best.share));
     double share = best.share + away.dot(slope) / square;
-    // Where the curve turns round, a step may go too far.
+    // Where the curve turns back, a step may go too far.
     const auto is_further = [&] {
       return sought(point - curve.at(std::clamp(share, 0.0, 1.0))).squaredNorm() > away.squaredNorm();
     };

@@ -18,22 +18,22 @@ namespace {
 
 using Node = DenseCurve::Node;
 
-// Of a tolerance, at the start, so that there is room to become fairer.
+// Share of a tolerance that the start uses, which leaves room to become fairer.
 constexpr double first_share = 0.95;
 constexpr int starts = 2;
 constexpr int robust_starts = 2;
 constexpr int risk_starts = 4;
-// Of the noise: what is nearer than that tells nothing.
+// In units of the noise: smaller deviations mean nothing.
 constexpr double least_deviation = 0.5;
 constexpr double times_noise = 3;
 constexpr double least_spacing_in_tolerances = 0.05;
-// Of the noise beyond so much of an edge.
+// In units of the noise beyond a share of an edge.
 constexpr double least_smoothing_of_noise = 4;
 constexpr double edges_of_noise = 0.4;
-// Of the smoothing length, between nodes.
+// Spacing of nodes, in smoothing lengths.
 constexpr double spacing_of_springs = 0.25;
 
-/// How far the curve may go from the polyline of the points, about.
+/// About how far the curve may go from the polyline of the points.
 double reach_of_way(const CurveFitTask& task) { return std::max(task.within, times_noise * task.noise); }
 
 /// A task's curve before any program is solved.
@@ -95,7 +95,7 @@ class FirstCurve {
     set_bounds(task_, found_);
   }
 
-  /// Where points pull, they may be anywhere.
+  /// With weights, points may be anywhere.
   [[nodiscard]] double gap_of_way() const {
     double gap = reach_of_way(task_);
     if (task_.within > 0 || task_.rms > 0) return gap;
@@ -121,7 +121,7 @@ class FirstCurve {
     }
   }
 
-  /// Where there are no points, the way says where the curve goes.
+  /// Where there are no points, the way shows where the curve goes.
   [[nodiscard]] std::vector<CurvePoint> points_and_way() const {
     std::vector<CurvePoint> all = found_.points;
     for (const CurvePoint& row : found_.way) {
@@ -136,7 +136,7 @@ class FirstCurve {
     const double length = length_of(found_.curve);
     found_.smoothing = task_.smoothing;
     if (task_.weight > 0) found_.smoothing = length / task_.edges * std::pow(8 * task_.weight, -0.25);
-    // Where noise is longer than edges there is no way through all points.
+    // If noise is longer than edges there is no way through all points.
     const double noise = task_.noise - edges_of_noise * length / task_.edges;
     found_.smoothing = std::max(found_.smoothing, least_smoothing_of_noise * noise);
   }
@@ -197,7 +197,7 @@ std::vector<Outermost> outermost_places(const CurveFound& found) {
   return of_chains;
 }
 
-/// How far points whose nearest place is an end lie ahead of it.
+/// The mean vector from an end to the points whose nearest place it is, as far as they lie ahead.
 Vector3 ahead_of_end(const CurveFound& found, const CurvePlace& end, bool at_last) {
   const Vector3 out = (at_last ? 1 : -1) * found.curve.direction(end);
   double furthest = 0;
@@ -208,12 +208,12 @@ Vector3 ahead_of_end(const CurveFound& found, const CurvePlace& end, bool at_las
   return furthest * out;
 }
 
-/// nodes: of the chain; those after its last end's new place may be missing.
+/// nodes: of the chain; those beyond the new place of its last end may be missing.
 void fit_end(const CurveFound& found, const DenseCurve::Chain& chain, const std::optional<CurvePlace>& outermost,
              bool at_last, std::vector<Node>& nodes) {
   const std::uint32_t end = at_last ? chain.count - 1 : 0;
   if (!is_free_end(found.curve, chain.begin + end) || !outermost) return;
-  // The first node that stays, or the last.
+  // The first or last node that stays.
   const std::uint32_t first = outermost->edge - chain.begin + (at_last ? 1 : 0);
   if (first == end && outermost->share == (at_last ? 1 : 0)) {
     nodes[end].place += ahead_of_end(found, *outermost, at_last);
@@ -237,7 +237,7 @@ double length_of(const DenseCurve& curve) {
 double least_spacing(const CurveFitTask& task) { return least_spacing_in_tolerances * reach_of_way(task); }
 
 void fit_ends(CurveFound& found) {
-  // Stations that stay say where it ends.
+  // Coordinates that do not move determine the end.
   if (!found.curve.moves_freely()) return;
   bool any = false;
   for (std::uint32_t i = 0; i < found.curve.size(); ++i) any = any || is_free_end(found.curve, i);
@@ -249,7 +249,7 @@ void fit_ends(CurveFound& found) {
     std::vector<Node> nodes;
     for (std::uint32_t k = 0; k < chain.count; ++k) nodes.push_back(found.curve.node(chain.begin + k));
     if (!chain.closed && nodes.size() > 2) {
-      // The last end first: what is cut off at the first one changes the numbers of nodes.
+      // The last end first: cutting off nodes at the first end changes the numbers of nodes.
       fit_end(found, chain, outermost[c].last, true, nodes);
       fit_end(found, chain, outermost[c].first, false, nodes);
     }

@@ -4,20 +4,20 @@
 
 namespace vspring {
 
-/// Of all edges.
+/// The length of all edges.
 double length_of(const DenseCurve& curve);
 
-/// Between nodes: in less than that a curve does not get from one bound to the other and back.
+/// The least spacing of nodes: within less a curve does not get from one bound to the other and back.
 double least_spacing(const CurveFitTask& task);
 
-/// How far points may be from the curve.
+/// Sets how far points may be from the curve.
 void set_bounds(const CurveFitTask& task, CurveFound& found);
 
-/// Nodes go across the curve, so free ends go to where the points and the way end: what is beyond is cut off, what is
-/// missing is added straight on.
+/// Moves free ends to where the points and the way end, as steps move nodes only across the curve: cuts off what is
+/// beyond, and adds what is missing as a straight line.
 void fit_ends(CurveFound& found);
 
-/// Places of points, and of the way, are carried over.
+/// Replaces the curve by one with new nodes, and carries the places of points and of the way over.
 void take_new_nodes(CurveFound& found, DenseCurve now);
 
 }  // namespace vspring

@@ -12,16 +12,16 @@ namespace vspring {
 namespace {
 
 constexpr double fine_stride = 0.3;
-// To either side of the smoothing of a curve that is much the same.
+// Strides to either side of the smoothing of a similar curve.
 constexpr int strides_about = 6;
-// Of the points: parameters.
+// Most parameters, as a share of the number of points.
 constexpr double most_freedom = 0.9;
-// How often parameters count for the risk: more than once, as noise may be more than it was estimated to be, and who
-// follows it by a little has many bends.
+// How many times parameters count for the risk: more than once, as noise may exceed its estimate, and a curve that
+// follows it even slightly has many bends.
 constexpr double caution = 3;
 
-/// What a point has of the parameters of the spline with a smoothing of 1, one after the other: they are as dense as
-/// (its weight over the length it stands for)^(1/6) / 3 (Silverman 1984).
+/// Per point its share of the parameters of the spline with a smoothing of 1. Their density is (weight over the length
+/// that the point represents)^(1/6) / 3 (Silverman 1984).
 std::vector<double> shares_of_freedom(const SmoothingSpline& spline) {
   const DenseCurve& curve = spline.curve();
   std::vector<double> begins(curve.size() + 1, 0);
@@ -46,7 +46,7 @@ std::vector<double> shares_of_freedom(const SmoothingSpline& spline) {
   return shares;
 }
 
-/// How many parameters the spline has in effect, in each coordinate; a point can tell no more than one.
+/// The effective number of parameters of the spline, in each coordinate; at most one per point.
 double freedom(const std::vector<double>& shares, double smoothing) {
   const double density = std::pow(smoothing, -1.0 / 6);
   double sum = 0;
@@ -54,7 +54,7 @@ double freedom(const std::vector<double>& shares, double smoothing) {
   return sum;
 }
 
-/// Of the curve as it was, at the places of points; zero where coordinates stay.
+/// Directions of the old curve at the places of points; zero for coordinates that stay.
 std::vector<Vector3> directions_at_points(const SmoothingSpline& spline) {
   std::vector<Vector3> directions(spline.points().size(), Vector3::Zero());
   for (std::size_t j = 0; j < directions.size() && spline.curve().moves_freely(); ++j)
@@ -62,7 +62,7 @@ std::vector<Vector3> directions_at_points(const SmoothingSpline& spline) {
   return directions;
 }
 
-/// Of points from their places, across the curve.
+/// The mean square of distances of points from their places, across the curve.
 double mean_square_across(const SmoothingSpline& spline, const std::vector<Vector3>& along) {
   double squares = 0;
   double weights = 0;
@@ -95,7 +95,7 @@ LeastRisk smooth_out_by_risk(DenseCurve& curve, const std::vector<CurvePoint>& p
     end_if_cancelled();
     const double freedom = vspring::freedom(shares, smoothing);
     const double spread = 2 * caution * noise * noise * freedom / count;
-    // What follows every point tells nothing.
+    // A spline that follows every point shows nothing.
     if (freedom > most_freedom * count || spread > least) break;
     if (!spline.solve(smoothing)) continue;
     const double square = mean_square_across(spline, along);
@@ -105,7 +105,7 @@ LeastRisk smooth_out_by_risk(DenseCurve& curve, const std::vector<CurvePoint>& p
     found = {std::sqrt(square), smoothing};
     best = spline.places();
   }
-  // Less of it may be better.
+  // Less smoothing may be better.
   if (found.smoothing == first && first < first_smoothing)
     return smooth_out_by_risk(curve, points, noise, directions, 0);
   spline.set_places(std::move(best));

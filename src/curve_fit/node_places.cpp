@@ -7,7 +7,7 @@ namespace vspring {
 
 namespace {
 
-// Of what values about there are apart on average, so many to either side.
+// Least distance, as a share of the mean distance of values around; and how many of these on either side.
 constexpr double least_share_of_mean = 0.1;
 constexpr std::size_t values_about = 8;
 
@@ -19,7 +19,7 @@ void set_in_order(std::vector<double>& values, double apart, double least, doubl
   std::vector<double> sorted = values;
   for (double& value : sorted) value = std::clamp(value, least, most);
   std::sort(sorted.begin(), sorted.end());
-  // How far the k-th one is from `least` at least.
+  // The least distance of value k from `least`.
   std::vector<double> from(count + 1);
   double sum = 0;
   for (std::size_t k = 0; k <= count; ++k) {

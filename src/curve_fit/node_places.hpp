@@ -4,9 +4,9 @@
 
 namespace vspring {
 
-/// Sorts values, so that rows out of order have the places of all of them, and moves them as little as it takes, in the
-/// sum of squares, to lie between `least` and `most` and no less apart than a tenth of the average about there, or
-/// `apart`. Cost: n log n (pool adjacent violators; Barlow, Bartholomew, Bremner and Brunk 1972).
+/// Sorts values, so that rows out of order exchange places, and moves them, with the least sum of squares, to lie
+/// between `least` and `most`, and apart by at least `apart` and a tenth of the mean distance around. Cost: n log n
+/// (pool adjacent violators; Barlow, Bartholomew, Bremner and Brunk 1972).
 void set_in_order(std::vector<double>& values, double apart, double least, double most);
 
 }  // namespace vspring

@@ -15,18 +15,18 @@ namespace vspring {
 
 namespace {
 
-// Nodes on a straight piece of the polyline within the tolerance, and on the arc of a turn.
+// Edges on a piece of the polyline that is straight within the tolerance, and on the arc of a turn.
 constexpr double edges_of_piece = 12;
-// Of mean edges of the rows: nodes need not be denser, but at corners.
+// In mean edges of the rows: nodes need not be denser, except at corners.
 constexpr double least_share_of_rows = 0.5;
 constexpr double least_share_of_tolerance = 0.5;
 constexpr double steepest = 0.25;
 constexpr double edges_between_held = 8;
-// Of the length.
+// As a share of the length.
 constexpr double least_share_of_length = 1e-5;
 constexpr double greatest_half_turn = 1.3;
 
-/// Whether the places of a piece of a way go along a straight line, in their order, within a tolerance.
+/// Whether the places of a piece of a way follow a straight line, in their order, within a tolerance.
 bool is_straight(std::span<const Vector3> piece, double tolerance) {
   Vector3 middle = Vector3::Zero();
   for (const Vector3& place : piece) middle += place / static_cast<double>(piece.size());
@@ -44,8 +44,8 @@ bool is_straight(std::span<const Vector3> piece, double tolerance) {
   return true;
 }
 
-/// Marks the vertices of a polyline that stays within a tolerance (Ramer 1972; Douglas and Peucker 1973), or where a
-/// straight line does that need not go through the vertices: these have noise, too.
+/// Marks vertices whose polyline stays within a tolerance (Ramer 1972; Douglas and Peucker 1973). Pieces near a
+/// straight line that misses the vertices count as straight, too, as vertices have noise.
 void keep_vertices(const std::vector<Vector3>& way, std::size_t begin, std::size_t end, double tolerance,
                    std::vector<std::uint8_t>& kept) {
   std::vector<std::pair<std::size_t, std::size_t>> open = {{begin, end}};
@@ -71,7 +71,7 @@ void keep_vertices(const std::vector<Vector3>& way, std::size_t begin, std::size
   }
 }
 
-/// A way with what is known of its vertices, and how far apart nodes should be at these so far.
+/// A way with its vertices, and the spacing of nodes at these so far.
 class Spacing {
  public:
   Spacing(const WayVertices& way, bool closed, double tolerance)
@@ -94,11 +94,11 @@ class Spacing {
   }
 
  private:
-  /// Of pieces that are straight within the tolerance.
+  /// Finds the ends of pieces that are straight within the tolerance.
   void find_vertices() {
     const std::size_t count = way_.size();
     std::vector<std::uint8_t> kept = fixed_;
-    // Of a closed way each half on its own: its ends are one place.
+    // Halves of a closed way separately, as its ends coincide.
     const std::size_t half = closed_ && count > 3 ? count / 2 : count - 1;
     keep_vertices(way_, 0, half, tolerance_, kept);
     if (half + 1 < count) keep_vertices(way_, half, count - 1, tolerance_, kept);
@@ -115,7 +115,7 @@ class Spacing {
   }
 
   void keep_to_rows() {
-    // Corners move by up to the tolerance, and edges beside them should not turn round then.
+    // Corners move by up to the tolerance, which must not reverse edges next to them.
     const bool has_corners = std::find(sharp_.begin(), sharp_.end(), 1) != sharp_.end();
     const double least = has_corners ? least_share_of_tolerance * tolerance_ : 0;
     const std::size_t last = way_.size() - 1;
@@ -127,7 +127,7 @@ class Spacing {
     }
   }
 
-  /// A corner is what turns by more than the vertices beside it: there the curve turns within the tolerance.
+  /// A vertex that turns more than its neighbours is a corner: there the curve turns within the tolerance.
   void bend_at_corners() {
     std::vector<Vector3> turns(vertices_.size(), Vector3::Zero());
     std::vector<double> angles(vertices_.size(), 0);
@@ -151,7 +151,7 @@ class Spacing {
     }
   }
 
-  /// None between fixed vertices has too few nodes.
+  /// Ensures enough nodes between fixed vertices.
   void divide_between_fixed() {
     const std::size_t count = way_.size();
     std::size_t first = 0;
@@ -170,7 +170,7 @@ class Spacing {
   bool closed_;
   double tolerance_;
   std::vector<double> length_;         // up to each vertex
-  std::vector<std::size_t> vertices_;  // of straight pieces
+  std::vector<std::size_t> vertices_;  // the ends of straight pieces
   std::vector<double> spacing_;
 };
 

@@ -9,25 +9,25 @@
 
 namespace vspring {
 
-/// Edges that turn by more between their ends, in radians, have nodes between these.
+/// Edges that turn by more between their ends, in radians, get new nodes.
 inline constexpr double greatest_turn_of_edge = 0.3;
 
-/// The angle between two vectors, in radians; 0 where one of them is zero.
+/// The angle between two vectors, in radians; 0 if one of them is zero.
 double turn_between(const Vector3& a, const Vector3& b);
 
-/// The vertices of a way, one entry each.
+/// The vertices of a way.
 struct WayVertices {
-  std::vector<Vector3> places;      ///< the first one again at the end, where the way is closed
-  std::vector<std::uint8_t> fixed;  ///< 1 for those that nodes lie at
-  std::vector<std::uint8_t> sharp;  ///< 1 for those where it need not turn within the tolerance
+  std::vector<Vector3> places;      ///< a closed way repeats the first one at the end
+  std::vector<std::uint8_t> fixed;  ///< 1 where nodes must lie
+  std::vector<std::uint8_t> sharp;  ///< 1 where the curve need not turn within the tolerance
 };
 
-/// How far apart nodes should be at each vertex of a way: so that it is as straight, or bent as evenly, between twelve
-/// of them as the tolerance allows.
+/// The spacing of nodes at each vertex of a way: between twelve nodes it is straight, or evenly bent, within the
+/// tolerance.
 std::vector<double> spacing_along(const WayVertices& way, bool closed, double tolerance);
 
-/// From one vertex to the next spacing grows by no more than a quarter of the edge between them, and no spacing is less
-/// than one hundred thousandth of all edges. edges: one less than vertices; closed: the last vertex is the first again.
+/// Evens out spacing: from one vertex to the next it grows by at most a quarter of the edge between them, and it is at
+/// least 1e-5 of the length. edges: one fewer than vertices; closed: the last vertex repeats the first.
 void even_out_spacing(std::vector<double>& spacing, std::span<const double> edges, bool closed);
 
 /// A share of an edge of a way.
@@ -36,7 +36,7 @@ struct PlaceOnWay {
   double share;
 };
 
-/// Places between two vertices, as far apart as spacing says, at both ends of each edge. least: edges between them.
+/// Places between two vertices, as far apart as their spacing. least: the least number of edges.
 std::vector<PlaceOnWay> places_between(std::span<const double> edges, std::span<const double> spacing,
                                        std::size_t first, std::size_t last, double least);
 

@@ -14,8 +14,8 @@ namespace vspring {
 namespace {
 
 constexpr std::size_t longest_run = 3;
-// Of the median length between rows about them: where the way goes on straight to them and from them, as at a tip, and
-// where it does not.
+// How far aside spikes are, in median lengths between rows around: if the way goes straight to them and from them, as
+// at a tip, and if not.
 constexpr double aside_of_tip = 6;
 constexpr double aside_of_spike = 2.5;
 // Cosine of 60°.
@@ -24,9 +24,9 @@ constexpr std::size_t rows_of_direction = 2;
 constexpr std::size_t rows_beside = 8;
 
 struct Spike {
-  std::size_t first;  ///< among those that are left
+  std::size_t first;  ///< among the rows left
   std::size_t count;
-  double severity;  ///< by how many edges the way is shorter without them, for each
+  double severity;  ///< edges by which the way is shorter without them, per row
 };
 
 }  // namespace
@@ -36,7 +36,7 @@ std::vector<std::uint8_t> find_spikes(std::span<const Vector3> rows, bool closed
   std::vector<std::size_t> left(rows.size());
   for (std::size_t k = 0; k < left.size(); ++k) left[k] = k;
   std::size_t found = 0;
-  // What is left out may show what was beside it.
+  // Removed rows may reveal others next to them.
   while (found < most && left.size() > 2 * longest_run) {
     const std::size_t count = left.size();
     std::vector<double> lengths(count);
@@ -49,7 +49,7 @@ std::vector<std::uint8_t> find_spikes(std::span<const Vector3> rows, bool closed
       for (std::size_t n = 1; n <= longest_run && (closed || k + n < count); ++n) {
         const Vector3& before = row(k - 1);
         const Vector3& after = row(k + n);
-        // As far aside as the nearest of them.
+        // The distance aside of the nearest of them.
         double aside = std::numeric_limits<double>::infinity();
         for (std::size_t j = k; j < k + n; ++j) {
           const double share = nearest_share(row(j), before, after);
@@ -82,7 +82,7 @@ std::vector<std::uint8_t> find_spikes(std::span<const Vector3> rows, bool closed
     }
     if (all.empty()) break;
     std::stable_sort(all.begin(), all.end(), [](const Spike& a, const Spike& b) { return a.severity > b.severity; });
-    // The worst of each place: between two spikes, these and not the rows that are right.
+    // The worst at each place: between two spikes these, not the good rows.
     std::vector<std::uint8_t> taken(count, 0);
     std::vector<std::uint8_t> out(count, 0);
     for (const Spike& spike : all) {

@@ -10,16 +10,16 @@ namespace vspring {
 
 namespace {
 
-// Of the reach, between points: nearer ones tell all there is to tell of what is between them.
+// In units of the reach: between nearer points no bound is needed.
 constexpr double least_gap = 0.5;
-// Of the reach, along the curve from one point's place to the next one's: between near points it may go far as well.
+// In units of the reach: a way along the curve, between the places of two near points, that needs bounds all the same.
 constexpr double long_way = 2;
-// To either side: places beside corners may be nearer to another piece of the polyline.
+// On either side: places next to corners may be nearer to another piece of the polyline.
 constexpr std::size_t rows_around = 3;
-// Among which one at another place is looked for.
+// Rows among which one at a different place is sought.
 constexpr std::size_t most_rows_at_a_place = 64;
 constexpr double greatest_turn_of_arc = 2;
-// Of an edge between whose ends the curve may be further out; 8°.
+// An edge that turns by more, 8°, needs bounds between its ends.
 constexpr double most_cosine_of_turn = 0.99;
 constexpr int parts_of_turning = 2;
 
@@ -43,8 +43,8 @@ class PolylineBounds {
       const double ahead = length[to - chain.begin] - length[from - chain.begin];
       return ahead < 0 ? ahead + length.back() : ahead;
     };
-    // Calls with the nodes from the first to the last place of some rows, one after the other; of two that go back with
-    // none.
+    // Calls use() with the nodes from the place of row `from` to that of row `to`, in succession; with none if they go
+    // back.
     const auto for_nodes = [&](std::size_t from, std::size_t to, auto use) {
       std::uint32_t begin = rows[from % count].at.edge;
       std::uint32_t end = rows[to % count].at.edge;
@@ -97,7 +97,7 @@ class PolylineBounds {
   }
 
  private:
-  /// From the first node of a chain to each, and all around or to its end.
+  /// Lengths from the first node of a chain to each, and in all.
   [[nodiscard]] std::vector<double> lengths_along(const DenseCurve::Chain& chain) const {
     std::vector<double> length(chain.count + 1, 0);
     for (std::uint32_t k = 0; k < chain.count; ++k) {
@@ -122,16 +122,16 @@ class PolylineBounds {
 
   [[nodiscard]] bool is_gap(const Vector3& a, const Vector3& b) const { return (b - a).norm() > least_gap * reach_; }
 
-  /// Of the middle two of four points: of the arc that turns as they do at the end where they turn less. What noise may
-  /// make of it does not count.
+  /// How far an arc rises over the middle two of four points, with the turn at the end where they turn less. Turns that
+  /// noise explains do not count.
   [[nodiscard]] double rise_over(const std::optional<Vector3>& a, const Vector3& b, const Vector3& c,
                                  const std::optional<Vector3>& d) const {
     const Vector3 edge = c - b;
     const Vector3 first = a ? (b - *a).cross(edge) : Vector3::Zero();
     const Vector3 second = d ? edge.cross(*d - c) : Vector3::Zero();
     if (a && d && !(first.dot(second) > 0)) return 0;
-    // From the edge to the circle through its ends and the point before or after; a short edge beside may tell of no
-    // more than half a turn.
+    // The angle between the edge and the circle through its ends and the point before or after; a short neighbouring
+    // edge may account for at most half a turn.
     const auto angle = [&](const Vector3& beside) {
       const double turn = std::atan2(beside.cross(edge).norm(), beside.dot(edge));
       return turn * std::min(0.5, edge.norm() / (edge.norm() + beside.norm()));

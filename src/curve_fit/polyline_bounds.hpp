@@ -9,7 +9,7 @@
 
 namespace vspring {
 
-/// A place of a curve between two points, and how far from the straight line between them it may be.
+/// A place of a curve between two points, and its greatest distance from the straight line between them.
 struct PolylineBound {
   CurvePlace at = {};
   Vector3 from = Vector3::Zero();
@@ -23,12 +23,13 @@ struct PolylineBound {
 };
 
 struct BoundedPlaces {
-  bool everywhere = false;  ///< also where points are not more than half of the reach apart
-  int parts = 0;            ///< of all edges, at the beginning of each; 0: nodes, and middles of edges that turn much
+  bool everywhere = false;  ///< also between points at most half of the reach apart
+  int parts = 0;            ///< number of places per edge; 0: nodes, and middles of edges that turn much
 };
 
-/// Places may be as far from the polyline of the points as `reach`, and by as much more as an arc rises over an edge of
-/// it that turns the same way at both ends. points: with their places, those of each chain in its order. Cost: linear.
+/// Bounds of places of a curve: they may be as far from the polyline of the points as `reach`, plus the rise of an arc
+/// over an edge of it that turns the same way at both ends. points: with their places, by chains, in order. Cost:
+/// linear.
 std::vector<PolylineBound> polyline_bounds(const DenseCurve& curve, std::span<const CurvePoint> points, double reach,
                                            BoundedPlaces places = {});
 

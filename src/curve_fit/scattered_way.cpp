@@ -40,7 +40,7 @@ class ChainWay {
     std::stable_sort(known_.begin(), known_.end(), [](const Known& a, const Known& b) { return a.length < b.length; });
     const double whole = length_.back();
     if (chain_.closed) {
-      // Around the seam: first what comes after it.
+      // Across the seam: first the part after it.
       Known last = known_.back();
       last.length -= whole;
       add_between(last, known_.front(), way);
@@ -68,7 +68,7 @@ class ChainWay {
     return {length, offset, {curve_.place(node) + offset, 0, place_of(node)}};
   }
 
-  /// Of the chain's own nodes those that are between.
+  /// Adds the chain's own nodes between two known ones.
   void add_between(const Known& from, const Known& to, std::vector<CurvePoint>& way) const {
     double last = from.length;
     for (auto at = std::upper_bound(length_.begin(), length_.end() - 1, from.length);

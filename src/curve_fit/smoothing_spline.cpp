@@ -10,11 +10,11 @@ namespace vspring {
 
 namespace {
 
-// Of the length at first.
+// Greatest length, relative to the first one.
 constexpr double longest = 1.25;
-// So that what no point has a part in is straight.
+// Keeps parts without points straight.
 constexpr double least_bending = 1e-7;
-// To either side of a point's place.
+// Edges on either side of a point's place.
 constexpr int edges_about = 1;
 
 constexpr std::int32_t no_column = std::numeric_limits<std::int32_t>::max();
@@ -154,7 +154,7 @@ void SmoothingSpline::number() {
   columns_ = static_cast<std::size_t>(next);
 }
 
-/// The second derivative along a node and its neighbours; of a node with a tangent, on one side of it.
+/// The second derivative at a node; if it has a tangent, on one side of it.
 std::optional<Affine> SmoothingSpline::bend(std::uint32_t node, bool after) const {
   Affine sum;
   if (curve_.is_smooth(node)) {
@@ -196,7 +196,7 @@ std::int32_t SmoothingSpline::first_column(const Affine& row) const {
   return first;
 }
 
-/// None where it has no unknowns or no weight.
+/// None if it has no unknowns or no weight.
 auto SmoothingSpline::row_from(const Affine& row, double weight) const -> std::optional<Row> {
   const std::int32_t first = first_column(row);
   if (first == no_column || !(weight > 0)) return std::nullopt;
@@ -216,7 +216,7 @@ void SmoothingSpline::add(const Affine& row, double weight) {
   if (auto found = row_from(row, weight)) rows_.push_back(std::move(*found));
 }
 
-/// In the order of their first unknown.
+/// Adds rows in the order of their first unknown.
 void SmoothingSpline::take_rows() {
   std::stable_sort(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.first < b.first; });
   for (const Row& row : rows_) fixed_.add(row.first, row.entries, row.value, row.factor);

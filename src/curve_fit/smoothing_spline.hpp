@@ -14,7 +14,7 @@
 
 namespace vspring {
 
-// Of what a spline is smoothed by: from where it is hardly bent to where it goes through all points.
+// The range of smoothing: from a spline that hardly bends to one through all points.
 inline constexpr double first_smoothing = 1e2;
 inline constexpr double least_smoothing = 1e-24;
 
@@ -36,11 +36,11 @@ struct Affine {
   }
 };
 
-/// Rows and what they should be, as a triangle.
+/// A least-squares problem, as a triangle.
 struct LeastSquares {
   LeastSquares(std::size_t size, std::size_t width) : triangle(size, width), right(size, Vector3::Zero()) {}
 
-  /// entries · x = value.
+  /// Adds the row entries · x = value, times `factor`.
   void add(std::size_t first, std::span<const double> entries, Vector3 value, double factor) {
     value *= factor;
     triangle.add(first, entries, factor, [&](std::size_t column, double cosine, double sine) {
@@ -54,37 +54,37 @@ struct LeastSquares {
   std::vector<Vector3> right;
 };
 
-/// Where the nodes of a curve go for third differences to be least beside the squared distances of points from their
-/// places on it, both with all lengths at 1.
+/// The smoothing spline of a curve: places of nodes that minimise third differences plus the squared distances of
+/// points from their places on the curve, scaled to length 1.
 class SmoothingSpline {
  public:
-  /// curve, points: have to outlive it, and keep their places until take().
+  /// curve, points: must outlive this object, and keep their places until take().
   SmoothingSpline(DenseCurve& curve, const std::vector<CurvePoint>& points);
 
-  /// What each point counts for, besides its weight. weigh() is to be called after a change.
+  /// Factors of the points' weights. Call weigh() after a change.
   std::vector<double> counts;
   void weigh();
 
-  /// Places of nodes, where third differences weigh so much. False where they are not finite.
+  /// Finds the places of nodes, with this weight of third differences. False if they are not finite.
   bool solve(double smoothing);
-  /// Of the nodes that move.
+  /// The places of moving nodes.
   [[nodiscard]] const std::vector<Vector3>& places() const { return places_; }
   void set_places(std::vector<Vector3> places) { places_ = std::move(places); }
-  /// Whether the curve is not much longer than it was.
+  /// Whether the curve has not become much longer.
   [[nodiscard]] bool is_sane() const;
-  /// Of all edges, in radians.
+  /// The total turn of all edges, in radians.
   [[nodiscard]] double turning() const;
-  /// Of a point from its place.
+  /// The vector between a point and its place.
   [[nodiscard]] Vector3 residual(std::size_t point) const;
   [[nodiscard]] double squared_residual(std::size_t point) const { return residual(point).squaredNorm(); }
-  /// From the chords about its place.
+  /// The squared distance of a point from the chords around its place.
   [[nodiscard]] double squared_distance(std::size_t point) const;
-  /// The curve as it was, its length and its points.
+  /// The curve as given, its length and its points.
   [[nodiscard]] const DenseCurve& curve() const { return curve_; }
   [[nodiscard]] double length() const { return length_; }
   [[nodiscard]] const std::vector<CurvePoint>& points() const { return points_; }
 
-  /// Puts the nodes of the curve where they were found.
+  /// Moves the nodes of the curve to the places found.
   void take();
 
  private:
@@ -112,9 +112,9 @@ class SmoothingSpline {
   std::vector<std::int32_t> column_;
   std::size_t columns_ = 0;
   std::size_t width_ = 0;
-  std::vector<Row> rows_;  ///< until they are taken
+  std::vector<Row> rows_;  ///< until added to the triangle
   std::vector<Affine> point_rows_;
-  std::vector<std::size_t> order_;  ///< of points, by their first unknowns
+  std::vector<std::size_t> order_;  ///< the points by their first unknowns
   LeastSquares fixed_{0, 1};
   LeastSquares data_{0, 1};
   double length_ = 0;

@@ -13,17 +13,18 @@ namespace {
 
 constexpr double coarse_stride = 1e-2;
 constexpr int halvings = 5;
-// Of the points, and of the tolerance: some lie by what is held, and would have the whole curve follow the noise.
+// This share of the points may be outside, by this factor of the tolerance: near held nodes some are, and would make
+// the whole curve follow noise.
 constexpr double share_outside = 0.1;
 constexpr double most_outside = 2;
-// Of the root mean square.
+// In root mean squares.
 constexpr double reach_of_rms_at_first = 2.5;
 constexpr double more_turning = 0.5;
 constexpr double robust_stride = 0.1;
 constexpr int robust_turns = 6;
 constexpr int most_turns_drawing_in = 8;
 
-/// Of how far a point is. Where coordinates stay, from its place.
+/// The squared distance of a point; if some coordinates stay, from its place.
 double squared_distance(const SmoothingSpline& spline, std::size_t point) {
   return spline.curve().moves_freely() ? spline.squared_distance(point) : spline.squared_residual(point);
 }
@@ -35,11 +36,11 @@ bool is_near(const SmoothingSpline& spline, double within, double rms) {
   for (std::size_t j = 0; j < spline.points().size(); ++j) {
     const CurvePoint& point = spline.points()[j];
     if (!(point.weight > 0)) continue;
-    // Where the way comes back, the nearest place may be one of its other half.
+    // Where the way comes back, the nearest place may be on its other half.
     const double square = within > 0 ? spline.squared_residual(j) : squared_distance(spline, j);
     if (within > 0 && square > std::pow(most_outside * within, 2)) return false;
     outside += square > within * within ? point.weight : 0;
-    // The others would have to follow their noise to make up for it.
+    // Other points would have to follow their noise to make up for it.
     if (!(within > 0) && spline.curve().is_at_held(point.at)) continue;
     squares += point.weight * square;
     weights += point.weight;
@@ -47,8 +48,8 @@ bool is_near(const SmoothingSpline& spline, double within, double rms) {
   return within > 0 ? outside <= share_outside * weights : squares <= weights * rms * rms;
 }
 
-/// Points that are further away count more until they are not, or the curve turns more for it: a tip goes out then, and
-/// no loop is made for rows that have no order.
+/// Increases the weights of points too far away until they are near enough or the curve turns more: this extends tips,
+/// but makes no loops for rows without order.
 void draw_in(SmoothingSpline& spline, double within, double rms, double smoothing) {
   const double most = within > 0 ? within : reach_of_rms_at_first * rms;
   const double most_turning = spline.turning() + more_turning;
@@ -79,7 +80,7 @@ void smooth_out(DenseCurve& curve, const std::vector<CurvePoint>& points, double
   for (;; smoothing *= coarse_stride) {
     end_if_cancelled();
     if (!spline.solve(smoothing) || !spline.is_sane()) {
-      // What is left of points that are far apart may go anywhere; the last one did not.
+      // Robust splines of points far apart may go anywhere; takes the last sane one.
       if (!sane.empty()) {
         spline.set_places(std::move(sane));
         break;

@@ -13,18 +13,17 @@ namespace vspring {
 
 namespace {
 
-// Of the noise: rows that are nearer together tell nothing of the way.
+// In units of the noise: nearer rows do not show the way.
 constexpr double reach_of_rows = 2;
-// Of that, across stations that stay.
+// In that unit, across coordinates that stay.
 constexpr double reach_across = 3;
-// How far back rows may go and still be out of order, not on their way back: of that, or of rows and median edges about
-// them.
+// How far rows may go back and still count as out of order: in that unit, in rows, and in median edges around.
 constexpr double reach_of_folds = 5;
 constexpr std::size_t most_rows_of_fold = 4;
 constexpr double most_edges_of_fold = 10;
-// Of how far back: so far aside rows may be of the way that they are put on.
+// How far aside of their new way reordered rows may lie, as a share of how far they go back.
 constexpr double most_aside_of_fold = 0.4;
-// From one edge to the next, 60°: in an order that has no more rows may lie anywhere.
+// 60° from one edge to the next: rows in an order without sharper turns may lie anywhere.
 constexpr double cosine_of_gentle_bend = 0.5;
 constexpr std::size_t rows_beside_fold = 3;
 constexpr std::size_t rows_about = 8;
@@ -59,7 +58,7 @@ class WayFinder {
     return row;
   }
 
-  /// Rows where stations that stay go as far as they do before they come back: no other row could take their place.
+  /// Finds rows at which coordinates that stay reach an extremum: no other row can take their place.
   void find_turns() {
     turns_.assign(chain_.size(), 0);
     if (along_.moves_freely() || chain_.size() < 2) return;
@@ -72,7 +71,7 @@ class WayFinder {
     }
     axis.normalize();
     const double least = std::max(reach_of_folds * reach_, most_edges_of_fold * median(edges));
-    // How far it has come since the last turn, and back since then.
+    // The lowest and highest rows since the last turn.
     std::size_t lowest = 0;
     std::size_t highest = 0;
     int way = 0;
@@ -104,7 +103,7 @@ class WayFinder {
     stops_.push_back({node.place, 1, fixed, k});
   }
 
-  /// Where stations stay, rows may be noise apart across them.
+  /// If coordinates stay, rows at one station may differ by noise.
   [[nodiscard]] bool are_one(const Vector3& a, const Vector3& b) const {
     const double most = along_.moves_freely() ? reach_ : reach_across * reach_;
     return station(b - a).norm() <= reach_ && (b - a).norm() <= most;
@@ -136,19 +135,19 @@ class WayFinder {
       given.push_back(chain_[stop.node].corner ? 1 : 0);
     }
     for (const std::size_t k : corners_of_way(places, closed_, scale.sharp, scale.tolerance, given)) {
-      // A given tangent says how the curve goes there.
+      // A given tangent determines the curve there.
       if (!chain_[stops_[k].node].tangents[1].isZero(0)) continue;
       stops_[k].fixed = stops_[k].corner = true;
     }
   }
 
-  /// Its rows are those of a neighbour then.
+  /// Removes a stop; its rows join a neighbour.
   void erase(std::size_t k) {
     joined_with_[stops_[k].node] = stops_[k > 0 ? k - 1 : k + 1].node;
     stops_.erase(stops_.begin() + static_cast<std::ptrdiff_t>(k));
   }
 
-  /// So that directions there are not those of noise.
+  /// Removes stops next to fixed ones, so that directions there do not come from noise.
   void leave_out_next_to_fixed() {
     const std::size_t least = closed_ ? 3 : 2;
     for (std::size_t k = 0; k < stops_.size() && stops_.size() > least;) {
@@ -169,8 +168,8 @@ class WayFinder {
     return station(stops_[k].place - stops_[k - 1].place).dot(stops_[k + 1].place - stops_[k].place) < 0;
   }
 
-  /// Where the way goes back and on again within a few rows, or within what is noise, its places there are put in the
-  /// order of the way from before to after. False where there is no such place.
+  /// Where the way goes back and on again within a few rows, or within noise, puts its stops in order along the way
+  /// from before to after. False if there is no such place.
   bool undo_folds() {
     bool found = false;
     for (std::size_t k = 1; k + 2 < stops_.size(); ++k) {
@@ -196,7 +195,7 @@ class WayFinder {
     return true;
   }
 
-  /// Those of a fold, and what is out of order beside it. False where they lie aside of the way that they would be on.
+  /// Reorders the stops of a fold and its disordered neighbours. False if they lie aside of their new way.
   bool put_in_order(std::size_t first, std::size_t last, double most_aside) {
     const std::size_t begin = first - std::min(first, rows_beside_fold);
     const std::size_t end = std::min(stops_.size() - 1, last + rows_beside_fold);
@@ -228,7 +227,7 @@ class WayFinder {
     return true;
   }
 
-  /// As a way in its right order does.
+  /// Whether places bend gently, as a way in the right order does.
   [[nodiscard]] bool bends_gently(const std::vector<Vector3>& places) const {
     for (std::size_t k = 1; k + 1 < places.size(); ++k) {
       const Vector3 a = station(places[k] - places[k - 1]);
@@ -246,7 +245,7 @@ class WayFinder {
     return median(edges);
   }
 
-  /// At an end there is no way before.
+  /// At an end there is no way before or after.
   void leave_out_turns_at_ends() {
     const double most = reach_of_folds * reach_;
     const auto turns = [&](const Stop& end, const Stop& next, const Stop& beyond) {
@@ -268,7 +267,7 @@ class WayFinder {
   const DenseCurve& along_;
   std::vector<Stop> stops_;
   std::vector<std::uint8_t> turns_;
-  std::vector<std::size_t> joined_with_;  // of every row that begins a stop, or is in one
+  std::vector<std::size_t> joined_with_;  // per row that begins a stop or belongs to one
 };
 
 }  // namespace

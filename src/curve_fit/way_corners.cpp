@@ -12,21 +12,21 @@ namespace vspring {
 
 namespace {
 
-// Of the tolerance: a stretch, what a corner of the least angle rises by, and what is left of a stretch at another
-// corner.
+// In tolerances: the length of a stretch, the rise of a corner of the least angle, and the least stretch next to
+// another corner.
 constexpr double stretch_in_tolerances = 8;
 constexpr double rise_in_tolerances = 2;
 constexpr double least_stretch_in_tolerances = 4;
-// Times the least one.
+// Lengths of stretches, relative to the least one.
 constexpr double lengths_of_stretches[] = {4, 2, 1};
-// Of a closed way.
+// As a share of a closed way.
 constexpr double longest_stretch = 1.0 / 3;
-// Of the tolerance, root mean square from two straight stretches.
+// Greatest root mean square distance from two straight stretches, in tolerances.
 constexpr double miss_of_stretches = 0.75;
-// Of the variance about two straight stretches, across them: what an even bend leaves more than these.
+// How much more an even bend must leave than two straight stretches, in variances about these.
 constexpr double clear_gain_of_corner = 8;
 constexpr double least_noise_of_stretches = 1.0 / 6;
-// Of the length: what is nothing.
+// Shares of the length that count as zero.
 constexpr double nothing_of_way = 1e-9;
 
 class CornerSearch {
@@ -50,7 +50,7 @@ class CornerSearch {
   }
 
   std::vector<std::size_t> find() {
-    // The clearest first. Stretches of others end there, so that more may be clear then.
+    // The clearest corner first. Stretches of others end there, so more may become clear.
     for (bool is_new = true; is_new;) {
       std::vector<Corner> found;
       for (std::size_t k = 0; k < way_.size(); ++k) {
@@ -69,7 +69,7 @@ class CornerSearch {
         is_new = true;
       }
     }
-    // Each where it leaves least, between the others.
+    // Moves each corner, between the others, to where the residual is least.
     for (const std::size_t k : places()) {
       is_corner_[k] = 0;
       is_corner_[best_about(look_at(k))] = 1;
@@ -80,9 +80,9 @@ class CornerSearch {
  private:
   struct Corner {
     std::size_t place = 0;
-    double gain = -1;  ///< what an even bend leaves more of squares than a corner does; less than 0: none
+    double gain = -1;  ///< squares that an even bend leaves beyond those of the corner; negative: no corner
     double turn = 0;
-    double left = 0;  ///< what it leaves itself, on average
+    double left = 0;  ///< mean squares that the corner leaves
   };
 
   [[nodiscard]] std::vector<std::size_t> places() const {
@@ -93,7 +93,7 @@ class CornerSearch {
     return corners;
   }
 
-  /// Where a corner leaves least, from place to place.
+  /// The place near a corner at which it leaves least.
   [[nodiscard]] std::size_t best_about(Corner corner) const {
     const std::size_t count = way_.size();
     for (std::size_t steps = 0; steps < count; ++steps) {
@@ -107,15 +107,15 @@ class CornerSearch {
     return corner.place;
   }
 
-  /// Places about one, itself among them, with how far along they are from it.
+  /// Places around one, itself included, with their lengths from it along the way.
   struct Window {
     std::vector<Vector3> places;
     std::vector<double> at;
-    double before = 0;  ///< its lengths on both sides
+    double before = 0;  ///< lengths on both sides
     double after = 0;
   };
 
-  /// No longer than that on either side, unless that is fewer edges than there have to be.
+  /// At most this long on either side, unless that has fewer than the least edges.
   [[nodiscard]] Window window(std::size_t about, double most) const {
     Window found{{way_[about]}, {0}};
     const std::size_t count = way_.size();
@@ -138,7 +138,7 @@ class CornerSearch {
     return found;
   }
 
-  /// What of the places is nearest to three functions of their lengths, and the sum of squares that is left.
+  /// Fits places by three functions of their lengths, and gives the residual sum of squares.
   struct LeastSquares3 {
     Eigen::Matrix3d rows;
     double left = 0;
@@ -168,7 +168,7 @@ class CornerSearch {
     return std::atan2(in.cross(out).norm(), in.dot(out));
   }
 
-  /// By the longest stretches on which either is near enough.
+  /// Compares corner and bend on the longest stretches on which either is near enough.
   [[nodiscard]] Corner look_at(std::size_t k) const {
     Corner corner{k};
     for (const double times : lengths_of_stretches) {
@@ -185,7 +185,7 @@ class CornerSearch {
         continue;
       corner.turn = turn_of(of_corner);
       if (!(corner.turn > angle_)) return corner;
-      // Three places are on both.
+      // Three places lie on both.
       const double gain = of_bend.left - of_corner.left;
       const double variance = count > 3 ? of_corner.left / (count - 3) : 0;
       const double least_variance = std::pow(least_noise_of_stretches * tolerance_ + nothing, 2);
@@ -202,7 +202,7 @@ class CornerSearch {
   double tolerance_;
   int least_edges_;
   double stretch_ = 0;
-  std::vector<double> at_;  ///< along the way; the last one: its length
+  std::vector<double> at_;  ///< lengths along the way; the last is the whole length
   std::vector<std::uint8_t> is_given_;
   std::vector<std::uint8_t> is_corner_;
 };

@@ -21,9 +21,9 @@ struct HeightForm {
 struct Heights {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();  ///< principal axes, in columns, by ascending extents
   Vector3 extents = Vector3::Zero();               ///< root mean squares along them
-  double deviation = 0;               ///< root mean square of the residuals, over the degrees of freedom
-  double freedom = 0;                 ///< degrees of freedom, in all directions
-  Vector3 squares = Vector3::Zero();  ///< mean square residuals along each axis
+  double deviation = 0;                            ///< root mean square of the residuals, over the degrees of freedom
+  double freedom = 0;                              ///< degrees of freedom, in all directions
+  Vector3 squares = Vector3::Zero();               ///< mean square residuals along each axis
 };
 
 /// Fits the polynomial; none if points are too few, or all in one place. Cost: linear.

@@ -33,8 +33,8 @@ class OffSource : public SurfaceSource {
 
   std::vector<std::size_t> rows;  ///< offset of the first coordinate of each node
   bool in_stream = false;         ///< read as a stream: nodes may begin anywhere
-  int normal_column = 0;  ///< of the normal's first component among the words of a node; 0: no normals
-  std::size_t nodes_begin = 0;  ///< where the numbers of nodes and of faces stand
+  int normal_column = 0;          ///< of the normal's first component among the words of a node; 0: no normals
+  std::size_t nodes_begin = 0;    ///< where the numbers of nodes and of faces stand
   std::size_t faces_begin = 0;
 
  private:

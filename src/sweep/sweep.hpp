@@ -21,7 +21,7 @@ class Sweep {
   Net* net_;
   const Model* model_;
   ThreadTeam* team_;
-  std::vector<Block> sequence_;  // one after the other; else groups_
+  std::vector<Block> sequence_;             // one after the other; else groups_
   std::vector<std::vector<Block>> groups_;  // side by side
   std::vector<double> greatest_;
 };

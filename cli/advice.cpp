@@ -7,7 +7,7 @@ namespace vspring::cli {
 namespace {
 
 struct Advice {
-  std::string_view words;  ///< of the library
+  std::string_view words;  ///< in messages of the library
   std::string_view option;
 };
 

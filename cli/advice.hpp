@@ -4,7 +4,7 @@
 
 namespace vspring::cli {
 
-/// A message of the library with the options of the command line that do what it advises.
+/// Adds to a message of the library the options of the command line that do what it advises.
 [[nodiscard]] std::string with_options(std::string message);
 
 }  // namespace vspring::cli

@@ -9,7 +9,7 @@ namespace vspring::cli {
 namespace {
 
 std::optional<CurveFormat> curve_format_of(const std::optional<AnyFormat>& format) {
-  if (format_as<SurfaceFormat>(format) == SurfaceFormat::obj) return CurveFormat::obj;  // of both kinds
+  if (format_as<SurfaceFormat>(format) == SurfaceFormat::obj) return CurveFormat::obj;  // OBJ is a format of both kinds
   return format_as<CurveFormat>(format);
 }
 
@@ -19,12 +19,12 @@ std::string extension_of(const std::string& path) {
 
 bool is_read_as_curve(const std::string& path, const std::optional<AnyFormat>& format, bool curve) {
   if (curve || format_as<CurveFormat>(format)) return true;
-  // Surfaces have OBJ files too.
+  // Surfaces have OBJ files, too.
   const auto by_extension = curve_format(extension_of(path));
   return !format && by_extension && *by_extension != CurveFormat::obj;
 }
 
-/// format: where it is known.
+/// format: if it is known.
 bool may_have_columns(std::optional<CurveFormat> format) {
   return !format || *format == CurveFormat::csv || *format == CurveFormat::xyz || *format == CurveFormat::gpx;
 }

@@ -17,19 +17,19 @@ namespace vspring::cli {
 using AnyShape = std::variant<SurfaceFile, CurveFile>;
 using AnyFormat = std::variant<SurfaceFormat, CurveFormat>;
 
-/// Reads a surface or a curve: as `curve` says, else as the format or the extension says; an OBJ file is a curve where
-/// it has no faces. Of standard input and of unknown extensions, a surface.
-/// columns: as in read_curve(); looked at only where may_be_table(). plane: of degrees, as there.
+/// Reads a surface or a curve: by `curve`, else by the format or the extension. An OBJ file without faces is a curve;
+/// standard input and files of unknown extensions are surfaces. columns: as in read_curve(); used only if
+/// may_be_table(). plane: of degrees, as there.
 [[nodiscard]] AnyShape read_shape(const std::string& path, std::optional<AnyFormat> format, bool curve,
                                   const ColumnChoice& columns, const std::optional<LocalPlane>& plane = std::nullopt);
 
-/// Whether read_shape() would take a file for a curve of columns, or has to look into it.
+/// Whether read_shape() would take a file for a curve in columns, or must inspect it.
 [[nodiscard]] bool may_be_table(const std::string& path, std::optional<AnyFormat> format, bool curve);
 
-/// Whether read_points() would take a file for points in columns, or has to look into it.
+/// Whether read_points() would take a file for points in columns, or must inspect it.
 [[nodiscard]] bool may_be_point_table(const std::string& path);
 
-/// A format where it is of this kind.
+/// A format if it is of this kind.
 template <typename Format>
 std::optional<Format> format_as(const std::optional<AnyFormat>& format) {
   if (!format || !std::holds_alternative<Format>(*format)) return std::nullopt;
@@ -41,7 +41,7 @@ inline const std::map<std::string, AnyFormat> any_formats = {
     {"obj", SurfaceFormat::obj}, {"off", SurfaceFormat::off}, {"ply", SurfaceFormat::ply}, {"stl", SurfaceFormat::stl},
     {"csv", CurveFormat::csv},   {"dat", CurveFormat::dat},   {"xyz", CurveFormat::xyz},   {"gpx", CurveFormat::gpx}};
 
-/// The plane that a shape's degrees were taken to; surfaces have none.
+/// The plane that a shape's degrees were mapped to; surfaces have none.
 inline std::optional<LocalPlane> plane_of(const SurfaceFile& /*file*/) { return std::nullopt; }
 inline std::optional<LocalPlane> plane_of(const CurveFile& file) { return file.plane; }
 

@@ -27,7 +27,7 @@ namespace vspring::cli {
 
 namespace {
 
-/// The first of these programs that PATH has, with its folder.
+/// The path of the first of these programs in PATH.
 std::optional<std::string> find_program(std::initializer_list<const char*> names) {
   const char* paths = std::getenv("PATH");
   if (paths == nullptr) return std::nullopt;
@@ -68,7 +68,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// A program whose standard output is read. It is the leader of a process group that ends with this.
+/// A program whose standard output is read. It leads a process group that ends with this object.
 class Child {
  public:
   explicit Child(const std::vector<std::string>& command) {
@@ -80,7 +80,7 @@ class Child {
     posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&files, ends[1], 1);
     posix_spawn_file_actions_addopen(&files, 2, "/dev/null", O_WRONLY, 0);
-    // A group of its own: Ctrl-C is for this program, which then ends the browser with all its processes.
+    // A process group of its own: Ctrl-C goes to this program, which then ends the browser with all its processes.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
@@ -106,7 +106,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// All that it writes until it ends or the context is cancelled.
+  /// All output until the program ends or the context is cancelled.
   [[nodiscard]] std::string read_all(const Context& context) const {
     std::string text;
     std::array<char, 65536> buffer{};
@@ -137,7 +137,7 @@ std::string loaded_document(const std::string& browser, const std::string& page,
   const Folder folder(browser);
   const std::string path = folder.inside("page.html");
   write_file(path, page);
-  // The sandbox needs rights that containers lack; the page is our own and asks for nothing from outside.
+  // The sandbox needs rights that containers lack; the page is our own and loads nothing from outside.
   const Child child({browser, "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
                      "--enable-unsafe-swiftshader", "--disable-dev-shm-usage", "--no-first-run", "--disable-extensions",
                      "--disable-background-networking", "--disable-crash-reporter", "--force-device-scale-factor=1",
@@ -151,7 +151,7 @@ bool open_in_browser(std::string address) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   for (const int stream : {0, 1, 2}) posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_RDWR, 0);
-  // The browser is not ended by the Ctrl-C that ends this program, and takes signals as usual.
+  // Ctrl-C for this program must not end the browser, which otherwise takes signals as usual.
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);

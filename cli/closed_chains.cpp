@@ -14,15 +14,15 @@ namespace vspring::cli {
 
 namespace {
 
-/// By how many degrees a polygon turns at b.
+/// The turn of a polygon at b, degrees.
 double turn_at(const Vector3& a, const Vector3& b, const Vector3& c) {
   const Vector3 before = b - a;
   const Vector3 behind = c - b;
   return std::atan2(before.cross(behind).norm(), before.dot(behind)) * 180 / std::numbers::pi;
 }
 
-/// The node beside the ends of a chain at which it turns sharply, and inside of it nowhere nearly so, as at one corner
-/// of a blunt trailing edge whose other corner the ends are; −1 where there is none.
+/// The neighbour of a chain's ends at which it turns sharply, if it turns nowhere else nearly so much: one corner of a
+/// blunt trailing edge whose other corner is at the ends. −1 if there is none.
 Index blunt_corner(const PolygonCurve& curve, const PolygonCurve::Chain& chain) {
   constexpr double least_turn = 45;
   constexpr double times_others = 5;
@@ -40,7 +40,7 @@ Index blunt_corner(const PolygonCurve& curve, const PolygonCurve::Chain& chain) 
   return -1;
 }
 
-/// Whether a chain comes back to where it began as a smooth ring does, by its way a little before and after.
+/// Whether a chain returns to its start as a smooth ring does, by its way a little before and after.
 bool ends_smoothly(const PolygonCurve& curve, const PolygonCurve::Chain& chain) {
   constexpr double greatest_turn = 90;
   constexpr double share_of_way = 0.02;
@@ -83,7 +83,7 @@ std::string note_of_repeats(const PolygonCurve& curve) {
       where);
 }
 
-/// What is said of the last row's directions and not of the first's.
+/// Applies constraints on directions of the last row that the first does not have.
 void hold_directions(Constraints& constraints, Index node, Index of) {
   if (constraints.tangent_fixed(of)) return;
   if (constraints.corner(node)) constraints.make_corner(of);

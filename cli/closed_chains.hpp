@@ -9,26 +9,25 @@
 
 namespace vspring::cli {
 
-/// What --closed makes of the chains of a curve: the last node of every open chain joins the first. A last node at the
-/// very place of the first is left out, and follows it.
+/// Applies --closed to the chains of a curve: the last node of every open chain joins the first. A last node exactly at
+/// the first is left out of the chain and follows the first.
 class ClosedChains {
  public:
-  /// closed: whether --closed is given; else chains stay as they are.
+  /// closed: whether --closed is given; if not, chains do not change.
   ClosedChains(PolygonCurve& curve, bool closed);
   /// Surfaces have no chains.
   ClosedChains(const PolygonMesh& /*mesh*/, bool /*closed*/) {}
 
-  /// What is said of a node that repeats another one holds that one. Throws Error(unusable_constraint) where they are
-  /// held at different places.
+  /// Applies the constraints of a node that repeats another one to that one. Throws Error(unusable_constraint) if they
+  /// are held at different places.
   void hold(Constraints& constraints) const;
-  /// Takes the nodes that repeat others to where those are.
+  /// Moves nodes that repeat others to these.
   void follow(std::vector<Vector3>& positions) const;
-  /// What a person should know of chains that stay open and end at the very place where they begin, a line; empty
-  /// without.
+  /// A line for people about chains that stay open though they end exactly where they begin; empty if there are none.
   [[nodiscard]] const std::string& note() const noexcept { return note_; }
 
  private:
-  /// A node that repeats the position of another one and goes where that goes.
+  /// A node that repeats the position of another one and follows it.
   struct DuplicateEnd {
     Index node;
     Index of;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* loopback = "127.0.0.1";
 
-/// 128 bits that nobody guesses.
+/// 128 random bits, which cannot be guessed.
 std::string random_word() {
   std::random_device source;
   std::string word;
@@ -26,7 +26,7 @@ std::string random_word() {
   return word;
 }
 
-/// As a part of an address, where it stands for itself alone.
+/// Percent-encodes a part of an address.
 std::string encoded(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -50,7 +50,7 @@ class EditorServer::Running {
  public:
   Running(const std::string& page, EditedFile file, int port, std::function<void()> saved)
       : file_(std::move(file)), saved_(std::move(saved)) {
-    // Memory may be shared between the page and its worker only where no other origin takes part.
+    // Browsers allow the page and its worker to share memory only if no other origin takes part.
     server_.set_default_headers({{"Cross-Origin-Opener-Policy", "same-origin"},
                                  {"Cross-Origin-Embedder-Policy", "require-corp"},
                                  {"Cross-Origin-Resource-Policy", "same-origin"},
@@ -62,7 +62,7 @@ class EditorServer::Running {
       if (!permitted(request)) {
         answer(response, 403, "Not from here: open the address that vspring edit has printed.\n");
       } else if (request.has_header("Content-Encoding")) {
-        // What little becomes much of is not unpacked.
+        // Compressed requests are refused: a small one may unpack to a large one.
         answer(response, 415, "Send the bytes of the file as they are.\n");
       } else {
         return httplib::Server::HandlerResponse::Unhandled;
@@ -75,7 +75,7 @@ class EditorServer::Running {
                 [this](const httplib::Request& request, httplib::Response& response) { write(request, response); });
     if (!server_.set_mount_point(root_, page))
       throw Error(ErrorCode::unusable_file, fmt::format("{}: not a folder", page));
-    // A port that another program has is taken, whatever that one would share.
+    // A port of another program counts as taken, even if that program would share it.
     server_.set_socket_options([](socket_t socket) {
       const int yes = 1;
       setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
@@ -95,7 +95,7 @@ class EditorServer::Running {
                               encoded("shape/" + encoded(name_of(file_.output))));
     }
     thread_ = std::thread([this] { server_.listen_after_bind(); });
-    // stop() before the thread listens would be lost.
+    // stop() before the thread listens would have no effect.
     while (!server_.is_running()) std::this_thread::yield();
   }
   ~Running() {
@@ -108,7 +108,8 @@ class EditorServer::Running {
   [[nodiscard]] const std::string& address() const noexcept { return address_; }
 
  private:
-  /// The address has the word; and no page of another origin, nor one whose name has been made to lead here, asks.
+  /// Whether the address has the word, and the request comes from no page of another origin or of a name rebound to
+  /// this machine.
   [[nodiscard]] bool permitted(const httplib::Request& request) const {
     const std::string here = fmt::format("{}:{}", loopback, port_);
     const std::string origin = request.get_header_value("Origin");

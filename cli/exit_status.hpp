@@ -4,7 +4,7 @@
 
 namespace vspring::cli {
 
-// What scripts are promised.
+// Exit statuses are promised to scripts.
 inline constexpr int exit_converged = 0;
 inline constexpr int exit_wrong_use = 1;
 inline constexpr int exit_unusable = 2;

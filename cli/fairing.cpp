@@ -15,10 +15,10 @@ namespace vspring::cli {
 
 namespace {
 
-// Nodes of a shape that is measured though somebody waits for the end.
+// An interrupted run still measures shapes of at most so many nodes.
 constexpr Index most_when_interrupted = 200'000;
 
-/// For each option that had no effect.
+/// Adds a warning for each option that had no effect.
 template <typename Shape>
 std::vector<std::string> idle_in(RunFacts facts, const FairingArguments& arguments,
                                  const Fairing::Faired<Shape>& faired) {
@@ -99,7 +99,7 @@ int Fairing::finish(const Faired<Shape>& faired, std::vector<std::string> warnin
     json["output"] = arguments_->output;
     json.update(made.figures);
     if (is_measured) {
-      // Not assigned as a list: clang 14 does not destroy what such an assignment replaces.
+      // Not assigned as a list: clang 14 would not destroy the replaced value.
       nlohmann::ordered_json figures = {{"before", values_of(shapes[0].figures)},
                                         {"after", values_of(shapes[1].figures)}};
       json["fairness"].swap(figures);

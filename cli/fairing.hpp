@@ -21,19 +21,18 @@
 
 namespace vspring::cli {
 
-/// One run of a command that fairs a shape: Ctrl-C, progress, what is written and what is said. Make it before the
-/// input is read.
+/// One run of a command that fairs a shape: Ctrl-C, progress, outputs and messages. Make it before reading the input.
 class Fairing {
  public:
   explicit Fairing(const FairingArguments& arguments);
 
-  /// From here on there is a shape to save when the run is interrupted.
+  /// Call it when the input is read: from then on an interrupted run has a shape to save.
   void input_is_read() noexcept { cancelling_.input_is_read(); }
 
-  /// For the calls that this run makes.
+  /// The context for calls of this run.
   [[nodiscard]] Context& context() noexcept { return context_; }
 
-  /// A shape before and after, and what held it.
+  /// A shape before and after, and its constraints.
   template <typename Shape>
   struct Faired {
     const Shape& before;
@@ -42,43 +41,42 @@ class Fairing {
     const FairReport& report;
   };
 
-  /// What the command itself makes.
+  /// Parts that the command provides.
   struct Made {
     /// Writes the shape and returns warnings.
     std::function<std::vector<std::string>()> write;
-    /// Of what is shown, all but the shapes.
+    /// Titles and other parts of what is shown, except the shapes.
     std::function<std::string()> picture;
     std::span<const Vector3> points = {};
     std::function<std::vector<NodeScalar>()> scalars = {};
     const Welding* welding = nullptr;
-    /// What the command adds to the report.
+    /// Figures that the command adds to the report.
     nlohmann::ordered_json figures = nlohmann::ordered_json::object();
-    /// What it adds to what people read, in lines.
+    /// Lines that it adds to the summary.
     std::string lines = {};
-    /// What it alone knows.
+    /// Facts that only it knows.
     RunFacts facts = {};
   };
 
-  /// Writes the files, says what happened, and returns the exit status. A run that was interrupted gets no page, no
-  /// picture and no scalars, and its report only the figures of measure(), of a very large shape none: they would take
-  /// long.
+  /// Writes the files and the summary, and returns the exit status. An interrupted run writes no page, picture or
+  /// scalars, as they take long; its report has the figures of measure() only, and none of a very large shape.
   template <typename Shape>
   int finish(const Faired<Shape>& faired, std::vector<std::string> warnings, const Made& made);
 
  private:
-  /// Gives both shapes their figures, as one bar shows it; of no use once cancelled.
+  /// Measures both shapes, under one progress bar; useless when cancelled.
   template <typename Shape>
   void measure(std::array<ShownShape<Shape>, 2>& shapes, const Constraints& constraints);
 
   const FairingArguments* arguments_;
-  // What people read goes to standard output unless the shape itself goes there.
+  // The summary goes to standard output unless the shape itself does.
   Terminal errors_;
   Terminal messages_;
   Context context_;
   CancelOnSignal cancelling_;
   TimeLimit time_limit_;
   ProgressBar bar_;
-  double progress_begin_ = 0;  ///< of the call among those that one bar shows
+  double progress_begin_ = 0;  ///< where the present call begins on the progress bar
   double progress_share_ = 1;
 };
 

@@ -12,7 +12,7 @@ namespace vspring::cli {
 
 enum class Hold { boundary, none };
 
-/// What all commands that fair a shape are told.
+/// Arguments of all commands that fair a shape.
 struct FairingArguments {
   std::string input;
   std::string output;
@@ -20,8 +20,8 @@ struct FairingArguments {
   Hold fix = Hold::boundary;
   Hold fix_directions = Hold::none;
   std::string region;
-  std::optional<double> weld;  ///< nodes nearer than this share of the diagonal are one; else what the format needs
-  /// What is given of options that depend on each other; settle_options() makes `options` of it.
+  std::optional<double> weld;  ///< nodes nearer than this share of the diagonal are joined; empty: as the format needs
+  /// Given values of options that depend on each other; settle_options() turns them into `options`.
   std::optional<Method> method;
   double tolerance = EquilibriumMethod().tolerance;
   std::optional<double> step_tolerance;
@@ -41,7 +41,7 @@ struct FairingArguments {
   std::string deviation;
   bool quiet = false;
   Colour colour = Colour::automatic;
-  std::set<std::string> given;  ///< options that were given, by their long names
+  std::set<std::string> given;  ///< given options, by their long names
 
   /// Whether a page, a picture or scalars are asked for.
   [[nodiscard]] bool shows_shapes() const { return !(html.empty() && picture.path.empty() && scalars.empty()); }

@@ -34,7 +34,7 @@ std::string spaces(std::size_t width, std::string_view text) {
 std::string to_left(std::string_view text, std::size_t width) { return std::string(text) + spaces(width, text); }
 std::string to_right(std::string_view text, std::size_t width) { return spaces(width, text) + std::string(text); }
 
-/// Of runs of nodes that are neighbours, those in which one moves.
+/// The box around runs of neighbouring nodes with a moving node.
 class MovingBox {
  public:
   MovingBox(const std::vector<Vector3>& positions, const Constraints& constraints)

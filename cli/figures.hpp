@@ -14,8 +14,8 @@
 
 namespace vspring::cli {
 
-/// A shape with its curvatures at nodes: computed when they are asked for first, once for all that show them. The shape
-/// must outlive it. Once cancelled, curvatures are of no use.
+/// A shape with its curvatures at nodes, computed once, on first use. The shape must outlive it. When cancelled,
+/// curvatures are useless.
 template <typename Shape>
 class MeasuredShape {
  public:
@@ -46,7 +46,7 @@ struct FigureColumn {
   std::vector<Figure> figures;
 };
 
-/// The same with the shape, as pages and pictures show it. The shape must outlive it.
+/// Figures with their shape, for pages and pictures. The shape must outlive it.
 template <typename Shape>
 struct ShownShape : FigureColumn {
   MeasuredShape<Shape> measured;
@@ -54,27 +54,27 @@ struct ShownShape : FigureColumn {
   [[nodiscard]] const Shape& shape() const noexcept { return measured.shape(); }
 };
 
-/// What measure_surface() or measure_curve() measure, as a list. shown: something shows the curvatures of all nodes
-/// anyway; else only those are computed that are measured. The figures have the same bits either way.
+/// Lists the figures of measure_surface() or measure_curve(). shown: the curvatures of all nodes are needed anyway;
+/// else only measured ones are computed. The figures have the same bits either way.
 [[nodiscard]] std::vector<Figure> figures_of(const MeasuredShape<PolygonMesh>& mesh, const Constraints* constraints,
                                              bool shown, const Context& context);
 [[nodiscard]] std::vector<Figure> figures_of(const MeasuredShape<PolygonCurve>& curve, const Constraints* constraints,
                                              bool shown, const Context& context);
 
-/// Those of a shape before and after, by which both keep the same bits as one by one.
+/// Figures of a shape before and after, with the bits of figures_of() for each.
 [[nodiscard]] std::array<std::vector<Figure>, 2> figures_of(const PolygonMesh& before, const PolygonMesh& after,
                                                             const Constraints* constraints, const Context& context);
 
-/// The diagonal of the box around the nodes that move and their neighbours: the "size" of what is faired.
+/// The diagonal of the box around the moving nodes and their neighbours: the "size" in reports.
 [[nodiscard]] double size_of_moving(const PolygonMesh& mesh, const Constraints& constraints);
 [[nodiscard]] double size_of_moving(const PolygonCurve& curve, const Constraints& constraints);
 
-/// Values by their keys, and by the same keys name, unit and definition of each.
+/// Values by key; and name, unit and definition by key.
 [[nodiscard]] nlohmann::ordered_json values_of(const std::vector<Figure>& figures);
 [[nodiscard]] nlohmann::ordered_json definitions_of(const std::vector<Figure>& figures);
 
-/// Figures for people, a line each: name, a value for every column, unit, definition. The first column says which
-/// figures there are; others stay empty where they lack one.
+/// Figures for people, a line each: name, a value for every column, unit, definition. The first column determines the
+/// figures; others are empty where they lack one.
 [[nodiscard]] std::string figure_table(const std::vector<FigureColumn>& columns, const Terminal& terminal);
 
 }  // namespace vspring::cli

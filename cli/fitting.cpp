@@ -14,14 +14,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of the points that hold a shape, or are left out.
+// Most numbers of active points or outliers in a report.
 constexpr std::ptrdiff_t most_named = 1000;
 
 std::vector<Index> first_of(const std::vector<Index>& points) {
   return {points.begin(), points.begin() + std::min<std::ptrdiff_t>(std::ssize(points), most_named)};
 }
 
-/// Empty where they were not measured.
+/// Empty if they were not measured.
 Json to_json(const PointDistances& distances) {
   if (distances.all.count == 0) return Json::object();
   return {{"greatest", distances.all.greatest},
@@ -34,7 +34,7 @@ Json to_json(const PointDistances& distances) {
 
 Json optional(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
-/// Of those flags that belong to it.
+/// The method, with its own options.
 FairingMethod method_of(const FairingArguments& arguments) {
   const double step_tolerance = arguments.step_tolerance.value_or(SweepMethod().step_tolerance);
   const SweepOrder order = arguments.paper ? SweepOrder::file : SweepOrder::parallel;
@@ -54,7 +54,7 @@ FairingMethod method_of(const FairingArguments& arguments) {
     case Method::equilibrium:
       break;
   }
-  // The paper's equations are for comparison.
+  // With the paper's equations, which are for comparison, there are no fallbacks.
   EquilibriumMethod equilibrium;
   equilibrium.tolerance = arguments.tolerance;
   equilibrium.max_iterations = arguments.max_iterations;
@@ -62,7 +62,7 @@ FairingMethod method_of(const FairingArguments& arguments) {
   return equilibrium;
 }
 
-/// Where nodes go along the shape unless the command says otherwise.
+/// The distribution if none is given.
 Distribution default_distribution(const FairingArguments& arguments, bool is_curve, bool own_nodes_pull) {
   if (arguments.paper) return Distribution::even;
   if (own_nodes_pull) return Distribution::keep;
@@ -105,7 +105,7 @@ void settle_options(FairingArguments& arguments, bool is_curve, bool own_nodes_p
 std::array<bool, 3> moving_axes(const CurveFile& file, const std::vector<std::string>& names) {
   if (names.empty()) return {true, true, true};
   std::array<bool, 3> axes = choose_axes(file, names);
-  // Of a plane nothing is left to keep then.
+  // In a plane no coordinate is left to keep then.
   if (file.planar && axes[0] && axes[1]) axes[2] = true;
   return axes;
 }

@@ -15,30 +15,30 @@
 
 namespace vspring::cli {
 
-/// How points pull: one of these, or none where a shape is only faired.
+/// How points pull: one criterion, or none if a shape is only faired.
 struct PullArguments {
   std::optional<double> weight;
   std::optional<double> smoothing_length;
   std::optional<double> within;
   std::optional<double> rms;
   std::optional<double> noise;
-  std::optional<Vector3> voxels;  ///< whose steps are taken off, where an option is "auto"
+  std::optional<Vector3> voxels;  ///< set if an option is "auto" and steps of voxels are removed
   double outliers = 0;
-  std::vector<std::string> moving = {};                  ///< names of coordinates that move; empty: all
-  std::array<bool, 3> moving_axes = {true, true, true};  ///< that these are
-  double least_radius = 0;                               ///< of curves, as the next one
-  double sharp = 0;                                      ///< what turns by more stays sharp; 0: nothing
+  std::vector<std::string> moving = {};                  ///< names of coordinates that may change; empty: all
+  std::array<bool, 3> moving_axes = {true, true, true};  ///< the axes of `moving`
+  double least_radius = 0;                               ///< curves only
+  double sharp = 0;                                      ///< curves only; sharper turns stay corners, degrees; 0: none
   std::string automatic = {};                            ///< the option whose value is "auto"; empty: none
-  std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that it was set by
+  std::optional<NoiseEstimate> estimate = std::nullopt;  ///< that "auto" used
 };
 
-/// Gives the option that is "auto" its value, by the noise of the nodes as they came: --within greatest_of_noise(),
-/// --rms and --noise its standard deviation. Of surfaces of voxels their steps are taken off instead. Of a curve --rms
-/// auto is --noise auto: a root mean square that is a little too small for the noise has it followed. Throws
-/// Error(unusable_shape) where that cannot be told.
+/// Sets the option that is "auto" by the noise of the input: --within to greatest_of_noise(), --rms and --noise to its
+/// standard deviation. For surfaces of voxels the steps are removed instead. For curves --rms auto means --noise auto,
+/// as a root mean square slightly too small would make the curve follow noise. Throws Error(unusable_shape) if noise
+/// cannot be estimated.
 void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise, bool is_curve);
 
-/// In the coordinates that move.
+/// Estimates noise, of curves in the moving coordinates.
 inline NoiseEstimate noise_of(const PolygonMesh& mesh, const PullArguments& /*pull*/, const Context& context) {
   return estimate_noise(mesh, context);
 }
@@ -46,7 +46,7 @@ inline NoiseEstimate noise_of(const PolygonCurve& curve, const PullArguments& pu
   return estimate_noise(curve, pull.moving_axes);
 }
 
-/// At least rounding_of() the nodes, which is noise that neighbours share, so that it may not be seen.
+/// Raises an estimate to rounding_of() the nodes: neighbours share such noise, so the estimate may miss it.
 NoiseEstimate at_least_rounding(NoiseEstimate noise, double rounding);
 
 template <typename Shape>
@@ -56,32 +56,32 @@ void settle_by_noise(PullArguments& arguments, const Shape& shape, const Context
                     std::is_same_v<Shape, PolygonCurve>);
 }
 
-/// The coordinates of a curve that --move names, all of them where it names none. Throws what choose_axes() does.
+/// The coordinates of a curve that --move names; all if it names none. Throws what choose_axes() throws.
 [[nodiscard]] std::array<bool, 3> moving_axes(const CurveFile& file, const std::vector<std::string>& names);
 
-/// Finds the coordinates that are to move in a file that was read. Throws what moving_axes() does, and
-/// Error(invalid_argument) where no points pull.
+/// Sets the coordinates that move, by the columns of the file. Throws what moving_axes() throws, and
+/// Error(invalid_argument) if no points pull.
 void settle_moving(PullArguments& arguments, const CurveFile& file);
 
-/// Throws Error(invalid_argument) where more than one of the five is given, or --outliers or --min-radius without any.
+/// Whether a criterion is given. Throws Error(invalid_argument) for more than one of the five, and for --outliers or
+/// --min-radius without any.
 [[nodiscard]] bool asks_to_fit(const PullArguments& arguments);
 
-/// The method with its own options, what --paper stands for, and how nodes are distributed: those that are the points
-/// stay about where they are, unless the command says otherwise. What it asks for besides the defaults is written as
-/// found.
+/// Settles the method with its options, the choices of --paper, and the distribution: by default nodes that are the
+/// points stay about in their places. A distribution other than the default makes FairOptions::as_found true.
 void settle_options(FairingArguments& arguments, bool is_curve, bool own_nodes_pull);
 
 [[nodiscard]] FitOptions fit_options(const PullArguments& arguments, const FairOptions& fairing);
 
-/// What a report and people are told of points.
+/// The account of points, for the report and for people.
 class FitAccount {
  public:
-  /// file: the one that the points are from. points: their weights and normals.
+  /// file: the file of the points. points: for their weights and normals.
   FitAccount(const FitReport& report, const PullArguments& arguments, std::string file, const ScatteredPoints& points);
 
   [[nodiscard]] nlohmann::ordered_json figures() const;
   [[nodiscard]] std::string lines() const;
-  /// How far points are from the shape, and which one is furthest.
+  /// The distances of points from the shape, and the furthest point.
   [[nodiscard]] const Distance& furthest() const { return report_.after.all; }
 
  private:
@@ -92,16 +92,16 @@ class FitAccount {
   FitReport report_;
   PullArguments arguments_;
   std::string file_;
-  std::optional<std::pair<double, double>> weights_;  ///< the least and the greatest
-  std::int64_t normals_;                              ///< points that have one
+  std::optional<std::pair<double, double>> weights_;  ///< the least and the greatest weight
+  std::int64_t normals_;                              ///< number of points with a normal
 };
 
-/// Says where a tolerance that was not reached is smaller than the noise seems to be.
+/// Warns if a tolerance that was not reached is smaller than the estimated noise.
 void warn_of_noise(const PullArguments& arguments, const NoiseEstimate& noise, std::vector<Warning>& warnings);
 
 struct FairedOrFitted {
   FairResult faired;
-  std::optional<FitAccount> account;  ///< where points pulled
+  std::optional<FitAccount> account;  ///< set if points pulled
 
   [[nodiscard]] nlohmann::ordered_json figures() const {
     return account ? account->figures() : nlohmann::ordered_json::object();
@@ -109,7 +109,7 @@ struct FairedOrFitted {
   [[nodiscard]] std::string lines() const { return account ? account->lines() : ""; }
 };
 
-/// shape: the one that came, whose nodes are the points.
+/// shape: the input, whose nodes are the points.
 template <typename Shape>
 FairedOrFitted account_for(FitResult fitted, const Shape& shape, const FairingArguments& arguments,
                            const PullArguments& pull, const Context& context) {
@@ -120,8 +120,7 @@ FairedOrFitted account_for(FitResult fitted, const Shape& shape, const FairingAr
   return {{std::move(fitted.positions), std::move(fitted.report.fair)}, std::move(account)};
 }
 
-/// Fairs a shape, and draws it towards points where that is asked for: its own nodes, as the input has them. weights:
-/// of these, empty for 1 each.
+/// Fairs a shape or, if asked for, fits it to its own nodes in the input. weights: of these; empty: 1 each.
 template <typename Shape>
 FairedOrFitted fair_or_fit(const Shape& shape, const Constraints& constraints, std::vector<double> weights,
                            const FairingArguments& arguments, const PullArguments& pull, Context& context) {

@@ -11,12 +11,12 @@ namespace {
 
 using Box3 = Eigen::AlignedBox<double, 3>;
 
-constexpr double least_move = 1e-6;        // of the size: more than rounding in single precision
-constexpr double surroundings = 1.6;       // how much more than what moved is shown
-constexpr double largest_part = 0.5;       // of the diagonal of all
-constexpr double goes_round = 0.2;         // the mean of unit normals, below which they face everywhere
-constexpr double least_side = 1e-6;        // of what is shown, for parts without extent
-constexpr double nearly_upright = 0.9999;  // a direction that leaves z no place in the picture
+constexpr double least_move = 1e-6;        // as a share of the size: more than rounding in single precision
+constexpr double surroundings = 1.6;       // the part shown, relative to the part that moved
+constexpr double largest_part = 0.5;       // as a share of the whole diagonal
+constexpr double goes_round = 0.2;         // length of the mean unit normal, below which normals face everywhere
+constexpr double least_side = 1e-6;        // as a share of what is shown, for parts without extent
+constexpr double nearly_upright = 0.9999;  // cosine to z from which on z cannot be up in the picture
 
 /// The nodes of faces or edges that moved, before and after.
 class MovedPart {
@@ -53,7 +53,7 @@ class MovedPart {
            box_.diagonal().norm() <= largest_part * all_.diagonal().norm();
   }
 
-  /// As a view shows it: the box to the right, upwards and towards the eye.
+  /// The box in a view: to the right, upwards and towards the eye.
   [[nodiscard]] Box3 seen(const Eigen::Matrix3d& view) const {
     Box3 box;
     for (std::size_t i = 0; i < taken_.size(); ++i) {
@@ -92,7 +92,7 @@ Vector3 area_of(std::span<const Index> face, std::span<const Vector3> positions)
   return area;
 }
 
-/// Whether more of the other faces lies before the part than behind it.
+/// Whether more of the other faces lie before the part than behind it.
 bool is_hidden(const PolygonMesh& mesh, const MovedPart& part, std::span<const Vector3> positions,
                const Eigen::Matrix3d& view) {
   const Box3 place = part.seen(view);
@@ -142,7 +142,7 @@ Eigen::Matrix3d seen_from(const Vector3& direction, const Vector3& up) {
 Eigen::Matrix3d default_view() { return seen_from(Vector3(1, -2, 1.5), Vector3::UnitZ()); }
 
 Plane plane_of(const std::vector<Vector3>& points) {
-  constexpr double flat = 1e-9;  // of the side of the box, more than rounding and less than anyone sees
+  constexpr double flat = 1e-9;  // as a share of the box's side: more than rounding, less than visible
   Plane plane;
   const bool level = std::all_of(points.begin(), points.end(),
                                  [&](const Vector3& p) { return std::abs(p.z() - points.front().z()) <= flat; });

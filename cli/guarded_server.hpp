@@ -16,15 +16,15 @@
 
 namespace vspring::cli {
 
-/// What one request may take. Whoever has not been looked at yet gets little.
+/// Limits of one request. They are tight until its head has been checked.
 struct RequestLimits {
-  std::chrono::milliseconds head_time{2000};  ///< until the last line of the head has come
+  std::chrono::milliseconds head_time{2000};  ///< for the whole head
   std::chrono::milliseconds whole_time{60000};
   std::size_t head_bytes = 64 << 10;
   std::size_t body_bytes = 1 << 30;
 };
 
-/// A connection that ends when its request takes more than it may, or when the server is about to end.
+/// A connection that ends when its request exceeds a limit, or when the server ends.
 class GuardedConnection : public httplib::Stream {
  public:
   GuardedConnection(socket_t socket, const RequestLimits& limits, const std::atomic<bool>& ending)
@@ -35,13 +35,13 @@ class GuardedConnection : public httplib::Stream {
         bytes_left_(limits.head_bytes),
         body_bytes_(limits.body_bytes) {}
 
-  /// From here on the body may come.
+  /// Call it when the head is complete: the body may follow.
   void head_has_come() {
     end_ = whole_end_;
     bytes_left_ = body_bytes_;
   }
 
-  /// Reads what the other side has sent and nobody wants: closed before, a connection can lose the answer on its way.
+  /// Reads and drops remaining input: otherwise closing the connection may lose the answer.
   void drain() {
     ::shutdown(socket_, SHUT_WR);
     end_ = Clock::now() + std::chrono::milliseconds(500);
@@ -68,14 +68,14 @@ class GuardedConnection : public httplib::Stream {
     }
   }
 
-  // Nobody asks who it is: the head says whether it may.
+  // Not used: permission depends on the head only.
   void get_remote_ip_and_port(std::string& /*address*/, int& /*port*/) const override {}
   void get_local_ip_and_port(std::string& /*address*/, int& /*port*/) const override {}
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// False where that does not come in time.
+  /// Waits for the event; false if it does not come in time.
   [[nodiscard]] bool waits_for(short event) const {
     constexpr std::chrono::milliseconds slice(100);
     for (;;) {
@@ -88,7 +88,7 @@ class GuardedConnection : public httplib::Stream {
     }
   }
 
-  /// How many more bytes are there to be read; none where too many have come.
+  /// The number of bytes that can be read; none if too many have come.
   ssize_t fill() {
     if (bytes_left_ == 0 || !waits_for(POLLIN)) return -1;
     const ssize_t count = ::recv(socket_, buffer_.data(), std::min(buffer_.size(), bytes_left_), 0);
@@ -109,17 +109,17 @@ class GuardedConnection : public httplib::Stream {
   std::size_t filled_ = 0;
 };
 
-/// Answers one request a connection, within limits: the library's own server takes a head of any length and waits for
-/// the next byte of it again and again.
+/// Answers one request per connection, within limits: the library's own server accepts a head of any length and waits
+/// for each byte of it anew.
 class GuardedServer : public httplib::Server {
  public:
   explicit GuardedServer(const RequestLimits& limits) : limits_(limits) {
-    // Some may wait for heads that do not come while others are answered.
+    // Enough threads that some may wait for heads that never come while others answer.
     new_task_queue = [] { return new httplib::ThreadPool(32); };
     set_payload_max_length(limits.body_bytes);
   }
 
-  /// Ends soon, whoever is still connected.
+  /// Ends soon, even with open connections.
   void end() {
     ending_ = true;
     stop();

@@ -21,14 +21,14 @@ void fix_boundary_directions(Constraints& constraints, const PolygonCurve& curve
   fix_boundary_tangents(constraints, curve);
 }
 
-/// A boundary that is faired goes on smoothly outside the region.
+/// Makes a faired boundary meet the boundary outside the region smoothly.
 void restrict_boundary(Constraints& constraints, const PolygonMesh& mesh, const std::vector<Index>& region,
                        const FairingArguments& arguments) {
   const bool follows_points = arguments.fix == Hold::none && arguments.options.fair_boundary;
   if (arguments.fair_boundary || follows_points) restrict_to_region(constraints, boundary_curve(mesh), region);
 }
 
-/// With the nodes that are one with some of the region, and those that belong to no face any more, which stay anyway.
+/// The region with all nodes joined with its nodes; those without a face stay anyway.
 std::vector<Index> whole_region(const std::vector<Index>& region, const Welded& welded) {
   const auto first = [&](std::size_t node) { return static_cast<std::size_t>(welded.representative[node]); };
   std::vector<std::uint8_t> inside(welded.representative.size(), 0);

@@ -5,7 +5,7 @@
 
 namespace vspring::cli {
 
-/// What --fix, --fix-normals, --constraints and --region say, in this order. input.groups must not be null.
+/// Applies --fix, --fix-normals, --constraints and --region, in this order. input.groups must not be null.
 [[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const PolygonMesh& mesh,
                                            const RuleInput& input);
 [[nodiscard]] Constraints make_constraints(const FairingArguments& arguments, const PolygonCurve& curve,

@@ -11,7 +11,7 @@ namespace vspring::cli {
 
 namespace {
 
-/// JSON that no name of a file or group can end early: "<" is written as an escape.
+/// JSON for a script element; "<" is escaped, so no name of a file or group can end the element.
 std::string in_script(const nlohmann::ordered_json& json) {
   const std::string text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
   std::string safe;
@@ -38,7 +38,7 @@ std::string in_markup(std::string_view text) {
   return safe;
 }
 
-/// The page with texts in place of names. One pass, so that nothing that was filled in is taken for a place.
+/// The page with texts in place of names. One pass, so inserted texts are not searched for names.
 std::string filled(std::string_view rest, std::initializer_list<std::pair<std::string_view, std::string>> parts) {
   std::string page;
   while (!rest.empty()) {

@@ -40,7 +40,7 @@ constexpr IdleRule idle_rules[] = {
     {"--distribution", [](const RunFacts& run) { return !run.moves_freely; }, "--move says where nodes are"},
     {"--ignore-point-normals", [](const RunFacts& run) { return run.is_curve; }, "it is for surfaces"},
     {"--ignore-point-normals", [](const RunFacts& run) { return !run.points_face; }, "the points have no normals"},
-    // Boundaries that are faired first, and not fitted, go to their equilibrium by every method, but with --paper.
+    // Boundaries that are faired first, but not fitted, go to their equilibrium with every method, except with --paper.
     {"--tolerance",
      [](const RunFacts& run) {
        return !run.equilibrium_tried && !(run.boundary_to_equilibrium && run.boundary_moves && !run.own_nodes_pull);

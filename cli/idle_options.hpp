@@ -11,24 +11,25 @@ namespace vspring::cli {
 
 struct FairingArguments;
 
-/// What decides which options of a run have had an effect. What a command does not know stays as it is here.
+/// Facts that decide which options of a run had an effect. Commands leave facts that they do not know at these
+/// defaults.
 struct RunFacts {
   std::set<std::string> given = {};     ///< options, by their long names
   bool is_curve = false;                ///< or else a surface
-  bool boundary_moves = false;          ///< some node of the boundary, or some end
-  bool moves_near_boundary = false;     ///< some node there, or beside it
-  bool is_planar = false;               ///< a curve with all that holds it
+  bool boundary_moves = false;          ///< some node of the boundary or some end moves
+  bool moves_near_boundary = false;     ///< some node there or next to it moves
+  bool is_planar = false;               ///< a curve that lies in a plane with its constraints
   bool resamples = false;               ///< --resample or --spacing
   bool moves_freely = true;             ///< no coordinate is kept
-  bool own_nodes_pull = false;          ///< --within and the like, where there is no --points
+  bool own_nodes_pull = false;          ///< by --within and the like, without --points
   bool points_face = false;             ///< points have normals
-  bool equilibrium_tried = false;       ///< by the method that was asked for
-  Springs springs = Springs::sphere;    ///< that were asked for
-  Method method = Method::equilibrium;  ///< that the shape is from
+  bool equilibrium_tried = false;       ///< by the given method
+  Springs springs = Springs::sphere;    ///< the given ones
+  Method method = Method::equilibrium;  ///< that made the shape
   std::size_t levels = 0;
   bool fix_is_none = false;
   bool fair_boundary = false;
-  bool boundary_to_equilibrium = false;  ///< what --fair-boundary makes of it
+  bool boundary_to_equilibrium = false;  ///< whether --fair-boundary takes it there
   bool has_picture = false;
   bool picture_is_svg = false;
   bool has_page = false;
@@ -37,14 +38,14 @@ struct RunFacts {
   bool is_flat = false;        ///< a generated annulus
 };
 
-/// Fills in what arguments say.
+/// Fills in the facts from arguments.
 void look_at(RunFacts& facts, const FairingArguments& arguments);
 
-/// Fills in what a shape and what holds it say, as far as that is asked for.
+/// Fills in the facts from a shape and its constraints, as far as the given options need them.
 void look_at(RunFacts& facts, const PolygonMesh& mesh, const Constraints& constraints);
 void look_at(RunFacts& facts, const PolygonCurve& curve, const Constraints& constraints);
 
-/// A warning for every option that was given and had no effect, and with what it would have one.
+/// A warning for every given option without effect; it says with what the option would have one.
 [[nodiscard]] std::vector<std::string> idle_options(const RunFacts& facts);
 
 }  // namespace vspring::cli

@@ -70,7 +70,7 @@ void AwaitedSignals::wait() const {
 
 TimeLimit::TimeLimit(Context& context, std::optional<double> seconds) : context_(&context), seconds_(seconds) {
   if (!seconds) return;
-  // Longer ones than clocks can tell are none.
+  // Limits beyond the range of clocks are none.
   constexpr double longest = 1e9;
   if (*seconds > longest) return;
   timer_ = std::thread([this] {
@@ -95,7 +95,7 @@ void TimeLimit::stop() {
 void TimeLimit::end(FairReport& report) {
   stop();
   if (!reached_) return;
-  // A signal between the question and the answer would be lost.
+  // Otherwise a signal between test and reset would be lost.
   const UninterruptedWhileWriting guard;
   if (was_interrupted()) return;
   context_->reset();

@@ -17,8 +17,8 @@ class CancelOnSignal {
  public:
   enum class While { reading, working };
 
-  /// While the input is read there is nothing to write, and the first one ends the program at once, too, with the exit
-  /// status of an interrupted run: until input_is_read().
+  /// Until input_is_read() there is nothing to write: then already the first one ends the program at once, with the
+  /// exit status of an interrupted run.
   explicit CancelOnSignal(Context& context, While now = While::working);
   ~CancelOnSignal();
   CancelOnSignal(const CancelOnSignal&) = delete;
@@ -27,10 +27,10 @@ class CancelOnSignal {
   void input_is_read() noexcept;
 };
 
-/// Whether Ctrl-C or SIGTERM has come while one of these lived.
+/// Whether Ctrl-C or SIGTERM came while a CancelOnSignal lived.
 [[nodiscard]] bool was_interrupted() noexcept;
 
-/// While it lives, Ctrl-C and SIGTERM wait: a file that is being written is finished first.
+/// While it lives, Ctrl-C and SIGTERM are delayed, so that a file being written is finished first.
 class UninterruptedWhileWriting {
  public:
   UninterruptedWhileWriting();
@@ -42,7 +42,7 @@ class UninterruptedWhileWriting {
   sigset_t before_;
 };
 
-/// While it lives, Ctrl-C, SIGTERM and SIGHUP reach nobody but wait().
+/// While it lives, Ctrl-C, SIGTERM and SIGHUP only reach wait().
 class AwaitedSignals {
  public:
   AwaitedSignals();
@@ -65,8 +65,8 @@ class TimeLimit {
   TimeLimit(const TimeLimit&) = delete;
   TimeLimit& operator=(const TimeLimit&) = delete;
 
-  /// From here on time is no matter. A run that the limit, and not Ctrl-C, has cancelled becomes one that has reached
-  /// its limit of work, with a warning, and its context usable again.
+  /// Ends the limit. If it, and not Ctrl-C, has cancelled the run, the outcome becomes work_limit, with a warning, and
+  /// the context is usable again.
   void end(FairReport& report);
 
  private:

@@ -36,7 +36,7 @@ std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape, const 
                                        const NoiseEstimate& noise, bool shown, const Context& context) {
   const bool fits = held && held->node_count() == shape.shape().node_count();
   std::vector<Figure> figures = figures_of(shape, fits ? &*held : nullptr, shown, context);
-  // Noise is nobody's measure of fairness, so it is none of those figures.
+  // Noise is not a measure of fairness, so list_figures() does not have it.
   figures.push_back(
       {"noise", "noise", "units",
        noise.voxel           ? "of steps of voxels, standard deviation in each coordinate: --noise auto takes them off"

@@ -18,12 +18,12 @@ namespace vspring::cli {
 
 /// How far two shapes lie apart.
 struct Apart {
-  std::optional<Distance> nodes;  ///< where there are as many
+  std::optional<Distance> nodes;  ///< set if both have equally many nodes
   Distance to_other;
   Distance from_other;
 };
 
-/// From the nodes of the first to the second, and back.
+/// Distances from the nodes of the first to the second, and back.
 template <typename Shape>
 Apart distances_between(const Shape& first, const Shape& second, const Context& context) {
   Apart apart;
@@ -33,14 +33,14 @@ Apart distances_between(const Shape& first, const Shape& second, const Context& 
   return apart;
 }
 
-/// What measure_surface() or measure_curve() measure, and the noise that the shape seems to have. held: may be of
-/// another shape, and is then left out of account. shown: see figures_of().
+/// The figures of measure_surface() or measure_curve(), and the estimated noise. held: ignored if of another node
+/// count. shown: see figures_of().
 template <typename Shape>
 [[nodiscard]] std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape,
                                                      const std::optional<Constraints>& held, const NoiseEstimate& noise,
                                                      bool shown, const Context& context);
 
-/// What the report says of a shape, and of another one and how far they lie apart. names: of their files.
+/// The report on a shape, and on another one and their distances. names: of their files.
 template <typename Shape>
 [[nodiscard]] nlohmann::ordered_json report_of(const std::array<std::string, 2>& names,
                                                std::span<const ShownShape<Shape>> shapes,

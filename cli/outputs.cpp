@@ -20,7 +20,7 @@ namespace vspring::cli {
 
 namespace {
 
-/// The scene that the page and the picture of a surface show; nothing where neither is asked for.
+/// The scene of the page and the picture of a surface; nothing if neither is asked for.
 template <typename Shape>
 nlohmann::ordered_json shown_scene(const FairingArguments& arguments, const Shown<Shape>& shown,
                                    const Context& context) {
@@ -35,7 +35,7 @@ nlohmann::ordered_json shown_scene(const FairingArguments& arguments, const Show
   return scene_of(shown.shapes, roles, context);
 }
 
-/// False where the context was cancelled, and nothing is written.
+/// Returns false, and writes nothing, if the context was cancelled.
 template <typename Shape>
 bool write_shown_scalars(const std::string& path, const Shown<Shape>& shown, const Context& context) {
   if (context.cancelled()) return false;
@@ -59,7 +59,7 @@ std::string write_shown(const FairingArguments& arguments, const Shown<Shape>& s
   const std::string title = "vspring: " + input_name(arguments.input);
   const PictureArguments& picture = arguments.picture;
   const nlohmann::ordered_json scene = shown_scene(arguments, shown, context);
-  // What an interrupted call made is of no use.
+  // The result of an interrupted call is useless.
   const auto write = [&](const std::string& path, const auto& bytes_of) {
     if (path.empty()) return true;
     if (context.cancelled()) return false;
@@ -92,7 +92,7 @@ void check_outputs(const FairingArguments& arguments, const std::vector<std::pai
                                                        {"--picture", arguments.picture.path},
                                                        {"--html", arguments.html},
                                                        {"--deviation", arguments.deviation}};
-  // Who tries whether a file can be written makes one.
+  // Testing whether a file can be written creates one.
   const UninterruptedWhileWriting guard;
   for (const auto& view : views) {
     const std::string& path = view.second;
@@ -101,7 +101,7 @@ void check_outputs(const FairingArguments& arguments, const std::vector<std::pai
       throw Error(ErrorCode::invalid_argument,
                   fmt::format("{}: {} is {} already; give it a file of its own", view.first, output_name(path), other));
     };
-    // Of standard streams, only two outputs are one.
+    // Standard input and output are different files.
     if (path == arguments.input && path != "-") refuse("the input");
     for (const auto& [option, file] : taken) {
       if (path == file) refuse(option);

@@ -16,13 +16,12 @@
 
 namespace vspring::cli {
 
-/// Throws Error(invalid_argument) where page, picture, scalars or deviations would take the place of an input or of
-/// another output, and Error(unusable_file) where an output cannot be written. others: more options with the files they
-/// were given.
+/// Throws Error(invalid_argument) if page, picture, scalars or deviations would replace an input or another output, and
+/// Error(unusable_file) if an output cannot be written. others: more options with their files.
 void check_outputs(const FairingArguments& arguments,
                    const std::vector<std::pair<std::string, std::string>>& others = {});
 
-/// Throws Error where picture or scalars cannot be made, see refuse_picture() and refuse_scalars().
+/// Throws what refuse_picture() and refuse_scalars() throw.
 void refuse_views(const FairingArguments& arguments, bool curve);
 
 /// Writes a file that Ctrl-C does not interrupt.
@@ -31,23 +30,23 @@ void write_uninterrupted(const std::string& path, const std::string& bytes);
 /// The warning of an output that an interrupted run leaves out.
 [[nodiscard]] std::string not_written(const std::string& path);
 
-/// A warning for each of the losses that a file was written with.
+/// A warning for each loss in a written file.
 [[nodiscard]] std::vector<std::string> written_without(const std::string& path, const std::vector<std::string>& losses);
 
-/// The shapes that page, picture and scalars show.
+/// The shapes in page, picture and scalars.
 template <typename Shape>
 struct Shown {
   std::span<const ShownShape<Shape>> shapes;
-  int leading = 0;                                        ///< the one that is seen first, and whose numbers are scalars
-  std::optional<int> reference = std::nullopt;            ///< the one that deviations are from
+  int leading = 0;                                        ///< the shape seen first, whose numbers are the scalars
+  std::optional<int> reference = std::nullopt;            ///< the shape that deviations are measured from
   std::span<const Vector3> points = {};                   ///< shown with surfaces in page and picture
   std::function<std::string()> picture = {};              ///< curves: the picture as SVG
   std::function<std::vector<NodeScalar>()> scalars = {};  ///< more numbers at the nodes of the leading shape
-  const Welding* welding = nullptr;  ///< of surfaces: what the leading shape has become of the file's
+  const Welding* welding = nullptr;  ///< surfaces: how the leading shape was welded
 };
 
-/// Writes page, picture and scalars, as far as they are asked for. report: what the page carries. Returns the first of
-/// them that is not written, as the context was cancelled; empty where all are.
+/// Writes page, picture and scalars, as far as asked for. report: for the page. Returns the first one not written
+/// because the context was cancelled; empty if all are written.
 [[nodiscard]] std::string write_views(const FairingArguments& arguments, const Shown<PolygonMesh>& shown,
                                       const nlohmann::ordered_json& report, const Context& context);
 [[nodiscard]] std::string write_views(const FairingArguments& arguments, const Shown<PolygonCurve>& shown,

@@ -11,8 +11,7 @@
 
 namespace vspring::cli {
 
-/// Takes the box around all shapes to one of side 1. Halves keep coordinates near the end of their range from
-/// overflowing.
+/// Maps the box around all shapes to one of side 1. Computes with halves, so that huge coordinates do not overflow.
 class Frame {
  public:
   void add(const PolygonMesh& mesh) {
@@ -29,7 +28,7 @@ class Frame {
   [[nodiscard]] double side() const { return 2 * std::min(half_side(), std::numeric_limits<double>::max() / 2); }
   [[nodiscard]] double diagonal() const { return box_.isEmpty() ? 0 : (box_.sizes() / half_side()).norm(); }
 
-  /// Nodes that no face or chain has may lie anywhere; they are not seen.
+  /// Nodes of no face or chain may lie anywhere; they are not shown.
   [[nodiscard]] std::vector<Vector3> inside(const std::vector<Vector3>& positions) const {
     std::vector<Vector3> points(positions.size(), Vector3::Zero());
     if (box_.isEmpty()) return points;

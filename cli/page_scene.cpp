@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Key, texts, and the values of every shape, null where one lacks the figure.
+/// Key, texts, and the value of every shape; null if one lacks the figure.
 template <typename Shape>
 Json figures_of(std::span<const ShownShape<Shape>> shapes) {
   Json rows = Json::array();
@@ -51,7 +51,7 @@ Json frame_of(std::span<const ShownShape<Shape>> shapes, const PageRoles& roles,
   return json;
 }
 
-/// Those in the box of the shapes and a little around it.
+/// The points in the box of the shapes and a little around it.
 std::vector<Vector3> shown_points(std::span<const Vector3> points, const Frame& frame) {
   constexpr std::size_t most = 20'000;
   constexpr double around = 0.6;
@@ -78,7 +78,7 @@ void add_framing(Json& json, const Framing& framing) {
           {"radius", framing.part->radius}};
 }
 
-/// The number of nodes of every face, 0 where they differ.
+/// The number of nodes of every face; 0 if they differ.
 std::size_t common_length(const PolygonMesh& mesh) {
   const std::size_t first = mesh.face_count() > 0 ? mesh.face(0).size() : 0;
   for (Index f = 1; f < mesh.face_count(); ++f) {
@@ -87,7 +87,7 @@ std::size_t common_length(const PolygonMesh& mesh) {
   return first;
 }
 
-/// Nodes of no face are not seen, and have no say in charts and colours.
+/// Nodes of no face are not shown, and do not count in charts and colours.
 std::vector<bool> seen_nodes(const PolygonMesh& mesh) {
   std::vector<bool> seen(static_cast<std::size_t>(mesh.node_count()), false);
   for (const Index node : mesh.corners()) seen[static_cast<std::size_t>(node)] = true;
@@ -130,8 +130,8 @@ Json shape_of(const MeasuredShape<PolygonMesh>& measured, const Frame& frame, do
           {"gaussian", encode_halves(gaussian)}};
 }
 
-/// Gives both shapes, of the same faces, their distances from each other at nodes, each from the nearest place on the
-/// other: nodes slide along a shape, which is no deviation. Negative where the node goes to the back of `before`.
+/// Adds to both shapes, which have the same faces, the deviations at nodes: distances from the nearest place on the
+/// other shape, as sliding along a shape is no deviation. Negative if the node moves to the back of `before`.
 void add_deviations(Json& after_json, Json& before_json, const PolygonMesh& after,
                     const MeasuredShape<PolygonMesh>& before, double side, const Context& context) {
   const std::vector<NodeCurvature>& bent = before.curvatures(context);
@@ -195,13 +195,13 @@ Json scene_of(std::span<const ShownShape<PolygonMesh>> shapes, const PageRoles& 
   json["shapes"] = Json::array();
   for (const auto& shape : shapes) {
     if (context.cancelled()) return {};
-    // D is the shape's own, as in its figures.
+    // D is that of the shape, as in its figures.
     Frame own;
     own.add(shape.shape());
     Json& entry =
         json["shapes"].emplace_back(shape_of(shape.measured, frame, own.diagonal() * own.half_side() * 2, context));
     entry["title"] = shape.title;
-    // What a shape has in common with the first need not be said twice.
+    // Faces or chains equal to those of the first shape are not repeated.
     if (json["shapes"].size() > 1 && entry["runs"] == json["shapes"][0]["runs"]) entry["runs"] = nullptr;
   }
   if (alike && roles.reference && roles.deviation && !context.cancelled())

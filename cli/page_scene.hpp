@@ -10,18 +10,18 @@
 
 namespace vspring::cli {
 
-/// What of the shapes is seen first, and from which of them deviations are measured.
+/// Which shape is seen first, and from which deviations are measured.
 struct PageRoles {
   int leading = 0;
   std::optional<int> reference = std::nullopt;
   bool deviation = true;                               ///< whether deviations are shown
-  std::optional<Eigen::Matrix3d> view = std::nullopt;  ///< from where surfaces are to be seen
-  std::span<const Vector3> points = {};                ///< shown with surfaces; of very many every so-manieth
+  std::optional<Eigen::Matrix3d> view = std::nullopt;  ///< the view of surfaces
+  std::span<const Vector3> points = {};                ///< shown with surfaces; thinned if very many
 };
 
-/// The shapes as page/data.js reads them. All are moved and scaled together into a box of side 1 about the origin;
-/// faces and chains leave out what has no finite coordinates. Where they look: see framing.hpp. Once cancelled, what
-/// they return is of no use.
+/// The shapes for page/data.js. All are moved and scaled together into a box of side 1 about the origin; faces and
+/// chains leave out nodes without finite coordinates. For the view see framing.hpp. When cancelled, the result is
+/// useless.
 [[nodiscard]] nlohmann::ordered_json scene_of(std::span<const ShownShape<PolygonMesh>> shapes, const PageRoles& roles,
                                               const Context& context);
 [[nodiscard]] nlohmann::ordered_json scene_of(std::span<const ShownShape<PolygonCurve>> shapes, const PageRoles& roles,

@@ -13,9 +13,9 @@ namespace vspring::cli {
 
 namespace {
 
-// Of the mean edge: what turns by less than about a degree.
+// In mean edges: turns by less than about a degree.
 constexpr double unseen = 0.01;
-// What turns by more than some degrees.
+// In mean edges: turns by more than a few degrees.
 constexpr double coarse = 0.05;
 
 double mean_edge(const PolygonMesh& mesh) {
@@ -41,7 +41,7 @@ std::string warning_of_rounding(const PolygonMesh& shape, double rounding) {
 }
 
 void refuse_auto_of_rounded(const std::string& option, const PolygonMesh& shape, double rounding) {
-  // Of what is rounded to multiples of a number, the deviation is that over the square root of 12.
+  // Rounding to multiples of a number has a deviation of this number over √12.
   const double multiples = std::sqrt(12.0) * rounding;
   const double edge = mean_edge(shape);
   if (option.empty() || !(multiples > edge)) return;

@@ -27,7 +27,7 @@ Fairness fairness_in(const std::vector<Figure>& figures) {
   return fairness;
 }
 
-/// The step of the plain iteration says nothing about the distance from the final place.
+/// The step of the plain iteration does not show the distance from the final place.
 nlohmann::ordered_json error_of(const FairReport& report) {
   if (!report.expected_error) return nullptr;
   return *report.expected_error;

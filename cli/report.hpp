@@ -16,31 +16,31 @@
 
 namespace vspring::cli {
 
-/// How fair a shape was, and is.
+/// The fairness of a shape before and after.
 struct BeforeAndAfter {
   Fairness before;
   Fairness after;
 };
 
-/// Where it moves under these constraints.
+/// Measures where the shape moves under these constraints.
 [[nodiscard]] BeforeAndAfter fairness_of(const PolygonMesh& before, const PolygonMesh& after,
                                          const Constraints& constraints, const Context& context);
 [[nodiscard]] BeforeAndAfter fairness_of(const PolygonCurve& before, const PolygonCurve& after,
                                          const Constraints& constraints, const Context& context);
 
-/// Of figures that were measured.
+/// Picks the fairness from measured figures.
 [[nodiscard]] BeforeAndAfter fairness_of(const std::vector<Figure>& before, const std::vector<Figure>& after);
 
-/// Of the boundary of a surface, which was faired by itself under the positions and tangents given.
+/// Measures the boundary of a surface, faired as a curve under the given positions and tangents.
 [[nodiscard]] BeforeAndAfter fairness_of_boundary(const PolygonMesh& before, const PolygonMesh& after,
                                                   const Constraints& constraints);
 
-/// The report of a run for scripts, with the keys that docs/command-line.md promises, but for figures of fairness.
+/// The report of a run for scripts, with the keys that docs/command-line.md promises, without figures of fairness.
 [[nodiscard]] nlohmann::ordered_json to_json(const FairReport& report);
 [[nodiscard]] nlohmann::ordered_json to_json(const BeforeAndAfter& fairness);
 
-/// What a person wants to know of a run, some lines. size: of what moves, for moves relative to it.
-/// options: that it was given. fairness: none where nobody has looked.
+/// The summary of a run for people, some lines. size: of the moving part, to which moves are relative. options: as
+/// given. fairness: none if not measured.
 [[nodiscard]] std::string summary(const FairReport& report, const std::optional<BeforeAndAfter>& fairness, double size,
                                   const FairOptions& options, const Terminal& terminal);
 

@@ -9,12 +9,12 @@
 
 namespace vspring::cli {
 
-/// Throws Error(invalid_argument) where --scalars names a file of no format that holds them. Nothing without it.
+/// Throws Error(invalid_argument) if the format of --scalars cannot hold them. Does nothing without it.
 void refuse_scalars(const std::string& path, bool curve);
 
-/// What --scalars writes at nodes: curvatures, 1/length, and with `before`, which may be null, the deviation from it,
-/// in units of the input: of the same nodes where there are as many (and along the normal there where they have the
-/// same faces), else from the nearest place on it. Once cancelled, what they return is of no use.
+/// The numbers that --scalars writes at nodes: curvatures, 1/length, and with `before`, which may be null, the
+/// deviation from it, in units of the input. With equally many nodes that is the distance of the same node (with the
+/// same faces along the normal), else that from the nearest place. When cancelled, the result is useless.
 [[nodiscard]] std::vector<NodeScalar> scalars_of(const MeasuredShape<PolygonMesh>& mesh,
                                                  const MeasuredShape<PolygonMesh>* before, const Context& context);
 [[nodiscard]] std::vector<NodeScalar> scalars_of(const MeasuredShape<PolygonCurve>& curve,

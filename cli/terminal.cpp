@@ -48,7 +48,7 @@ bool Terminal::write(std::string_view text) const {
 
 namespace {
 
-// A bar that flashes up for less is a nuisance.
+// A bar that appears for less is a nuisance.
 constexpr double shortest_shown = 0.3;
 constexpr int width = 24;
 

@@ -11,10 +11,10 @@ namespace vspring::cli {
 
 enum class Colour { automatic, always, never };
 
-/// A stream of the terminal that may or may not show colours.
+/// A standard stream, with or without colours.
 class Terminal {
  public:
-  /// descriptor: 1 for standard output, 2 for standard error. Automatic: coloured where it is a terminal, NO_COLOR is
+  /// descriptor: 1 for standard output, 2 for standard error. Automatic: coloured if it is a terminal, NO_COLOR is
   /// empty or unset (https://no-color.org) and TERM is not "dumb".
   Terminal(int descriptor, Colour colour);
 
@@ -24,7 +24,7 @@ class Terminal {
   [[nodiscard]] std::string yellow(std::string_view text) const { return styled("33", text); }
   [[nodiscard]] std::string red(std::string_view text) const { return styled("31", text); }
 
-  /// Writes all of the text. False where the stream takes no more.
+  /// Writes all of the text; false if the stream takes no more.
   [[nodiscard]] bool write(std::string_view text) const;
 
   /// Writes a line for each.
@@ -38,12 +38,11 @@ class Terminal {
   bool coloured_;
 };
 
-// What messages call a file.
+// The name of a file in messages.
 [[nodiscard]] inline std::string input_name(const std::string& path) { return path == "-" ? "standard input" : path; }
 [[nodiscard]] inline std::string output_name(const std::string& path) { return path == "-" ? "standard output" : path; }
 
-/// A line on a terminal that shows how far a call has come and how long it will take; nothing for short calls and
-/// elsewhere.
+/// A line on a terminal that shows the progress of a call and the time left; nothing for short calls and other streams.
 class ProgressBar {
  public:
   explicit ProgressBar(const Terminal& terminal) : terminal_(&terminal) {}
@@ -52,7 +51,7 @@ class ProgressBar {
   ProgressBar& operator=(const ProgressBar&) = delete;
 
   void show(const Progress& progress);
-  /// Takes the line away; what is shown next is another call.
+  /// Removes the line; the next progress is that of another call.
   void clear();
 
  private:

@@ -14,12 +14,13 @@ namespace vspring::cli {
 
 namespace {
 
-// Single precision has 1.2e-7 of a coordinate, and STL in text mostly seven digits, 1e-6 of it.
+// Single precision resolves 1.2e-7 of a coordinate; STL in text mostly has seven digits, 1e-6 of it.
 constexpr double rounding_of_stl = 1e-6;
-// Nodes that are nearer than this share of the diagonal are hardly meant to be two.
+// Nodes nearer than this share of the diagonal are probably meant to be one.
 constexpr double suspiciously_near = 1e-6;
 
-/// As a share of the diagonal, what rounding parts; more where the shape lies far from the origin.
+/// The distance, as a share of the diagonal, to which rounding may separate nodes; more if the shape lies far from the
+/// origin.
 double stl_tolerance(const PolygonMesh& mesh) {
   Eigen::AlignedBox<double, 3> box;
   for (const Vector3& position : mesh.positions()) {
@@ -86,7 +87,7 @@ void Welding::look_for_seams(const SurfaceFile& file, const FairingArguments& ar
   const PolygonMesh& mesh = shape(file);
   Seams seams = find_seams(mesh, suspiciously_near);
   if (!arguments.region.empty()) {
-    // What is fixed anyway is nobody's business.
+    // Fixed faces do not matter.
     const std::vector<Index> region = select_region(mesh.positions(), parse_region(arguments.region), file.groups);
     const auto is_outside = [&](Index node) { return !std::binary_search(region.begin(), region.end(), node); };
     std::erase_if(seams.same, is_outside);

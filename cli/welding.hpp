@@ -14,16 +14,16 @@
 
 namespace vspring::cli {
 
-/// The nodes of a file that are one for fairing, as --weld says; of STL, where it says nothing, those that the rounding
-/// of single precision has parted. The file keeps all its nodes.
+/// Joins nodes of a file for fairing, by --weld; by default those of STL that the rounding of single precision has
+/// separated. The file keeps all its nodes.
 class Welding {
  public:
-  /// Throws as weld() does.
+  /// Throws what weld() throws.
   Welding(const SurfaceFile& file, const FairingArguments& arguments);
-  /// Throws Error(invalid_argument) where a curve is to be welded.
+  /// Throws Error(invalid_argument) if a curve is to be welded.
   Welding(const CurveFile& file, const FairingArguments& arguments);
 
-  /// The shape that is faired or measured.
+  /// The shape to fair or measure.
   [[nodiscard]] const PolygonMesh& shape(const SurfaceFile& file) const { return welded_ ? welded_->mesh : file.mesh; }
   [[nodiscard]] static const PolygonCurve& shape(const CurveFile& file) { return file.curve; }
 
@@ -31,24 +31,24 @@ class Welding {
   [[nodiscard]] RuleInput rules(const SurfaceFile& file) const;
   [[nodiscard]] static RuleInput rules(const CurveFile& file) { return {.groups = &file.groups}; }
 
-  /// Positions of the file's nodes, from those of the shape's.
+  /// Positions of the file's nodes, given those of the shape.
   [[nodiscard]] std::vector<Vector3> positions(const std::vector<Vector3>& of_shape) const;
 
-  /// Of the nodes of the shape as points: 0 for those that another stands for. Empty: 1 for all.
+  /// Weights of the shape's nodes as points: 0 for those that another one represents. Empty: 1 for all.
   [[nodiscard]] std::vector<double> weights() const;
 
-  /// Gives the node that stands for others the greatest number of all of them.
+  /// Gives each representative the greatest number of its group.
   [[nodiscard]] std::vector<double> greatest(std::vector<double> values) const;
 
   /// Writes numbers at the nodes of the shape, with nodes and faces of the file.
   void write_scalars(const std::string& path, const PolygonMesh& shape, std::vector<NodeScalar> scalars) const;
   static void write_scalars(const std::string& path, const PolygonCurve& shape, const std::vector<NodeScalar>& scalars);
 
-  /// With what a person should know: what is welded, what may have to be, and which faces do not count.
+  /// Adds warnings for people: what is welded, what may need welding, and which faces do not count.
   [[nodiscard]] std::vector<std::string> with_warnings(std::vector<std::string> warnings) const;
-  /// What a report says of it: nothing where nothing was to be welded.
+  /// Figures for the report; empty if nothing was to be welded.
   [[nodiscard]] nlohmann::ordered_json figures() const;
-  /// The same for people, in lines.
+  /// Lines for people; empty if nothing was to be welded.
   [[nodiscard]] std::string lines() const;
 
  private:
@@ -59,7 +59,7 @@ class Welding {
 
   double tolerance_ = 0;  ///< a share of the diagonal
   std::optional<Welded> welded_;
-  PolygonMesh file_;  ///< where it is welded
+  PolygonMesh file_;  ///< set if welded
   std::vector<std::string> warnings_;
 };
 

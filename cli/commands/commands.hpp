@@ -8,8 +8,7 @@ class App;
 
 namespace vspring::cli {
 
-// Each adds its command to the program. The one that is given leaves what is to be run in `run`, which returns the exit
-// status.
+// Each adds its command to the program. The given command sets `run`, which runs it and returns the exit status.
 void add_fair_command(CLI::App& app, std::function<int()>& run);
 void add_curve_command(CLI::App& app, std::function<int()>& run);
 void add_fit_command(CLI::App& app, std::function<int()>& run);

@@ -28,11 +28,11 @@ namespace vspring::cli {
 
 namespace {
 
-// So that rounding leaves none outside.
+// Keeps rounding from putting points outside.
 constexpr double spare_of_tolerance = 1.001;
-// Of what noise brings a row to: how far it brings two rows from each other.
+// How far noise moves two rows apart, relative to how far it moves one.
 constexpr double apart_by_noise = std::numbers::sqrt2;
-// Of a distance.
+// As a share of a distance.
 constexpr double unseen_distance = 1e-9;
 
 struct CurveArguments : FairingArguments {
@@ -44,16 +44,17 @@ struct CurveArguments : FairingArguments {
   PullArguments pull;
 };
 
-/// A curve that was drawn, and what held it.
+/// A curve that was drawn, and its constraints.
 struct Drawn {
-  PolygonCurve input;  ///< with its new nodes, where there are any
+  PolygonCurve input;  ///< with its new nodes, if any
   Constraints constraints;
   FairedOrFitted done;
 };
 
 bool resamples(const CurveArguments& arguments) { return arguments.resampling.nodes || arguments.resampling.spacing; }
 
-/// New nodes between those that are held, in place of the file's, drawn to these where that is asked for, and faired.
+/// Replaces the file's nodes by new ones between held nodes, fits these to the file's nodes if asked for, and fairs
+/// them.
 Drawn resample_and_fair(const PolygonCurve& curve, const Constraints& constraints, const CurveArguments& arguments,
                         Context& context) {
   if (asks_to_fit(arguments.pull)) {
@@ -73,7 +74,7 @@ Drawn draw_once(const PolygonCurve& curve, const Constraints& constraints, const
   return {curve, constraints, fair_or_fit(curve, constraints, {}, arguments, arguments.pull, context)};
 }
 
-/// Whether a row that is so far from the curve is as far from a node that is held: no curve is nearer to it then.
+/// Whether a row's distance from the curve is that from a held node: then no curve is nearer to it.
 bool is_at_held(const PolygonCurve& curve, const Constraints& constraints, Index row, double distance) {
   for (Index i = 0; i < curve.node_count(); ++i) {
     if (constraints.position_fixed(i) &&
@@ -83,8 +84,8 @@ bool is_at_held(const PolygonCurve& curve, const Constraints& constraints, Index
   return false;
 }
 
-/// The same. A tolerance that noise gave is as large as a row behind a held end needs: that end has noise, too. Says so
-/// in `warnings`, and changes the tolerance.
+/// Draws a curve. If the tolerance is from noise, raises it to what a row beyond a held end needs, as that end has
+/// noise, too; says so in `warnings` and changes the tolerance.
 Drawn draw(const PolygonCurve& curve, const Constraints& constraints, CurveArguments& arguments,
            std::vector<std::string>& warnings, Context& context) {
   Drawn drawn = draw_once(curve, constraints, arguments, context);
@@ -107,7 +108,7 @@ Drawn draw(const PolygonCurve& curve, const Constraints& constraints, CurveArgum
   return again;
 }
 
-/// reordered: how many nodes were put elsewhere, where an order was asked for.
+/// reordered: how many nodes changed place, if an order was asked for.
 std::string note_of_order(std::optional<Index> reordered, const PolygonCurve& curve) {
   if (!reordered) return {};
   return fmt::format("note: {} of {} rows changed place, and all come in order along the curve\n", *reordered,
@@ -131,7 +132,7 @@ int run_curve(CurveArguments arguments) {
   closed.hold(constraints);
   fairing.input_is_read();
 
-  // Noise has no say in where corners are; points are looked at by what draws a curve to them.
+  // Noise must not make corners: fits find corners themselves, from the points.
   if (arguments.pull.sharp > 0 && !asks_to_fit(arguments.pull))
     arguments.options.corners = arguments.resampling.corners = find_corners(before, arguments.pull.sharp);
   Drawn drawn = draw(before, constraints, arguments, file.warnings, fairing.context());
@@ -139,7 +140,7 @@ int run_curve(CurveArguments arguments) {
   const bool has_new_nodes = resamples(arguments);
   if (has_new_nodes) {
     file.curve = std::move(drawn.input);
-    // What the file carried belongs to nodes that are no longer there.
+    // Other data of the file belong to nodes that no longer exist.
     file.source = nullptr;
     file.groups.clear();
     file.row_order.clear();

@@ -37,7 +37,7 @@ struct EditArguments {
 
 namespace fs = std::filesystem;
 
-/// The built page: where VSPRING_EDITOR says, else where it is installed with the program or built beside it.
+/// The folder of the built page: VSPRING_EDITOR, else where it is installed with the program or built next to it.
 std::string page_folder() {
   const auto whole = [](const fs::path& folder) {
     return fs::is_regular_file(folder / "index.html") && fs::is_regular_file(folder / "vspring_core.wasm");
@@ -73,7 +73,7 @@ void check_input(const std::string& path) {
 }
 
 int run_edit(const EditArguments& arguments) {
-  // A request that takes too much memory fails alone.
+  // A request that needs too much memory fails without ending the program.
   std::set_new_handler(nullptr);
   EditedFile file = {arguments.input, arguments.output.empty() ? arguments.input : arguments.output};
   if (!file.input.empty()) {
@@ -86,7 +86,7 @@ int run_edit(const EditArguments& arguments) {
   const auto say = [&](const std::string& line) {
     if (!arguments.quiet) (void)errors.write(line + "\n");
   };
-  const AwaitedSignals signals;  // before there are threads, which take it over
+  const AwaitedSignals signals;  // before any thread, as threads inherit it
   const EditorServer server(page, file, arguments.port, [&] { say("Saved " + file.output); });
   if (!Terminal(1, Colour::automatic).write(server.address() + "\n"))
     throw Error(ErrorCode::unusable_file, "standard output: takes no more");

@@ -26,10 +26,10 @@ struct FairArguments : FairingArguments {
   PullArguments pull;
 };
 
-// Of the size, root mean square: further than that a shape is another one.
+// Root mean square move, as a share of the size, beyond which features are probably lost.
 constexpr double far = 0.05;
 
-/// Whoever gives a scan, a head or a part as it is may not expect that all between its boundaries goes.
+/// Fairing removes all features between boundaries, which users who give a scan, a head or a part may not expect.
 std::string note_of_lost_features(const FairArguments& arguments, const PolygonMesh& mesh,
                                   const Constraints& constraints, const FairReport& report) {
   if (!arguments.rules.empty() || !arguments.region.empty() || arguments.fix_directions != Hold::none ||

@@ -30,10 +30,10 @@ struct FillArguments : FairingArguments {
   FillOptions fill;
 };
 
-// Holes that the summary names, of each kind.
+// Most holes of each kind that the summary names.
 constexpr int holes_in_words = 10;
 
-/// The mesh of the file with the patches of that which it is welded to.
+/// The mesh of the file with the patches of the welded mesh.
 PolygonMesh with_patches(const PolygonMesh& file, const FilledHoles& filled) {
   const PolygonMesh& mesh = filled.mesh;
   std::vector<Vector3> positions = file.positions();
@@ -48,7 +48,7 @@ PolygonMesh with_patches(const PolygonMesh& file, const FilledHoles& filled) {
   return {std::move(positions), std::move(face_begin), std::move(corners)};
 }
 
-/// "hole_17", by its first node, or another name if there is such a group.
+/// "hole_17", by its first node, or another name if that group exists.
 std::string group_of(const Hole& hole, const SurfaceFile& file) {
   std::string name = fmt::format("hole_{}", hole.rim.front());
   while (file.groups.contains(name)) name += "_";

@@ -60,7 +60,7 @@ std::string picture_of_fit(const CurveFile& file, const PolygonCurve& after, con
                     {.before = &file.curve, .points = points, .part = moved_part(file.curve, after)});
 }
 
-/// The columns of POINTS; none where it is no table.
+/// The columns of POINTS; none if it is no table.
 ColumnChoice columns_of_points(const FitArguments& arguments) {
   if (!arguments.point_columns.empty()) return arguments.point_columns;
   return may_be_point_table(arguments.points) ? arguments.columns : ColumnChoice{};
@@ -96,7 +96,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
   }
   const std::vector<Vector3> nodes = welding.positions(result.positions);
 
-  // Where they were not measured as a time limit came they are now, once, unless somebody waits for the end.
+  // If a time limit prevented measuring them they are measured now, once, unless the run was interrupted.
   const auto distances = [&]() -> const std::vector<double>& {
     if (result.distances.empty() && !fairing.context().cancelled())
       result.distances = point_distances(cloud.positions(), after, fairing.context());
@@ -131,7 +131,7 @@ int fit_file(const FitArguments& arguments, File file, Fairing& fairing) {
                                 .facts = {.points_face = points_face}});
 }
 
-/// Throws Error(invalid_argument) for options that do not go together.
+/// Throws Error(invalid_argument) for incompatible options.
 void check_options(const FitArguments& arguments) {
   if (!arguments.deviation.empty() &&
       scalar_format(std::filesystem::path(arguments.deviation).extension().string()) != ScalarFormat::ply)
@@ -160,7 +160,7 @@ int run_fit(FitArguments arguments) {
   auto shape = read_shape(arguments.input, arguments.format, arguments.curve, arguments.columns);
   const bool is_curve = std::holds_alternative<CurveFile>(shape);
   settle_options(arguments, is_curve, false);
-  // Boundaries that nothing holds follow the points; by the paper's own methods they are refused.
+  // Boundaries without constraints follow the points; the paper's own methods refuse them.
   if (!is_curve && !arguments.paper && arguments.options.method_kind() == Method::equilibrium)
     arguments.options.fair_boundary = arguments.options.method;
   return std::visit([&](auto&& file) { return fit_file(arguments, std::forward<decltype(file)>(file), fairing); },

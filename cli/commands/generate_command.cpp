@@ -23,7 +23,7 @@ namespace vspring::cli {
 
 namespace {
 
-/// What every shape takes beside its own options.
+/// Arguments of all shapes, besides their own.
 struct GenerateArguments {
   std::string output;
   std::optional<SurfaceFormat> format;
@@ -39,7 +39,7 @@ int run_generate(const GenerateArguments& arguments, const MakeShape& make, RunF
   facts.draws_numbers = facts.draws_numbers || facts.has_noise || arguments.shuffle;
   const std::vector<std::uint8_t> boundary = boundary_nodes(mesh);
   facts.boundary_moves = std::ranges::find(boundary, 1) != boundary.end();
-  // Other seeds than the jitter's, so that nothing moves by the same random numbers twice.
+  // Seeds differ from the jitter's, so that no random numbers are used twice.
   if (arguments.noise != 0)
     mesh = generate::add_noise(mesh, arguments.noise, arguments.seed + 1, arguments.noise_on_boundary);
   if (arguments.shuffle) mesh = generate::shuffle(mesh, arguments.seed + 2).mesh;
@@ -49,7 +49,7 @@ int run_generate(const GenerateArguments& arguments, const MakeShape& make, RunF
   return exit_converged;
 }
 
-/// What the options of one shape or another say.
+/// Facts from the options of any shape.
 RunFacts facts_of(const CLI::App& command) {
   RunFacts facts;
   facts.given = given_options(command);

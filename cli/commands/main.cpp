@@ -51,7 +51,7 @@ int run_command(const std::function<int()>& run) {
   }
 }
 
-/// How many letters have to be put in, left out or exchanged (V. I. Levenshtein 1966).
+/// How many letters must be inserted, deleted or exchanged (V. I. Levenshtein 1966).
 std::size_t letters_apart(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -66,7 +66,7 @@ std::size_t letters_apart(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// Which commands there are, and the one that a word comes near to.
+/// Lists the commands, and names the one nearest to a word.
 std::string no_command(const CLI::App& app, const std::string& word) {
   std::string names;
   std::string nearest;
@@ -82,7 +82,7 @@ std::string no_command(const CLI::App& app, const std::string& word) {
                      nearest.empty() ? "" : "; did you mean " + nearest + "?");
 }
 
-/// Help and version are answers; all else is wrong use, in one line.
+/// Help and version are answers; anything else is wrong use, in one line.
 int answer_or_refuse(const CLI::App& app, const CLI::ParseError& outcome, const std::string& first_word) {
   if (outcome.get_exit_code() == 0) return app.exit(outcome);
   const bool names_no_command = app.get_subcommands().empty() && !first_word.empty() && first_word[0] != '-';
@@ -121,18 +121,18 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // At once: what the library of JSON has begun it cannot take back without memory.
+  // At once, as the JSON library cannot unwind without memory.
   std::set_new_handler(end_without_memory);
-  // A reader that goes away shows as a failed write, with its message, and not as a silent end.
+  // A closed reader becomes a failed write, with a message, instead of a silent end.
   std::signal(SIGPIPE, SIG_IGN);
 #ifdef M_ARENA_MAX
-  // Threads share what each has given back: on two, large shapes take 4 to 8 % less memory, and as long.
+  // Threads share freed memory: on two threads large shapes take 4 to 8 % less memory, and no more time.
   mallopt(M_ARENA_MAX, 1);
 #endif
   try {
     return run_program(argc, argv);
   } catch (...) {
-    // Such as no memory for the message of an error.
+    // For example, no memory for the message of an error.
     end_without_memory();
   }
 }

@@ -44,12 +44,12 @@ struct MeasureArguments : FairingArguments {
   std::optional<AnyFormat> format;
   std::string compare;
   ColumnChoice columns;
-  std::vector<std::string> moving;  ///< names of coordinates that noise is looked for in; empty: all
+  std::vector<std::string> moving;  ///< names of coordinates to estimate noise in; empty: all
   bool curve = false;
   bool closed = false;
 };
 
-/// A file with what it is welded to.
+/// A file and its welding.
 template <typename File>
 struct WeldedFile {
   File file;
@@ -59,11 +59,11 @@ struct WeldedFile {
   [[nodiscard]] const auto& shape() const { return welding.shape(file); }
 };
 
-/// The shape, and behind it the one that it is compared with, if there is one.
+/// The shape, followed by the one that it is compared with, if any.
 template <typename File>
 using WeldedFiles = std::vector<WeldedFile<File>>;
 
-/// Throws where deviations are to be shown and there is nothing that they could be from, node by node.
+/// Throws if deviations are to be shown and no second shape has the same nodes.
 void refuse_deviation(const WeldedFiles<SurfaceFile>& files) {
   if (files.size() == 1)
     throw Error(ErrorCode::invalid_argument, "--picture-style deviation: from what? give --compare");
@@ -73,18 +73,18 @@ void refuse_deviation(const WeldedFiles<SurfaceFile>& files) {
 }
 void refuse_deviation(const WeldedFiles<CurveFile>& /*files*/) {}
 
-/// What holds the shapes, where any option says something of that.
+/// The constraints, if any option gives some.
 template <typename File>
 std::optional<Constraints> held_in(const MeasureArguments& arguments, const WeldedFiles<File>& files) {
   const std::initializer_list<const char*> options = {"--fix", "--fix-normals", "--constraints", "--region"};
   if (std::ranges::none_of(options, [&](const char* option) { return arguments.given.contains(option); })) return {};
-  // "As in the input" is as in the shape before, where it is given.
+  // "As in the input" means as in the shape before, if given.
   const bool before = files.size() > 1 && files[1].shape().node_count() == files[0].shape().node_count();
   const WeldedFile<File>& input = files[before ? 1 : 0];
   return make_constraints(arguments, input.shape(), input.welding.rules(input.file));
 }
 
-/// In which coordinates a shape has the noise that --noise auto and --within auto see.
+/// The coordinates in which --noise auto and --within auto estimate noise.
 std::array<bool, 3> noisy_axes(const MeasureArguments& arguments, const CurveFile& file) {
   return moving_axes(file, arguments.moving);
 }
@@ -92,7 +92,7 @@ std::array<bool, 3> noisy_axes(const MeasureArguments& /*arguments*/, const Surf
   return {true, true, true};
 }
 
-/// The noise of a file's nodes, as they are welded.
+/// The noise of a file's welded nodes.
 template <typename File>
 NoiseEstimate noise_in(const WeldedFile<File>& file, const std::array<bool, 3>& axes, const Context& context) {
   PullArguments pull;
@@ -102,7 +102,7 @@ NoiseEstimate noise_in(const WeldedFile<File>& file, const std::array<bool, 3>& 
   return at_least_rounding(noise_of(file.shape(), pull, context), rounding);
 }
 
-/// The names of the files; both with their folders where they have the same.
+/// The names of the files; with their folders if both have the same.
 std::vector<std::string> titles(const MeasureArguments& arguments) {
   const std::string first = input_name(arguments.input);
   if (arguments.compare.empty()) return {first};
@@ -190,7 +190,7 @@ int measure_files(const MeasureArguments& arguments, std::vector<File> read) {
   }
   Terminal(2, arguments.colour).warn(warnings);
   if (arguments.quiet) return exit_converged;
-  // What people read goes to standard output unless the report itself goes there.
+  // The summary goes to standard output unless the report itself does.
   const Terminal messages(arguments.report == "-" || arguments.html == "-" ? 2 : 1, arguments.colour);
   const std::vector<FigureColumn> columns(shapes.begin(), shapes.end());
   const std::string distances = apart ? "\n" + distance_lines(*apart, messages) : std::string();

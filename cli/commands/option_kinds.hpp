@@ -32,7 +32,7 @@ CLI::Option* add_choice(CLI::App& command, const std::string& flag, Target& targ
       ->type_name(words);
 }
 
-/// What options for numbers may be; refused in words, where those of CLI11 print the largest number there is.
+/// Ranges of numeric options; they are refused in words, while CLI11's validators print the largest number.
 inline CLI::Validator positive_number() {
   return {[](const std::string& given) -> std::string {
             double number = 0;
@@ -79,12 +79,12 @@ inline CLI::Validator whole_number(int least, int most = std::numeric_limits<int
           most < std::numeric_limits<int>::max() ? fmt::format("{} to {}", least, most) : "WHOLE"};
 }
 
-/// Of this type; what is needed besides is asked elsewhere.
+/// Checks the type; further conditions are checked elsewhere.
 template <typename Number>
 CLI::Validator any_number() {
   return {[](const std::string& given) -> std::string {
             Number number = 0;
-            // Of what is without a sign, CLI11 takes -1 for the largest there is.
+            // For unsigned types CLI11 takes -1 for the largest number.
             const bool may_be = std::is_signed_v<Number> || !given.starts_with('-');
             if (may_be && CLI::detail::lexical_cast(given, number) && std::isfinite(static_cast<double>(number)))
               return {};
@@ -97,7 +97,7 @@ CLI::Validator any_number() {
           ""};
 }
 
-/// Options that were given, by their long names; once a command is parsed.
+/// The given options, by their long names, of a parsed command.
 inline std::set<std::string> given_options(const CLI::App& command) {
   std::set<std::string> given;
   for (const CLI::Option* option : command.get_options()) {
@@ -106,7 +106,7 @@ inline std::set<std::string> given_options(const CLI::App& command) {
   return given;
 }
 
-/// Runs a command that fairs or measures, with the options that were given. `run` must outlive it.
+/// Runs a command that fairs or measures, with the given options. `run` must outlive it.
 template <typename Arguments>
 void when_given(CLI::App& command, const std::shared_ptr<Arguments>& arguments, std::function<int()>& run,
                 int (*run_command)(Arguments)) {

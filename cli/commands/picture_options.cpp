@@ -15,7 +15,7 @@ namespace vspring::cli {
 
 namespace {
 
-/// Words of --picture-style, and the names that the page has for them.
+/// Words of --picture-style, and their names in the page.
 const std::map<std::string, std::string> style_names = {{"shaded", "shaded"},
                                                         {"wire", "wire"},
                                                         {"zebra", "zebra"},
@@ -26,7 +26,7 @@ const std::map<std::string, Vector3> view_names = {{"front", -Vector3::UnitY()},
                                                    {"left", -Vector3::UnitX()},  {"right", Vector3::UnitX()},
                                                    {"top", Vector3::UnitZ()},    {"bottom", -Vector3::UnitZ()}};
 
-/// What stands between commas.
+/// The parts between commas.
 std::vector<std::string> parts_of(const std::string& text) {
   std::vector<std::string> parts;
   std::istringstream stream(text);

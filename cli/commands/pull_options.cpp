@@ -11,7 +11,7 @@ namespace vspring::cli {
 
 namespace {
 
-/// A number of more than 0, or auto, which settle_by_noise() gives a value.
+/// A number more than 0, or auto, which settle_by_noise() sets.
 CLI::Option* add_amount(CLI::App& command, const std::string& name, std::optional<double>& value,
                         PullArguments& arguments, const std::string& text) {
   return command

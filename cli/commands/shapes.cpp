@@ -50,7 +50,7 @@ void add_grid(CLI::App& command, Grid& grid, const std::string& columns, const s
   add_jitter(command, grid.jitter);
 }
 
-/// A command and its options, which live as long as it does.
+/// A command and its options, which live equally long.
 template <typename Options>
 struct Shape {
   CLI::App& command;

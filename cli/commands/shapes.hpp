@@ -9,10 +9,10 @@
 
 namespace vspring::cli {
 
-/// Makes a shape with the options that were given.
+/// Makes a shape with the given options.
 using MakeShape = std::function<PolygonMesh(std::uint64_t seed)>;
 
-/// Adds the command of one shape. example: the arguments of a use of it.
+/// Adds the command of one shape. example: arguments for the help text.
 using AddShape = std::function<CLI::App&(const std::string& name, const std::string& description,
                                          const std::string& example, MakeShape make)>;
 

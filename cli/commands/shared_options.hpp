@@ -18,16 +18,16 @@ struct FairingArguments;
 struct PictureArguments;
 struct PullArguments;
 
-/// How help texts call things.
+/// Words of help texts.
 struct FairingWords {
   std::string shape;          ///< "surface" or "curve"
-  std::string input;          ///< what files the input may be
+  std::string input;          ///< kinds of input files
   std::string ends;           ///< "Boundary nodes" or "End nodes"
-  std::string unfixed = "";   ///< what becomes of those that are not fixed
+  std::string unfixed = "";   ///< what happens to nodes that are not fixed
   std::string directions;     ///< what --fix-normals fixes
-  std::string rules;          ///< what rules speak of
-  std::string to = "fair";    ///< what is done to it
-  std::string done = "fair";  ///< what it is then
+  std::string rules;          ///< what rules are about
+  std::string to = "fair";    ///< the verb of the command
+  std::string done = "fair";  ///< the adjective of the result
 };
 
 // Options by their groups in the help text. `arguments` must outlive the command.
@@ -38,19 +38,19 @@ CLI::Option* add_tolerance_option(CLI::App& command, FairingArguments& arguments
 CLI::Option* add_fair_by_option(CLI::App& command, FairingArguments& arguments);
 void add_stopping_options(CLI::App& command, FairingArguments& arguments, const std::string& default_step);
 void add_shaping_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words);
-/// An option for the columns of tables. whose: of which files, and else.
+/// An option for the columns of tables. whose: of which files, and the default.
 void add_columns(CLI::App& command, const std::string& flag, std::vector<std::string>& columns,
                  const std::string& whose);
 /// An option for names between commas, at least one.
 CLI::Option* add_names(CLI::App& command, const std::string& flag, std::vector<std::string>& names,
                        const std::string& text);
-/// --move of a curve. text: what comes of the coordinates that it names.
+/// --move of a curve. text: what happens to the named coordinates.
 CLI::Option* add_moving(CLI::App& command, std::vector<std::string>& names, const std::string& text);
 void add_run_options(CLI::App& command, FairingArguments& arguments);
 
 /// How points pull. heading: of the options in the help text.
 void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading);
-/// What a curve that is drawn to points keeps besides.
+/// Further bounds of a curve drawn to points.
 void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::string& heading);
 /// --picture and --picture-size, and with `surfaces` --picture-style and --view.
 void add_picture_options(CLI::App& command, PictureArguments& arguments, bool surfaces);

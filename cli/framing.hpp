@@ -29,8 +29,8 @@ struct Plane {
 /// A part of the shapes, with some of its surroundings.
 struct ShownPart {
   Vector3 middle;
-  double width;   ///< as it is seen
-  double height;  ///< as it is seen
+  double width;   ///< in the view
+  double height;  ///< in the view
   double radius;  ///< of the sphere about the middle that contains it
 };
 

@@ -42,7 +42,7 @@ struct Shown {
   std::span<const Vector3> points = {};                   ///< shown with surfaces in page and picture
   std::function<std::string()> picture = {};              ///< curves: the picture as SVG
   std::function<std::vector<NodeScalar>()> scalars = {};  ///< more numbers at the nodes of the leading shape
-  const Welding* welding = nullptr;  ///< surfaces: how the leading shape was welded
+  const Welding* welding = nullptr;                       ///< surfaces: how the leading shape was welded
 };
 
 /// Writes page, picture and scalars, as far as asked for. report: for the page. Returns the first one not written

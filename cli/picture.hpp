@@ -13,7 +13,7 @@ namespace vspring::cli {
 /// Arguments of the picture of a run.
 struct PictureArguments {
   std::string path;
-  std::vector<std::string> styles;  ///< of surfaces, by their names in the page; empty: the default ones
+  std::vector<std::string> styles;      ///< of surfaces, by their names in the page; empty: the default ones
   std::optional<Eigen::Matrix3d> view;  ///< of surfaces, see seen_from(); empty: not given
   int width = 1600;                     ///< pixels
   bool for_surfaces = false;            ///< whether an option for surfaces only was given

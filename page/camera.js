@@ -1,10 +1,10 @@
-// Where a shape is seen from: a turn, a place that is in the middle, and a zoom. Parallel projection.
+// The view of a shape: a rotation, a place in the middle, and a zoom. Parallel projection.
 
 const product = (a, b) => a.map((row) => [0, 1, 2].map((k) => row[0] * b[0][k] + row[1] * b[1][k] + row[2] * b[2][k]));
 
 export class Camera {
-  // rows: the directions to the right, up and towards the eye. positions: of the shapes that are to be seen, margin: by how
-  // much the view is larger than they. part: what is seen first, or null: all.
+  // rows: the directions to the right, up and towards the eye. positions: of the shapes. margin: size of the view
+  // relative to the shapes. part: what is seen first; null: all.
   constructor(rows, positions, margin, changed, part) {
     const [across, up] = rows.map((row) => {
       let most = 1e-3;
@@ -17,25 +17,25 @@ export class Camera {
     this.changed = changed;
     this.all = {rows, middle: [0, 0, 0], zoom: 1};
     this.home = part ? {rows, middle: part.middle, zoom: Math.min(...this.extents.map((side, i) => side / part.extents[i]))} : this.all;
-    // Of what is seen first.
+    // The breadth of what is seen first.
     this.breadth = Math.max(...this.extents) / this.home.zoom;
     this.show(this.home);
   }
 
-  // Where it was at first, or all.
+  // Shows the first view, or all.
   show(place) {
     Object.assign(this, place);
     this.changed();
   }
 
-  // Angles about the axes of the view, radians.
+  // Turns by angles about the axes of the view, radians.
   turn(across, up) {
     const [c, s, d, t] = [Math.cos(across), Math.sin(across), Math.cos(up), Math.sin(up)];
     this.rows = product(product([[1, 0, 0], [0, d, -t], [0, t, d]], [[c, 0, s], [0, 1, 0], [-s, 0, c]]), this.rows);
     this.changed();
   }
 
-  // By shares of the height of the view.
+  // Moves by shares of the height of the view.
   move(across, up) {
     const step = this.extents[1] / this.zoom;
     this.middle = this.middle.map((part, i) => part - step * (across * this.rows[0][i] + up * this.rows[1][i]));

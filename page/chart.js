@@ -21,7 +21,7 @@ function axisOf({low, high, log}, from, to) {
   return {ticks, low, high, place: (value) => from + (to - from) * (on(value) - on(low)) / (on(high) - on(low))};
 }
 
-// Of many points, the lowest and highest of each stretch.
+// Thins many points to the lowest and highest of each stretch.
 function thinned(points) {
   if (points.length <= mostPoints) return points;
   const stretch = Math.ceil(2 * points.length / mostPoints);
@@ -35,7 +35,8 @@ function thinned(points) {
   return kept;
 }
 
-// x, y: {label, low, high, log}. series: {name, style, lines: lists of [x, y]}. pixels: its size where it is not scaled to its place.
+// x, y: {label, low, high, log}. series: {name, style, lines: lists of [x, y]}. pixels: its size, if it is not scaled
+// to its place.
 export function addChart(parent, {id, title, x, y, series, pixels: {width, height} = {width: 520, height: 260}}) {
   const figure = document.createElement('figure');
   figure.id = id;

@@ -7,7 +7,7 @@ const bins = 60;
 
 const styleOf = (k, count) => k === 0 && count > 1 ? 'first' : 'second';
 
-// Shares of values in even steps of the axis, per cent, as the outline of columns.
+// A histogram, in per cent over even steps of the axis, as an outline.
 function outlineOf(values, {low, high, log}) {
   const on = (value) => log ? Math.log(Math.max(value, low)) : value;
   const counts = new Float64Array(bins);
@@ -41,7 +41,7 @@ function addHistory(parent, report) {
     y: {label: 'residual', low, high, log: true}, series: [{name: report.method, style: 'second', lines: [history]}]});
 }
 
-// leading: the shape whose curvature is shown all but whole.
+// leading: the shape whose range of curvature, but for extremes, is shown.
 export function addSurfaceCharts(parent, shapes, leading, report) {
   const sets = (valuesOf) => shapes.map((shape, k) =>
     ({name: shape.title, style: styleOf(k, shapes.length), values: valuesOf(shape)}));
@@ -50,7 +50,7 @@ export function addSurfaceCharts(parent, shapes, leading, report) {
   const least = Math.max(low, high / 1e4, 1e-4);
   addHistogram(parent, {id: 'turns', title: 'Turns at edges', of: 'edges', sets: sets((shape) => shape.turns),
     x: {label: 'angle between the normals of two faces, degrees', low: least, high: Math.max(high, 2 * least), log: true}});
-  // Creases of the others would leave no room for it.
+  // Creases of other shapes would leave no room for it.
   const bounds = shapes.map(({mean}, k) => quantiles(mean, k === leading ? [0.005, 0.995] : [0.1, 0.9]));
   const bottom = Math.min(...bounds.map((pair) => pair[0]));
   const top = Math.max(...bounds.map((pair) => pair[1]));
@@ -60,8 +60,8 @@ export function addSurfaceCharts(parent, shapes, leading, report) {
   addHistory(parent, report);
 }
 
-// unit: the length of the input that is 1 in the page. leading: the shape whose curvature is shown whole, or the share of it in the middle. part: of
-// the arc length, from and to, as shares of all. pixels: see addChart().
+// unit: the length of the input that is 1 in the page. leading: the shape whose curvature is shown whole, or its middle
+// `share`. part: of the arc length, from and to, as shares of the whole. pixels: see addChart().
 export function addCurveCharts(parent, shapes, {unit, leading, planar, share = 1, part = [0, 1], pixels}, report) {
   const series = shapes.map(({title, chains}, k) => ({name: title, style: styleOf(k, shapes.length),
     lines: chains.map(({middles, curvatures}) =>
@@ -70,7 +70,7 @@ export function addCurveCharts(parent, shapes, {unit, leading, planar, share = 1
   const far = Math.max(...series.flatMap((one) => one.lines.flat().slice(-1)).map((point) => point[0]), 0);
   const [from, to] = part.map((end) => end * far);
   const heights = (one) => one.lines.flat().filter((point) => point[0] >= from && point[0] <= to).map((point) => point[1]);
-  // Others are cut off where the leading one would be flat beside them, unless it is straight.
+  // Others are cut off if the leading one would look flat next to them, unless it is straight.
   const farthest = heights(series[leading]).reduce((most, height) => Math.max(most, Math.abs(height)), 0);
   const reach = farthest * shapes[leading].chains.reduce((sum, {arc}) => Math.max(sum, arc.at(-1) || 0), 0) * unit > 0.1 ? 2 * farthest : Infinity;
   const bounds = series.map((one, k) => (k === leading ? quantiles(heights(one), [(1 - share) / 2, (1 + share) / 2])

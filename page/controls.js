@@ -1,6 +1,6 @@
 // Labelled controls of the view.
 
-// Choices of which one holds: [value, text] each. Returns the inputs.
+// Adds exclusive choices: [value, text] each. Returns the inputs.
 export function addChoice(form, name, title, choices, chosen, changed) {
   const set = document.createElement('fieldset');
   set.append(Object.assign(document.createElement('legend'), {textContent: title}));

@@ -5,7 +5,7 @@ import {addChoice, addSlider, addSwitch} from './controls.js';
 import {addCurveCharts} from './charts.js';
 import {chainsOf} from './curve.js';
 
-// Returns what draws the view, given the camera, and what goes on to the next shape.
+// Returns a function that draws the view, given the camera, and one that goes on to the next shape.
 export function makeCurvePage({canvas, form, charts}, scene, report, redraw) {
   const plane = {planar: scene.planar, towards: scene.view[2]};
   const shapes = scene.shapes.map((shape) => ({title: shape.title, chains: chainsOf(shape, plane)}));

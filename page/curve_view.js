@@ -1,11 +1,11 @@
 // Draws curves with their curvature combs.
 
 const longestTooth = 0.15;  // of the size of the curve, for the sharpest place of the last shape
-const longestTeeth = 0.4;   // where those of any shape are cut off
+const longestTeeth = 0.4;   // teeth of any shape are cut off there
 const mostDots = 600;       // more nodes than this would hide the curve
-const stretch = 500;        // points of one stroke: the time of a stroke grows with the square of them
+const stretch = 500;        // points of one stroke, whose time is quadratic in them
 
-// The points that the eye tells apart, a pixel or more from the one before, and the last.
+// The points at least a pixel from the one before, and the last.
 function apart(places) {
   let last = null;
   return Array.from(places.keys()).filter((k) => {
@@ -16,7 +16,7 @@ function apart(places) {
 }
 
 export class CurveView {
-  // shapes: chains, see chainsOf(). part: what is seen first, which the comb fits, or null: all.
+  // shapes: chains, see chainsOf(). part: what is seen first, to which the comb is scaled; null: all.
   constructor(canvas, shapes, {size: whole, leading, part}) {
     this.canvas = canvas;
     this.shapes = shapes;
@@ -24,7 +24,7 @@ export class CurveView {
     const seen = (point) => !part || Math.hypot(...part.middle.map((middle, i) => point[i] - middle)) <= part.radius;
     const sharpest = (chains) => chains.flatMap(({points, vectors}) => vectors.filter((vector, k) => vector && seen(points[k])))
       .reduce((most, vector) => Math.max(most, Math.hypot(...vector)), 0);
-    // A straight curve gives no scale, then the sharpest of all does.
+    // A straight curve gives no scale; then the sharpest of all does.
     const wanted = sharpest(shapes[leading]);
     this.tooth = wanted * size > 1e-6 ? longestTooth * size / wanted
       : longestTooth * size / Math.max(1e-6 / size, ...shapes.map(sharpest));

@@ -1,4 +1,4 @@
-// What the program put into the page: see cli/page_bytes.cpp for the encodings.
+// Decodes the data that the program puts into the page: see cli/page_bytes.cpp.
 
 export function jsonOf(id) {
   return JSON.parse(document.getElementById(id).textContent);
@@ -34,8 +34,8 @@ function halvesOf(bytes) {
   });
 }
 
-// Faces or chains: the number of nodes unless all have the same, then the step to each node from the one before, as
-// zigzag varints.
+// Faces or chains: the number of nodes, unless all are equal, then the step from each node to the next, as zigzag
+// varints.
 function runsOf(bytes, length) {
   const begin = [0];
   const nodes = [];

@@ -16,7 +16,7 @@ fillWarnings(part('warnings'), report.warnings || []);
 fillTable(part('table'), scene);
 part('footer').textContent = `vspring ${report.version}`;
 
-// Many changes, one picture: when the browser paints next.
+// One picture for many changes, when the browser paints next.
 let waiting = false;
 let page = null;
 const redraw = () => {

@@ -1,13 +1,13 @@
-// What the view needs to know of a mesh: edges, triangles, normals, turns.
+// Parts of a mesh for the view: edges, triangles, normals, turns.
 
 import {cross, dot, minus} from './vectors.js';
 
 const at = (positions, node) => [positions[3 * node], positions[3 * node + 1], positions[3 * node + 2]];
 
-// Edges with the first two faces at each. against: 1 where both faces run along the edge the same way; 0 where more than
-// two meet, as there is no telling which of them belong together.
+// Edges with the first two faces at each. against: 1 if both faces run along the edge in the same direction; 0 if more
+// than two meet, as it is unknown which belong together.
 export function edgesOf({begin, nodes}, nodeCount) {
-  const first = new Int32Array(nodeCount).fill(-1);  // lists of the edges at their lower node
+  const first = new Int32Array(nodeCount).fill(-1);  // linked lists of the edges at their lower node
   const next = new Int32Array(nodes.length);
   const ends = new Uint32Array(2 * nodes.length);
   const faces = new Int32Array(2 * nodes.length).fill(-1);
@@ -55,7 +55,7 @@ function areaOf({begin, nodes}, positions, f) {
   return sum;
 }
 
-// Each face as a fan from its first node from which no triangle turns over.
+// Each face as a fan from the first node from which no triangle is flipped.
 export function trianglesOf(runs, positions) {
   const {begin, nodes} = runs;
   const triangles = [];
@@ -82,7 +82,7 @@ export function trianglesOf(runs, positions) {
   return Uint32Array.from(triangles);
 }
 
-// 1 for faces to be turned round so that neighbours agree, as far as the surface has two sides.
+// 1 for faces to reverse so that neighbours agree, as far as the surface has two sides.
 function sensesOf(faceCount, {count, faces, against, crowded}) {
   const links = Array.from({length: faceCount}, () => []);
   for (let e = 0; e < count; ++e) {
@@ -144,7 +144,7 @@ export function turnsOf(runs, positions, {count, faces, against}) {
   return turns;
 }
 
-// How far nodes lie from those of another shape, along its normals.
+// Distances of nodes from those of another shape, along its normals.
 export function deviationsOf(positions, from, normals) {
   return Float32Array.from({length: positions.length / 3}, (_, n) =>
     dot(minus(at(positions, n), at(from, n)), at(normals, n)));

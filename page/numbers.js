@@ -1,4 +1,4 @@
-// Numbers for people, and what is said of many of them.
+// Numbers for people, and statistics of many of them.
 
 // Four digits, as in the table on the terminal.
 export function short(value, whole = false) {
@@ -24,7 +24,7 @@ export function ticksOf(low, high, wanted = 6) {
   return ticks;
 }
 
-// Powers of ten within a range, not more than some eight of them.
+// At most about eight powers of ten within a range.
 export function powersOf(low, high) {
   const first = Math.ceil(Math.log10(low) - 1e-9);
   const last = Math.floor(Math.log10(high) + 1e-9);

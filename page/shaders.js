@@ -1,11 +1,11 @@
-// What the graphics card does for the view of a surface.
+// Shaders for the view of a surface.
 
 export const vertexShader = `#version 300 es
 uniform mat3 turn;
 uniform vec3 middle;
 uniform vec2 scale;
 uniform float dot_size;  // of points, in pixels
-uniform float lift;  // of lines and points towards the eye, so that the faces at them do not hide them
+uniform float lift;  // lifts lines and points towards the eye, so their faces do not hide them
 in vec3 position;
 in vec3 normal;
 in float value;
@@ -21,7 +21,7 @@ void main() {
   height = value;
 }`;
 
-// Of reflection lines.
+// The number of lamps of reflection lines.
 export const usualLamps = 16;
 
 // kind: 0 one colour; 1 shaded; 2 reflection lines; 3 the value by its colour, shaded a little.
@@ -32,8 +32,8 @@ uniform vec3 colour;
 uniform vec3 stops[9];
 uniform vec2 range;
 uniform float nearness;  // one over the distance of the lamps of reflection lines
-uniform float lamps;  // how many there are around the surface
-uniform vec2 across;  // in the view, a unit vector across them
+uniform float lamps;  // their number around the surface
+uniform vec2 across;  // a unit vector across them, in the view
 in vec3 place;
 in vec3 facing;
 in float height;
@@ -47,7 +47,7 @@ vec3 colour_of(float share) {
 
 void main() {
   vec3 n = normalize(facing);
-  // A surface is seen from both sides: the normal is on that of the face that is seen.
+  // Surfaces are seen from both sides: the normal is that of the visible side.
   if (dot(n, cross(dFdx(place), dFdy(place))) < 0.0) n = -n;
   float towards = max(n.z, 0.0);  // at sharp edges a face may turn to the eye where its smoothed normal does not
   if (kind == 0) {
@@ -57,8 +57,8 @@ void main() {
     float shine = pow(max(dot(n, normalize(key + vec3(0.0, 0.0, 1.0))), 0.0), 40.0);
     result = vec4(colour * (0.25 + 0.3 * towards + 0.5 * max(dot(n, key), 0.0)) + 0.2 * shine, 1.0);
   } else if (kind == 2) {
-    // Long parallel lamps around the surface as mirrored towards the eye. They are near: a plane
-    // mirrors several of them, as straight lines.
+    // Long parallel lamps around the surface, mirrored towards the eye. They are near, so a plane mirrors several of
+    // them, as straight lines.
     vec3 mirrored = reflect(vec3(0.0, 0.0, -1.0), n);
     float wave = cos(lamps * atan(dot(across, mirrored.xy + nearness * place.xy), mirrored.z));
     float soft = min(fwidth(wave), 1.0);

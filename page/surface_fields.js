@@ -1,10 +1,10 @@
-// What a view shows of surfaces: shapes, and values by their colours.
+// What a view shows of surfaces: shapes, and values as colours.
 
 import {edgesOf, normalsOf, trianglesOf} from './mesh.js';
 import {diverging, sequential} from './colours.js';
 import {quantiles, short} from './numbers.js';
 
-// What the view needs to know of a shape of the scene.
+// A shape of the scene, prepared for the view.
 export function prepared({title, positions, runs, mean, gaussian, deviation}) {
   const edges = edgesOf(runs, positions.length / 3);
   return {title, positions, runs, mean, gaussian, deviation, joints: edges, edges: edges.ends,
@@ -13,24 +13,25 @@ export function prepared({title, positions, runs, mean, gaussian, deviation}) {
 
 const about = (centre, half) => [centre - half, centre + half];
 
-// The middle share of values, or about their middle where that is little: a sphere is of one colour, although its curvature is not measured to the last digit.
+// The range of the middle share of values, widened about their middle to a least size: so a sphere has one colour,
+// although its curvature is not measured to the last digit.
 export function aboutMiddle(values, least, share = 0.96) {
   const [low, high] = quantiles(values, [(1 - share) / 2, (1 + share) / 2]);
   return about((low + high) / 2, Math.max((high - low) / 2, least, 0.02 * Math.abs(low + high) / 2));
 }
 
-// As far as the same share reaches, without signs: the least 98 % of values.
+// A range symmetric to zero that contains the middle share of values.
 export function aboutZero(values, least, share = 0.96) {
   return about(0, Math.max(least, quantiles(values.map(Math.abs), [(1 + share) / 2])[0]));
 }
 
-// Of values at nodes, those in the part that is seen first.
+// The values at nodes in the part that is seen first.
 function valuesIn(part, positions, values) {
   if (!part) return values;
   return values.filter((_, n) => Math.hypot(...part.middle.map((middle, i) => positions[3 * n + i] - middle)) <= part.radius);
 }
 
-// What colours can show: values for each shape, map, range of its colours.
+// The fields that colours can show: values for each shape, colour map, range.
 export function fieldsOf(shapes, {leading, reference, unit, part}) {
   const seen = (values) => valuesIn(part, shapes[leading].positions, values);
   const fields = {

@@ -16,7 +16,7 @@ function showLegend(legend, field, range) {
     Object.assign(document.createElement('span'), {textContent})));
 }
 
-// Returns what draws the view, given the camera, and what goes on to the next shape.
+// Returns a function that draws the view, given the camera, and one that goes on to the next shape.
 export function makeSurfacePage({canvas, form, legend, charts}, scene, report, redraw) {
   const shapes = scene.shapes.map(prepared).map((shape) =>
     ({...shape, turns: turnsOf(shape.runs, shape.positions, shape.joints)}));

@@ -21,7 +21,7 @@ function programOf(gl) {
 }
 
 export class SurfaceView {
-  // shapes: positions, normals, triangles, edges. points: coordinates of dots that are shown with shaded faces. Throws where the
+  // shapes: positions, normals, triangles, edges. points: coordinates of dots shown with shaded faces. Throws if the
   // browser has no WebGL 2.
   constructor(canvas, shapes, points) {
     this.canvas = canvas;
@@ -35,7 +35,7 @@ export class SurfaceView {
     this.values = {};
   }
 
-  // What a vertex has of its own, for the vertex array that is bound.
+  // Adds an attribute of vertices to the bound vertex array.
   attribute(name, size, data) {
     const gl = this.gl;
     const buffer = gl.createBuffer();
@@ -70,7 +70,7 @@ export class SurfaceView {
     return {array, values, triangles: indices(triangles), edges: indices(edges)};
   }
 
-  // The heights of a shape that a colour map shows.
+  // Sets the values of a shape that a colour map shows.
   setValues(shape, values) {
     if (!values || this.values[shape] === values) return;
     this.values[shape] = values;

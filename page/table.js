@@ -1,4 +1,4 @@
-// The table of figures, and what the report says of the run.
+// The table of figures, and the summary of the report.
 
 import {short} from './numbers.js';
 

@@ -1,4 +1,4 @@
-// Between NumPy's arrays and the library's vectors.
+// Converts between NumPy's arrays and the library's vectors.
 
 #pragma once
 
@@ -18,7 +18,7 @@ namespace vspring::python {
 
 namespace py = pybind11;
 
-/// As the Python side hands them over: without gaps, converted there.
+/// Contiguous arrays; the Python side converts them.
 template <typename Number>
 using Array = py::array_t<Number, py::array::c_style>;
 
@@ -34,8 +34,7 @@ inline std::vector<Index> indices_of(const Array<Index>& array) {
   return {numbers.begin(), numbers.end()};
 }
 
-/// An array that looks at numbers which `owner` keeps, and must not be written to. row: how many a row has there, where
-/// only the first columns are shown.
+/// A read-only view of numbers that `owner` keeps. row: numbers per row there, if the view has only the first columns.
 template <typename Number>
 py::array view_of(const Number* numbers, std::vector<py::ssize_t> shape, const py::handle& owner, py::ssize_t row = 0) {
   constexpr auto size = static_cast<py::ssize_t>(sizeof(Number));
@@ -47,7 +46,7 @@ py::array view_of(const Number* numbers, std::vector<py::ssize_t> shape, const p
   return view;
 }
 
-/// An array that owns them: nothing is copied.
+/// An array that takes over the numbers without a copy.
 template <typename Value>
 py::array array_of(std::vector<Value> values, std::vector<py::ssize_t> shape, const auto* first) {
   using Values = std::vector<Value>;

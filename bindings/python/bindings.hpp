@@ -1,4 +1,4 @@
-// What each source adds to the module.
+// Each source adds its part to the module.
 
 #pragma once
 

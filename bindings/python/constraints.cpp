@@ -1,4 +1,4 @@
-// What holds a shape.
+// Constraints.
 
 #include <array>
 #include <string>
@@ -29,7 +29,7 @@ void fix_directions(Constraints& constraints, const PolygonCurve& curve, const s
   for (std::size_t k = 0; k < nodes.size(); ++k) constraints.fix_tangent(nodes[k], tangents[k]);
 }
 
-/// A number of a node that there is, for what is asked of the shape before the constraints look.
+/// Checks node numbers before the shape is asked about them.
 void check(const Constraints& constraints, const std::vector<Index>& nodes) {
   for (const Index node : nodes) (void)constraints.position_fixed(node);
 }
@@ -46,7 +46,7 @@ RuleInput input_of(const CurveFile* file, const Welded* /*of_surfaces*/) {
   return file == nullptr ? RuleInput{} : RuleInput{.groups = &file->groups};
 }
 
-/// File: what the shape was read from; null where no file gave it.
+/// File: of the kind that the shape was read from; null if no file gave it.
 template <typename Shape, typename File>
 void add_rules(py::class_<Constraints>& type) {
   type.def(

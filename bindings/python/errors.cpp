@@ -1,4 +1,4 @@
-// Errors of the library become vspring.Error, which is written in Python.
+// Turns errors of the library into vspring.Error, which is written in Python.
 
 #include <exception>
 #include <string>
@@ -26,7 +26,7 @@ const char* name(ErrorCode code) {
 }  // namespace
 
 void add_errors(py::module_& module) {
-  // Not by the name "vspring": another package may have this one inside.
+  // Not by the name "vspring", as another package may contain this one.
   static const py::handle self = module.inc_ref();
   py::register_local_exception_translator([](std::exception_ptr thrown) {
     try {

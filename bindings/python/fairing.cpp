@@ -19,7 +19,7 @@ namespace {
 template <typename Shape>
 constexpr bool is_curve = std::is_same_v<Shape, PolygonCurve>;
 
-/// The new positions, the fields of the report, and what ended it before its time.
+/// Returns the new positions, the fields of the report, and the exception that ended the call early.
 template <typename Shape>
 py::tuple fair_shape(const Shape& shape, const Constraints& constraints, const py::dict& given, py::object progress) {
   const Settings settings(given);
@@ -32,7 +32,7 @@ py::tuple fair_shape(const Shape& shape, const Constraints& constraints, const p
   return py::make_tuple(array_of(std::move(result.positions)), report_of(result.report), run.stopped_by());
 }
 
-/// What comes of a curve with new nodes: which nodes they were, and its chains.
+/// Adds, for a curve with new nodes, their numbers in the input and its chains.
 void tell_of_nodes(py::dict& fields, const Resampled& resampled) {
   fields["origin"] = array_of(resampled.from);
   py::list chains;
@@ -40,7 +40,7 @@ void tell_of_nodes(py::dict& fields, const Resampled& resampled) {
   fields["chains"] = std::move(chains);
 }
 
-/// The same with new nodes.
+/// Fairs a curve with new nodes.
 py::tuple fair_with_new_nodes(const PolygonCurve& curve, const Constraints& constraints, const py::dict& given,
                               py::object progress) {
   const Settings settings(given);
@@ -56,7 +56,7 @@ py::tuple fair_with_new_nodes(const PolygonCurve& curve, const Constraints& cons
 
 void settle_moving(FitOptions& /*options*/, const Settings& /*settings*/, const SurfaceFile* /*file*/) {}
 
-/// file: whose columns are named.
+/// file: its columns are named.
 void settle_moving(FitOptions& options, const Settings& settings, const CurveFile* file) {
   const auto names = settings.get<std::vector<std::string>>("move");
   if (!names) return;
@@ -64,12 +64,12 @@ void settle_moving(FitOptions& options, const Settings& settings, const CurveFil
   nameless.planar = settings.get<bool>("planar").value_or(false);
   const CurveFile& named = file == nullptr ? nameless : *file;
   options.moving_axes = choose_axes(named, *names);
-  // Of a plane nothing is left to keep then.
+  // In a plane no coordinate is left to keep then.
   if (named.planar && options.moving_axes[0] && options.moving_axes[1]) options.moving_axes[2] = true;
 }
 
-/// The same, and distances of the points. positions: of these; empty for the shape's own nodes. weights, normals: of
-/// each, or empty.
+/// Fits a shape; returns distances of the points, too. positions: of the points; empty: the shape's own nodes. weights,
+/// normals: of each, or empty.
 template <typename Shape, typename File>
 py::tuple fit_shape(const Shape& shape, const Constraints& constraints, const std::optional<Array<double>>& positions,
                     const std::optional<Array<double>>& weights, const std::optional<Array<double>>& normals,
@@ -87,7 +87,7 @@ py::tuple fit_shape(const Shape& shape, const Constraints& constraints, const st
   return py::make_tuple(array_of(std::move(result.positions)), std::move(fields), run.stopped_by());
 }
 
-/// A curve that is drawn to its own nodes, with new ones on it.
+/// Fits a curve to its own nodes and puts new nodes on it.
 py::tuple fit_with_new_nodes(const PolygonCurve& curve, const Constraints& constraints, const py::dict& given,
                              const CurveFile* file, py::object progress) {
   const Settings settings(given);
@@ -105,7 +105,7 @@ py::tuple fit_with_new_nodes(const PolygonCurve& curve, const Constraints& const
 NoiseEstimate noise_of(const PolygonMesh& mesh, const Context& context) { return estimate_noise(mesh, context); }
 NoiseEstimate noise_of(const PolygonCurve& curve, const Context& /*context*/) { return estimate_noise(curve); }
 
-/// Its deviation, how far it brings the furthest node, and the size of voxels or None.
+/// Returns the deviation of the noise, how far it moves the furthest node, and the size of voxels or None.
 template <typename Shape>
 py::tuple estimate(const Shape& shape, int threads) {
   Run run(threads, py::none());
@@ -123,7 +123,7 @@ std::vector<Figure> figures_of(const PolygonCurve& curve, const Constraints* con
   return list_figures(measure_curve(curve, constraints));
 }
 
-/// For each figure its key, name, unit, definition and value.
+/// Returns for each figure its key, name, unit, definition and value.
 template <typename Shape>
 py::list measure_shape(const Shape& shape, const Constraints* constraints, int threads) {
   Run run(threads, py::none());
@@ -140,7 +140,7 @@ py::list measure_shape(const Shape& shape, const Constraints* constraints, int t
   return list;
 }
 
-/// k1 and k2 of every node, its normal, and the directions of k1 and k2.
+/// Returns k1 and k2 of every node, its normal, and the directions of k1 and k2.
 py::tuple curvatures_of_surface(const PolygonMesh& mesh, int threads) {
   Run run(threads, py::none());
   const std::vector<NodeCurvature> found = run([&](const Context& context) { return curvatures(mesh, context); });

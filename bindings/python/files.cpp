@@ -14,7 +14,7 @@ namespace {
 
 using Path = std::string;
 
-/// For a name of a format; empty for none.
+/// The format of a name; empty for none.
 template <typename Format>
 std::optional<Format> format_of(const std::string& word, std::optional<Format> (*known)(std::string_view)) {
   if (word.empty()) return std::nullopt;
@@ -38,7 +38,7 @@ py::dict groups_of(const Groups& groups) {
   return made;
 }
 
-/// Where all have as many nodes a row each; else all corners, and where each face begins.
+/// A row per face if all have equally many nodes; else all corners, and where each face begins.
 py::object faces_of(const py::object& self) {
   const PolygonMesh& mesh = self.cast<const SurfaceFile&>().mesh;
   const std::vector<Index>& corners = mesh.corners();
@@ -124,7 +124,7 @@ void add_curve(py::module_& module) {
       });
 }
 
-/// Positions, weights or None, and normals or None.
+/// Returns positions, weights or None, and normals or None.
 py::tuple points_of(const Path& path, const ColumnChoice& columns) {
   ScatteredPoints points = [&] {
     const py::gil_scoped_release unlocked;
@@ -161,7 +161,7 @@ void add_files(py::module_& module) {
         return read_curve(path, format_of(format, &curve_format), columns);
       },
       Unlocked());
-  // What the file carried and the output does not.
+  // Returns what the file carried and the output does not.
   module.def(
       "write_surface",
       [](const Path& path, const SurfaceFile& file, const Array<double>& positions, const std::string& format) {

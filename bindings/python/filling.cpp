@@ -27,8 +27,8 @@ py::dict fields_of(const Hole& hole) {
   return fields;
 }
 
-/// The new positions, the corners of all faces and where each face begins, the holes, the fields of the report, and
-/// what ended it before its time.
+/// Returns the new positions, the corners of all faces and where each face begins, the holes, the fields of the report,
+/// and the exception that ended the call early.
 py::tuple fill_surface(const PolygonMesh& mesh, const py::dict& given, py::object progress) {
   const Settings settings(given);
   FillOptions options;

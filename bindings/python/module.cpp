@@ -1,4 +1,4 @@
-// The module _vspring, on which the package vspring stands: the library with NumPy's arrays in and out.
+// The module _vspring, on which the package vspring is built: the library with NumPy's arrays in and out.
 
 #include "bindings.hpp"
 

@@ -11,7 +11,7 @@ py::dict level_of(const LevelReport& level) {
                   "seconds"_a = level.seconds);
 }
 
-/// None where they were not measured.
+/// None if they were not measured.
 py::object distances_of(const PointDistances& distances) {
   using namespace pybind11::literals;
   if (distances.all.count == 0) return py::none();

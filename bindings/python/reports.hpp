@@ -1,4 +1,4 @@
-// How a call ended, for the classes of the package that tell it.
+// Reports, for the classes of the package.
 
 #pragma once
 
@@ -9,7 +9,7 @@ namespace vspring::python {
 /// The fields of vspring.Report.
 py::dict report_of(const FairReport& report);
 
-/// Those of vspring.FitReport, but for `distances`.
+/// The fields of vspring.FitReport, except `distances`.
 py::dict report_of(const FitReport& report);
 
 }  // namespace vspring::python

@@ -7,7 +7,7 @@ namespace vspring::python {
 
 namespace {
 
-// As on the command line.
+// The limit of the command line.
 constexpr int most_threads = 1024;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// One shape that is faired again and again while what holds it moves.
+// Sessions: one shape, faired again and again while its constraints move.
 
 #include <optional>
 #include <utility>
@@ -12,7 +12,7 @@ namespace vspring::python {
 
 namespace {
 
-/// The new positions, the fields of the report, and what ended it before its time.
+/// Returns the new positions, the fields of the report, and the exception that ended the call early.
 template <typename Solve>
 py::tuple solve(int threads, py::object progress, const Solve& with) {
   Run run(threads, std::move(progress));

@@ -70,7 +70,7 @@ FairingMethod method_of(const Settings& settings) {
   return equilibrium_of(settings);
 }
 
-/// As on the command line: whoever asks for another one compares, and gets the shape as it was found.
+/// As on the command line: a distribution other than the default is for comparison, so the shape is returned as found.
 void settle_distribution(FairOptions& options, const Settings& settings, const Subject& subject) {
   const bool paper = is_papers(settings);
   const bool papers_own = options.method_kind() != Method::equilibrium;

@@ -1,4 +1,4 @@
-// Keyword arguments of Python as options of the library.
+// Turns keyword arguments of Python into options of the library.
 
 #pragma once
 
@@ -9,12 +9,12 @@
 
 namespace vspring::python {
 
-/// Keyword arguments that were given, under the names of the command line.
+/// The given keyword arguments, by the names of the command line.
 class Settings {
  public:
   explicit Settings(py::dict given) : given_(std::move(given)) {}
 
-  /// Empty where it was not given, or as None. Throws TypeError naming the argument where it is no such value.
+  /// An argument; empty if not given or None. Throws TypeError naming the argument for a value of another type.
   template <typename Value>
   [[nodiscard]] std::optional<Value> get(const char* name) const {
     if (!given_.contains(name)) return std::nullopt;
@@ -31,23 +31,23 @@ class Settings {
   py::dict given_;
 };
 
-/// What is faired: a curve or a surface, and whether its own nodes are points that draw it.
+/// The shape to fair: a curve or a surface, and whether it is fitted to its own nodes.
 struct Subject {
   bool is_curve = false;
   bool own_nodes_pull = false;
 };
 
-/// Throws Error(invalid_argument) for a word that is none of the choices.
+/// Options of fairing. Throws Error(invalid_argument) for a word that is none of the choices.
 FairOptions fair_options(const Settings& settings, const Subject& subject);
 
-/// How points pull: as one of `weight`, `smoothing_length`, `within`, `rms`, `noise` and `voxels` says, and others.
-/// Throws Error(invalid_argument) unless one of these is given.
+/// Options of a fit, by one of `weight`, `smoothing_length`, `within`, `rms`, `noise` and `voxels`, and others. Throws
+/// Error(invalid_argument) unless exactly one of these is given.
 FitOptions fit_options(const Settings& settings, const Subject& subject);
 
-/// Whether all is to be as the paper has it, for comparison.
+/// Whether `paper` is given: all choices of the paper, for comparison.
 bool is_papers(const Settings& settings);
 
-/// How many new nodes a curve gets, and where; empty where it keeps its own.
+/// The number and spacing of new nodes of a curve; empty if it keeps its own.
 std::optional<Resampling> resampling_of(const Settings& settings);
 
 /// The threads asked for; 0 for all cores.

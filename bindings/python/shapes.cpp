@@ -1,4 +1,4 @@
-// Surfaces and curves made of arrays.
+// Surfaces and curves from arrays.
 
 #include <utility>
 #include <vector>

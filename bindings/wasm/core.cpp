@@ -1,4 +1,4 @@
-// What a page sees of the library beside its classes, which are in files of their own.
+// The functions of the library for pages; its classes are in files of their own.
 
 #include <emscripten/bind.h>
 

@@ -1,4 +1,4 @@
-// A curve that is open or drawn: what holds it, and its fair shape.
+// An open or drawn curve: its constraints and its fair shape.
 
 #include <algorithm>
 #include <map>
@@ -14,14 +14,14 @@ namespace vspring {
 
 namespace {
 
-/// One curve that is open. What it has in common with Surface has the same name there.
+/// An open curve. Members that Surface has, too, have the same names there.
 class Curve {
  public:
   /// bytes: a Uint8Array. name: of the file, for its format and for messages.
   Curve(const val& bytes, const std::string& name)
       : Curve(forwarding_errors([&] { return read_curve_bytes(bytes.as<std::string>(), name); })) {}
 
-  /// One chain through places that were drawn, of two columns where all of them have z = 0.
+  /// One chain through drawn places; of two columns if all have z = 0.
   static Curve through(const val& positions, bool closed) {
     CurveFile file;
     file.curve = PolygonCurve(vectors_of(positions), closed);
@@ -32,7 +32,7 @@ class Curve {
 
   [[nodiscard]] int node_count() const { return file_.curve.node_count(); }
   [[nodiscard]] val positions() const { return positions_array(positions_); }
-  /// Where each chain begins among chain_nodes(), and their number.
+  /// Where each chain begins in chain_nodes(), and the size of that.
   [[nodiscard]] val chain_begin() const {
     std::vector<Index> begin = {0};
     for (const auto& chain : file_.curve.chains())
@@ -79,7 +79,7 @@ class Curve {
     forwarding_errors([&] { constraints_->free_tangent(node); });
   }
 
-  /// `nodes` whose tangent is given, and their `tangents`, three numbers each.
+  /// `nodes` with a given tangent, and their `tangents`, three numbers each.
   [[nodiscard]] val held_tangents() const {
     std::vector<Index> nodes;
     std::vector<Vector3> tangents;
@@ -94,23 +94,23 @@ class Curve {
     return result;
   }
 
-  /// What must hold besides for only those nodes to move from a shape of these positions: `fixed`, nodes that stay, and
-  /// `rim` with its `tangents`, three numbers each.
+  /// Further constraints so that only `nodes` move from a shape of these positions: `fixed`, nodes that stay, and `rim`
+  /// with its `tangents`, three numbers each.
   [[nodiscard]] val region(const val& nodes, const val& positions) const {
     return region_of(*constraints_, file_.curve, nodes, positions,
                      {"tangents", &Constraints::tangent_fixed, &Constraints::tangent});
   }
-  /// The standard deviation of its nodes in each coordinate, as far as that can be told; else 0.
+  /// The estimated standard deviation of the nodes in each coordinate; 0 if unknown.
   [[nodiscard]] double noise() const {
     return forwarding_errors([&] { return estimate_noise(file_.curve).deviation; });
   }
 
-  /// Even nodes between those that are held, `nodes` in all; they are the curve from then on. Returns for every node
-  /// its number before, -1 for new ones.
+  /// Replaces the nodes between held ones by evenly spaced ones, `nodes` in all. Returns for every node its number
+  /// before, -1 for new ones.
   val resample(Index nodes) {
     return forwarding_errors([&] {
       Resampled even = vspring::resample(file_.curve, *constraints_, {.nodes = nodes});
-      // What the file carried belongs to nodes that are no longer there.
+      // Other data of the file belong to nodes that no longer exist.
       file_.source = nullptr;
       file_.groups.clear();
       file_.curve = std::move(even.curve);
@@ -120,8 +120,8 @@ class Curve {
     });
   }
 
-  /// Other nodes and chains in place of its own, as some are inserted or deleted. from: for every node its number
-  /// before, −1 for new ones. Groups keep what stays; nothing holds it.
+  /// Replaces nodes and chains, as when some are inserted or deleted. from: for every node its number before, −1 for
+  /// new ones. Groups keep remaining nodes; constraints are dropped.
   void set_nodes(const val& positions, const val& chain_begin, const val& chain_nodes, const val& closed,
                  const val& from) {
     forwarding_errors([&] {
@@ -150,7 +150,7 @@ class Curve {
     });
   }
 
-  /// Always from the file's shape: curves take so little time that they follow this way too.
+  /// Always from the file's shape, as curves take little time.
   val fair(const val& progress) {
     return forwarding_errors([&] {
       Context context;
@@ -162,12 +162,12 @@ class Curve {
     });
   }
 
-  /// From the file's shape, drawn towards points.
+  /// Fits the file's shape to points.
   val fit(const Points& points, const val& settings, const val& progress) {
     return fit_to(points, settings, progress, file_.curve, *constraints_, positions_);
   }
 
-  /// The bytes of a file of that name, with the last shape; a picture has the first one behind.
+  /// The bytes of a file of that name, with the last shape; a picture has the first one behind it.
   [[nodiscard]] val write(const std::string& name) const {
     return forwarding_errors(
         [&] { return bytes_array(curve_bytes(name, file_, positions_, std::nullopt, {.before = &file_.curve})); });

@@ -1,5 +1,5 @@
-// What C++ refuses is thrown here, when it has returned: JavaScript's errors pass C++ destructors by, and what these were to free.
-// (Emscripten's optimiser reads JavaScript of 2018.)
+// Errors of C++ are thrown here, after it has returned: JavaScript errors would skip C++ destructors. (Emscripten's
+// optimiser reads JavaScript of 2018.)
 addOnInit(() => {
   const checked = (made) => {
     const message = Module['fault'];

@@ -7,7 +7,7 @@ namespace vspring {
 Points::Points(const val& bytes, const std::string& name) {
   forwarding_errors([&] {
     points_ = read_points_bytes(bytes.as<std::string>(), name);
-    // They would need the plane of the curve.
+    // Degrees would need the plane of the curve.
     if (points_.plane)
       throw Error(
           ErrorCode::unusable_file,

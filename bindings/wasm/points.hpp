@@ -1,4 +1,4 @@
-// Scattered points that shapes are drawn towards.
+// Scattered points that shapes are fitted to.
 
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace vspring {
 
-/// The points of a file, or given ones.
+/// Scattered points, from a file or given.
 class Points {
  public:
   /// bytes: a Uint8Array. name: of the file, for its format and for messages.
   Points(const val& bytes, const std::string& name);
-  /// Three numbers each.
+  /// Points at positions, three numbers each.
   static Points at(const val& positions);
 
   [[nodiscard]] const ScatteredPoints& points() const { return points_; }
@@ -28,14 +28,14 @@ class Points {
   ScatteredPoints points_;
 };
 
-/// Of an object with some of `smoothingLength`, `within`, `rms`, `weight`, `outliers`, `sharp` and `leastRadius`, as
-/// FitOptions has them, and `keep`, whether nodes keep their distribution.
+/// Options from an object with some of `smoothingLength`, `within`, `rms`, `weight`, `outliers`, `sharp` and
+/// `leastRadius`, as in FitOptions, and `keep`: whether nodes keep their distribution.
 FitOptions options_of(const val& settings);
 
-/// The report of fairing with `fit`, figures of the points, and `distances` where these were measured.
+/// The report of fairing, plus `fit`, figures of the points, and `distances` if measured.
 val to_val(const FitResult& result);
 
-/// From the file's shape, drawn towards points: the new positions. With the report come `fit`, its figures, and
+/// Fits the file's shape to points. Sets the new positions; the report also has `fit`, figures of the points, and
 /// `distances` of the points from the shape, in units of the file.
 template <typename Shape>
 val fit_to(const Points& points, const val& settings, const val& progress, const Shape& shape,

@@ -1,4 +1,4 @@
-// What must hold for only some nodes to move.
+// Constraints with which only some nodes move.
 
 #pragma once
 
@@ -8,15 +8,15 @@
 
 namespace vspring {
 
-/// The direction that a shape has at its rim: its name, whether it is given, and what it is.
+/// The direction of a shape at its rim: its name, whether it is given, and its value.
 struct RimDirection {
   const char* name;
   bool (Constraints::*fixed)(Index) const;
   const Vector3& (Constraints::*value)(Index) const;
 };
 
-/// `fixed`, nodes that stay, and `rim` with its directions, three numbers each, as a shape of these positions has them:
-/// those that `constraints` does not hold already.
+/// `fixed`, nodes that stay, and `rim` with its directions, three numbers each, of a shape with these positions;
+/// without nodes that `constraints` holds already.
 template <typename Shape>
 val region_of(const Constraints& constraints, Shape shape, const val& nodes, const val& positions,
               const RimDirection& direction) {

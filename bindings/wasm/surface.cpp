@@ -1,4 +1,4 @@
-// A surface that is open: what holds it, and its fair shape.
+// An open surface: its constraints and its fair shape.
 
 #include <optional>
 
@@ -10,10 +10,10 @@ namespace vspring {
 
 namespace {
 
-// Of the size: a fifth of a pixel where that is a thousand of them.
+// As a share of the size: a fifth of a pixel at 1,000 pixels.
 constexpr double picture_tolerance = 2e-4;
 
-/// One surface that is open.
+/// An open surface.
 class Surface {
  public:
   /// bytes: a Uint8Array. name: of the file, for its format and for messages.
@@ -40,7 +40,7 @@ class Surface {
   }
   [[nodiscard]] val warnings() const { return list_of(file_.warnings); }
 
-  /// Holds as the constraints file says that the command line takes, and nothing else.
+  /// Replaces the constraints by those of a constraints file, as for the command line.
   void set_rules(const std::string& json) {
     forwarding_errors([&] {
       Constraints constraints(file_.mesh.node_count());
@@ -61,14 +61,14 @@ class Surface {
     forwarding_errors([&] { constraints_->free_normal(node); });
   }
 
-  /// Whether boundary nodes whose position is free are faired first, as curves.
+  /// Sets whether free boundary nodes are faired first, as curves.
   void set_fair_boundary(bool first) {
     if (first == options_.fair_boundary.has_value()) return;
     session_.reset();
     options_.fair_boundary.reset();
     if (first) options_.fair_boundary.emplace();
   }
-  /// The normals that are held, in unit length: `nodes`, ascending, and `normals`, three numbers each.
+  /// The given normals, of unit length: `nodes`, ascending, and `normals`, three numbers each.
   [[nodiscard]] val held_normals() const {
     std::vector<Index> nodes;
     std::vector<Vector3> normals;
@@ -83,19 +83,19 @@ class Surface {
     return result;
   }
 
-  /// From the file's shape. progress(fraction): true ends it soon with the best shape so far.
+  /// Fairs the file's shape. progress(fraction): returning true ends it soon with the best shape so far.
   val fair(const val& progress) {
     session_.reset();
     return solve(progress, [&](Context& context) { return to_val(take(session_->fair(*constraints_, context))); });
   }
-  /// From the last shape, where that leads somewhere, as near as a picture can tell.
+  /// Fairs from the last shape, if possible, to the accuracy of a picture.
   val update(const val& progress) {
     return solve(progress, [&](Context& context) {
       return outcome_of(take(session_->update(*constraints_, picture_tolerance, context)));
     });
   }
 
-  /// About where that would lead, in less time; null where there is no last shape to go from. Nothing else changes.
+  /// Predicts the shape of update() in less time; null if there is no last shape to start from. Changes nothing.
   [[nodiscard]] val predict() {
     return forwarding_errors([&] {
       if (!session_) return val::null();
@@ -104,24 +104,24 @@ class Surface {
     });
   }
 
-  /// From the file's shape, drawn towards points.
+  /// Fits the file's shape to points.
   val fit(const Points& points, const val& settings, const val& progress) {
     val report = fit_to(points, settings, progress, file_.mesh, *constraints_, positions_);
     session_.reset();
     return report;
   }
 
-  /// What must hold besides for only those nodes to move from a shape of these positions: `fixed`, nodes that stay, and
-  /// `rim` with its `normals`, three numbers each.
+  /// Further constraints so that only `nodes` move from a shape of these positions: `fixed`, nodes that stay, and `rim`
+  /// with its `normals`, three numbers each.
   [[nodiscard]] val region(const val& nodes, const val& positions) const {
     return region_of(*constraints_, file_.mesh, nodes, positions,
                      {"normals", &Constraints::normal_fixed, &Constraints::normal});
   }
-  /// The standard deviation of its nodes in each coordinate, as far as that can be told; else 0.
+  /// The estimated standard deviation of the nodes in each coordinate; 0 if unknown.
   [[nodiscard]] double noise() const {
     return forwarding_errors([&] { return estimate_noise(file_.mesh).deviation; });
   }
-  /// The principal curvatures of a shape of these nodes: `k1` and `k2`, k1 not less than k2.
+  /// The principal curvatures of the surface with these positions: `k1` and `k2`, k1 not less than k2.
   [[nodiscard]] val curvatures(const val& positions) const {
     return forwarding_errors([&] {
       PolygonMesh mesh = file_.mesh;
@@ -145,7 +145,7 @@ class Surface {
   [[nodiscard]] val write(const std::string& name) const {
     return forwarding_errors([&] { return bytes_array(surface_bytes(name, file_, positions_)); });
   }
-  /// Another shape of the same nodes, such as an earlier one.
+  /// Sets the positions of another shape, such as an earlier one.
   void set_positions(const val& positions) {
     forwarding_errors([&] {
       PolygonMesh mesh = file_.mesh;

@@ -1,5 +1,5 @@
-// What the compiler makes exceptions with. The library that is linked where there are no threads defines it once for
-// all of them, but code that may have threads looks for one of each thread's own.
+// Variables that the compiler needs for exceptions. The library for programs without threads defines them once, but
+// code that may have threads looks for thread-local ones.
 
 #include <cstdint>
 

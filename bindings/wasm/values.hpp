@@ -1,4 +1,4 @@
-// Between the library and JavaScript: arrays, lists, errors, progress, reports, bytes of files.
+// Conversions between the library and JavaScript: arrays, lists, errors, progress, reports, bytes of files.
 
 #pragma once
 
@@ -19,7 +19,7 @@ namespace vspring {
 
 using emscripten::val;
 
-/// A copy of its own, to be handed to another thread.
+/// A separate copy, which can be transferred to another thread.
 template <typename Number>
 val array_of(const char* type, std::size_t count, const Number* numbers) {
   const val view(emscripten::typed_memory_view(count, numbers));
@@ -46,7 +46,7 @@ inline val list_of(const std::vector<std::string>& lines) {
   return list;
 }
 
-/// What is returned where there is nothing to return.
+/// The value returned after an error.
 template <typename Value>
 Value none() {
   if constexpr (std::is_same_v<Value, val>)
@@ -55,7 +55,7 @@ Value none() {
     return Value();
 }
 
-/// Library errors become JavaScript ones with the same text, which faults.js throws when the call has returned.
+/// Turns library errors into JavaScript ones with the same text, which faults.js throws after the call has returned.
 template <typename Call>
 auto forwarding_errors(const Call& call) {
   using Value = decltype(call());
@@ -67,18 +67,18 @@ auto forwarding_errors(const Call& call) {
   return none<Value>();
 }
 
-/// What a file would hold, as a Uint8Array.
+/// The bytes of a file, as a Uint8Array.
 inline val bytes_array(const FileBytes& file) {
   return array_of("Uint8Array", file.bytes.size(), reinterpret_cast<const std::uint8_t*>(file.bytes.data()));
 }
 
-/// As many as whoever loads the library gives as `threads`; one where none are given, and where it is linked without.
+/// The number of threads given as `threads` on loading; one if not given, or if linked without threads.
 inline int threads() {
   const val given = val::module_property("threads");
   return given.isUndefined() || val::module_property("PThread").isUndefined() ? 1 : given.as<int>();
 }
 
-/// Asks progress(fraction), which may be null; true from it ends the solution soon.
+/// Makes the context call progress(fraction), which may be null; if it returns true the solution ends soon.
 inline void ask(Context& context, const val& progress) {
   if (progress.isNull() || progress.isUndefined()) return;
   context.on_progress = [&context, progress](const Progress& now) {
@@ -102,7 +102,7 @@ inline val outcome_of(const FairReport& report) {
   return result;
 }
 
-/// That, and how far nodes moved.
+/// The outcome, and how far nodes moved.
 inline val to_val(const FairReport& report) {
   val result = outcome_of(report);
   result.set("greatestMove", report.greatest_move);

@@ -70,7 +70,7 @@ const editor: Editor = new Editor({
     marks.clear();
     examples.opened(opening.example ? editor.name : null);
     showFor(shape, editor.name, format);
-    // With the room that its plot leaves.
+    // After its plot has taken its room.
     curves.open(shape);
     view.setUp(up.open(shape));
     view.open(shape, stays);
@@ -249,7 +249,7 @@ function showPoints(): void {
   dotted = { fit, report };
   const distances = report?.distances?.length === (fit?.cloud.positions.length ?? 0) / 3 ? report!.distances! : null;
   const limit = fit?.kind === 'within' ? fit.value : report?.fit?.greatest || 1;
-  // How far a surface is from its own nodes, Deviation shows.
+  // Deviation shows how far a surface is from its own nodes.
   const drawn = fit && shape && (fit.cloud.bytes || shape.curve);
   view.dots.set(drawn ? placesOf(shape, fit.cloud.positions) : new Float32Array(), distances, limit);
   const legend = document.getElementById('points-legend')!;

@@ -1,4 +1,4 @@
-// Makes the picture that the program asks for and leaves it as base64, the one thing in the document: see cli/picture.cpp.
+// Makes the picture that the program asks for, and leaves it as base64, alone in the document: see cli/picture.cpp.
 
 import {jsonOf, sceneOf} from '../data.js';
 import {panelsOf} from './panels.js';
@@ -13,7 +13,7 @@ function base64Of(text) {
   return btoa(bytes);
 }
 
-// The document counts as loaded once the image is: only then the browser hands it over.
+// The document is loaded once the image is; only then does the browser print it.
 function drawn(svg) {
   const image = new Image();
   image.src = `data:image/svg+xml;base64,${base64Of(svg)}`;

@@ -4,12 +4,12 @@ import {SurfaceView} from '../surface_view.js';
 import {fieldsOf, marksOf, prepared} from '../surface_fields.js';
 
 const margin = 1.04;  // by how much a panel is larger than what it shows
-// Pixels of a panel for one of the picture, which smooths edges; lines that are a pixel wide would fade.
+// Pixels of a panel per pixel of the picture: 2 smooths edges, but would fade lines a pixel wide.
 const sharpnessOf = (style) => style === 'wire' ? 1 : 2;
 
 const escaped = (text) => text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
 
-// What the view asks of a camera, for all shapes, or a part of them, in the middle of a panel of that width.
+// A camera for the view, with all shapes, or a part of them, in the middle of a panel of that width.
 function cameraOf(shapes, rows, part, width) {
   const {extents, middle} = part ?? boundsOf(shapes, rows);
   const height = Math.round(width * Math.min(1.3, Math.max(0.35, extents[1] / extents[0])));
@@ -17,7 +17,7 @@ function cameraOf(shapes, rows, part, width) {
   return {rows, middle, breadth, zoom: part ? 1 / breadth : 1, height, scale: (w, h) => Math.min(w / extents[0], h / extents[1])};
 }
 
-// How large the shapes are seen, and what is in the middle.
+// The size of the shapes in the view, and their middle.
 function boundsOf(shapes, rows) {
   const low = [Infinity, Infinity];
   const high = [-Infinity, -Infinity];

@@ -30,7 +30,7 @@ struct Clothoid {
   double length = 0;
 
   [[nodiscard]] Eigen::Vector2d at(double s) const;
-  // Unwrapped: angle_at(length) - angle is the total turn.
+  // Not wrapped: angle_at(length) - angle is the total turn.
   [[nodiscard]] double angle_at(double s) const { return angle + s * (curvature + 0.5 * s * curvature_rate); }
   [[nodiscard]] double curvature_at(double s) const { return curvature + s * curvature_rate; }
 };
@@ -44,7 +44,7 @@ struct GaussRule {
   std::array<double, 16> weight{};
 };
 
-// Sixteen-point Gauss-Legendre rule: roots of the Legendre polynomial by Newton, in extended precision where there is.
+// Sixteen-point Gauss-Legendre rule: roots of the Legendre polynomial by Newton, in extended precision if available.
 inline const GaussRule& gauss_rule() {
   static const GaussRule rule = [] {
     constexpr int n = 16;
@@ -122,7 +122,7 @@ inline Moments moments(double a, double phi0, double phi1) {
   return sum;
 }
 
-// Newton on g(A) = 0 down to rounding; nothing if it does not get there without leaving the start guess by far.
+// Newton on g(A) = 0 down to rounding; nothing if it moves further than `reach` from the guess.
 inline std::optional<double> newton(double guess, double phi0, double phi1, double reach) {
   double best = guess;
   double best_residual = std::numeric_limits<double>::infinity();
@@ -187,8 +187,8 @@ inline Clothoid over_chord(const Eigen::Vector2d& p0, double angle0, const Eigen
                            double phi1, double a) {
   const double r = (p1 - p0).norm();
   const double h = moments(a, phi0, phi1).h;
-  // h = 0: infinitely long, as for a whole circle that has to start and end on different points. The end point's error
-  // is rounding divided by h.
+  // h = 0 means infinite length, as for a whole circle that starts and ends at different points. The error of the end
+  // point is rounding divided by h.
   if (!(h > 1e-8)) throw std::runtime_error("clothoid: no positive finite length");
   const double length = r / h;
   return {p0, angle0, (phi1 - phi0 - a) / length, 2 * a / (length * length), length};
@@ -210,10 +210,10 @@ inline Eigen::Vector2d Clothoid::at(double s) const {
   return start + sum;
 }
 
-// The G1 Hermite problem, end angles relative to the chord given and not normalised, so that they say which of the
-// many solutions is meant: the one reached from the straight line as the angles grow from (0, 0) to (chord_angle0,
-// chord_angle1) in proportion. Throws std::runtime_error where that branch ends earlier. The clothoid turns by
-// chord_angle1 - chord_angle0 exactly.
+// The G1 Hermite problem with end angles relative to the chord that are not normalised. They select one of the many
+// solutions: the one reached from the straight line as the angles grow in proportion from (0, 0) to (chord_angle0,
+// chord_angle1). Throws std::runtime_error if that branch ends earlier. The clothoid turns by chord_angle1 -
+// chord_angle0 exactly.
 inline Clothoid hermite_clothoid_on_chord(const Eigen::Vector2d& p0, const Eigen::Vector2d& p1, double chord_angle0,
                                           double chord_angle1) {
   using namespace clothoid_detail;
@@ -233,9 +233,9 @@ inline Clothoid hermite_clothoid(const Eigen::Vector2d& p0, double angle0, const
   return over_chord(p0, angle0, p1, phi0, phi1, solved(phi0, phi1));
 }
 
-// As above with the total turn given, not normalised: the end angle is angle0 + turn and how often the curve winds is
-// said by turn. The start angle relative to the chord is taken with the multiple of 2 pi that makes the larger of the
-// two end angles smallest (on a tie the start angle in (-pi, pi]); the branch is that of hermite_clothoid_on_chord.
+// hermite_clothoid() with the total turn given, not normalised: the end angle is angle0 + turn, and turn determines the
+// windings. The start angle relative to the chord is taken with the multiple of 2 pi that makes the larger of the two
+// end angles smallest (on a tie the start angle in (-pi, pi]); the branch is that of hermite_clothoid_on_chord.
 inline Clothoid hermite_clothoid_with_turn(const Eigen::Vector2d& p0, double angle0, const Eigen::Vector2d& p1,
                                            double turn) {
   using namespace clothoid_detail;
@@ -270,7 +270,7 @@ inline std::vector<Clothoid> hermite_clothoid_spline(const std::vector<Eigen::Ve
     chord_direction[i] = direction(point(i + 1) - point(i));
   }
 
-  // Start from the tangents of circles through three points each, about.
+  // Start from about the tangents of circles through three points each.
   Eigen::VectorXd angles(segments + 1);
   for (Eigen::Index i = 1; i < segments; ++i) {
     const double turn = normalised(chord_direction[i] - chord_direction[i - 1]);
@@ -289,7 +289,7 @@ inline std::vector<Clothoid> hermite_clothoid_spline(const std::vector<Eigen::Ve
     Eigen::MatrixXd jacobian;
     std::vector<Clothoid> clothoids;
   };
-  const double scale = chord_length.mean();  // makes curvature differences free of unit
+  const double scale = chord_length.mean();  // makes curvature differences dimensionless
   const auto system_at = [&](const Eigen::VectorXd& at) {
     System system{Eigen::VectorXd::Zero(segments + 1), Eigen::MatrixXd::Zero(segments + 1, segments + 1), {}};
     for (Eigen::Index i = 0; i < segments; ++i) {

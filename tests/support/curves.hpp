@@ -1,6 +1,6 @@
 #pragma once
 
-// What the tests of curves share: spacings, noise, starts, and distances from the curves that are known.
+// Shared by tests of curves: spacings, noise, starts, and distances from known curves.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -158,7 +158,7 @@ inline double distance_from(const reference::Clothoid& curve, const std::vector<
 /// The order in which errors fall from one refinement by two to the next.
 inline double order(double coarse, double fine) { return std::log2(coarse / fine); }
 
-/// A motion that leaves no axis where it was, and scales.
+/// A motion that changes every axis, with a scale.
 struct Motion {
   Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vector3(1, -2, 3).normalized()).toRotationMatrix();
   double scale = 1;
@@ -181,14 +181,14 @@ struct Motion {
   }
 };
 
-/// Of an aerofoil.
+/// The profile of an aerofoil.
 struct Profile {
   double camber;
   double camber_at;
   double thickness;
 };
 
-/// On a NACA profile of four digits; angle: from 0 at the tail over the upper side to 2π at the tail again.
+/// A point of a NACA profile of four digits; angle: from 0 at the tail over the upper side to 2π at the tail again.
 inline Vector3 on_profile(const Profile& profile, double angle) {
   const double x = (1 + std::cos(angle)) / 2;
   const double height =

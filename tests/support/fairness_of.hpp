@@ -11,7 +11,7 @@ struct BeforeAndAfter {
   Fairness after;
 };
 
-/// How fair a shape was, and is with other positions, where it moves under these constraints.
+/// The fairness of a shape before and with other positions, where it moves under these constraints.
 template <typename Shape>
 BeforeAndAfter fairness_of(const Shape& shape, const Constraints& constraints, const std::vector<Vector3>& positions) {
   Shape after = shape;

@@ -52,7 +52,7 @@ inline PolygonCurve segment(int edges) {
   return PolygonCurve(straight({0, 0, 0}, {1, 0, 0}, places(Spacing::even, edges)));
 }
 
-/// A shape, what holds it and the points.
+/// A shape, its constraints and the points.
 template <typename Shape>
 struct FitSpecimen {
   Shape start;

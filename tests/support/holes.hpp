@@ -10,7 +10,7 @@
 
 namespace vspring::support {
 
-/// The mesh without the nodes that are cut out, and without the faces at them.
+/// The mesh without the nodes cut out and their faces.
 inline PolygonMesh without(const PolygonMesh& mesh, const std::function<bool(const Vector3&)>& cut) {
   std::vector<Index> number(mesh.positions().size(), -1);
   MeshBuilder builder;
@@ -29,7 +29,7 @@ inline PolygonMesh without(const PolygonMesh& mesh, const std::function<bool(con
   return builder.take();
 }
 
-/// The same of the nodes in a ball.
+/// The mesh without the nodes in a ball and their faces.
 inline PolygonMesh without_ball(const PolygonMesh& mesh, const Vector3& centre, double radius) {
   return without(mesh, [&](const Vector3& p) { return (p - centre).norm() < radius; });
 }

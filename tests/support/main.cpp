@@ -1,5 +1,5 @@
-// Runs the tests of a program. With VSPRING_SHARED_WORK=FILE a line is added to that file for each test that shared
-// work out to several threads: its name, how long it took in milliseconds, and the kinds of work.
+// Runs the tests of a program. With VSPRING_SHARED_WORK=FILE it adds a line to that file for each test that shared work
+// among threads: its name, its time in milliseconds, and the kinds of work.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ class SharedWork : public ::testing::EmptyTestEventListener {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // What properties are tried on is drawn from one seed, and not for long, unless whoever runs this says otherwise.
+  // By default properties are tested on few shapes from one seed.
   setenv("RC_PARAMS", "seed=1 max_success=30", 0);
   ::testing::InitGoogleTest(&argc, argv);
   if (const char* path = std::getenv("VSPRING_SHARED_WORK"))

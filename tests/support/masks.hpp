@@ -14,8 +14,8 @@
 
 namespace vspring::support {
 
-/// The sides that voxels of different materials have in common, in a box around the origin of twice the size given:
-/// each once, looking from the greater number of a material to the lesser. material: of the middle of a voxel.
+/// The common sides of voxels of different materials, in a box around the origin of twice the given size: each once,
+/// facing from the greater number of a material to the lesser. material: of the middle of a voxel.
 inline PolygonMesh sides_of_materials(const Vector3& size, const Vector3& box,
                                       const std::function<int(const Vector3&)>& material) {
   std::map<std::array<int, 3>, Index> numbers;

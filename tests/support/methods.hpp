@@ -1,6 +1,6 @@
 #pragma once
 
-// Methods as tests ask for them.
+// Methods for tests.
 
 #include <optional>
 
@@ -8,7 +8,7 @@
 
 namespace vspring::support {
 
-/// The equilibrium, or the nearest shape that was found.
+/// The equilibrium, or the nearest shape found; no fallbacks.
 inline EquilibriumMethod equilibrium_alone(double tolerance = 1e-5) {
   return {.tolerance = tolerance, .fallbacks = false};
 }

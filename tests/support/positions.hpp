@@ -1,6 +1,6 @@
 #pragma once
 
-// What the tests of curves and of surfaces share.
+// Shared by tests of curves and surfaces.
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -21,7 +21,7 @@ inline double greatest_distance(const std::vector<Vector3>& a, const std::vector
   return greatest;
 }
 
-/// Of the box around all positions.
+/// The diagonal of the box around all positions.
 inline double diagonal(const std::vector<Vector3>& positions) {
   Eigen::AlignedBox<double, 3> box;
   for (const Vector3& position : positions) box.extend(position);

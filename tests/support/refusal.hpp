@@ -9,7 +9,7 @@
 
 namespace vspring::support {
 
-/// What a call that must be refused with a code says, which is one line.
+/// The message, one line, of a call that must be refused with a code.
 inline std::string refusal(const std::function<void()>& call, ErrorCode code) {
   try {
     call();

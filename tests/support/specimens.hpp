@@ -1,7 +1,6 @@
 #pragma once
 
-// Surfaces to be faired, of every kind of face and of disorder: what the benchmark of that name runs through, and tests
-// in small.
+// Surfaces to fair, of every kind of face and disorder, for the benchmark of that name and, small ones, for tests.
 
 #include <fmt/format.h>
 
@@ -23,11 +22,11 @@ struct Specimen {
   std::string name;
   PolygonMesh start;
   Constraints constraints;
-  /// None: what the program takes by itself.
+  /// None: the default.
   std::optional<Distribution> distribution = std::nullopt;
-  /// Distance of a point from the equilibrium's surface where it has a closed form; else null.
+  /// Distance of a point from the equilibrium's surface, if that has a closed form; else null.
   std::function<double(const Vector3&)> distance = nullptr;
-  /// Known to end elsewhere or nowhere.
+  /// Known to end at another shape or not to converge.
   bool hard = false;
 };
 
@@ -45,7 +44,7 @@ inline std::string name_of(generate::Faces faces) {
   return "";
 }
 
-/// Takes 0 to 0 and 1 to 1; of equal steps the last becomes about `ratio` times as long as the first.
+/// Maps 0 to 0 and 1 to 1; of equal steps the last becomes about `ratio` times as long as the first.
 inline double graded(double s, double ratio) { return ratio == 1 ? s : std::expm1(s * std::log(ratio)) / (ratio - 1); }
 
 /// A point of a surface over a strip: along and around 0 to 1, `lift` above it.
@@ -103,7 +102,8 @@ inline Vector3 vase_chart(double along, double around, double lift) {
   return turned(0.6 + 0.3 * std::sin(2 * std::numbers::pi * along) + lift, 2 * along, around);
 }
 
-/// Of a profile's normals, by their parts away from the axis and along it at a height.
+/// Normals of a shape of revolution, from its profile's normals: their parts away from the axis and along it at a
+/// height.
 inline Normal turned_normal(const std::function<std::pair<double, double>(double)>& of_profile) {
   return [=](const Vector3& p) {
     const auto [outwards, up] = of_profile(p.z());
@@ -117,7 +117,7 @@ struct Disorder {
   double ratio = 1;   ///< of the longest cell along the surface to the shortest
 };
 
-/// A grid on a chart, lifted in its middle: a start, and what holds its boundary.
+/// A grid on a chart, lifted in its middle: a start, with its boundary held.
 inline Specimen on_chart(const std::string& name, const Chart& chart, bool closes, generate::Grid grid,
                          const Disorder& disorder, const Normal& normal) {
   grid.jitter = disorder.jitter;
@@ -137,7 +137,7 @@ inline Specimen on_chart(const std::string& name, const Chart& chart, bool close
           held_boundary(with_positions(flat, std::move(exact)), normal)};
 }
 
-/// Holds every so-manieth node where it is.
+/// Holds every step-th node in its place.
 inline Constraints every_so_many(const PolygonMesh& mesh, Index step) {
   Constraints constraints(mesh.node_count());
   for (Index i = 0; i < mesh.node_count(); i += step) constraints.fix_position(i, mesh.position(i));
@@ -186,14 +186,14 @@ inline std::vector<Specimen> specimens(int cells) {
   };
   for (const Faces faces : every_kind) {
     for (const auto& [words, disorder] : disorders) {
-      // A structured binding is not for a lambda to capture in every compiler.
+      // Not every compiler lets a lambda capture a structured binding.
       const auto name = [&, &suffix = words](const char* shape) {
         return fmt::format("{} of {}{}", shape, name_of(faces), suffix);
       };
       const generate::Grid grid{.columns = cells, .rows = cells, .faces = faces};
       all.push_back(on_chart(name("sphere"), sphere_chart, false, grid, disorder, radial));
       all.back().distance = off_sphere;
-      // Next to nothing holds bricks across their rows: the more so the longer they are.
+      // Bricks are hardly held across their rows, the less the longer they are.
       all.back().hard = faces == Faces::hexagons && disorder.ratio > 1;
       all.push_back(on_chart(name("cylinder"), cylinder_chart, false, grid, disorder, from_axis));
       all.back().distance = off_cylinder;
@@ -205,13 +205,13 @@ inline std::vector<Specimen> specimens(int cells) {
                              {.columns = cells, .rows = cells, .faces = faces}, {.ratio = 100}, radial);
     kept.distribution = Distribution::keep;
     kept.distance = off_sphere;
-    // Nodes of bricks lie on a line with two of their three neighbours: next to nothing holds them across it.
+    // Nodes of bricks lie on a line with two of their three neighbours, so they are hardly held across it.
     kept.hard = faces == Faces::mixed || faces == Faces::hexagons;
     all.push_back(std::move(kept));
     all.push_back(region_of_saddle(faces, cells));
   }
   for (const Faces faces : {Faces::triangles, Faces::quads}) {
-    // Cells up to six times as wide as high, which evenly spread nodes would make sink towards the axis.
+    // Cells up to six times as wide as high: with evenly spread nodes the shape would sink towards the axis.
     const generate::Grid rings{.columns = 3 * cells / 2, .rows = cells, .faces = faces};
     for (const auto& [words, disorder] : {std::pair<const char*, Disorder>("", {}),
                                           {", noisy", {.noise = 0.3 * spacing}},

@@ -1,6 +1,6 @@
 #pragma once
 
-// What the tests and benchmarks of surfaces share: what holds boundaries, starts, and distances from spheres.
+// Shared by tests and benchmarks of surfaces: constraints of boundaries, starts, and distances from spheres.
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +19,10 @@ constexpr generate::Faces every_kind[] = {generate::Faces::triangles, generate::
 
 using Normal = std::function<Vector3(const Vector3&)>;
 
-/// Of the unit sphere.
+/// The normal of the unit sphere.
 inline Vector3 radial(const Vector3& p) { return p.normalized(); }
 
-/// Boundary positions, and normals too where a rule is given.
+/// Holds boundary positions, and normals if a rule is given.
 inline Constraints held_boundary(const PolygonMesh& mesh, const Normal& normal = nullptr) {
   Constraints constraints(mesh.node_count());
   fix_boundary_positions(constraints, mesh);
@@ -32,7 +32,7 @@ inline Constraints held_boundary(const PolygonMesh& mesh, const Normal& normal =
   return constraints;
 }
 
-/// Boundary positions and the normals that the mesh has there.
+/// Holds boundary positions and the normals of the mesh there.
 inline Constraints clamped_boundary(const PolygonMesh& mesh) {
   Constraints constraints = held_boundary(mesh);
   fix_boundary_normals(constraints, mesh);
@@ -41,7 +41,7 @@ inline Constraints clamped_boundary(const PolygonMesh& mesh) {
 
 inline double diagonal(const PolygonMesh& mesh) { return diagonal(mesh.positions()); }
 
-/// Of the box around the faces with a moving node: the unit of expected errors.
+/// The diagonal of the box around the faces with a moving node: the unit of expected errors.
 inline double diagonal(const PolygonMesh& mesh, const Constraints& constraints) {
   std::vector<Vector3> around;
   for (Index f = 0; f < mesh.face_count(); ++f) {
@@ -63,14 +63,14 @@ inline PolygonMesh with_positions(PolygonMesh mesh, std::vector<Vector3> positio
   return mesh;
 }
 
-/// Every node on the unit sphere.
+/// Moves every node onto the unit sphere.
 inline PolygonMesh projected(PolygonMesh mesh) {
   std::vector<Vector3> positions = mesh.positions();
   for (Vector3& position : positions) position.normalize();
   return with_positions(std::move(mesh), std::move(positions));
 }
 
-/// All nodes at one height.
+/// Moves all nodes to one height.
 inline PolygonMesh pressed(PolygonMesh mesh, double height) {
   std::vector<Vector3> positions = mesh.positions();
   for (Vector3& position : positions) position.z() = height;
@@ -78,7 +78,7 @@ inline PolygonMesh pressed(PolygonMesh mesh, double height) {
 }
 
 /// A cap of the unit sphere pressed flat at the height of its rim, with noise of that length inside. Angles along
-/// meridians become radii, so that nothing folds over.
+/// meridians become radii, so nothing folds.
 inline PolygonMesh flattened(PolygonMesh cap, double half_angle, double noise) {
   const double rim = half_angle * degree;
   std::vector<Vector3> flat = cap.positions();

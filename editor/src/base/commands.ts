@@ -1,4 +1,4 @@
-// What can be done, once: buttons, keys and the list of shortcuts all come from here.
+// All commands, in one list: buttons, keys and the list of shortcuts are made from it.
 
 export interface Command {
   id: string;
@@ -14,7 +14,7 @@ export interface Command {
 
 function keyOf(event: KeyboardEvent): string {
   const key = event.key.toLowerCase();
-  // Where a sign is on the keyboard, and whether it takes Shift, differs.
+  // Keyboards differ in where a sign is and whether it needs Shift.
   const shift = event.shiftKey && /^[a-z]$/.test(key);
   return `${event.ctrlKey || event.metaKey ? 'ctrl+' : ''}${shift ? 'shift+' : ''}${key}`;
 }

@@ -1,5 +1,5 @@
-// Entries of numbers: a length may come with its unit, arrow keys and two buttons change a number by a twentieth, and of what cannot be
-// taken it is said what to do.
+// Entries of numbers: a length may have its unit, arrow keys and two buttons change a number by a twentieth, and a
+// message says how to correct a wrong entry.
 
 import { inUnitOfFile, unitOf } from './units';
 

@@ -1,4 +1,4 @@
-// What is being opened, from the first moment: its name, its size, and how far that is.
+// Shows at once what is being opened: name, size and progress.
 
 export interface Loading {
   name: string;

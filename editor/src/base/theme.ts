@@ -7,7 +7,7 @@ function chosen(): string | null {
   try {
     return localStorage.getItem(key);
   } catch {
-    return null;  // where the browser keeps nothing
+    return null;  // if the browser stores nothing
   }
 }
 
@@ -22,7 +22,7 @@ export function switchTheme(): void {
   try {
     localStorage.setItem(key, theme);
   } catch {
-    // It then lasts as long as the page.
+    // The choice then lasts as long as the page.
   }
 }
 

@@ -1,4 +1,4 @@
-// A toolbar is one stop of the Tab key; arrow keys go on within it.
+// A toolbar is one stop of the Tab key; arrow keys move within it.
 
 export function rove(toolbar: HTMLElement): void {
   const buttons = [...toolbar.querySelectorAll('button')];

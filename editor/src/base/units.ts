@@ -1,4 +1,4 @@
-// What a unit of the file is: only words, as files do not say. The browser keeps the choice.
+// The name of the file's unit, a mere word, as files do not give it. The browser keeps the choice.
 
 const key = 'vspring-unit';
 let unit = kept();
@@ -7,7 +7,7 @@ function kept(): string {
   try {
     return localStorage.getItem(key) ?? '';
   } catch {
-    return '';  // where the browser keeps nothing
+    return '';  // if the browser stores nothing
   }
 }
 
@@ -35,7 +35,7 @@ export function bindUnit(menu: HTMLSelectElement, changed: () => void): void {
     try {
       localStorage.setItem(key, unit);
     } catch {
-      // It then lasts as long as the page.
+      // The choice then lasts as long as the page.
     }
     changed();
   });

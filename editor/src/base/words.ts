@@ -1,4 +1,4 @@
-// Words: numbers of things, and what messages of the library advise as it is called in the editor.
+// Words: numbers of things, and the editor's terms in advice of library messages.
 
 const words: [RegExp, string][] = [
   [/fix the (?:boundary|ends)/g, '$& (“Positions fixed”)'],

@@ -1,4 +1,4 @@
-// What holds the surface, as plain data: the rules of a constraints file, then what was done by hand, node by node.
+// The constraints of the surface, as plain data: the rules of a constraints file, then changes by hand, node by node.
 
 import type { Vector } from '../base/vectors';
 import { parts, type CurveNodes, type Part } from '../library/protocol';
@@ -154,7 +154,7 @@ export function withFairBoundary(constraints: Constraints, fairBoundary: boolean
 export function renumbered(constraints: Constraints, now: Int32Array): Constraints {
   const rules = (all: readonly Rule[]): Rule[] => all.flatMap((rule) => renumberedRule(rule, now) ?? []);
   const edits = Object.entries(constraints.edits).map(([node, edit]) => [now[Number(node)], edit] as const).filter(([node]) => node >= 0);
-  // What leaves a file as it is goes by no numbers.
+  // Constraints that leave a file unchanged need no numbers.
   const region = isUntouched(constraints) ? constraints.region : constraints.region && rules(constraints.region);
   return { ...constraints, rules: rules(constraints.rules), region, edits: Object.fromEntries(edits) };
 }
@@ -183,7 +183,7 @@ export interface Held {
 export function heldNodes(constraints: Constraints, boundary: Uint8Array): Held {
   const nodes = new Uint8Array(boundary.length);
   let unmarked = 0;
-  // What keeps a file as it is holds nothing that anybody asked for.
+  // Constraints that only keep a file unchanged were not asked for.
   for (const rule of isUntouched(constraints) ? ownRules(constraints) : allRules(constraints)) {
     const among = nodesOf(rule.nodes, boundary);
     if (!among) {

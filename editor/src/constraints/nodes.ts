@@ -95,7 +95,7 @@ function placeIn({ nodes, closed }: Chain, positions: Float64Array, at: number, 
   if (!(length > 0)) return a;
   const chord = scaled(minus(b, a), 1 / length);
   const [before, after] = [previous && slope(previous, a, b), next && slope(a, b, next)];
-  // At an open end that of the parabola through the last three nodes.
+  // At an open end, the tangent of the parabola through the last three nodes.
   const leave = before ?? (after ? minus(scaled(chord, 2), after) : chord);
   const arrive = after ?? minus(scaled(chord, 2), leave);
   const rest = 1 - share;

@@ -1,4 +1,4 @@
-// Scattered points that the shape is drawn towards, and how.
+// Scattered points that the shape is fitted to, and how.
 
 import type { NamedBytes } from '../base/files';
 import type { FitSettings } from '../library/protocol';

@@ -1,4 +1,5 @@
-// Only some nodes move: the others stay where they are seen, and next to them the shape keeps the tangents of what lies outside.
+// Regions: only some nodes move. The others stay as shown, and next to them the shape keeps the tangents of the part
+// outside.
 
 import type { Vector } from '../base/vectors';
 import type { Region } from '../library/protocol';

@@ -1,4 +1,4 @@
-// Curves that are drawn: the tool, and what is said of it in the page.
+// Drawing curves: the tool, and its texts in the page.
 
 import type { Command } from '../base/commands';
 import { Entry, wholeNumber } from '../base/entry';

@@ -1,4 +1,4 @@
-// Nodes of the open curve: a double click on it puts one there, keys put some between picked ones or delete these.
+// Nodes of the open curve: a double click on it adds one there; keys add nodes between picked ones, or delete these.
 
 import type { Command } from '../base/commands';
 import { counted } from '../base/words';

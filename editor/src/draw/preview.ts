@@ -1,4 +1,5 @@
-// The curve through what has been drawn so far, as it will be: one is asked for at a time, and of those that wait the newest is the next.
+// A preview of the curve through the places drawn so far. One request runs at a time; of waiting ones only the newest
+// is kept.
 
 import type { Vector } from '../base/vectors';
 import type { Ask } from '../library/protocol';

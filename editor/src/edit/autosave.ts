@@ -1,4 +1,4 @@
-// What is open, and all that was done to it, outlives the page: a reload or a crash loses nothing, nor does another file or another page.
+// Saves the open shape with all its steps: a reload, a crash, another file or another page loses nothing.
 
 import type { Editor, Source } from './editor';
 import type { History } from './history';
@@ -17,7 +17,7 @@ function own(): string | null {
   try {
     return sessionStorage.getItem(key);
   } catch {
-    return null;  // where the browser keeps nothing
+    return null;  // if the browser stores nothing
   }
 }
 
@@ -25,7 +25,7 @@ function setOwn(slot: string): void {
   try {
     sessionStorage.setItem(key, slot);
   } catch {
-    // The newest one then comes back.
+    // Then the newest one is restored.
   }
 }
 
@@ -52,7 +52,7 @@ export class Autosave {
         releaseSlot(slot);
       }
     } catch {
-      // If nothing can be kept either, that is said at the first change.
+      // If saving is impossible, too, the first change shows a message.
     }
     return false;
   }
@@ -177,7 +177,7 @@ export class Autosave {
     try {
       this.listed(await listSlots());
     } catch {
-      // Said when something is to be kept.
+      // The message appears when something is to be saved.
     }
   }
 

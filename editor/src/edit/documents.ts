@@ -1,4 +1,4 @@
-// What was open before, with all that was done to it: opening something else is undone like any other step.
+// Documents opened before, with all their steps: opening another one can be undone like any step.
 
 import type { Constraints } from '../constraints/constraints';
 import type { Source } from './editor';

@@ -1,4 +1,4 @@
-// The state of the editor, and all that changes it.
+// The state of the editor, and everything that changes it.
 
 import type { NamedBytes } from '../base/files';
 import type { Loading } from '../base/loading';
@@ -460,7 +460,7 @@ export class Editor {
       const asked = this.client.ask('nodes', curve ?? null);
       this.started = undefined;
       const opened = await asked;
-      // Something else may have been done meanwhile.
+      // Other changes may have happened meanwhile.
       if (source !== this.source || curve !== this.history.now.state.curve) return;
       this.shape = shapeOf(opened);
       this.positions = positions ?? opened.positions;
@@ -492,7 +492,7 @@ export class Editor {
       return;
     }
     const positions = drag ? solved.positions : this.kept(solved.positions);
-    // Of a large shape that stays as it is a picture would take seconds.
+    // Drawing a large unchanged shape would take seconds.
     const same = this.rests && this.seen === this.positions && furthest(positions, this.positions) === 0;
     if (!same) this.positions = positions;
     this.report = report;

@@ -1,4 +1,4 @@
-// Counts frames while something is dragged: one counts if it shows a shape solved for a place of the pointer at most 100 ms old.
+// Counts frames during a drag: a frame counts if it shows a shape solved for a pointer position at most 100 ms old.
 
 export class FrameCounter {
   private begin = 0;

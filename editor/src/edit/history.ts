@@ -1,4 +1,4 @@
-// Undo and redo: states as plain data, with what led to each.
+// Undo and redo: states as plain data, with the step that led to each.
 
 export interface Step<State> {
   readonly label: string;

@@ -1,4 +1,4 @@
-// What is open, and how it came to be: files, examples and drawn curves, and what was open before.
+// Opening: files, examples and drawn curves, and documents opened before.
 
 import type { NamedBytes } from '../base/files';
 import { painted } from '../base/loading';

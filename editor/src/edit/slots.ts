@@ -1,4 +1,4 @@
-// Places in the browser's storage: each file that is worked on has one of its own, and a page writes only to those that are its own.
+// Slots in the browser's storage: each file has its own, and a page writes only to its own slots.
 
 import { createStore, delMany, get, getMany, keys, setMany } from 'idb-keyval';
 import type { Constraints } from '../constraints/constraints';

@@ -1,4 +1,4 @@
-// The plane about which picks and moves are mirrored, where one is chosen.
+// The plane, if chosen, about which picks and moves are mirrored.
 
 import { Mirror } from '../shape/mirror';
 import type { Shape } from '../shape/shape';

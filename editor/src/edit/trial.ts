@@ -1,4 +1,4 @@
-// What is shown to be judged before it is a step, and what there was before.
+// Trials: a shape shown for judgement before it becomes a step, and the state before.
 
 import type { Report } from '../library/protocol';
 import type { Constraints } from '../constraints/constraints';

@@ -1,4 +1,4 @@
-// The worker as promises, and the one place where what is to be solved waits.
+// The worker as promises, with the only queue of solutions.
 
 import { endedAll, endedSolution, type Answer, type Ask, type Job, type Kind, type Reply, type Request, type Solved, type Start } from './protocol';
 
@@ -96,7 +96,7 @@ export class CoreClient {
 
   private keep(request: Request): void {
     if (request.kind === 'open' || request.kind === 'draw') this.sources = [request];
-    // Newer ones stand for older ones, and other nodes start at the input.
+    // Newer requests replace older ones, and other nodes start at the input.
     const gone: Partial<Record<Kind, readonly Kind[]>> = { nodes: ['nodes', 'start'], start: ['start'], points: [] };
     const replaced = gone[request.kind];
     if (replaced) this.sources = [...this.sources.filter(({ kind }) => !replaced.includes(kind)), request];
@@ -156,7 +156,7 @@ export class Solver {
     this.left = null;
     if (this.running) {
       this.waiting = merged(this.waiting, job);
-      // What comes from the input takes long, and is out of date already; what is dragged is still shown where that is soon.
+      // Solving from the input takes long, and the result would be out of date; a drag is still shown if it is soon.
       const late = !job.drag && performance.now() - this.began > soon;
       if (!this.running.drag || late) this.client.endSolutions();
     } else {
@@ -198,7 +198,7 @@ export class Solver {
       else this.events.failed((error as Error).message, job);
     }
     this.running = null;
-    // The shape is not what holds makes of it, however that one ended.
+    // The shape does not fit the constraints, however that solution ended.
     if (this.dropped) this.events.ended();
     this.dropped = false;
     const next = this.waiting;

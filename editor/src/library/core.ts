@@ -45,7 +45,7 @@ export async function loadFastest(folder: string): Promise<Core> {
     const { Worker } = self;
     const loading = new AbortController();
     const failure = new Promise<never>((_, failed) => {
-      // The library itself listens too late to hear of threads that cannot be loaded at all, and waits for them.
+      // The library listens too late to notice threads that cannot be loaded at all, and would wait for them.
       self.Worker = class extends Worker {
         constructor(address: string | URL) {
           super(address);

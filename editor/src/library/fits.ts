@@ -1,4 +1,4 @@
-// What the worker knows of scattered points, and how the shape follows with them.
+// Scattered points in the worker, and fits to them.
 
 import type { CorePoints, CoreShape } from './core';
 import type { FitJob, Report } from './protocol';

@@ -1,4 +1,4 @@
-// What the page asks of the worker, and what it answers. Arrays are handed over, not copied.
+// Requests of the page to the worker, and its answers. Arrays are transferred, not copied.
 
 import type { Curvatures, HeldNormals, Region, Report } from '../../../bindings/wasm/package/vspring_core';
 import type { NamedBytes } from '../base/files';

@@ -141,7 +141,7 @@ const handlers: Handlers = {
   },
   points({ number, from }) {
     const own = ArrayBuffer.isView(from);
-    // As the program does: a shape that is drawn to its own nodes leaves them about where they are.
+    // As in the program, nodes of a shape that is fitted to them keep about their places.
     return { positions: fits.add(number, own ? core.Points.at(from) : new core.Points(from.bytes, from.name), own) };
   },
   region({ rules, nodes, positions }) {
@@ -160,12 +160,12 @@ const handlers: Handlers = {
     if (foreseen) return { positions: foreseen, report: rough };
     const before = target.positions();
     const report = drag ? fits.update(target, progress) : fits.fair(target, progress);
-    // What was given up on the way may be crumpled.
+    // A cancelled shape may be crumpled.
     if (report.outcome === 'cancelled') target.setPositions(before);
     return { positions: target.positions(), report, normals };
   },
   curvatures({ positions }) {
-    return (opened() as CoreSurface).curvatures(positions);  // nobody asks it of curves
+    return (opened() as CoreSurface).curvatures(positions);  // never asked of curves
   },
   write({ name, positions }) {
     opened();

@@ -1,4 +1,4 @@
-// The lamps of reflection lines, by sliders: how many, and how they are turned in the view.
+// The lamps of reflection lines, by sliders: their number, and their rotation in the view.
 
 import type { Lamps } from '../view/materials';
 

@@ -1,4 +1,4 @@
-// How the shape is shown: shaded, by lines or colours, with edges over it, and beside its input.
+// How the shape is shown: shaded, by lines or colours, with edges, and next to its input.
 
 import type { Command } from '../base/commands';
 import type { Shape } from '../shape/shape';

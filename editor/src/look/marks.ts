@@ -1,4 +1,4 @@
-// Which nodes are marked: those that are held, picked, and under the pointer.
+// Which nodes are marked: held ones, picked ones, and the one under the pointer.
 
 import { rim } from '../shape/neighbours';
 import { heldPosition } from '../constraints/constraints';
@@ -42,7 +42,7 @@ export class Marks {
     if (this.held !== held || shown.edgeOnly !== edgeOnly) {
       this.held = held;
       const fixed = [...held.keys()].filter((node) => held[node] & heldPosition);
-      // Where most are held, as around a region, marks on all would hide it.
+      // If most nodes are held, as around a region, marks on all would hide the shape.
       const some = 2 * fixed.length > held.length && !curve ? [...rim(shape!, fixed)] : fixed;
       view.markers.set('held', this.hidden || edgeOnly ? [] : some);
       view.draw();

@@ -1,4 +1,4 @@
-// The axes in the corner of the view: how it is turned, and a click on an end looks from there.
+// The axes in the corner of the view: they show its rotation, and a click on an end looks from there.
 
 import type { Vector } from '../base/vectors';
 import { standing, type Up } from '../shape/upright';

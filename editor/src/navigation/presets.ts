@@ -1,4 +1,4 @@
-// Which buttons turn and move the view: as here, or as people have them from other programs. The browser keeps the choice.
+// Which buttons turn and move the view: the editor's own, or those of other programs. The browser keeps the choice.
 
 import { MOUSE } from 'three';
 
@@ -27,7 +27,7 @@ export function keptPreset(): Preset {
   try {
     return presets.find((preset) => preset === localStorage.getItem(key)) ?? 'vspring';
   } catch {
-    return 'vspring';  // where the browser keeps nothing
+    return 'vspring';  // if the browser stores nothing
   }
 }
 
@@ -35,7 +35,7 @@ function keepPreset(preset: Preset): void {
   try {
     localStorage.setItem(key, preset);
   } catch {
-    // It then lasts as long as the page.
+    // The choice then lasts as long as the page.
   }
 }
 

@@ -1,4 +1,4 @@
-// Which way is up, as a choice: as the shape seems to stand, or as somebody says. The browser keeps it.
+// Which way is up: as the shape seems to stand, or as chosen. The browser keeps the choice.
 
 import type { Shape } from '../shape/shape';
 import { guessedUp, ups, type Up } from '../shape/upright';
@@ -9,7 +9,7 @@ function kept(): string {
   try {
     return localStorage.getItem(key) ?? '';
   } catch {
-    return '';  // where the browser keeps nothing
+    return '';  // if the browser stores nothing
   }
 }
 
@@ -22,7 +22,7 @@ export class UpMenu {
       try {
         localStorage.setItem(key, menu.value);
       } catch {
-        // It then lasts as long as the page.
+        // The choice then lasts as long as the page.
       }
       chosen(this.up);
     });

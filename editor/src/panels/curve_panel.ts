@@ -1,4 +1,4 @@
-// The curvature of the open curve: its comb in the view, and its plot in the dock. Both follow the shape that is seen.
+// The curvature of the open curve: its comb in the view, and its plot in the dock. Both follow the visible shape.
 
 import { edge as chartEdge } from '../../../page/chart.js';
 import { addCurveCharts } from '../../../page/charts.js';

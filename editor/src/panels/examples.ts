@@ -1,5 +1,5 @@
-// What may be opened by name: what was worked on lately, and shapes to try. These are files of examples/, and what holds them where it is not
-// just the boundary.
+// Documents to open by name: recent ones, and shapes to try. The latter are files of examples/, with their constraints
+// unless only the boundary is held.
 
 import type { About } from '../edit/slots';
 

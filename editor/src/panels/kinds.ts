@@ -1,4 +1,4 @@
-// What of the page is for surfaces and what for curves: elements with data-for, and file formats.
+// Parts of the page for surfaces and for curves: elements with data-for, and file formats.
 
 import type { Shape } from '../shape/shape';
 
@@ -9,7 +9,7 @@ export function showFor(shape: Shape, name: string, format: HTMLSelectElement): 
   const kind = shape.curve ? 'curve' : 'surface';
   for (const element of document.querySelectorAll<HTMLElement>('[data-for]')) element.hidden = element.dataset.for !== kind;
   const own = name.split('.').at(-1)!.toLowerCase();
-  // Tracks are made of tracks alone.
+  // Only tracks can be saved as tracks.
   const offered = own === 'gpx' && shape.curve ? [...formats[kind], own] : formats[kind];
   format.replaceChildren(...offered.map((which) => new Option(which.toUpperCase(), which)));
   format.value = offered.includes(own) ? own : offered[0];

@@ -1,4 +1,4 @@
-// A picture of before and after, as both are seen now, with what its colours mean, a scale and figures: a PNG to show.
+// A PNG of before and after in the present view, with a legend, a scale and figures.
 
 import { quantiles, short } from '../../../page/numbers.js';
 import { marksOf } from '../../../page/surface_fields.js';

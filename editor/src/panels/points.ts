@@ -1,4 +1,4 @@
-// Scattered points that the shape is drawn towards: how, in the panel, and how far they are from it.
+// The panel of scattered points: how the shape is fitted to them, and their distances from it.
 
 import { short } from '../../../page/numbers.js';
 import type { Command } from '../base/commands';
@@ -56,7 +56,7 @@ export class PointsPanel {
   refresh(): void {
     const { fit } = this;
     const box = document.getElementById('fit')!;
-    // What is only tried has its own panel.
+    // Trials have their own panel.
     box.hidden = !fit || this.editor.trying;
     if (!fit) return;
     const { kind, value, outliers, cloud } = fit;

@@ -1,4 +1,4 @@
-// How far a pull reaches, as a slider: to its end, the whole shape goes along.
+// How far a pull reaches, as a slider: at its end the whole shape moves.
 
 import { short } from '../../../page/numbers.js';
 import type { Editor } from '../edit/editor';

@@ -1,4 +1,5 @@
-// Sections of the surface across an axis with their curvature combs: one where a slider or a number says, or several at even steps. They follow the shape that is seen.
+// Sections of the surface across an axis with their curvature combs: one at the place of a slider or number, or several
+// at even steps. They follow the visible shape.
 
 import type { Command } from '../base/commands';
 import { Entry, wholeNumber } from '../base/entry';
@@ -62,7 +63,7 @@ export class SectionPanel {
     const chosen = 'xyz'.indexOf(axis.value || '-');
     for (const field of document.querySelectorAll<HTMLElement>('#section .field:has(input)')) field.hidden = chosen < 0;
     for (const id of ['section-at', 'section-value']) document.getElementById(id)!.closest<HTMLElement>('.field')!.hidden = chosen < 0 || this.count.value > 1;
-    // Without a section another picture would be drawn for nothing.
+    // Without a section no other picture needs drawing.
     const draws = shape !== null && chosen >= 0;
     if (!draws && !this.shown) return;
     this.shown = draws;

@@ -1,4 +1,4 @@
-// The file of `vspring edit`, which the page's address names: ?file= is where it is read, ?save= where the result goes when that is asked for.
+// The file of `vspring edit`, named in the page's address: ?file= is read, ?save= receives the result on request.
 
 import type { Command } from '../base/commands';
 import { nameOf } from '../base/files';

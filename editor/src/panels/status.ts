@@ -1,4 +1,4 @@
-// What is said in words: of the shape, how it was solved, and what went wrong.
+// Texts about the shape, its solution, and errors.
 
 import { short } from '../../../page/numbers.js';
 import { withUnit } from '../base/units';

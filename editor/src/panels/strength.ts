@@ -1,4 +1,4 @@
-// How far on the way from the input to the result, as a slider.
+// A slider from the input to the result.
 
 /** The slider goes from 0 to 100; settled: it has been let go. */
 export function bindStrength(slider: HTMLInputElement, set: (share: number, settled: boolean) => void): void {

@@ -1,4 +1,4 @@
-// The plane about which picks and moves are mirrored, as a choice, and how many nodes have a mirror image.
+// The choice of the plane about which picks and moves are mirrored, and how many nodes have a mirror image.
 
 import { counted } from '../base/words';
 import type { Editor } from '../edit/editor';

@@ -1,4 +1,4 @@
-// What the brush is like, beside the view: its size by a slider, and whether it takes away. Fingers have no keys.
+// The brush's settings next to the view, for fingers, which have no keys: its size, and whether it removes.
 
 import { narrowest, widest, type Tools } from './tools';
 

@@ -1,4 +1,4 @@
-// Pointer on the view: a click picks, a held node is dragged, all else is left to the camera.
+// The pointer in the view: a click picks, a held node is dragged, everything else moves the camera.
 
 export interface GestureEvents {
   /** Whether the pointer is to pick and drag, and no other tool is in hand. */

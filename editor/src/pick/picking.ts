@@ -1,4 +1,4 @@
-// Which node is under the pointer: the nearest on the screen that nothing hides. Linear in the size of the surface.
+// Finds the node under the pointer: the nearest visible one on the screen. Linear in the size of the surface.
 
 import { hides, projected, type Seen } from '../view/seen';
 
@@ -13,7 +13,7 @@ export function pick(seen: Seen, x: number, y: number, radius: number, preferred
     if (distance <= radius) candidates.push({ node: k / 3, distance: preferred(k / 3) ? distance - radius / 2 : distance });
   }
   candidates.sort((a, b) => a.distance - b.distance);
-  // A few of the nearest: where all of those are hidden, the rest is, or is too crowded to be meant.
+  // Only the nearest few: if all of them are hidden, the rest is hidden, too, or too crowded to be meant.
   for (const { node } of candidates.slice(0, 12)) if (!hides(screen, seen.triangles, screen.subarray(3 * node, 3 * node + 3), node, 1e-4)) return node;
   return -1;
 }

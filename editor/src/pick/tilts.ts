@@ -1,4 +1,4 @@
-// The pointer on the arrows of normals or tangents: the head of one is taken, and goes with the pointer around the node.
+// Dragging the arrows of normals or tangents: the head follows the pointer around the node.
 
 import { tilted, tiltedWithin, turnBetween } from '../base/turning';
 import { cross, type Vector } from '../base/vectors';

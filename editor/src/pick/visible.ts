@@ -1,4 +1,4 @@
-// Which nodes nothing hides: the triangles are drawn into a picture of depths. Linear in the surface and in the pixels that it covers.
+// Finds visible nodes by drawing the triangles into a depth picture. Linear in the surface and in its pixels.
 
 import type { Seen } from '../view/seen';
 

@@ -1,4 +1,5 @@
-// The way of what is dragged: with the pointer in the plane of the view, along an axis, or along the normal of the node. Keys change it meanwhile.
+// The way of a drag: with the pointer in the plane of the view, along an axis, or along the normal of the node. Keys
+// change it during the drag.
 
 import { dot, type Vector } from '../base/vectors';
 
@@ -10,7 +11,7 @@ const axes: Record<'x' | 'y' | 'z', Vector> = { x: [1, 0, 0], y: [0, 1, 0], z: [
 export function along(axis: Vector, right: Vector, down: Vector, across: number, downwards: number): Vector {
   const square = dot(right, right);
   const [x, y] = [dot(axis, right) / square, dot(axis, down) / square];
-  // An axis that points at the eye: what the pointer does says nothing of how far.
+  // The pointer gives no distance along an axis that points at the eye.
   const seen = (x * x + y * y) * square;
   const far = seen < 0.0025 ? 0 : (across * x + downwards * y) / (x * x + y * y);
   return axis.map((part) => part * far) as Vector;

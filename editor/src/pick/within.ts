@@ -1,4 +1,5 @@
-// Which nodes lie in an outline on the screen. screen: pixels across and down and a depth for each node. Linear in their number.
+// Finds the nodes in an outline on the screen. screen: pixels across and down and a depth for each node. Linear in
+// their number.
 
 type Point = readonly [number, number];
 
@@ -15,7 +16,7 @@ export function inBox(screen: Float32Array, [ax, ay]: Point, [bx, by]: Point): n
 
 /** Within a loop, whatever its form; to half a pixel. */
 export function inLoop(screen: Float32Array, loop: readonly Point[]): number[] {
-  // Where it crosses each row of pixels, so that a node looks at its own row only.
+  // The outline's crossings with each row of pixels, so a node needs only its own row.
   const crossings = new Map<number, number[]>();
   loop.forEach(([ax, ay], k) => {
     const [bx, by] = loop[(k + 1) % loop.length];

@@ -1,5 +1,5 @@
-// Where a large shape goes while the library is still at work on it: on from its last shapes, as these went with the pointer. So the picture
-// keeps up with a pointer that the library cannot keep up with.
+// Extrapolates a large shape from its last shapes and the pointer while the library still works on it, so the picture
+// keeps up with the pointer.
 
 import { dot, type Vector } from '../base/vectors';
 

@@ -1,4 +1,5 @@
-// What is held and goes with the pointer: positions of nodes, or their normals or tangents, which turn. The shape follows; on release it is faired anew.
+// Drags: held positions follow the pointer, or normals or tangents turn with it. The shape follows; on release it is
+// faired anew.
 
 import { turned } from '../base/turning';
 import type { Vector } from '../base/vectors';

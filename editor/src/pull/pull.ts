@@ -1,10 +1,10 @@
-// Held nodes or normals on their way to the pointer. A shape follows short steps quickly and long ones badly, so long ways are made in
-// steps, as long as lately took few iterations.
+// Moves held nodes or normals towards the pointer. A shape follows short steps quickly and long ones badly, so long
+// ways are divided into steps whose length recently took few iterations.
 
 import type { Vector } from '../base/vectors';
 import type { Drag, Part } from '../library/protocol';
 
-// Beyond 30 the library fairs anew, which takes many times as long.
+// After 30 iterations the library fairs anew, which takes many times as long.
 const few = 8;
 const many = 15;
 

@@ -1,4 +1,4 @@
-// How far around what is pulled the shape goes with it.
+// How far around the pulled nodes the shape moves.
 
 import type { Shape } from '../shape/shape';
 

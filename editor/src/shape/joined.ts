@@ -1,4 +1,4 @@
-// Which nodes edges join to one part.
+// The nodes of a part connected by edges.
 
 export interface JoinedEdges {
   count: number;

@@ -1,4 +1,4 @@
-// Boundary loops, by what joins the nodes of a boundary.
+// Boundary loops, from the edges between boundary nodes.
 
 import type { Shape } from './shape';
 

@@ -1,4 +1,4 @@
-// Sets of nodes by what the edges join. Linear in the size of the surface.
+// Sets of nodes by neighbourhood along edges. Linear in the size of the surface.
 
 import { partsOf } from './joined';
 import type { Shape } from './shape';

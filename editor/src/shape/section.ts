@@ -1,4 +1,4 @@
-// Where a plane across an axis cuts the surface: runs of places, with the normals of the surface there, as far as it is smooth.
+// The section of the surface by a plane across an axis: runs of places, with the surface's normals where it is smooth.
 
 import type { Vector } from '../base/vectors';
 import type { Shape } from './shape';

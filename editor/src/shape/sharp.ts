@@ -1,4 +1,4 @@
-// Where a shape has edges: edges at which its faces turn, nodes at which a curve does.
+// Sharp places of a shape: edges at which faces turn, nodes at which a curve does.
 
 import { partsOf } from './joined';
 

@@ -1,4 +1,5 @@
-// Nodes that keep their place along a shape which has moved: each goes back along the new shape, until only the way across is left of its way.
+// Keeps nodes in their place along a shape that moved: each goes back along the new shape until it has moved across the
+// shape only.
 
 import { normalsOf } from '../../../page/mesh.js';
 import { dot, type Vector } from '../base/vectors';
@@ -29,7 +30,7 @@ export function directionsOf({ curve, faces, edges }: Shape, positions: Float64A
       const [before, after] = [loop || k > 0 ? k - 1 : k, loop || k + 1 < count ? k + 1 : k];
       const [u, v] = [minus(at(positions, node(k)), at(positions, node(before))), minus(at(positions, node(after)), at(positions, node(k)))];
       const [long, next] = [Math.hypot(...u) || 1, Math.hypot(...v) || 1];
-      // Of the circle through the three.
+      // The tangent of the circle through the three.
       const sum = u.map((part, i) => (part / long) * next + (v[i] / next) * long);
       const length = Math.hypot(...sum) || 1;
       tangents.set(sum.map((part) => part / length), 3 * node(k));
@@ -93,7 +94,7 @@ export function strayed({ runs: { begin, nodes }, closed }: CurveParts, start: F
     const run = nodes.subarray(begin[c], begin[c + 1]);
     const count = run.length;
     const edges = loop ? count : count - 1;
-    // How many edges further along the last node's nearest place is.
+    // How many edges ahead the last node's nearest place is.
     let ahead = 0;
     const follow = (k: number): void => {
       const place = at(positions, run[k]);
@@ -115,7 +116,7 @@ export function strayed({ runs: { begin, nodes }, closed }: CurveParts, start: F
       for (let n = 1, gone = 0; n <= (loop ? count : k) && gone <= reach && nearest > greatest; ++n) gone += look(-n);
       greatest = Math.max(greatest, nearest);
     };
-    // The node that has gone furthest first: most others have not come so far in all.
+    // The node that moved furthest first: most others moved less in all.
     let furthest = 0;
     for (let k = 1; k < count; ++k) if (away(run[k]) > away(run[furthest])) furthest = k;
     follow(furthest);

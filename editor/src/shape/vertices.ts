@@ -1,4 +1,4 @@
-// What is drawn of a surface: its nodes, those at sharp edges once for every smooth part that meets there.
+// Vertices for drawing a surface: its nodes, at sharp edges one for every smooth part that meets there.
 
 import { sharpEdges } from './sharp';
 

@@ -1,4 +1,4 @@
-// What becomes of a file that is dropped: opened, or points that what is open is drawn towards. Where it could be either, that is asked.
+// A dropped file is opened, or becomes points that the open shape is fitted to. If it could be either, the page asks.
 
 import type { NamedBytes } from '../base/files';
 import { counted } from '../base/words';

@@ -1,4 +1,5 @@
-// The panel of what may be done to the shape: it shows what would come of each way, and makes it a step. The next way begins with what came of it.
+// The panel of ways to fair the shape: it shows the result of each way, and makes it a step. The next way starts from
+// that result.
 
 import { short } from '../../../page/numbers.js';
 import type { Command } from '../base/commands';
@@ -190,7 +191,7 @@ export class StartPanel {
     try {
       const found = way === 'free' ? freed(editor.constraints) : await this.tried();
       if (attempt === this.latest) editor.try(found);
-      // It may have asked about a shape that starts elsewhere.
+      // Its request may be of a shape with another start.
       else if (!this.way) editor.settle();
     } catch (error) {
       editor.setFault((error as Error).message, 'solver');

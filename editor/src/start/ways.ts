@@ -1,4 +1,4 @@
-// What may be done to a shape: the constraints of each way.
+// Ways to fair a shape: the constraints of each.
 
 import type { Stay } from '../shape/stays';
 import { heldPosition, type Constraints, type Held, type Rule } from '../constraints/constraints';

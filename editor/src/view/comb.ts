@@ -1,4 +1,5 @@
-// The curvature comb: from every node a hair away from the centre of curvature, as long as the curvature is large, and the line through their tips.
+// The curvature comb: a hair from every node, away from the centre of curvature and in proportion to the curvature, and
+// the line through their tips.
 
 import { quantiles } from '../../../page/numbers.js';
 import { dot, type Vector } from '../base/vectors';
@@ -16,7 +17,7 @@ export interface Chain {
 
 const longestTooth = 0.15;  // of the size, for the sharpest place
 const straight = 0.02;      // a curve that bends by less, as a share of one over its size, has shorter hairs
-const longestTeeth = 0.4;   // where those of a shape that has changed since are cut off
+const longestTeeth = 0.4;   // hairs of a shape that has changed since are cut off there
 
 /** What a comb is made of. */
 type Combed = Pick<Chain, 'points' | 'vectors' | 'closed'>;
@@ -75,7 +76,7 @@ export function combedSection({ points, normals, closed }: Run, step: number): C
   }
   const around = (k: number): number => (k + places.length) % places.length;
   const vectors = places.map((_, k) => {
-    // At rims and sharp edges normals are of faces on one side alone, and no good ones.
+    // At rims and sharp edges normals come from faces on one side only and are inaccurate.
     if (!closed && (k < 2 || k >= places.length - 2)) return null;
     const [before, after] = [around(k - 1), around(k + 1)];
     const way = places[after].map((part, i) => part - places[before][i]);

@@ -31,7 +31,7 @@ export class CurveLayer {
     const segments = new Float32Array(3 * ends.length);
     for (let k = 0; k < ends.length; ++k) for (let i = 0; i < 3; ++i) segments[3 * k + i] = places[3 * ends[k] + i];
     this.line.visible = ends.length > 0;
-    // Made anew, as the number of its segments stays that of the first.
+    // Made anew, as a geometry cannot change its number of segments.
     this.line.geometry.dispose();
     this.line.geometry = new LineSegmentsGeometry();
     if (this.line.visible) this.line.geometry.setPositions(segments);

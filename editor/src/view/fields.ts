@@ -1,4 +1,4 @@
-// What colours can show of a surface: numbers at its nodes, the range of the colours, and what they are called.
+// Fields that colours can show on a surface: numbers at its nodes, the range of the colours, and names.
 
 import { diverging, sequential } from '../../../page/colours.js';
 import { deviationsOf, normalsOf } from '../../../page/mesh.js';
@@ -33,7 +33,7 @@ function titleOf(name: FieldName, fromInput: boolean): string {
   if (name === 'mean') return `Mean curvature, 1 / ${unit || 'unit of the file'}`;
   return name === 'gaussian' ? `Gaussian curvature, 1 / ${unit || 'unit'}²` : `Deviation from ${fromInput ? 'the input' : 'what was applied last'}, ${unit || 'units of the file'}`;
 }
-// What may be asked of the library before the next shape of a drag, in milliseconds.
+// How long the library may take for a field during a drag, in milliseconds.
 const cheap = 12;
 
 /** Keeps up with the shape that is seen; its colours have the range of the result, so that input and result can be compared. */

@@ -1,4 +1,4 @@
-// A grid of units of the file in the plane z = 0, to draw on.
+// A grid in units of the file in the plane z = 0, to draw on.
 
 import { BufferAttribute, BufferGeometry, LineBasicMaterial, LineSegments } from 'three';
 import { nothing } from '../shape/shape';

@@ -1,4 +1,4 @@
-// Discs at nodes: those that are held, those that are picked, and the one under the pointer.
+// Discs at nodes: held ones, picked ones, and the one under the pointer.
 
 import { BufferAttribute, BufferGeometry, Points, type Color } from 'three';
 import { markerMaterial } from './materials';

@@ -1,4 +1,4 @@
-// What the graphics card does: surfaces as in the page of --html, markers as discs.
+// Shaders: surfaces as in the page of --html, markers as discs.
 
 import { Color, DoubleSide, GLSL3, ShaderMaterial, Vector2, Vector3 } from 'three';
 import { fragmentShader, usualLamps } from '../../../page/shaders.js';
@@ -11,7 +11,8 @@ out vec3 facing;
 out float height;
 void main() {
   vec4 seen = modelViewMatrix * vec4(position, 1.0);
-  place = mat3(modelViewMatrix) * position;  // from the middle of the shape, so that lamps stay with it where the view is moved
+  place = mat3(modelViewMatrix) * position;  // relative to the middle of the shape, so lamps stay with it when the view
+                                             // moves
   facing = normalMatrix * normal;
   height = value;
   gl_Position = projectionMatrix * seen;
@@ -35,11 +36,11 @@ export function surfaceMaterial(): ShaderMaterial {
   return new ShaderMaterial({
     glslVersion: GLSL3,
     vertexShader,
-    // three.js writes the line of the version itself.
+    // three.js writes the version line itself.
     fragmentShader: fragmentShader.replace(/^#version.*/, ''),
     uniforms: {
       kind: { value: 1 }, colour: { value: new Color() }, range: { value: new Vector2(0, 1) }, stops: { value: Array.from({ length: 9 }, () => new Vector3()) },
-      // As far away as the shape is large.
+      // At a distance of the shape's size.
       nearness: { value: 1 }, lamps: { value: usualLamps }, across: { value: new Vector2(1, 0) },
     },
     side: DoubleSide,

@@ -1,4 +1,4 @@
-// Nodes as they are seen: where each is on the screen, and whether a triangle lies before it.
+// Nodes in the view: where each is on the screen, and whether a triangle hides it.
 
 /** What is seen: places in the units of the view, and how they come to the screen, by columns as in three.js. */
 export interface Seen {

@@ -1,4 +1,4 @@
-// Fewer triangles for pictures of a drag, where no graphics card draws them: each costs as much as its pixels.
+// Fewer triangles for pictures of a drag without a graphics card, where each costs as much as its pixels.
 
 import type { MeshoptSimplifier } from 'meshoptimizer/simplifier';
 
@@ -17,6 +17,6 @@ export async function loadSimplifier(): Promise<void> {
  */
 export function simplified(triangles: Uint32Array, places: Float32Array, count: number): Uint32Array | null {
   if (!simplifier?.supported) return null;
-  // Nearly flat parts would get huge triangles, which show when they are bent.
+  // Else nearly flat parts would get huge triangles, which become visible when bent.
   return simplifier.simplify(triangles, places, 3, 3 * count, 1, ['Regularize', 'LockBorder'])[0];
 }

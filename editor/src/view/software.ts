@@ -1,4 +1,4 @@
-// Where no graphics card draws, each picture costs tens of milliseconds, most of them for smooth edges.
+// Without a graphics card each picture costs tens of milliseconds, mostly for smooth edges.
 
 export function drawsInSoftware(): boolean {
   const gl = document.createElement('canvas').getContext('webgl2');

@@ -72,7 +72,7 @@ export class SurfaceLayer {
 
   restyle(colour: (name: string) => Color): void {
     const { kind, colour: fill } = this.surface.material.uniforms;
-    // Until its values are there, a surface is shaded.
+    // Until its values have come, a surface is shaded.
     kind.value = kindOf(kindOf(this.look) === 3 && !this.field ? 'shaded' : this.look);
     fill.value = colour(this.look === 'wire' ? '--stage' : '--surface');
     this.lines.material.color = colour('--wire');

@@ -66,7 +66,7 @@ export class View {
 
   /** panel: what may lie above the right end of the view. drawn: called after each picture. Throws where the browser has no WebGL 2. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly panel: HTMLElement, private readonly drawn: () => void) {
-    // Nothing is behind it: opaque, it costs the browser less.
+    // Nothing is behind the canvas: opaque, it costs the browser less.
     const context = canvas.getContext('webgl2', { alpha: false, antialias: !this.software });
     if (!context) throw new Error('no WebGL 2');
     this.renderer = new WebGLRenderer({ canvas, context });

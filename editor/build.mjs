@@ -17,7 +17,7 @@ rmSync(out, { recursive: true, force: true });
 mkdirSync(out, { recursive: true });
 const options = { absWorkingDir: join(root, 'editor'), bundle: true, minify: true, target: 'es2022', logLevel: 'warning', legalComments: 'linked' };
 await build({ ...options, entryPoints: ['src/main.ts', 'src/style.css'], outdir: out, format: 'esm', splitting: true, chunkNames: '[name]' });
-// Not a module: what Emscripten makes is loaded by importScripts.
+// Not a module: Emscripten's output is loaded by importScripts.
 await build({ ...options, entryPoints: ['src/library/worker.ts'], outdir: out, format: 'iife' });
 for (const path of [...core, join(root, 'editor/src/index.html')]) cpSync(path, join(out, path.split('/').at(-1)));
 for (const licence of ['three/LICENSE', 'idb-keyval/LICENCE', 'meshoptimizer/LICENSE.md']) cpSync(join(root, 'editor/node_modules', licence), join(out, 'licences', `${dirname(licence)}.txt`));

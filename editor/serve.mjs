@@ -6,7 +6,8 @@ import { extname, join, normalize } from 'node:path';
 
 const types = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.json': 'application/json' };
 
-// folders: address prefix -> folder. shared: whether the page may share memory with its worker. Returns the server, which listens on 127.0.0.1 once the promise is kept.
+// folders: address prefix -> folder. shared: whether the page may share memory with its worker. Returns a promise of
+// the server, listening on 127.0.0.1.
 export function serve(folders, port = 0, shared = true) {
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://x').pathname);
@@ -16,7 +17,7 @@ export function serve(folders, port = 0, shared = true) {
       response.writeHead(404).end('not found');
       return;
     }
-    // The two policies let page and worker share memory: a solution that is out of date then ends soon.
+    // The two policies let page and worker share memory, so a solution that is out of date can be ended soon.
     response.writeHead(200, {
       'Content-Type': types[extname(file)] ?? 'application/octet-stream',
       ...(shared ? { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' } : {}),

@@ -1,4 +1,4 @@
-"""What scripts/mutate breaks: for each source (name, formula, text, what takes its place, type).
+"""The mutations of scripts/mutate: for each source (name, formula, text, replacement, type).
 
 The text must be found exactly once in its source. One that ends with a semicolon is replaced as a statement, others as expressions; a type
 is needed where the two have different ones, as Eigen's expressions do.

@@ -8,7 +8,7 @@ PROGRAM = os.environ.get("VSPRING", pathlib.Path(__file__).resolve().parent.pare
 FAIRING = ["fair", "curve", "fit", "fill", "measure"]
 # How the help is laid out: descriptions begin at this column, or on the next line.
 COLUMN = 30
-# What the help calls kinds of values.
+# Names of kinds of values in the help.
 KINDS = {"POSITIVE": "more than 0", "NONNEGATIVE": "0 or more", "WHOLE": "a whole number"}
 
 

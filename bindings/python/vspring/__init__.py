@@ -1,5 +1,5 @@
 """Fair curves and surfaces: vspring moves the nodes of a polygon mesh or a polygonal curve until curvature changes as
-gently as what is held allows.
+gently as the constraints allow.
 
     positions, report = vspring.fair(vertices, faces)
 

@@ -12,7 +12,7 @@ from ._shapes import array_of, in_space, indices_of, numbers_of
 
 
 class Chains(NamedTuple):
-    """What fair_curve() takes of a curve besides its vertices."""
+    """The arguments of fair_curve() besides the vertices."""
 
     chains: list[np.ndarray]
     """Node numbers of each chain, in order."""
@@ -21,12 +21,12 @@ class Chains(NamedTuple):
 
 
 def order(points: ArrayLike, *, closed: bool = False) -> np.ndarray:
-    """Puts points that come in no order in one along the curve that they lie on: vspring.fair_curve(points[vspring.order(points)]).
+    """Finds the order of points along their curve: vspring.fair_curve(points[vspring.order(points)]).
 
     points: (n, 2) or (n, 3). closed: whether the last one joins the first.
 
-    Returns their numbers, (n,). It is right where neighbours along the curve are nearer to each other than to other parts
-    of it. Raises vspring.Error naming a point that is not finite. Cost: n log n, 0.1 s for 20,000 points.
+    Returns their numbers, (n,). The order is right if neighbours along the curve are nearer to each other than to other
+    parts of it. Raises vspring.Error naming a point that is not finite. Cost: n log n, 0.1 s for 20,000 points.
 
     Source: I. K. Lee, Computer Aided Geometric Design 17 (2000), for the spanning tree; docs/curves.md.
     """
@@ -34,9 +34,9 @@ def order(points: ArrayLike, *, closed: bool = False) -> np.ndarray:
 
 
 def chains_of(edges: ArrayLike) -> Chains:
-    """Chains of edges in any order: vspring.fair_curve(vertices, **vspring.chains_of(edges)._asdict()).
+    """Joins edges in any order to chains: vspring.fair_curve(vertices, **vspring.chains_of(edges)._asdict()).
 
-    edges: (m, 2) node numbers; an edge that is given again counts once. Chains end where other than two edges meet.
+    edges: (m, 2) node numbers; a repeated edge counts once. Chains end where the number of edges is not two.
 
     Returns open chains first, each from the end with the lesser number. Raises vspring.Error. Cost: m log m.
     """

@@ -1,4 +1,4 @@
-"""How a surface bends at each node, and colours for that."""
+"""The curvatures of a surface at its nodes, and colours for them."""
 from __future__ import annotations
 
 from typing import NamedTuple
@@ -21,7 +21,7 @@ SHARE = 0.96
 
 
 class Curvatures(NamedTuple):
-    """How a surface bends at each node. Curvatures are 1/length, positive where the surface bends away from its normal, as on
+    """The curvatures of a surface at its nodes, 1/length, positive where the surface bends away from its normal, as on
     a sphere with outward normals."""
 
     k1: np.ndarray
@@ -47,22 +47,24 @@ class Curvatures(NamedTuple):
 
 
 def curvatures(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None, *, threads: int | None = None) -> Curvatures:
-    """The curvatures of a surface at its nodes: by a polynomial of fourth degree through each node that fits the nodes around.
+    """Computes the curvatures of a surface at its nodes: by a polynomial of fourth degree through each node, fitted to
+    the nodes around.
 
-    vertices, faces: as of fair(), or what read() returned. threads: how many work; the same bits for every number.
+    vertices, faces: as for fair(), or the result of read(). threads: their number; the same bits for every number.
 
-    On smooth surfaces they err with the third power of the spacing, at boundaries too. Zero where too few nodes are around.
+    On smooth surfaces the error is of third order in the spacing, also at boundaries. Zero where too few nodes are
+    around.
     Raises vspring.Error. Cost: linear, some microseconds a node. Source: Cazals and Pouget 2005; docs/fairness.md.
     """
     return Curvatures(*_vspring.curvatures(surface_of(vertices, faces).core, threads or 0))
 
 
 def colours(values: ArrayLike, *, about: float | None = None, over: ArrayLike | None = None) -> tuple[np.ndarray, tuple[float, float]]:
-    """Colours that show numbers at nodes, even to the eye and safe for the colour-blind.
+    """Colours for numbers at nodes, perceptually uniform and safe for the colour-blind.
 
-    values: (n,), finite. about: the value that is white, with violet below and orange above; without it colours go from dark
-    blue to yellow. over: values that colours are spread over, such as those of another shape or of a part; these ones where
-    not given. Colours are spread over the middle 96 %; what is beyond has the colours of the ends.
+    values: (n,), finite. about: the value that is white, with violet below and orange above; without it colours go from
+    dark blue to yellow. over: values that determine the range, such as those of another shape or of a part; by default
+    `values`. The range is their middle 96 %; values beyond have the colours of the ends.
 
     Returns (n, 3), sRGB from 0 to 1, and the values of the first and the last colour. Raises vspring.Error.
     """
@@ -82,7 +84,7 @@ def _finite(values: ArrayLike, name: str) -> np.ndarray:
 
 
 def _range(numbers: np.ndarray, about: float | None) -> tuple[float, float]:
-    """A sphere has one curvature, but for the last digits: it has one colour."""
+    """A sphere has one curvature except in the last digits, so it gets one colour."""
     if not len(numbers):
         numbers = np.zeros(1)
     if about is None:

@@ -1,4 +1,4 @@
-"""What goes wrong, and what a person should know."""
+"""Errors and warnings."""
 from __future__ import annotations
 
 import sys
@@ -11,10 +11,10 @@ _PACKAGE = str(Path(__file__).parent)
 
 
 class Error(ValueError):
-    """Input that vspring cannot work with. The message names what is at fault and says what to do.
+    """Input that vspring cannot work with. The message names the element at fault and says what to do.
 
     code: "invalid-argument", "unusable-file", "unusable-shape" or "unusable-constraint".
-    A call that raises it has changed nothing.
+    A call that raises it changes nothing.
     """
 
     def __init__(self, code: str, message: str) -> None:
@@ -26,10 +26,10 @@ class Error(ValueError):
 
 
 class Warning(UserWarning):
-    """What a person should know of a result.
+    """A warning about a result.
 
-    code: of a run, as the report of the command line has it, such as "immovable-nodes" or "worse-than-input";
-    "reading" and "writing" of files.
+    code: for runs as in the report of the command line, such as "immovable-nodes" or "worse-than-input"; for files
+    "reading" or "writing".
     """
 
     def __init__(self, code: str, message: str) -> None:
@@ -41,7 +41,7 @@ class Warning(UserWarning):
 
 
 def warn(each: Iterable[tuple[str, str]]) -> None:
-    """Warns where the package was called."""
+    """Warns at the caller of the package."""
     depth = 1
     frame: FrameType | None = sys._getframe()
     while frame is not None and frame.f_code.co_filename.startswith(_PACKAGE):

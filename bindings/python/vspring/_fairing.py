@@ -23,19 +23,20 @@ OWN_NODES = (None, None, None)
 @spelled_out(SurfaceOptions)
 def fair(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None,
          **options: Unpack[SurfaceOptions]) -> Result[Report]:
-    """Fairs a surface: curvature changes as gently as what is held allows. Connectivity stays.
+    """Fairs a surface: curvature changes as gently as the constraints allow. Connectivity stays.
 
-    vertices: (n, 3), float64 or float32, in any unit. float32 comes back as float32, rounded from doubles.
+    vertices: (n, 3), float64 or float32, in any unit. float32 is returned as float32, rounded from doubles.
     faces: (m, 3) or (m, 4) node numbers, a list of lists or of such arrays, or a tuple of two arrays, corners and m + 1
     offsets.
-    Or else, in place of both, what read() returned. With weight, smoothing_length, within, rms or noise, the surface is
-    drawn to its own nodes, as they are in the input.
+    Or the result of read() in place of both. With weight, smoothing_length, within, rms or noise, the surface is fitted
+    to its own nodes in the input.
 
-    Returns new positions, (n, 3), and a report; arguments are unchanged. See outcome in the report: what did not
-    converge is the best shape so far, never worse than the input without a word.
+    Returns new positions, (n, 3), and a report; arguments are unchanged. See outcome in the report: if it did not
+    converge the positions are the best shape so far. Outcome or a warning says if they are worse than the input.
 
-    Raises vspring.Error for input that cannot be faired, TypeError for arguments of another kind, and KeyboardInterrupt on
-    Ctrl-C, which has the best shape so far as positions and report. Other threads of Python go on meanwhile. Cost: linear in the
+    Raises vspring.Error for input that cannot be faired, TypeError for arguments of a wrong type, and KeyboardInterrupt
+    on Ctrl-C; this has the best shape so far as positions and report. Other threads of Python run meanwhile. Cost:
+    linear in the
     nodes, some 10 to 15 µs a node; about 0.9 kB of memory for every moving node.
 
     Source: A. Yamada, K. Shimada, T. Furuhata, K.-H. Hou, "A Discrete Spring Model for Generating Fair Curves and
@@ -47,13 +48,13 @@ def fair(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None,
 @spelled_out(CurveOptions)
 def fair_curve(vertices: ArrayLike | _vspring.Curve, *, chains: Sequence[ArrayLike] | None = None,
                closed: bool | Sequence[bool] = False, **options: Unpack[CurveOptions]) -> Result[Report]:
-    """Fairs a curve: between what is held, curvature becomes linear in arc length.
+    """Fairs a curve: between held nodes, curvature becomes linear in arc length.
 
-    vertices: (n, 2) or (n, 3), float64 or float32, in any unit; positions come back with as many columns.
-    chains: node numbers of each chain in order, where all nodes in a row are not the one chain.
-    closed: whether the last node joins the first, which is not repeated; of all chains, or one value each.
-    Or else, in place of all, what read() returned. With weight, smoothing_length, within, rms or noise, the curve is
-    drawn to its own nodes, as they are in the input.
+    vertices: (n, 2) or (n, 3), float64 or float32, in any unit; positions are returned with as many columns.
+    chains: node numbers of each chain in order; by default all nodes in a row are one chain.
+    closed: whether the last node joins the first, which is not repeated; one value for all chains, or one each.
+    Or the result of read() in place of all. With weight, smoothing_length, within, rms or noise, the curve is fitted to
+    its own nodes in the input.
 
     Returns and raises what fair() does. Cost: linear, 0.15 s for 100,000 nodes.
 
@@ -67,17 +68,17 @@ def fit(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | 
         points: ArrayLike | Points | None = None, *, weights: ArrayLike | None = None, normals: ArrayLike | None = None,
         chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False,
         **options: Unpack[FitOptions]) -> Result[FitReport]:
-    """Fairs a surface or, without faces, a curve, and draws it to scattered points.
+    """Fairs a surface or, without faces, a curve, and fits it to scattered points.
 
-    vertices, faces, chains, closed: as of fair() and fair_curve(), or what read() returned.
-    points: (p, 3), in units of the shape, or what read_points() returned; the shape's own nodes where not given.
-    weights: (p,), 0 or more; 1 each where not given. A point of weight 0 is only measured.
-    normals: (p, 3), unit length, zero where not known: which way a surface faces at each point. A point pulls only at
-    nodes that face within 90° of that.
+    vertices, faces, chains, closed: as for fair() and fair_curve(), or the result of read(). points: (p, 3), in units
+    of the shape, or the result of read_points(); by default the shape's own nodes.
+    weights: (p,), 0 or more; by default 1 each. A point of weight 0 is only measured.
+    normals: (p, 3), of the surface at each point, of unit length, zero if unknown. A point pulls only at nodes whose
+    normal is within 90° of its own.
 
-    One of weight, smoothing_length, within, rms and noise says how points pull. Returns new positions and a report with
+    One of weight, smoothing_length, within, rms and noise must be given. Returns new positions and a report with
     distances of the points. Raises what fair() does. Cost: that of fair(), and linear in the points for every iteration;
-    within and rms find the equilibrium of a surface some ten to a hundred times. With fix="none" the boundary of a surface
+    within and rms bring a surface to equilibrium ten to a hundred times. With fix="none" the boundary of a surface
     goes to where the points end; the report's boundary_of_points says how many nodes could.
 
     Source: § 4.5 and Eq. 9 of the paper; docs/fit.md.
@@ -91,8 +92,8 @@ def measure(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Face
             chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False, **options: Unpack[MeasureOptions]) -> Figures:
     """Measures how fair a surface is or, without faces, a curve.
 
-    vertices, faces: as of fair(); chains, closed: as of fair_curve(). With fix or fix_normals, only what lies at moving
-    nodes is measured.
+    vertices, faces: as for fair(); chains, closed: as for fair_curve(). With fix or fix_normals, only faces and edges
+    at moving nodes are measured.
 
     Returns figures by their keys, each with name, unit and definition. Raises vspring.Error. Cost: n log n, some
     microseconds a node. Definitions and sources: docs/fairness.md.
@@ -142,7 +143,7 @@ def has_new_nodes(options: Mapping[str, Any]) -> bool:
 
 def ended(given: Given, positions: Any, report: SomeReport, tell: Teller | None,
           stopped_by: BaseException | None) -> Result[SomeReport]:
-    """The result of a call, or what ended it before its time with the best shape so far."""
+    """The result of a call; raises the exception that ended it early, with the best shape so far."""
     if tell is not None and isinstance(stopped_by, TimeIsUp):
         stopped_by = None
         if report.outcome == "cancelled":

@@ -1,4 +1,4 @@
-"""Shapes from files and into files."""
+"""Reading and writing shapes."""
 from __future__ import annotations
 
 import os
@@ -21,11 +21,11 @@ def read(path: str | os.PathLike[str], *, format: str | None = None, curve: bool
          columns: Sequence[str] = ()) -> Surface | Curve:
     """Reads a surface (OBJ, OFF, PLY, STL) or a curve (OBJ with l elements and no faces, CSV, DAT, XYZ, GPX).
 
-    format: such as "ply", where neither content nor extension tell. curve: whether it is one, where that is not to be
-    found from the file. columns: of CSV and XYZ, those of x, y and z by their names or numbers from 1.
+    format: such as "ply", if neither content nor extension show it. curve: whether it is one; by default found from the
+    file. columns: of CSV and XYZ, those of x, y and z by their names or numbers from 1.
 
-    fair(), fit(), measure() and Session take what it returns in place of vertices and faces, and write() keeps all else
-    that the file carried. Its arrays look at memory of the shape, and are read only: copy what you want to change.
+    fair(), fit(), measure() and Session accept the result in place of vertices and faces, and write() keeps all other
+    data of the file. Its arrays are read-only views of the shape's memory: copy them to change them.
 
     Raises vspring.Error naming path and line (or byte). Cost: linear.
     """
@@ -50,10 +50,10 @@ def write(path: str | os.PathLike[str], vertices: ArrayLike | Surface | Curve, f
     """Writes a surface or, without faces, a curve; the format is that of the extension. The file appears whole or not at
     all.
 
-    source: what read() returned, in place of faces. In its format everything but the coordinates of nodes that moved is
+    source: the result of read(), in place of faces. In its format everything but the coordinates of nodes that moved is
     written as it was read, byte for byte; normals that the file gave are computed anew where nodes moved. Curves may go
     to .svg, a picture with their curvature comb.
-    vertices, faces, chains, closed: as of fair() and fair_curve().
+    vertices, faces, chains, closed: as for fair() and fair_curve().
 
     Warns, with the code "writing", of what the source carried and the output does not. Raises vspring.Error. Cost: linear.
     """

@@ -18,7 +18,7 @@ from ._shapes import Faces, nodes_of, surface_of
 
 @dataclass(frozen=True)
 class Hole:
-    """A closed loop of boundary edges, and what has become of it."""
+    """A closed loop of boundary edges, and what became of it."""
 
     rim: np.ndarray
     """Its nodes, the least first, in the order in which faces that fill it run along it."""
@@ -52,13 +52,13 @@ class Filled(NamedTuple):
 
 @spelled_out(FillOptions)
 def fill(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None, **options: Unpack[FillOptions]) -> Filled:
-    """Fills the holes of a surface with patches that are fair with what is around.
+    """Fills the holes of a surface with fair patches that meet the faces around smoothly.
 
-    vertices, faces: as of fair(), or what read() returned. Arguments are unchanged. A surface without a hole comes back
-    as it is.
+    vertices, faces: as for fair(), or the result of read(). Arguments are unchanged. A surface without holes is
+    returned unchanged.
 
-    Raises what fair() does. Where Ctrl-C or the time limit end it, holes stay open or patches flat. Cost: linear in the
-    nodes, cubic in the edges of a rim up to 500, a second for these; then as fair() for each patch.
+    Raises what fair() raises. If Ctrl-C or the time limit end it, holes stay open or patches are not faired. Cost:
+    linear in the nodes, cubic in the edges of a rim, a second for 500; then that of fair() for each patch.
 
     Source: G. Barequet, M. Sharir, "Filling gaps in the boundary of a polyhedron", 1995; P. Liepa, "Filling holes in
     meshes", 2003; docs/fill.md.

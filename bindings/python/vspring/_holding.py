@@ -1,4 +1,4 @@
-"""What holds a shape, from the keyword arguments of a call."""
+"""Constraints from the keyword arguments of a call."""
 from __future__ import annotations
 
 import json
@@ -14,7 +14,7 @@ from ._shapes import Given, nodes_of
 
 
 def constraints_of(given: Given, options: Mapping[str, Any]) -> _vspring.Constraints:
-    """In the order of the command line."""
+    """The constraints, applied in the order of the command line."""
     shape = given.core
     held = _vspring.Constraints(shape.node_count)
     fix = options.get("fix")
@@ -55,7 +55,7 @@ def _json_of(rules: Mapping[str, Any] | Sequence[Mapping[str, Any]], count: int)
 
 
 def _plain_rule(rule: Any, count: int) -> Any:
-    """With the numbers of its nodes in place of a mask."""
+    """The rule with node numbers in place of a mask."""
     nodes = rule.get("nodes") if isinstance(rule, Mapping) else None
     if nodes is None or isinstance(nodes, (str, Mapping)):
         return rule

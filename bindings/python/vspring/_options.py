@@ -15,7 +15,7 @@ Nodes = Literal["boundary", "none"] | ArrayLike
 
 
 Rules = str | os.PathLike[str] | Mapping[str, Any] | Sequence[Mapping[str, Any]]
-"""The path of a file of rules, what such a file holds, or its list of rules."""
+"""The path of a file of rules, its contents, or a list of rules."""
 
 
 class Holding(TypedDict, total=False):
@@ -165,7 +165,7 @@ Call = TypeVar("Call", bound=Callable[..., Any])
 
 
 def spelled_out(options: type) -> Callable[[Call], Call]:
-    """Shows the keyword arguments of a call one by one, in its signature and its documentation, and refuses others."""
+    """Lists the keyword arguments of a call in its signature and its documentation, and refuses others."""
     hints = {name: hint.__forward_arg__ for name, hint in options.__annotations__.items()}
 
     def decorate(call: Call) -> Call:

@@ -1,4 +1,4 @@
-"""Points that shapes are drawn to, and how they pull."""
+"""Points that shapes are fitted to, and how they pull."""
 from __future__ import annotations
 
 import os
@@ -16,7 +16,7 @@ CRITERIA = [name for name in Pulling.__annotations__ if name != "outliers"]
 
 
 class Points(NamedTuple):
-    """Scattered points, as read_points() reads them and fit() takes them."""
+    """Scattered points, from read_points() and for fit()."""
 
     positions: np.ndarray
     """(n, 3)."""
@@ -27,7 +27,7 @@ class Points(NamedTuple):
 
 
 def read_points(path: str | os.PathLike[str], *, columns: Sequence[str] = ()) -> Points:
-    """Reads scattered points, with weights and normals where the file has them: the nodes of OBJ, OFF, PLY, STL, CSV, XYZ,
+    """Reads scattered points, with weights and normals if the file has them: the nodes of OBJ, OFF, PLY, STL, CSV, XYZ,
     DAT.
 
     columns: of CSV and XYZ, those of x, y and z by their names or numbers from 1; found where not given.
@@ -40,7 +40,7 @@ def read_points(path: str | os.PathLike[str], *, columns: Sequence[str] = ()) ->
 
 
 def is_drawn(options: Mapping[str, Any]) -> bool:
-    """Whether the shape is to be drawn to points, be they its own nodes."""
+    """Whether the shape is fitted to points, perhaps its own nodes."""
     drawn = any(options.get(name) is not None for name in CRITERIA)
     if options.get("outliers") and not drawn:
         raise Error("invalid-argument", f"outliers needs one of {', '.join(CRITERIA)}")
@@ -48,7 +48,7 @@ def is_drawn(options: Mapping[str, Any]) -> bool:
 
 
 def arrays_of(points: ArrayLike | Points, weights: ArrayLike | None, normals: ArrayLike | None) -> tuple[Any, Any, Any]:
-    """Positions, weights and normals as the library takes them; None for those that there are not."""
+    """Positions, weights and normals for the library; None for those not given."""
     if isinstance(points, Points):
         points, weights, normals = points
     if weights is not None:
@@ -61,7 +61,7 @@ def arrays_of(points: ArrayLike | Points, weights: ArrayLike | None, normals: Ar
 
 
 def without_auto(options: Mapping[str, Any], given: Given) -> dict[str, Any]:
-    """What "auto" comes to, as on the command line: by the noise that the nodes seem to have."""
+    """Replaces "auto" as on the command line: by the estimated noise of the nodes."""
     settled = dict(options)
     asked = [name for name in CRITERIA if isinstance(settled.get(name), str)]
     if not asked:

@@ -27,15 +27,15 @@ class Bar(Protocol):
     total: float
 
     def update(self, n: float) -> object:
-        """Adds n to what the bar shows."""
+        """Advances the bar by n."""
 
 
 class TimeIsUp(Exception):
-    """The time limit has ended a call."""
+    """Raised when the time limit has ended a call."""
 
 
 class Teller:
-    """What the library calls."""
+    """The progress function for the library."""
 
     def __init__(self, progress: Callable[[Progress], object] | Bar | None, time_limit: float | None) -> None:
         self._progress: Any = progress
@@ -54,7 +54,7 @@ class Teller:
             self._progress(Progress(stage, fraction, iteration, residual))
 
     def done(self) -> None:
-        """Fills a bar, which is not told of the very end."""
+        """Fills a bar, which gets no update at the very end."""
         if self._is_bar:
             self._progress.update(self._progress.total - self._progress.n)
 

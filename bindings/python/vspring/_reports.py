@@ -1,4 +1,4 @@
-"""What a call tells of itself."""
+"""Reports and results of calls."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -32,7 +32,7 @@ class Report:
     method: str
     """"equilibrium", "multigrid" or "sweep"."""
     springs: str
-    """Of surfaces, in the end: "sphere" or "edge"."""
+    """Of surfaces: springs of the shape returned, "sphere" or "edge"."""
     fair_by: str
     """Of surfaces: "curvature" or "bending"."""
     iterations: int
@@ -52,7 +52,7 @@ class Report:
     greatest_move: float
     """How far a node is from the input at most, in units of the input."""
     rms_move: float
-    """The same as a root mean square over the moving nodes."""
+    """The root mean square of these distances over the moving nodes."""
     seconds: float
     threads: int
     history: tuple[float, ...]
@@ -60,15 +60,15 @@ class Report:
     node_iterations: float
     """Work on all levels, in iterations on one moving node."""
     node_iteration_limit: float | None
-    """The most that would have been done; None where iterations are limited instead."""
+    """The limit of the work; None if iterations are limited instead."""
     levels: tuple[Level, ...]
-    """Those that were worked on, the coarsest first."""
+    """The levels in the order of the work, the coarsest first."""
     warnings: tuple[Warning, ...]
-    """Those that were given by Python's warnings, too."""
+    """The warnings, which Python's warnings show, too."""
     boundary: Report | None
-    """With fair_boundary: that of the boundary's own fairing."""
+    """With fair_boundary: the report of the boundary's own fairing."""
     origin: np.ndarray | None
-    """With new nodes, for each of them the number that it had in the input; -1 for a new one. Else None."""
+    """With new nodes: the number of each node in the input; -1 for a new one. Else None."""
     chains: list[np.ndarray] | None
     """With new nodes, the numbers of each chain's nodes in order. Else None."""
 
@@ -116,53 +116,53 @@ class Distances:
 
 @dataclass(frozen=True)
 class BoundaryOfPoints:
-    """What points tell of the boundary of a surface that is not held."""
+    """How the free boundary of a surface was fitted to points."""
 
     points: int
-    """Those at which the points end, near the boundary."""
+    """Points near the boundary at which the points end."""
     ends: int
-    """Nodes of the boundary near which the points end: they go there."""
+    """Boundary nodes near which the points end: they move there."""
     inside: int
-    """Nodes beyond which the points go on: they go across to the points, and no further."""
+    """Boundary nodes beyond which the points go on: they move across, onto the points."""
     kept: int
-    """Nodes without points near enough to tell: they stay, with a warning."""
+    """Boundary nodes without points near enough to tell: they stay, with a warning."""
 
 
 @dataclass(frozen=True, repr=False)
 class FitReport(Report):
-    """How a run ended that drew a shape to points."""
+    """How a fit ended."""
 
     points: int
     pulling_points: int
-    """Those tied to a node that moves, at the end."""
+    """Points tied to a moving node at the end."""
     pulled_nodes: int
     """Moving nodes with points tied to them, at the end."""
     most_points: int
-    """The most points on one of these."""
+    """The most points on one node."""
     outliers: int
     """Points left out."""
     outlying_points: np.ndarray
-    """Their numbers."""
+    """The numbers of the outliers."""
     outside_points: int
-    """With within and rms: those further away than that."""
+    """With within and rms: points further away than that."""
     active_points: np.ndarray
-    """With within: the points at that distance, to 1 %, which keep the shape from becoming fairer."""
+    """With within: the points at that distance, to 1 %, which prevent a fairer shape."""
     noise_leaves: float | None
-    """With noise, of curves: the root mean square distance that it leaves."""
+    """With noise, of curves: the root mean square distance that the curve is drawn to."""
     smoothing_length: float | None
-    """The one given or, for a tolerance, found."""
+    """The smoothing length, given or, for a tolerance, found."""
     least_radius: float | None
-    """With min_radius: the least one of the new curve."""
+    """With min_radius: the least radius of curvature of the new curve."""
     sharpest_node: int
-    """The node that has it; -1 without."""
+    """The node of the least radius; -1 without."""
     greatest_slide: float
-    """The greatest way of a node along the shape, where the points are its own nodes."""
+    """How far a node moved along the shape at most, if the points are its own nodes."""
     boundary_of_points: BoundaryOfPoints | None
-    """Where the boundary of a surface is drawn to points of its own, not to its nodes."""
+    """Set if the boundary of a surface is fitted to scattered points, not to its nodes."""
     before: Distances | None
     after: Distances | None
     distances: np.ndarray
-    """Of every point from the new shape, outliers too."""
+    """The distance of every point from the new shape, also of outliers."""
 
     def _lines(self) -> list[str]:
         lines = super()._lines()
@@ -185,7 +185,7 @@ class Result(NamedTuple, Generic[AnyReport]):
     """A fair shape: `positions, report = vspring.fair(...)`."""
 
     positions: np.ndarray
-    """One row a node, of the type that was given; fixed nodes bit for bit."""
+    """One row per node, of the given type; fixed nodes bit for bit."""
     report: AnyReport
 
 

@@ -1,4 +1,4 @@
-"""One shape that is faired again and again while what holds it moves, as in an editor."""
+"""Sessions: one shape, faired again and again while its constraints move, as in an editor."""
 from __future__ import annotations
 
 import threading
@@ -20,8 +20,8 @@ PICTURE = 2e-4
 
 
 class Session:
-    """Fairs one shape again and again while what holds it moves. Of surfaces levels, equations and their factors are kept
-    between calls, and each call starts from the last shape; curves are faired anew.
+    """Fairs one shape again and again while its constraints move. For surfaces it keeps levels, equations and their
+    factors between calls, and each call starts from the last shape; curves are faired anew.
 
         session = vspring.Session(vertices, faces)
         session.hold(17, (0.1, 0.2, 0.3))
@@ -35,7 +35,8 @@ class Session:
     def __init__(self, vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None = None, *,
                  chains: Sequence[ArrayLike] | None = None, closed: bool | Sequence[bool] = False,
                  **options: Unpack[SessionOptions]) -> None:
-        """vertices, faces, chains, closed: as of fair() and fair_curve(), or what read() returned. Raises what these do."""
+        """vertices, faces, chains, closed: as for fair() and fair_curve(), or the result of read(). Raises what these
+        raise."""
         self._given = shape_of(vertices, faces, chains, closed)
         self._held = constraints_of(self._given, options)
         self._threads = options.get("threads") or 0
@@ -43,7 +44,7 @@ class Session:
         self._lock = threading.Lock()
 
     def hold(self, node: int, position: ArrayLike | None = None) -> None:
-        """Holds a node at a position, (3,) or of curves (2,), or where the input has it."""
+        """Holds a node at a position, (3,) or for curves (2,); by default where the input has it."""
         with self._lock:
             if position is None:
                 self._held.fix(self._given.core, indices_of([node], "node"))
@@ -61,7 +62,7 @@ class Session:
             self._held.fix_normal(node, _place(normal, "normal"))
 
     def free_normal(self, node: int) -> None:
-        """Lets the normal of a node follow from the nodes around."""
+        """Frees the normal of a node: it follows from the nodes around."""
         with self._lock:
             self._held.free_normal(node)
 
@@ -71,25 +72,25 @@ class Session:
             self._held.fix_tangent(node, _place(tangent, "tangent"))
 
     def free_tangent(self, node: int) -> None:
-        """Lets the tangent of a node follow from the nodes around."""
+        """Frees the tangent of a node: it follows from the nodes around."""
         with self._lock:
             self._held.free_tangent(node)
 
     def fair(self, *, progress: Callable[[Progress], object] | Bar | None = None) -> Result[Report]:
-        """The fair shape, to the tolerance of the session: within the expected error what vspring.fair() gives. Raises
-        what that raises; a call that ends before its time leaves the session where it was. Cost: a few iterations where
-        the same nodes are held as in the last call, else that of vspring.fair()."""
+        """Fairs to the tolerance of the session: within the expected error the result of vspring.fair(). Raises what
+        that raises; a call that ends early leaves the session unchanged. Cost: a few iterations if the same nodes are
+        held as in the last call, else that of vspring.fair()."""
         return self._solve(self._session.fair, progress)
 
     def update(self, *, tolerance: float = PICTURE, progress: Callable[[Progress], object] | Bar | None = None) -> Result[Report]:
-        """A shape for a picture during a drag. tolerance: how near, as a share of the size. Of surfaces, moves and counts
-        of what is held are left out of the report, and a shape that is worse than the input comes with that outcome.
-        Cost: one or two iterations while what is held moves steadily, some 20 ms for 15,000 nodes."""
+        """Fairs for a picture during a drag. tolerance: as a share of the size. For surfaces the report lacks moves and
+        counts of held nodes, and a shape worse than the input is returned with that outcome. Cost: one or two
+        iterations while constraints move steadily, about 20 ms for 15,000 nodes."""
         return self._solve(self._session.update, progress, tolerance)
 
     def predict(self, *, tolerance: float = PICTURE) -> np.ndarray | None:
-        """About where update() would lead; None where that would not start from the last shape, and for curves. Cost:
-        about one iteration."""
+        """Predicts the positions of update(); None for curves, and if update() would not start from the last shape.
+        Cost: about one iteration."""
         with self._lock:
             positions = self._session.predict(self._held, tolerance)
         return None if positions is None else self._given.like_given(positions)

@@ -1,4 +1,4 @@
-"""Arrays of a caller as shapes of the library, and positions back as arrays like those."""
+"""Turns arrays of a caller into shapes of the library, and positions back into arrays like those."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ def _refuse(message: str) -> Error:
 
 @dataclass(frozen=True)
 class Given:
-    """A shape of the library, the array that it was made of, and what a file carried besides."""
+    """A shape of the library, the array that it was made of, and other data of its file."""
 
     core: Any
     """A Mesh or a PlainCurve."""
@@ -35,14 +35,14 @@ class Given:
         return isinstance(self.core, _vspring.PlainCurve)
 
     def like_given(self, positions: np.ndarray) -> np.ndarray:
-        """In as many columns, and in single precision where the input is."""
+        """Positions with the columns and the precision of the input."""
         dtype = np.float32 if self.array.dtype == np.float32 else np.float64
         if self.welded is not None:
             positions = self.welded.positions(positions)
         return np.ascontiguousarray(positions[:, :self.array.shape[1]], dtype)
 
     def nodes_of(self, selection: ArrayLike, name: str) -> np.ndarray:
-        """The numbers of nodes that a mask or their numbers select; of welded ones those that stand for them."""
+        """The numbers of nodes that a mask or their numbers select; for welded ones their representatives."""
         nodes = nodes_of(selection, self.core.node_count, name)
         if self.welded is None:
             return nodes
@@ -51,7 +51,7 @@ class Given:
         return np.unique(self.welded.representative[nodes])
 
     def welded_by(self, tolerance: float | None) -> Given:
-        """With nodes made one that are no further apart than this share of the diagonal."""
+        """The shape with nodes welded that are at most this share of the diagonal apart."""
         if tolerance is None:
             return self
         if self.is_curve:
@@ -68,7 +68,7 @@ def array_of(values: Any, name: str) -> np.ndarray:
 
 
 def numbers_of(values: ArrayLike, name: str, columns: Sequence[int]) -> np.ndarray:
-    """Real numbers in rows of so many."""
+    """Real numbers in rows of a given length."""
     array = array_of(values, name)
     if array.dtype.kind not in "fiu" or array.ndim != 2 or array.shape[1] not in columns:
         shapes = " or ".join(f"(n, {count})" for count in columns)
@@ -77,20 +77,20 @@ def numbers_of(values: ArrayLike, name: str, columns: Sequence[int]) -> np.ndarr
 
 
 def coordinates_of(values: ArrayLike, name: str) -> np.ndarray:
-    """Three doubles a row; what has them already is not copied."""
+    """Three doubles a row; not copied if they are so already."""
     array = numbers_of(values, name, (3,))
     return np.ascontiguousarray(array, np.float64)
 
 
 def in_space(array: np.ndarray) -> np.ndarray:
-    """Three doubles a row; z = 0 where there are two."""
+    """Three doubles a row; z = 0 if there are two."""
     positions = np.zeros((len(array), 3))
     positions[:, :array.shape[1]] = array
     return positions
 
 
 def indices_of(values: ArrayLike, name: str) -> np.ndarray:
-    """Node numbers as the library has them."""
+    """Node numbers for the library."""
     array = array_of(values, name)
     if array.size and array.dtype.kind not in "iu":
         raise _refuse(f"{name}: whole numbers are needed, not {array.dtype}")
@@ -156,7 +156,7 @@ def curve_of(vertices: ArrayLike | _vspring.Curve, chains: Sequence[ArrayLike] |
 
 def shape_of(vertices: ArrayLike | _vspring.Surface | _vspring.Curve, faces: Faces | None,
              chains: Sequence[ArrayLike] | None, closed: bool | Sequence[bool]) -> Given:
-    """A curve where there are no faces."""
+    """The shape; a curve if there are no faces."""
     if faces is None and not isinstance(vertices, _vspring.Surface):
         return curve_of(vertices, chains, closed)
     if isinstance(vertices, _vspring.Curve):

@@ -182,33 +182,31 @@ void add_node_options(CLI::App& command, CurveArguments& arguments) {
   const std::string group = "Its nodes";
   command
       .add_flag("--closed", arguments.closed,
-                "The last node of every chain joins the first; one at the same place becomes one with it (default: "
+                "Join the last node of every chain to the first; the two become one if at the same place (default: "
                 "from the file)")
       ->group(group);
   command
       .add_flag("--order", arguments.order,
-                "The rows come in no order: put those of every chain in one along the curve, and write them so; "
-                "tables and tracks (default: the file's order)")
+                "Put the rows of every chain in order along the curve, and write them so; for tables and tracks "
+                "(default: the file's order)")
       ->group(group);
-  CLI::Option* number =
-      command
-          .add_option("--resample", arguments.resampling.nodes,
-                      "New nodes between those that are held, N in all (default: the nodes of the input)")
-          ->type_name("N")
-          ->check(whole_number(1))
-          ->group(group);
+  CLI::Option* number = command
+                            .add_option("--resample", arguments.resampling.nodes,
+                                        "New nodes between held ones, N in all (default: the nodes of the input)")
+                            ->type_name("N")
+                            ->check(whole_number(1))
+                            ->group(group);
   command
       .add_option("--spacing", arguments.resampling.spacing,
-                  "New nodes between those that are held, on average about H apart, units of the input (default: the "
+                  "New nodes between held ones, on average about H apart, units of the input (default: the "
                   "nodes of the input)")
       ->type_name("H")
       ->check(positive_number())
       ->excludes(number)
       ->group(group);
-  add_choice(
-      command, "--resample-by", arguments.resampling.by, ways_to_resample,
-      "Where new nodes go: evenly; by the cosine, as tables of aerofoils have them, close at the ends and at the "
-      "nose; or closer where the curve is bent more (default: length)")
+  add_choice(command, "--resample-by", arguments.resampling.by, ways_to_resample,
+             "Spacing of new nodes: even; by the cosine, as in tables of aerofoils, closer at the ends and the nose; "
+             "or closer where the curve is bent more (default: length)")
       ->group(group);
 }
 
@@ -220,17 +218,16 @@ void add_curve_method(CLI::App& command, CurveArguments& arguments, const Fairin
       "plain iteration (default: equilibrium)")
       ->group(fairing_group);
   add_stopping_options(command, arguments, "0.001");
-  CLI::Option* plane =
-      add_choice(command, "--normal-plane", options.curve.normal_plane, normal_planes,
-                 "Curves in space are sprung in the whole normal plane, or along the principal normal only, as in the "
-                 "paper (default: full)")
-          ->group(fairing_group);
+  CLI::Option* plane = add_choice(command, "--normal-plane", options.curve.normal_plane, normal_planes,
+                                  "Forces of curves in space act in the whole normal plane, or along the principal "
+                                  "normal only, as in the paper (default: full)")
+                           ->group(fairing_group);
   command
       .add_flag(
           "--paper", arguments.paper,
           "The paper's own choices throughout, its equations as printed: weights 1/length; in a plane along the mean "
-          "normal of both edges, in space along the principal normal, which nodes in line with both neighbours have "
-          "none of; points' displacements in full; and the method sweep unless --method says another, node after node "
+          "normal of both edges, in space along the principal normal, which nodes in line with both neighbours do not "
+          "have; points' displacements in full; and the method sweep unless --method says another, node after node "
           "in the order of the file (on one thread), with the last iteration as the result (default: off)")
       ->excludes(plane)
       ->group(fairing_group);
@@ -259,8 +256,8 @@ void add_curve_command(CLI::App& app, std::function<int()>& run) {
   add_pull_options(command, arguments->pull, pull_of_own_nodes);
   add_curve_bounds(command, arguments->pull, pull_of_own_nodes);
   add_moving(command, arguments->pull.moving,
-             "Only these coordinates move; rows keep the others to the last digit, and distances are those in the ones "
-             "that move")
+             "Only these coordinates change; rows keep the others to the last digit, and distances are measured in the "
+             "changing ones")
       ->group(pull_of_own_nodes);
   add_curve_method(command, *arguments, words);
   add_run_options(command, *arguments);

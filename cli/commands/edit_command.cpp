@@ -109,15 +109,15 @@ void add_edit_command(CLI::App& app, std::function<int()>& run) {
                            ->type_name("SHAPE");
   command
       .add_option("-o,--output", arguments->output,
-                  "Where Save writes the result, format by extension (default: SHAPE itself). Nothing is written "
-                  "unless it is asked for there")
+                  "Where Save writes the result, format by extension (default: SHAPE itself). Nothing is written until "
+                  "Save is used")
       ->needs(shape)
       ->type_name("OUT");
   command.add_option("--port", arguments->port, "Port of 127.0.0.1 that the page is served on (default: a free one)")
       ->check(whole_number(1, 65535))
       ->type_name("PORT");
   command.add_flag("--no-browser", arguments->no_browser, "Only print the address, open no browser (default: off)");
-  command.add_flag("--quiet", arguments->quiet, "Nothing on standard error but errors (default: off)");
+  command.add_flag("--quiet", arguments->quiet, "Only errors on standard error (default: off)");
   command.footer(
       "The page is served to this machine alone; its address, on standard output, has a random word without which "
       "nothing is answered. Ctrl-C ends it.\n\n"

@@ -98,11 +98,10 @@ void add_surface_method(CLI::App& command, FairArguments& arguments, const Fairi
       "plain iteration (default: equilibrium)")
       ->group(fairing_group);
   add_stopping_options(command, arguments, "0.001");
-  add_choice(
-      command, "--springs", options.springs, springs,
-      "What neighbouring springs agree in: their mean-curvature spheres, for the same shape on every mesh, or their "
-      "lengths along every edge, as in the paper (default: sphere; edge with points, with the other methods, with "
-      "--paper, and where spheres would not see what is held)")
+  add_choice(command, "--springs", options.springs, springs,
+             "In what neighbouring springs agree: in their mean-curvature spheres, for the same shape on every mesh, "
+             "or in their lengths along every edge, as in the paper (default: sphere; edge with points, with the other "
+             "methods, with --paper, and where sphere springs do not fit the constraints)")
       ->group(fairing_group);
   add_fair_by_option(command, arguments);
   CLI::Option* kind = add_choice(command, "--pseudo-normals", options.pseudo_normals, pseudo_normals,
@@ -137,8 +136,8 @@ void add_fair_command(CLI::App& app, std::function<int()>& run) {
   add_constraint_options(command, *arguments, words);
   command
       .add_flag("--fair-boundary", arguments->fair_boundary,
-                "Fair the boundary loops first, as curves between their nodes that rules hold, then the surface that "
-                "they bound; in place of --fix boundary (default: off)")
+                "Fair the boundary loops first, as curves between boundary nodes held by rules, then the surface "
+                "inside; replaces --fix boundary (default: off)")
       ->group(holding_group);
   add_weld_option(command, *arguments);
   add_pull_options(command, arguments->pull, pull_of_own_nodes);

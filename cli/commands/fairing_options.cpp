@@ -52,7 +52,7 @@ void add_constraint_options(CLI::App& command, FairingArguments& arguments, cons
       ->group(holding_group);
   command
       .add_option("--region", arguments.region,
-                  "Only these nodes move, and meet what lies outside smoothly. sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1 "
+                  "Only these nodes move; they meet the rest smoothly. sphere:x,y,z,r, box:x0,y0,z0,x1,y1,z1 "
                   "(units of the input), group:NAME, or a JSON file with a list of nodes (default: all nodes)")
       ->type_name("SPEC")
       ->group(holding_group);
@@ -89,9 +89,9 @@ CLI::Option* add_moving(CLI::App& command, std::vector<std::string>& names, cons
 void add_weld_option(CLI::App& command, FairingArguments& arguments) {
   command
       .add_option("--weld", arguments.weld,
-                  "Surfaces: nodes that are no further apart than this share of the diagonal are one for fairing; the "
-                  "file keeps its nodes and faces. 0: only nodes at the same place (default: off; of STL 1e-6, or that "
-                  "share of the largest coordinate where this is more, as it was rounded so)")
+                  "Surfaces: for fairing, join nodes at most this share of the diagonal apart; the file keeps its "
+                  "nodes and faces. 0: only nodes at the same place (default: off; for STL 1e-6, or 1e-6 of the "
+                  "largest coordinate if that is more, as it was rounded so)")
       ->type_name("EPS")
       ->check(non_negative_number())
       ->group(holding_group);
@@ -109,10 +109,9 @@ CLI::Option* add_tolerance_option(CLI::App& command, FairingArguments& arguments
 }
 
 CLI::Option* add_fair_by_option(CLI::App& command, FairingArguments& arguments) {
-  return add_choice(
-             command, "--fair-by", arguments.options.fair_by, goals,
-             "What sphere springs make of the surface: mean curvature that changes as evenly as it can, or least "
-             "bending energy, which may bulge (default: curvature)")
+  return add_choice(command, "--fair-by", arguments.options.fair_by, goals,
+                    "How sphere springs make the surface fair: mean curvature changes as evenly as it can, or bending "
+                    "energy is least, which may bulge (default: curvature)")
       ->group(fairing_group);
 }
 
@@ -128,11 +127,8 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments, const 
       ->group(fairing_group);
   command
       .add_option("--levels", arguments.levels,
-                  "multigrid: number of levels, fewer where there are too few nodes (default: 6 as in the paper, fewer "
-                  "where the "
-                  "coarsest would have under 60 moving nodes, more where there are enough for another; curves: down to "
-                  "24 to 47 "
-                  "edges)")
+                  "multigrid: number of levels, fewer if there are too few nodes (default: as many as leave 60 moving "
+                  "nodes on the coarsest, the paper's 6 for 60000 to 250000 nodes; curves: 24 to 47 edges)")
       ->type_name("L")
       ->check(whole_number(1, 64))
       ->group(fairing_group);
@@ -155,13 +151,12 @@ void add_stopping_options(CLI::App& command, FairingArguments& arguments, const 
 
 void add_shaping_options(CLI::App& command, FairingArguments& arguments, const FairingWords& words) {
   FairOptions& options = arguments.options;
-  add_choice(
-      command, "--distribution", arguments.distribution, distributions,
-      fmt::format(
-          "Along the {}, nodes keep the spacing of the input without its noise; go to the mean of their neighbours; or "
-          "keep their share between them and, where points draw a surface, their place (default: smooth; keep where "
-          "the nodes of the input are the points; even for curves and with the methods multigrid and sweep)",
-          words.shape))
+  add_choice(command, "--distribution", arguments.distribution, distributions,
+             fmt::format("Along the {}, nodes keep the spacing of the input without its noise (smooth); go to the mean "
+                         "of their neighbours (even); or keep their shares between neighbours and, in fits of "
+                         "surfaces, their places (keep) (default: smooth; keep if the points are the nodes of the "
+                         "input; even for curves and with the methods multigrid and sweep)",
+                         words.shape))
       ->group(fairing_group);
   command
       .add_option("--strength", options.strength,
@@ -178,8 +173,8 @@ void add_run_options(CLI::App& command, FairingArguments& arguments) {
       ->group(run_group);
   command
       .add_option("--time-limit", arguments.time_limit,
-                  "Seconds, reading included, after which it ends with the best shape so far; the one option whose "
-                  "result may change from run to run (default: none)")
+                  "End after this many seconds, reading included, with the best shape so far; the only option whose "
+                  "result may differ from run to run (default: none)")
       ->type_name("S")
       ->check(positive_number())
       ->group(run_group);
@@ -187,8 +182,7 @@ void add_run_options(CLI::App& command, FairingArguments& arguments) {
       ->type_name("FILE.json")
       ->group(run_group);
   command
-      .add_option("--html", arguments.html,
-                  "Write a page to look at offline, one file: the shape to turn round, charts, figures")
+      .add_option("--html", arguments.html, "Write a page to view offline, one file: the shape in 3D, charts, figures")
       ->type_name("OUT.html")
       ->group(run_group);
   command

@@ -173,8 +173,8 @@ void add_hole_options(CLI::App& command, FillArguments& arguments) {
       ->group(group);
   command
       .add_flag("--outer-rims", options.outer_rims,
-                "Also the outer rims of sheets: those whose faces look less than 60° away from where the rim itself "
-                "does; at ends of tubes it is 90°, at holes up to 180° (default: off)")
+                "Fill the outer rims of sheets, too: rims whose normal is less than 60° from that of the faces there; "
+                "at ends of tubes it is 90°, at holes up to 180° (default: off)")
       ->group(group);
 }
 
@@ -189,25 +189,23 @@ void add_fill_command(CLI::App& app, std::function<int()>& run) {
                               .to = "fill",
                               .done = "filled"};
   const auto arguments = std::make_shared<FillArguments>();
-  CLI::App& command = *app.add_subcommand("fill", "Fill the holes of a surface, fair with what is around");
+  CLI::App& command = *app.add_subcommand("fill", "Fill the holes of a surface with fair patches");
   add_files(command, *arguments, words);
   add_choice(command, "--format", arguments->format, surface_formats,
              "Format of - (default: found from the content; the input's)");
   add_hole_options(command, *arguments);
   add_weld_option(command, *arguments);
-  CLI::Option* const flat =
-      command
-          .add_flag(
-              "--flat", arguments->fill.flat,
-              "Leave patches as they are before fairing: the triangles of least dihedral angles, as dense as what "
-              "is around, with creases at the rim (default: off)")
-          ->group(fairing_group);
+  CLI::Option* const flat = command
+                                .add_flag("--flat", arguments->fill.flat,
+                                          "Do not fair patches: they are the triangles of least dihedral angles, as "
+                                          "dense as the mesh around, with creases at the rim (default: off)")
+                                ->group(fairing_group);
   add_tolerance_option(command, *arguments)->excludes(flat);
   add_fair_by_option(command, *arguments)->excludes(flat);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, true);
   command.footer(
-      "Nodes and faces of the input stay as they are; those of patches come behind them.\n\n"
+      "Nodes and faces of the input stay as they are; those of patches follow them.\n\n"
       "Example: close the small holes of a scan\n"
       "  vspring fill scan.ply -o closed.ply --max-edges 50 --report report.json\n\n"
       "Exit status: 0 filled and converged; 1 wrong use; 2 unusable input or output; 3 written, but a hole cannot be "

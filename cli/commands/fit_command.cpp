@@ -175,9 +175,9 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
                   "normals: nx, ny, nz, numbers four to six in XYZ, OBJ's vn")
       ->required()
       ->type_name("POINTS");
-  command.add_flag("--ignore-point-normals", arguments.ignore_normals,
-                   "Points pull whichever way they face (default: those that have normals only at nodes of a surface "
-                   "that faces the same way)");
+  command.add_flag(
+      "--ignore-point-normals", arguments.ignore_normals,
+      "Ignore normals of points (default: points with normals pull only at nodes of a surface that face the same way)");
   add_pull_options(command, arguments.pull, "How points pull: one of");
   add_curve_bounds(command, arguments.pull, "How points pull: one of");
   add_choice(
@@ -185,7 +185,7 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
       "The accelerated solver that goes to the true equilibrium, the paper's V-cycle over coarser levels, or its "
       "plain iteration (default: equilibrium)")
       ->group(fairing_group);
-  add_stopping_options(command, arguments, "0.001, or K/10 where that is less");
+  add_stopping_options(command, arguments, "0.001, or K/10 if that is less");
   command
       .add_flag(
           "--paper", arguments.paper,
@@ -196,18 +196,18 @@ void add_fit_options(CLI::App& command, FitArguments& arguments) {
       ->group(fairing_group);
   command
       .add_option("--deviation", arguments.deviation,
-                  "Write the points with their distance from the shape, property deviation, units of the input; at "
-                  "nodes it is in --scalars, point_deviation")
+                  "Write the points with their distances from the shape, as property deviation (units of the input); "
+                  "--scalars has them at nodes, as point_deviation")
       ->type_name("OUT.ply")
       ->group(run_group);
   add_choice(command, "--format", arguments.format, any_formats,
              "Format of - (default: found from the content; the input's)");
   command.add_flag("--curve", arguments.curve, "SHAPE is a curve (default: found from the file; - is a surface)");
   command.add_flag("--closed", arguments.closed,
-                   "Curves: the last node of every chain joins the first (default: from the file)");
+                   "Curves: join the last node of every chain to the first (default: from the file)");
   add_columns(command, "--columns", arguments.columns, columns_of_curves);
   add_columns(command, "--point-columns", arguments.point_columns,
-              "The same of POINTS, where they are others (default: those of --columns)");
+              "--columns of POINTS, if they differ (default: those of --columns)");
 }
 
 }  // namespace
@@ -222,7 +222,7 @@ void add_fit_command(CLI::App& app, std::function<int()>& run) {
                               .directions = "normals (curves: tangents)",
                               .rules = "positions and normals"};
   const auto arguments = std::make_shared<FitArguments>();
-  CLI::App& command = *app.add_subcommand("fit", "Fair a surface or curve and draw it towards scattered points");
+  CLI::App& command = *app.add_subcommand("fit", "Fair a surface or curve and fit it to scattered points");
   add_files(command, *arguments, words);
   add_constraint_options(command, *arguments, words);
   add_weld_option(command, *arguments);

@@ -67,15 +67,16 @@ void add_common_options(CLI::App& command, GenerateArguments& arguments) {
   const std::string group = "Disorder";
   command
       .add_option("--noise", arguments.noise,
-                  "Move every node inside by a random vector within a ball of this radius, a length (default: 0)")
+                  "Move every inner node by a random vector within a ball of this radius, a length (default: 0)")
       ->type_name("LENGTH")
       ->check(non_negative_number())
       ->group(group);
-  command.add_flag("--noise-on-boundary", arguments.noise_on_boundary, "Also the nodes of the boundary (default: off)")
+  command.add_flag("--noise-on-boundary", arguments.noise_on_boundary, "Move boundary nodes, too (default: off)")
       ->group(group);
   command.add_flag("--shuffle", arguments.shuffle, "Nodes and faces in random order (default: off)")->group(group);
   command
-      .add_option("--seed", arguments.seed, "Of all that is random: the same seed gives the same shape (default: 1)")
+      .add_option("--seed", arguments.seed,
+                  "Seed of all random numbers: the same seed gives the same shape (default: 1)")
       ->type_name("N")
       ->check(any_number<std::uint64_t>())
       ->group(group);
@@ -84,7 +85,7 @@ void add_common_options(CLI::App& command, GenerateArguments& arguments) {
 }  // namespace
 
 void add_generate_command(CLI::App& app, std::function<int()>& run) {
-  CLI::App& generate = *app.add_subcommand("generate", "Make a shape to try things on");
+  CLI::App& generate = *app.add_subcommand("generate", "Make a shape for trials");
   generate.require_subcommand(1);
   generate.footer(
       "Example: the start shape of the paper's Fig. 8, with noise\n"

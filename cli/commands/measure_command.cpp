@@ -235,17 +235,17 @@ void add_shape_options(CLI::App& command, MeasureArguments& arguments) {
       ->type_name("SHAPE");
   command
       .add_option("--compare", arguments.compare,
-                  "Measure this shape beside it, and how far they lie apart: node by node where they have as many "
+                  "Measure this shape, too, and the distances between both: node by node if they have equally many "
                   "nodes, and from the nodes of each to the other; connectivity may differ")
       ->type_name("OTHER");
   add_choice(command, "--format", arguments.format, any_formats, "Format of - (default: found from the content)");
   command.add_flag("--curve", arguments.curve, "SHAPE is a curve (default: found from the file; - is a surface)");
   command.add_flag("--closed", arguments.closed,
-                   "Curves: the last node of every chain joins the first (default: from the file)");
+                   "Curves: join the last node of every chain to the first (default: from the file)");
   add_columns(command, "--columns", arguments.columns, columns_of_curves);
   add_moving(command, arguments.moving,
-             "Curves: noise, and what --within auto takes for it, in these coordinates alone, as vspring curve --move "
-             "sees them");
+             "Curves: estimate noise, and the tolerance of --within auto, in these coordinates only, as for vspring "
+             "curve --move");
 }
 
 }  // namespace
@@ -257,15 +257,16 @@ void add_measure_command(CLI::App& app, std::function<int()>& run) {
                               .directions = "normals (curves: tangents)",
                               .rules = "positions and normals"};
   const auto arguments = std::make_shared<MeasureArguments>();
-  CLI::App& command = *app.add_subcommand("measure", "Figures of fairness of a surface or curve, nothing changed");
+  CLI::App& command = *app.add_subcommand("measure", "Measure the fairness of a surface or curve");
   add_shape_options(command, *arguments);
   add_constraint_options(command, *arguments, words);
   add_weld_option(command, *arguments);
   add_run_options(command, *arguments);
   add_picture_options(command, arguments->picture, true);
   command.footer(
-      "With any option of what holds the shape, only what lies at moving nodes is measured, and how well given normals "
-      "are met; \"as in the input\" is as in OTHER where that has as many nodes. Definitions: docs/fairness.md.\n\n"
+      "With any option of constraints, only faces and edges at moving nodes are measured, and how well given normals "
+      "are met; \"as in the input\" means as in OTHER if that has equally many nodes. Definitions: "
+      "docs/fairness.md.\n\n"
       "Example: what became of a scan\n"
       "  vspring measure fair.ply --compare scan.ply --report report.json\n\n"
       "Exit status: 0 measured; 1 wrong use; 2 unusable input or output.");

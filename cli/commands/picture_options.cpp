@@ -97,7 +97,8 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments, bool su
               arguments.styles.push_back(style->second);
             }
           },
-          "What it shows, a row for each: shaded, wire, zebra (reflection lines), mean-curvature, gaussian-curvature, "
+          "What the picture shows, a row for each: shaded, wire, zebra (reflection lines), mean-curvature, "
+          "gaussian-curvature, "
           "deviation from the shape before (default: shaded,zebra)")
       ->type_name("STYLE,...")
       ->group(group);
@@ -108,9 +109,9 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments, bool su
             arguments.for_surfaces = true;
             arguments.view = parse_view(text);
           },
-          "From where surfaces are seen, also at first in the page of --html: front, back, left, right, top, bottom, "
+          "The view of surfaces, also the first one in the page of --html: front, back, left, right, top, bottom, "
           "or "
-          "x,y,z towards the eye, and after them what is up (default: 1,-2,1.5,0,0,1; where only a small part moved, "
+          "x,y,z towards the eye, followed by the direction up (default: 1,-2,1.5,0,0,1; if only a small part moved, "
           "along its mean normal)")
       ->type_name("SIDE|X,Y,Z[,X,Y,Z]")
       ->group(group);

@@ -25,7 +25,7 @@ CLI::Option* add_amount(CLI::App& command, const std::string& name, std::optiona
               throw CLI::ValidationError(name, "a number greater than 0, or auto, is needed, not " + given);
             value = number;
           },
-          text + "; auto: by the noise that the nodes seem to have (of voxels, on surfaces: their steps come off)")
+          text + "; auto: from the estimated noise of the nodes (surfaces of voxels: removes their steps)")
       ->type_name("D|auto");
 }
 
@@ -34,33 +34,31 @@ CLI::Option* add_amount(CLI::App& command, const std::string& name, std::optiona
 void add_pull_options(CLI::App& command, PullArguments& arguments, const std::string& heading) {
   command
       .add_option("--weight", arguments.weight,
-                  "The paper's k: how much a point counts against the springs of its node; 0.01 takes away waves of "
-                  "some 12 edges, 0.00001 of some 66, large ones interpolate")
+                  "The paper's k: the weight of a point against the springs of its node; 0.01 removes waves of about "
+                  "12 edges, 0.00001 of about 66; large weights interpolate")
       ->type_name("K")
       ->check(non_negative_number())
       ->group(heading);
   command
       .add_option("--smoothing-length", arguments.smoothing_length,
-                  "Take away what is shorter than about 6 times this, whatever the mesh (units of the input)")
+                  "Remove details shorter than about 6 times this, on any mesh (units of the input)")
       ->type_name("L")
       ->check(positive_number())
       ->group(heading);
-  add_amount(
-      command, "--within", arguments.within, arguments,
-      "The fairest shape from which no point is further away than this (nodes may slide further along it); of scans "
-      "whose noise is about a third of that: noise off, details kept (units of the input)")
+  add_amount(command, "--within", arguments.within, arguments,
+             "The fairest shape with no point further away than this; nodes may slide further along it. Scans with "
+             "noise of about a third of this lose noise and keep details (units of the input)")
       ->group(heading);
   add_amount(command, "--rms", arguments.rms, arguments,
-             "The fairest shape from which points are this far away, root mean square (units of the input)")
+             "The fairest shape whose root mean square distance from the points is this (units of the input)")
       ->group(heading);
   add_amount(command, "--noise", arguments.noise, arguments,
-             "Take noise of this standard deviation off: surfaces whose own nodes are the points keep what more than "
-             "noise says, curves are the fairest that are as far from the points as that leaves (in each coordinate, "
-             "units of the input)")
+             "Remove noise of this standard deviation in each coordinate: surfaces fitted to their own nodes keep "
+             "larger details, curves become the fairest as far from the points as such noise (units of the input)")
       ->group(heading);
   command
       .add_option("--outliers", arguments.outliers,
-                  "Leave this share of the points out, those furthest away: 0 to less than 1 (default: 0)")
+                  "Leave out this share of the points, the furthest ones: 0 to less than 1 (default: 0)")
       ->type_name("P")
       ->check(number_between(0, 0.999999))
       ->group(heading);
@@ -70,16 +68,15 @@ void add_curve_bounds(CLI::App& command, PullArguments& arguments, const std::st
   command
       .add_option(
           "--sharp", arguments.sharp,
-          "Curves: where they turn by more than this, at a node or, drawn to points, within some eight tolerances, "
-          "corners stay, and each side is fair by itself (degrees, less than 180) (default: none stay)")
+          "Curves: keep corners where the curve turns by more than this, at a node or, fitted to points, within about "
+          "eight tolerances; each side is fair by itself (degrees, less than 180) (default: no corners)")
       ->type_name("ANGLE")
       ->check(angle_of_corners())
       ->group(fairing_group);
   command
-      .add_option(
-          "--min-radius", arguments.least_radius,
-          "Curves: nowhere bent by a smaller radius than this, as by what a vehicle or a tool can turn (units of "
-          "the input) (default: any)")
+      .add_option("--min-radius", arguments.least_radius,
+                  "Curves: the least radius of curvature, such as the turning radius of a vehicle or a tool (units of "
+                  "the input) (default: any)")
       ->type_name("R")
       ->check(positive_number())
       ->group(heading);

@@ -131,7 +131,7 @@ void settle_by_noise(PullArguments& arguments, const NoiseEstimate& noise, bool 
   if (!(noise.deviation > 0))
     throw Error(ErrorCode::unusable_shape,
                 arguments.automatic +
-                    " auto: this shape has no noise that its numbers show, or too few nodes to tell; give "
+                    " auto: the numbers of this shape show no noise, or it has too few nodes; give "
                     "a number, or smooth by a length (--smoothing-length)");
   arguments.estimate = noise;
   if (noise.voxel) {
@@ -245,7 +245,7 @@ std::string FitAccount::lines() const {
     text += fmt::format("{}{:.4g} → {:.4g} units\n", name, before, after);
   };
   if (arguments_.voxels)
-    text += fmt::format("voxels           {:.4g} × {:.4g} × {:.4g} units: steps off, within half of one\n",
+    text += fmt::format("voxels           {:.4g} × {:.4g} × {:.4g} units: steps removed, nodes within half a voxel\n",
                         arguments_.voxels->x(), arguments_.voxels->y(), arguments_.voxels->z());
   else if (arguments_.estimate)
     text += fmt::format("noise estimated  {:.4g} units ({:.2g} median edges) in each coordinate\n",

@@ -36,7 +36,7 @@ constexpr IdleRule idle_rules[] = {
     {"--min-radius", [](const RunFacts& run) { return !run.is_curve; }, "it is for curves"},
     {"--resample-by", [](const RunFacts& run) { return !run.resamples; }, "it is for --resample and --spacing"},
     {"--move", [](const RunFacts& run) { return !run.is_curve; }, "it is for curves"},
-    {"--move", [](const RunFacts& run) { return run.moves_freely; }, "these are all coordinates that there are"},
+    {"--move", [](const RunFacts& run) { return run.moves_freely; }, "these are all coordinates of the curve"},
     {"--distribution", [](const RunFacts& run) { return !run.moves_freely; }, "--move says where nodes are"},
     {"--ignore-point-normals", [](const RunFacts& run) { return run.is_curve; }, "it is for surfaces"},
     {"--ignore-point-normals", [](const RunFacts& run) { return !run.points_face; }, "the points have no normals"},

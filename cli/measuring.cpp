@@ -39,16 +39,16 @@ std::vector<Figure> figures_with_noise(const MeasuredShape<Shape>& shape, const 
   // Noise is not a measure of fairness, so list_figures() does not have it.
   figures.push_back(
       {"noise", "noise", "units",
-       noise.voxel           ? "of steps of voxels, standard deviation in each coordinate: --noise auto takes them off"
-       : noise.deviation > 0 ? "as estimated, standard deviation in each coordinate: what --noise auto takes"
-                             : "none that the numbers show, or too few nodes to tell: auto needs some",
+       noise.voxel           ? "of steps of voxels, standard deviation in each coordinate; --noise auto removes them"
+       : noise.deviation > 0 ? "estimated standard deviation in each coordinate: the value of --noise auto"
+                             : "not known: the numbers show no noise, or there are too few nodes; auto is refused",
        noise.deviation, false});
   figures.push_back({"within_auto", "within auto", "units",
-                     noise.voxel           ? "how far such noise goes; --within auto takes the steps off"
-                     : noise.deviation > 0 ? "what --within auto takes for that noise"
-                                           : "none, for the same reason",
+                     noise.voxel           ? "how far such noise goes; --within auto removes the steps"
+                     : noise.deviation > 0 ? "the tolerance of --within auto"
+                                           : "not known, for the same reason",
                      greatest_of_noise(noise), false});
-  figures.push_back({"noise_in_edges", "noise in edges", "", "the same in median edges", noise.edges, false});
+  figures.push_back({"noise_in_edges", "noise in edges", "", "the noise in median edges", noise.edges, false});
   if constexpr (std::is_same_v<Shape, PolygonCurve>) {
     constexpr const char* keys[] = {"noise_x", "noise_y", "noise_z"};
     constexpr const char* names[] = {"noise in x", "noise in y", "noise in z"};

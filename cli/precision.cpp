@@ -36,7 +36,7 @@ std::string warning_of_rounding(const PolygonMesh& shape, double rounding) {
   if (!(rounding > coarse * edge)) return {};
   return fmt::format(
       "single precision has rounded nodes by {:.3g} units so far from the origin (standard deviation in each "
-      "coordinate), {:.2g} of the mean edge, and the shape is no better; take an offset off before writing it so",
+      "coordinate), {:.2g} of the mean edge, and the shape is no better; subtract an offset before writing it so",
       rounding, rounding / edge);
 }
 
@@ -48,8 +48,8 @@ void refuse_auto_of_rounded(const std::string& option, const PolygonMesh& shape,
   throw Error(
       ErrorCode::unusable_shape,
       fmt::format("{} auto: single precision has rounded nodes to multiples of about {:.3g} units so far from the "
-                  "origin, and the mean edge is {:.3g}: the shape is lost; take an offset off before writing "
-                  "it, or write it in double precision",
+                  "origin, and the mean edge is {:.3g}: the shape is lost; subtract an offset before writing it, or "
+                  "write it in double precision",
                   option, multiples, edge));
 }
 
@@ -65,7 +65,7 @@ void take_written(PolygonMesh& shape, std::vector<Vector3> written, std::vector<
   if (!(greatest > unseen * edge)) return;
   warnings.push_back(
       fmt::format("the file has single precision, which moves nodes by up to {:.3g} units, {:.2g} of the mean edge; "
-                  "write .obj, or take an offset off all coordinates first",
+                  "write .obj, or subtract an offset from all coordinates first",
                   greatest, greatest / edge));
 }
 

@@ -40,10 +40,9 @@ std::string outcome_line(const FairReport& report, const FairOptions& options, c
     case Outcome::iteration_limit:
       return terminal.yellow(options.max_iterations()
                                  ? "stopped at the limit of iterations (--max-iterations)"
-                                 : "stopped at the limit of iterations that is there by default (--max-iterations "
-                                   "changes it)");
+                                 : "stopped at the default limit of iterations (--max-iterations changes it)");
     case Outcome::work_limit:
-      return terminal.yellow("stopped: what is left is not worth more time");
+      return terminal.yellow("stopped at the limit of work");
     case Outcome::worse_than_input:
       return terminal.yellow("worse than the input");
     case Outcome::stalled:

@@ -36,8 +36,8 @@ std::string note_of_lost_features(const FairArguments& arguments, const PolygonM
       asks_to_fit(arguments.pull))
     return {};
   if (!(report.rms_move > far * size_of_moving(mesh, constraints))) return {};
-  return "note: only the boundary is held, so all that was between became fair; to take nothing but noise off, give "
-         "--noise auto; to stay near, --within; to mend a part, --region\n";
+  return "note: only the boundary is held, so everything between became fair; to remove only noise, give --noise auto; "
+         "to stay near the input, --within; to fair a part, --region\n";
 }
 
 int run_fair(FairArguments arguments) {

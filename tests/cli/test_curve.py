@@ -121,7 +121,7 @@ class Curve(Case):
             with self.subTest(options):
                 self.assertIn(words, self.curve(text, *columns, *options, status=1).stderr.decode())
         said = self.curve(text, *columns, "--move", "dist,ele", "--within", "0.1").stderr.decode()
-        self.assertIn("--move has no effect here: these are all coordinates that there are", said)
+        self.assertIn("--move has no effect here: these are all coordinates of the curve", said)
         said = self.curve(text, *columns, "--move", "ele", "--within", "0.1", "--distribution", "even").stderr.decode()
         self.assertIn("--distribution has no effect here", said)
         shuffled = "x,y\n" + csv((k * 7 % 20, math.sin(k)) for k in range(20))

@@ -33,8 +33,8 @@ class Measure(Case):
     def test_says_where_there_is_no_noise_that_auto_takes(self):
         for text, is_there in (("".join(f"{k},{2 * k}\n" for k in range(20)), False), (circle(), True)):
             lines = self.measure(self.write("in.csv", text)).stdout.decode()
-            self.assertEqual("what --noise auto takes" in lines, is_there)
-            self.assertEqual("none that the numbers show" in lines, not is_there)
+            self.assertEqual("the value of --noise auto" in lines, is_there)
+            self.assertEqual("the numbers show no noise" in lines, not is_there)
 
     def test_a_surface_for_scripts(self):
         report = self.report(self.write("in.obj", hat()))
@@ -76,7 +76,7 @@ class Measure(Case):
         self.assertEqual(self.report(path, *columns, "--move", "y")["figures"], reports["--move", "ele"])
         self.assertEqual(self.report(path, *columns, "--move", "ele", "--compare", path)["compared_with"]["figures"], reports["--move", "ele"])
         self.assertIn("'high' is no coordinate of this curve", self.assert_one_line(self.measure(path, *columns, "--move", "high", status=1)))
-        for shape, why in ((path, "these are all coordinates that there are"), (self.write("in.obj", hat()), "it is for curves")):
+        for shape, why in ((path, "these are all coordinates of the curve"), (self.write("in.obj", hat()), "it is for curves")):
             told = self.measure(shape, *(columns if shape == path else ()), "--move", "xy").stderr.decode()
             self.assertIn(f"--move has no effect here: {why}", told)
 

@@ -111,28 +111,30 @@ MEANINGS = {
            "or node numbers",
     "fix_normals": 'nodes whose normals (curves: tangents) are fixed as they are in the input, to second order: "none" '
                    '(the default), "boundary", a mask or node numbers',
-    "constraints": 'rules for positions, normals and tangents, as docs/constraints.md has them: the path of a JSON file, '
-                   'its contents as a dict, or a list of rules; "nodes" may be a mask or an array',
-    "region": 'only these nodes move, and meet what lies outside smoothly: "sphere:x,y,z,r", "box:x0,y0,z0,x1,y1,z1" '
-              '(units of the input), "group:NAME", the path of a JSON file, a mask or node numbers',
-    "weight": "the paper's k: how much a point counts against the springs of its node, 0 or more",
-    "smoothing_length": "take away what is shorter than about 6 times this, whatever the mesh; units of the input",
-    "within": 'the fairest shape from which no point is further away than this, units of the input; "auto": by the noise '
-              "that the nodes seem to have",
-    "rms": "the fairest shape from which points are this far away, root mean square, units of the input; \"auto\" as above",
-    "noise": "take noise of this standard deviation in each coordinate off, units of the input; \"auto\" as above",
-    "outliers": "leave this share of the points out, those furthest away: 0 to less than 1",
-    "min_radius": "curves drawn to points: nowhere bent by a smaller radius than this, units of the input",
-    "sharp": "curves: where they turn by more than this, corners stay; degrees, less than 180",
-    "move": 'curves drawn to their own nodes: only these coordinates move, letters such as "y" or "yz", or names of columns',
-    "weld": "surfaces: nodes no further apart than this share of the diagonal of the box around the faces are one; 0: those at "
-            "the same place. Positions come back for all of them",
-    "resample": "curves: so many new nodes between those that are held; the report has their origin",
-    "spacing": "curves: new nodes about so far apart on average, units of the input",
-    "resample_by": 'where new nodes go: evenly by "length" (the default), by "cosine", close at the ends and the nose, or '
-                   'closer where "curvature" is greater',
-    "paper": "the paper's own choices throughout, its equations as printed, for comparison; with its sweep unless method says "
-             "another. It says what springs, pseudo_normals and normal_plane are",
+    "constraints": 'rules for positions, normals and tangents, as in docs/constraints.md: the path of a JSON file, its '
+                   'contents as a dict, or a list of rules; "nodes" may be a mask or an array',
+    "region": 'only these nodes move; they meet the rest smoothly: "sphere:x,y,z,r", "box:x0,y0,z0,x1,y1,z1" (units of '
+              'the input), "group:NAME", the path of a JSON file, a mask or node numbers',
+    "weight": "the paper's k: the weight of a point against the springs of its node, 0 or more",
+    "smoothing_length": "remove details shorter than about 6 times this, on any mesh; units of the input",
+    "within": 'the fairest shape with no point further away than this, units of the input; "auto": from the estimated '
+              "noise of the nodes",
+    "rms": 'the fairest shape whose root mean square distance from the points is this, units of the input; "auto" as for '
+           "within",
+    "noise": 'remove noise of this standard deviation in each coordinate, units of the input; "auto" as for within',
+    "outliers": "leave out this share of the points, the furthest ones: 0 to less than 1",
+    "min_radius": "curves fitted to points: the least radius of curvature, units of the input",
+    "sharp": "curves: keep corners where the curve turns by more than this; degrees, less than 180",
+    "move": 'curves fitted to their own nodes: only these coordinates change, letters such as "y" or "yz", or names of '
+            "columns",
+    "weld": "surfaces: join nodes at most this share of the diagonal of the box around the faces apart; 0: those at the "
+            "same place. The result has positions for all of them",
+    "resample": "curves: this many nodes in all, new ones between held ones; the report has their origin",
+    "spacing": "curves: new nodes about this far apart on average, units of the input",
+    "resample_by": 'spacing of new nodes: even by "length" (the default), by "cosine", closer at the ends and the nose, '
+                   'or closer where "curvature" is greater',
+    "paper": "the paper's own choices throughout, its equations as printed, for comparison; with its sweep unless method "
+             "is given. It sets springs, pseudo_normals and normal_plane",
     "method": '"equilibrium" (the default), or the paper\'s "multigrid" or "sweep"',
     "tolerance": "equilibrium: end when no node is expected to be further from its final place than this share of the "
                  "diagonal of the box around the moving nodes; 1e-5 by default",
@@ -140,25 +142,25 @@ MEANINGS = {
                       "length; 0.001 by default",
     "levels": "multigrid: the number of levels",
     "pre_smoothing": "multigrid: iterations on each level on the way down; 5 by default",
-    "max_iterations": "end after so many iterations, on each level",
+    "max_iterations": "most iterations on each level",
     "distribution": 'along the shape, nodes keep the spacing of the input without its noise ("smooth"), go to the mean of '
-                    'their neighbours ("even"), or keep their share between them ("keep")',
+                    'their neighbours ("even"), or keep their shares between neighbours ("keep")',
     "strength": "result = input + strength × (fair − input), 0 to 1; 1 by default",
     "springs": '"sphere" (the default): the same shape on every mesh; "edge": as in the paper',
     "fair_by": '"curvature" (the default): mean curvature changes as evenly as it can; "bending": least bending energy',
     "pseudo_normals": '"link" (the default), "average", "area" or "angle"',
-    "fair_boundary": "fair the boundary loops first, as curves, then the surface; in place of fix=\"boundary\"",
-    "normal_plane": '"full" (the default): curves in space are sprung in the whole normal plane; "principal": along the '
-                    "principal normal only, as in the paper",
-    "at": "only holes through these boundary nodes, outer rims among them: a mask of n booleans, or node numbers",
-    "max_size": "only holes whose rim is no longer than this, units of the input",
-    "max_edges": "only holes whose rim has no more edges than this",
-    "outer_rims": "fill also the outer rims of sheets: those whose faces look less than 60° away from where the rim does",
-    "flat": "leave patches as they are before fairing, with creases at the rim",
-    "time_limit": "end after so many seconds with the best shape so far and a warning",
-    "threads": "how many work; all cores by default. The same bits for every number",
-    "progress": "called at most some 20 times a second with a vspring.Progress, or a bar such as tqdm(total=1); what it "
-                "raises ends the call, with positions and report of the best shape so far on the exception",
+    "fair_boundary": "fair the boundary loops first, as curves, then the surface; replaces fix=\"boundary\"",
+    "normal_plane": '"full" (the default): forces of curves in space act in the whole normal plane; "principal": along '
+                    "the principal normal only, as in the paper",
+    "at": "fill only holes through these boundary nodes, also outer rims: a mask of n booleans, or node numbers",
+    "max_size": "fill only holes whose rim is at most this long, units of the input",
+    "max_edges": "fill only holes whose rim has at most this many edges",
+    "outer_rims": "fill the outer rims of sheets, too: rims whose normal is less than 60° from that of the faces there",
+    "flat": "do not fair patches; they have creases at the rim",
+    "time_limit": "end after this many seconds with the best shape so far and a warning",
+    "threads": "number of threads; all cores by default. The same bits for every number",
+    "progress": "called at most about 20 times a second with a vspring.Progress, or a bar such as tqdm(total=1); an "
+                "exception from it ends the call, and has positions and report of the best shape so far",
 }
 
 Call = TypeVar("Call", bound=Callable[..., Any])

@@ -71,7 +71,7 @@ def without_auto(options: Mapping[str, Any], given: Given) -> dict[str, Any]:
         raise Error("invalid-argument", f"{name}: a number is needed, or \"auto\" of within, rms and noise")
     deviation, furthest, voxels = _vspring.estimate_noise(given.core, settled.get("threads") or 0)
     if not deviation > 0:
-        raise Error("unusable-shape", f"{name}: this shape has no noise that its numbers show, or too few nodes to tell; "
+        raise Error("unusable-shape", f"{name}: the numbers of this shape show no noise, or it has too few nodes; "
                     "give a number, or smooth by a length (smoothing_length)")
     del settled[name]
     if voxels is not None:

@@ -53,8 +53,8 @@ def curvatures(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = Non
     vertices, faces: as for fair(), or the result of read(). threads: their number; the same bits for every number.
 
     On smooth surfaces the error is of third order in the spacing, also at boundaries. Zero where too few nodes are
-    around.
-    Raises vspring.Error. Cost: linear, some microseconds a node. Source: Cazals and Pouget 2005; docs/fairness.md.
+    around. Raises vspring.Error. Cost: linear, some microseconds a node. Source: Cazals and Pouget 2005;
+    docs/fairness.md.
     """
     return Curvatures(*_vspring.curvatures(surface_of(vertices, faces).core, threads or 0))
 

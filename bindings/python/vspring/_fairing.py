@@ -27,17 +27,15 @@ def fair(vertices: ArrayLike | _vspring.Surface, faces: Faces | None = None,
 
     vertices: (n, 3), float64 or float32, in any unit. float32 is returned as float32, rounded from doubles.
     faces: (m, 3) or (m, 4) node numbers, a list of lists or of such arrays, or a tuple of two arrays, corners and m + 1
-    offsets.
-    Or the result of read() in place of both. With weight, smoothing_length, within, rms or noise, the surface is fitted
-    to its own nodes in the input.
+    offsets. Or the result of read() in place of both. With weight, smoothing_length, within, rms or noise, the surface
+    is fitted to its own nodes in the input.
 
     Returns new positions, (n, 3), and a report; arguments are unchanged. See outcome in the report: if it did not
     converge the positions are the best shape so far. Outcome or a warning says if they are worse than the input.
 
     Raises vspring.Error for input that cannot be faired, TypeError for arguments of a wrong type, and KeyboardInterrupt
     on Ctrl-C; this has the best shape so far as positions and report. Other threads of Python run meanwhile. Cost:
-    linear in the
-    nodes, some 10 to 15 µs a node; about 0.9 kB of memory for every moving node.
+    linear in the nodes, some 10 to 15 µs a node; about 0.9 kB of memory for every moving node.
 
     Source: A. Yamada, K. Shimada, T. Furuhata, K.-H. Hou, "A Discrete Spring Model for Generating Fair Curves and
     Surfaces", Pacific Graphics 1999; docs/solver.md and docs/springs.md.

@@ -1,3 +1,3 @@
-// In node: the library, with its WebAssembly from beside it. Pages load vspring_core.js themselves.
+// In node: the library, with the WebAssembly file next to it. Pages load vspring_core.js themselves.
 
 module.exports = require('./load.js')('vspring_core');

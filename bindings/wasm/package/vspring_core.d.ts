@@ -6,16 +6,16 @@ declare function vspringCore(options?: vspringCore.Options): Promise<vspringCore
 
 declare namespace vspringCore {
   interface Options {
-    /** The bytes of the .wasm file; without them it is found beside the script. */
+    /** The bytes of the .wasm file; by default the file next to the script. */
     wasmBinary?: ArrayBuffer | Uint8Array;
     /** The address of a file of the library. */
     locateFile?: (name: string) => string;
-    /** Of vspring_core_threads.js: how many work on every call, and the address of that script. */
+    /** Of vspring_core_threads.js: the number of threads, and the address of that script. */
     threads?: number;
     mainScriptUrlOrBlob?: string;
   }
 
-  /** Called some 20 times a second with how much is done, 0 to 1. Returns true to end the call soon, with the best shape so far. */
+  /** Called about 20 times a second with the share done, 0 to 1. Return true to end the call soon, with the best shape so far. */
   type Progress = ((fraction: number) => boolean | void) | null;
 
   /** How a run ended. */
@@ -26,15 +26,15 @@ declare namespace vspringCore {
     iterations: number;
     seconds: number;
     threads: number;
-    /** How far the result is expected to be from the equilibrium, as a share of the diagonal; null where it is not told. */
+    /** Expected distance of the result from the equilibrium, as a share of the diagonal; null if unknown. */
     expectedError: number | null;
     movingNodes: number;
     warnings: string[];
-    /** Of all but a surface's update(). */
+    /** Not of a surface's update(). */
     greatestMove?: number;
-    /** Of fit(), outliers left out. */
+    /** Of fit(), without outliers. */
     fit?: FitFigures;
-    /** Of fit(): of every point; of many points only where the call was not cancelled. */
+    /** Of fit(): of every point; missing for many points if the call was cancelled. */
     distances?: Float64Array;
   }
 
@@ -44,34 +44,34 @@ declare namespace vspringCore {
     outliers: number;
     smoothingLength: number | null;
     leastRadius: number | null;
-    /** The node that has it. */
+    /** The node of the least radius. */
     sharpestNode: number;
     greatest: number;
     rms: number;
   }
 
-  /** One of weight, smoothingLength, within and rms; the rest as it is liked. */
+  /** Exactly one of weight, smoothingLength, within and rms; the rest is optional. */
   interface FitSettings {
     weight?: number | null;
     smoothingLength?: number | null;
     within?: number | null;
     rms?: number | null;
-    /** The share of points that is left out. */
+    /** The share of points to leave out. */
     outliers?: number | null;
-    /** Curves: no smaller radius than this; corners at turns by more than so many degrees. */
+    /** Curves: the least radius of curvature; corners at turns by more than this angle, degrees. */
     leastRadius?: number | null;
     sharp?: number | null;
     /** Whether nodes keep their distribution. */
     keep?: boolean;
   }
 
-  /** Normals that are held. */
+  /** The held normals. */
   interface HeldNormals {
     nodes: Int32Array;
     normals: Float64Array;
   }
 
-  /** Tangents that are held. */
+  /** The held tangents. */
   interface HeldTangents {
     nodes: Int32Array;
     tangents: Float64Array;
@@ -83,7 +83,7 @@ declare namespace vspringCore {
     k2: Float64Array;
   }
 
-  /** What must hold for only some nodes to move: nodes that stay, and the rim with its normals or, of curves, its tangents. */
+  /** Constraints with which only some nodes move: nodes that stay, and the rim with its normals or, of curves, its tangents. */
   interface Region {
     fixed: Int32Array;
     rim: Int32Array;
@@ -99,29 +99,29 @@ declare namespace vspringCore {
     delete(): void;
   }
 
-  /** What surfaces and curves have in common. */
+  /** Members of surfaces and curves. */
   interface Shape {
     nodeCount(): number;
     positions(): Float64Array;
-    /** 1 for every node of a boundary, of a curve: for every end. */
+    /** 1 for every node of a boundary; of a curve for every end. */
     boundary(): Uint8Array;
     warnings(): string[];
     /** Replaces all constraints by those of a constraints file. */
     setRules(json: string): void;
     holdPosition(node: number, x: number, y: number, z: number): void;
     freePosition(node: number): void;
-    /** From the file's shape. */
+    /** Fairs the file's shape. */
     fair(progress: Progress): Report;
-    /** From the last shape, for a drag. */
+    /** Fairs from the last shape, for a drag. */
     update(progress: Progress): Report;
-    /** As fair(), drawn to points. */
+    /** Fits the file's shape to points. */
     fit(points: Points, settings: FitSettings, progress: Progress): Report;
     region(nodes: Int32Array, positions: Float64Array): Region;
     /** The estimated standard deviation of the nodes. */
     noise(): number;
-    /** Another shape to write. */
+    /** Sets another shape to write. */
     setPositions(positions: Float64Array): void;
-    /** The bytes of a file, with all that the input carried; the format by the name. */
+    /** The bytes of a file, with all data of the input; the name gives the format. */
     write(name: string): Uint8Array;
     /** Frees its memory, which JavaScript does not do by itself. */
     delete(): void;
@@ -129,43 +129,43 @@ declare namespace vspringCore {
 
   interface Surface extends Shape {
     faceCount(): number;
-    /** Where the corners of each face begin, and the number of them all. */
+    /** Where the corners of each face begin, and the number of all corners. */
     faceBegin(): Int32Array;
     corners(): Int32Array;
     holdNormal(node: number, x: number, y: number, z: number): void;
     freeNormal(node: number): void;
     heldNormals(): HeldNormals;
-    /** Whether boundary loops are faired first. */
+    /** Sets whether boundary loops are faired first. */
     setFairBoundary(first: boolean): void;
-    /** About where update() would lead; null where it would not start from the last shape. */
+    /** Predicts the positions of update(); null if it would not start from the last shape. */
     predict(): Float64Array | null;
     curvatures(positions: Float64Array): Curvatures;
   }
 
   interface Curve extends Shape {
-    /** Where the nodes of each chain begin, and the number of them all. */
+    /** Where the nodes of each chain begin, and the number of all nodes. */
     chainBegin(): Int32Array;
     chainNodes(): Int32Array;
-    /** 1 for every chain that is closed. */
+    /** 1 for every closed chain. */
     closed(): Uint8Array;
     /** Whether the file has two coordinates a node. */
     planar(): boolean;
     holdTangent(node: number, x: number, y: number, z: number): void;
     freeTangent(node: number): void;
     heldTangents(): HeldTangents;
-    /** So many even nodes between those that are held. Returns for every node its number before, or -1. */
+    /** Puts even nodes between held ones, `nodes` in all. Returns for every node its number before, or -1. */
     resample(nodes: number): Int32Array;
     setNodes(positions: Float64Array, chainBegin: Int32Array, chainNodes: Int32Array, closed: Uint8Array, from: Int32Array): void;
   }
 
   interface Core {
     version(): string;
-    /** Of vspring_core_threads.js: ends the threads, without which node does not end. */
+    /** Of vspring_core_threads.js: ends the threads; otherwise node does not end. */
     PThread?: { terminateAllThreads(): void };
-    /** name: of the file, whose extension says its format where its content does not. */
+    /** name: of the file; its extension gives the format if the content does not. */
     Surface: new (bytes: Uint8Array, name: string) => Surface;
     Curve: (new (bytes: Uint8Array, name: string) => Curve) & {
-      /** A curve that no file gave. */
+      /** Makes a curve without a file. */
       through(positions: Float64Array, closed: boolean): Curve;
     };
     Points: (new (bytes: Uint8Array, name: string) => Points) & { at(positions: Float64Array): Points };

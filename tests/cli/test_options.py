@@ -181,7 +181,7 @@ class Outcomes(Case):
 
     def test_a_limit_that_nobody_gave_is_not_put_down_to_an_option(self):
         path = self.write("in.obj", grid(4))
-        for options, words in ((["--step-tolerance", "1e-300"], "by default"),
+        for options, words in ((["--step-tolerance", "1e-300"], "the default limit of iterations"),
                                (["--max-iterations", "3"], "limit of iterations (--max-iterations)")):
             done = run("fair", path, "-o", self.folder / "out.obj", "--method", "sweep", *options)
             self.assertEqual(done.returncode, 3)

@@ -85,17 +85,17 @@ struct FitOptions {
   double outliers = 0;
   /// Curves fitted to their own nodes, by EquilibriumMethod: which of x, y and z may change, as the heights of a
   /// profile; nodes keep the others to the bit. Distances are then those between a node's old and new place, in the
-  /// coordinates that may change. A curve in space of which one coordinate is kept is drawn over the length of the way
-  /// in the other two.
+  /// coordinates that may change. If one coordinate of a curve in space may change, it is drawn over the length of the
+  /// way in the other two.
   std::array<bool, 3> moving_axes = {true, true, true};
   /// Curves: the least radius of curvature of a node, by the circle through it and its neighbours, kept to 1 %; in
   /// units of the input; 0: any. If points, ends or held directions do not allow it, a warning names the node that is
   /// bent most, and the outcome is not `converged`. The curve is then drawn with nodes of its own also for Weight and
   /// SmoothingLength. EquilibriumMethod only.
   double least_radius = 0;
-  /// Curves: an angle in degrees, less than 180. Where the nodes' way turns by more than this within about eight
-  /// tolerances is a corner: direction and curvature may jump there, and each side is fair by itself. Corners move with
-  /// their points. 0: only FairOptions::corners. EquilibriumMethod only.
+  /// Curves: an angle in degrees, less than 180. A place at which the nodes' way turns by more than this within about
+  /// eight tolerances is a corner: direction and curvature may jump there, and each side is fair by itself. Corners
+  /// move with their points. 0: only FairOptions::corners. EquilibriumMethod only.
   double sharp = 0;
 
   /// Throws Error(invalid_argument) naming the option and its range.

@@ -21,8 +21,8 @@ struct NoiseEstimate {
   /// Curves: the standard deviation in x, y and z; 0 for the coordinate along the curve, and with too few nodes (about
   /// 70).
   std::array<double, 3> by_coordinate = {};
-  /// Whether by_coordinate differ by more than a factor of two, as those of heights and places do. Then `deviation` is
-  /// the root mean square across the curve.
+  /// Whether the values of by_coordinate differ by more than a factor of two, as those of heights and places do. Then
+  /// `deviation` is the root mean square across the curve.
   bool coordinates_differ = false;
   /// Set for surfaces of voxels, whose steps are their noise: see voxel_size().
   std::optional<Vector3> voxel = std::nullopt;

@@ -60,8 +60,7 @@ struct CurveFitTask {
   double noise = 0;         ///< of the points, across the curve
   double least_radius = 0;  ///< 0: any
   double sharp = 0;         ///< corners are where the points' way turns by more than this, in radians; 0: no corners
-  double tolerance = 1e-5;  ///< distance from the fairest curve, as a share of
-                            ///< the size
+  double tolerance = 1e-5;  ///< how near to the fairest, a share of the size
   int most_steps = 120;     ///< steps of all programs
   std::size_t most_work = std::numeric_limits<std::size_t>::max();  ///< when exceeded, the present curve is returned
 };

@@ -21,8 +21,8 @@ struct MovingRun {
   std::vector<std::uint32_t> nodes;
   /// Whether the last node joins the first, which is held.
   bool closed = false;
-  /// Arc length at each node, from which edges take their lengths. A closed run has one more entry, for the first node
-  /// again. Set by curve_levels().
+  /// Places of its nodes along it, at whose distances the lengths of edges aim. A closed run has one more entry, for
+  /// the first node again. Set by curve_levels().
   std::vector<double> along = {};
 };
 

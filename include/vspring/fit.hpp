@@ -205,8 +205,8 @@ struct FitResult {
 ///
 /// For Within and RootMeanSquare a surface is brought to equilibrium ten to a hundred times. If no shape within the
 /// tolerance is found, the nearest one is returned, or the input if that is within it, with a warning and an outcome
-/// that is not `converged`. Curves are drawn by convex programs instead, with nodes of their own (docs/curves.md); their
-/// ends may be free.
+/// that is not `converged`. Curves are drawn by convex programs instead, with nodes of their own (docs/curves.md);
+/// their ends may be free.
 ///
 /// The result has the same bits for every number of threads. Cancellation returns the shape so far with outcome
 /// `cancelled`. Arguments are unchanged.

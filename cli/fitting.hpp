@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -113,9 +114,14 @@ struct FairedOrFitted {
 template <typename Shape>
 FairedOrFitted account_for(FitResult fitted, const Shape& shape, const FairingArguments& arguments,
                            const PullArguments& pull, const Context& context) {
+  std::vector<Warning>& warnings = fitted.report.fair.warnings;
   const Outcome outcome = fitted.report.fair.outcome;
-  if (outcome != Outcome::converged && outcome != Outcome::cancelled && pull.automatic.empty())
-    warn_of_noise(pull, noise_of(shape, pull, context), fitted.report.fair.warnings);
+  const bool is_fairest =
+      outcome == Outcome::converged && std::none_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
+        return warning.code == WarningCode::maybe_not_fairest;
+      });
+  if (!is_fairest && outcome != Outcome::cancelled && pull.automatic.empty())
+    warn_of_noise(pull, noise_of(shape, pull, context), warnings);
   FitAccount account(fitted.report, pull, arguments.input, {});
   return {{std::move(fitted.positions), std::move(fitted.report.fair)}, std::move(account)};
 }

@@ -66,7 +66,8 @@ class BendingDescent {
       const CancellationScope cancellation(context);
       start();
       follow(task, result);
-      if (sound_ != best_) keep_faces(task, result);
+      // Nodes of a crumpled start would keep its folds.
+      if (sound_ != best_ && most_turned_ == 0) keep_faces(task, result);
     } catch (const Cancelled&) {
       result.outcome = Outcome::cancelled;
     }

@@ -254,14 +254,12 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   if (const Attempt* const best = bent_least(attempts, at_first))
     std::copy(best->places.begin(), best->places.end(), net.positions.begin());
   Attempt bent_less = bend_less(relaxation, constraints, call);
-  const auto is_settled = [&](const Attempt& one) {
-    return one.is_final() && one.kept.empty() && one.expected_error < call.method.tolerance;
-  };
-  if (is_settled(bent_less)) {
+  if (bent_less.is_final() && bent_less.kept.empty() && bent_less.expected_error < call.method.tolerance) {
     attempts.push_back(std::move(bent_less));
     return;
   }
-  // It may have ended in a crease of the input.
+  // It may have ended in folds of the input, of which the bending of quadratics sees little.
+  const bool has_folds = turned_edges(hierarchy_->finest(), team_) > 0;
   keep_places(bent_less);
   hierarchy_->start_from_membrane(relaxation.last());
   attempts.push_back(bend_less(relaxation, constraints, call));
@@ -271,8 +269,7 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   measure_bending(attempts);
   Attempt& last = attempts.back();
   Attempt& from_membrane = attempts[attempts.size() - 2];
-  if (is_settled(from_membrane) ||
-      (from_membrane.is_final() && (!last.is_final() || from_membrane.bending < last.bending)))
+  if (from_membrane.is_final() && (!last.is_final() || has_folds || from_membrane.bending < last.bending))
     std::swap(from_membrane, last);
 }
 

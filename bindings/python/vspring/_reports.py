@@ -17,6 +17,7 @@ class Level:
     iterations: int
     outcome: str
     strategy: str
+    kept_nodes: int  # of less bending: they stay, as faces would turn over there
     seconds: float
 
 

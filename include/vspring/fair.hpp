@@ -148,7 +148,7 @@ struct LevelReport {
   /// bending", "from less bending", "from the last shape" or "V-cycle" (docs/solver.md).
   const char* strategy = "";
   double seconds = 0;
-  /// Of "less bending": moving nodes that stay where they were last, as faces would turn over there.
+  /// Of "less bending": moving nodes that stay, as faces would turn over there. 0 in fits to a tolerance.
   Index kept_nodes = 0;
 };
 
@@ -165,7 +165,8 @@ struct FairReport {
   /// The residual after every iteration, over all levels.
   std::vector<double> history;
   /// Predicted largest distance of a node from its final place, as a share of the diagonal of the box around the moving
-  /// nodes and their rim. Empty with sweep, which cannot tell.
+  /// nodes and their rim. Empty where that is not known: with sweep, and in fits to a tolerance whose shape may not be
+  /// the fairest.
   std::optional<double> expected_error;
   /// The levels in the order of the work, the coarsest first. With equilibrium, one iteration on the shape itself may
   /// come before them: it tests whether the shape is at its equilibrium already. Empty with sweep.

@@ -161,22 +161,20 @@ std::size_t turned_edges(const Net& net, ThreadTeam& team) {
   return defects_of(net, net.positions, mean_edge(net), team, {}).turned;
 }
 
-std::vector<TurnedEdge> list_turned_edges(const Net& net) {
-  std::vector<TurnedEdge> edges;
+std::vector<std::size_t> nodes_at_turned_edges(const Net& net) {
+  std::vector<std::size_t> nodes;
   std::vector<std::size_t> spokes;
   std::vector<Vector3> faces;
   for (std::size_t i = 0; i < net.computed; ++i) {
     find_faces(net, net.positions, i, spokes, faces);
     const auto neighbour = [&](std::size_t s) { return net.rings.links(i)[spokes[s]].node(); };
     for (std::size_t s = 0; s < spokes.size(); ++s) {
-      const std::size_t j = neighbour(s);
       const std::size_t last = place_before(s, spokes.size());
-      if ((j < i && j < net.computed) || !turns_back(faces[last], faces[s])) continue;
-      edges.push_back({std::min(i, j), std::max(i, j), neighbour(last), neighbour(place_after(s, spokes.size()))});
+      if (turns_back(faces[last], faces[s]))
+        nodes.insert(nodes.end(), {i, neighbour(s), neighbour(last), neighbour(place_after(s, spokes.size()))});
     }
   }
-  std::sort(edges.begin(), edges.end());
-  return edges;
+  return nodes;
 }
 
 ResultCheck::ResultCheck(Net& start, const Model& model, ThreadTeam& team, StartPlaces places)

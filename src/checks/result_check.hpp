@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -18,11 +17,9 @@ namespace vspring {
 /// How many edges turn by more than 90°, between two faces of a surface or along a curve. Cost: linear.
 std::size_t turned_edges(const Net& net, ThreadTeam& team);
 
-/// Such an edge of a surface: its ends, the lower number first, and a node of the face on each side.
-using TurnedEdge = std::array<std::size_t, 4>;
-
-/// All such edges of a surface, in the order of their ends. Cost: linear.
-std::vector<TurnedEdge> list_turned_edges(const Net& net);
+/// Of a surface: the ends of such edges, and for each a node of the face on each side. Some may be there more than
+/// once. Cost: linear.
+std::vector<std::size_t> nodes_at_turned_edges(const Net& net);
 
 /// What a shape may have, and should have no more of, or not much.
 struct ShapeDefects {

@@ -103,9 +103,10 @@ class BendingDescent {
     keeps_faces_ = true;
     conjugate_.clear();
     pulls_.clear();
-    result.iterations = 0;
     if (task.renew_ties) (void)task.renew_ties(0);
+    const int iterations = std::exchange(result.iterations, 0);
     follow(task, result);
+    result.iterations += iterations;
     result.kept = static_cast<std::size_t>(std::count(stays_.begin(), stays_.end(), 1));
   }
 
@@ -116,13 +117,14 @@ class BendingDescent {
     std::deque<double> sizes;
     std::vector<Vector3> places = best_;
     double fallen = 0;
+    int steps = 0;
     for (; result.iterations < task.max_iterations; ++result.iterations) {
       if (result.work + 1 > task.most_work) {
         result.outcome = Outcome::work_limit;
         return;
       }
       end_if_cancelled();
-      if (result.iterations > 0 && result.iterations % steps_of_fall == 0) {
+      if (steps == steps_of_fall) {
         if (fallen < least_fall_of_all * energy_) {
           for (std::size_t i = 0; i < net_.moving; ++i) places[i] -= best_[i];
           result.expected_error = length_of(places);
@@ -131,6 +133,7 @@ class BendingDescent {
         }
         places = best_;
         fallen = 0;
+        steps = 0;
       }
       if (task.renew_ties && result.iterations % steps_per_tie == 0) (void)task.renew_ties(0);
       if (!find_way(damping, result)) {
@@ -156,9 +159,17 @@ class BendingDescent {
       const double before = energy_;
       const bool went = go();
       fallen += before - energy_;
+      ++steps;
+      if (count_staying() > staying) {
+        // What falls is another shape's bending now.
+        conjugate_.clear();
+        places = best_;
+        fallen = 0;
+        steps = 0;
+        continue;
+      }
       if (!went) {
         conjugate_.clear();
-        if (count_staying() > staying) continue;
         damping = std::max(change_of_damping * damping, least_damping);
         if (damping > most_damping) {
           result.outcome = Outcome::stalled;
@@ -292,20 +303,13 @@ class BendingDescent {
     return true;
   }
 
-  /// Whether more edges turn than may. The nodes at those that did not before stay from now on.
+  /// Whether faces turned over. Their nodes stay from now on.
   bool folds() {
-    if (turned_edges(net_, team_) <= most_turned_) return false;
-    const std::vector<TurnedEdge> now = list_turned_edges(net_);
-    net_.positions.swap(best_);
-    const std::vector<TurnedEdge> before = list_turned_edges(net_);
-    net_.positions.swap(best_);
-    for (const TurnedEdge& edge : now) {
-      if (std::binary_search(before.begin(), before.end(), edge)) continue;
-      for (const std::size_t node : edge) {
-        if (node < net_.moving) stays_[node] = 1;
-      }
+    const std::vector<std::size_t> nodes = nodes_at_turned_edges(net_);
+    for (const std::size_t node : nodes) {
+      if (node < net_.moving) stays_[node] = 1;
     }
-    return true;
+    return !nodes.empty();
   }
 
   [[nodiscard]] bool stays(std::size_t i) const { return keeps_faces_ && stays_[i] != 0; }

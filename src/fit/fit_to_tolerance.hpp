@@ -195,6 +195,8 @@ class FitToTolerance {
     fair.springs = first.springs;
     fair.fair_by = first.fair_by;
     fair.levels.push_back(first.levels.front());
+    // Which of all these shapes kept how many nodes is not known.
+    fair.levels.back().kept_nodes = 0;
     finish_with(shape.net(), found.length);
     warn_of_least_bending(fair);
     return found;
@@ -254,6 +256,8 @@ class FitToTolerance {
       return;
     }
     fair.outcome = within ? Outcome::converged : Outcome::stalled;
+    // How far it is from an equilibrium is not known.
+    fair.expected_error.reset();
     if (within)
       fair.warnings.push_back(
           {WarningCode::maybe_not_fairest, "the shape is within the tolerance, but may not be the fairest that is"});

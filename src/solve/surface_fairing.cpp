@@ -254,7 +254,9 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   if (const Attempt* const best = bent_least(attempts, at_first))
     std::copy(best->places.begin(), best->places.end(), net.positions.begin());
   Attempt bent_less = bend_less(relaxation, constraints, call);
-  if (bent_less.is_final() && bent_less.kept.empty() && bent_less.expected_error < call.method.tolerance) {
+  const bool is_settled =
+      bent_less.stands() && bent_less.kept.empty() && bent_less.expected_error < call.method.tolerance;
+  if (is_settled || bent_less.outcome == Outcome::cancelled) {
     attempts.push_back(std::move(bent_less));
     return;
   }
@@ -269,8 +271,8 @@ void SurfaceFairing::go_by_less_bending(std::vector<Attempt>& attempts, const Co
   measure_bending(attempts);
   Attempt& last = attempts.back();
   Attempt& from_membrane = attempts[attempts.size() - 2];
-  if (from_membrane.is_final() && (!last.is_final() || has_folds || from_membrane.bending < last.bending))
-    std::swap(from_membrane, last);
+  const bool is_better = from_membrane.stands() && (has_folds || from_membrane.bending < last.bending);
+  if (is_better || (from_membrane.is_final() && !last.is_final())) std::swap(from_membrane, last);
 }
 
 void SurfaceFairing::take_best(std::vector<Attempt> attempts, const Constraints& constraints,

@@ -208,8 +208,10 @@ MUTATIONS = {
         ("border-gap", "points end where there are none in 150°", "gap > widest_gap", "gap > 1.25 * widest_gap"),
     ],
     "src/fit/boundary_trace.cpp": [
-        ("boundary-corner", "a corner turns more than what is beside it", "excess[k] > least_turn", "false"),
         ("boundary-side", "points end on the side where the surface does", "about->out.dot(out[k]) < least_cosine_outwards", "false"),
+    ],
+    "src/fit/closed_way.cpp": [
+        ("boundary-corner", "a corner turns more than what is beside it", "excess[k] > least_turn", "false"),
     ],
     "src/points/point_factors.cpp": [
         ("pull-by-edges", "weight of a length: λ⁴ against ρ⁴", "std::pow(mean_edge(net) / *length, 4) / 16", "std::pow(mean_edge(net) / *length, 2) / 16"),

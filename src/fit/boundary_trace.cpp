@@ -5,13 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <utility>
 
 #include "base/cancellation.hpp"
 #include "base/median.hpp"
 #include "base/threads.hpp"
+#include "fit/closed_way.hpp"
 #include "points/nearest_nodes.hpp"
 #include "points/point_sheet.hpp"
 #include "shape/box_tree.hpp"
@@ -40,19 +40,12 @@ constexpr std::size_t edges_about = 2;
 constexpr std::size_t least_loop_in_edges = 6;
 // In edges: waves of two go, which edges cannot follow.
 constexpr double smoothing_in_edges = 1.0 / 3;
-// Corners turn by so much more, within three nodes, than what is beside them, in loops of so many nodes at least.
-constexpr double least_turn = 40 * std::numbers::pi / 180;
-constexpr std::size_t fewest_nodes = 8;
-constexpr double turn_of_few = std::numbers::pi / 3;
-// Edges whose directions differ by less do not meet.
-constexpr double least_sine2 = 0.1;
+// A corner that begins far off takes two.
 constexpr int turns_of_corners = 2;
 // In a row, of which points tell nothing.
 constexpr std::size_t fewest_kept = 3;
 // In edges, root mean square: a loop that is further away from where points end than that, and than it was, has failed.
 constexpr double far_in_edges = 0.25;
-// Edges become as long as those beside them on average, so many times.
-constexpr int turns_of_spacing = 8;
 
 /// An edge of the boundary.
 struct BoundaryEdge {
@@ -340,16 +333,16 @@ class BoundaryTrace {
       return std::move(result.positions);
     };
     const std::vector<Vector3> start = way;
-    if (way.size() >= fewest_nodes) way = fitted();
+    if (way.size() >= fewest_smoothed) way = fitted();
     // So that no square overflows.
     for (Vector3& place : way) place *= frame_.scale();
-    for (const std::size_t k : corners_of(nodes, way)) {
+    const auto faces = [&](std::size_t k) { return incidence_.corners(nodes[k]).size(); };
+    for (const std::size_t k : put_at_corners(way, faces)) {
       const auto node = static_cast<Index>(k);
       if (!held.tangent_fixed(node)) held.make_corner(node);
     }
     space_out(held, way);
     for (Vector3& place : way) place /= frame_.scale();
-    // A corner that begins far off takes two.
     for (int turn = 0; turn < turns_of_corners; ++turn) way = fitted();
     const auto off = [&](const std::vector<Vector3>& loop) {
       return distance(told.positions, PolygonCurve(loop, true), context_).rms;
@@ -379,114 +372,6 @@ class BoundaryTrace {
       if (near.empty()) return true;
     }
     return false;
-  }
-
-  /// Places of a closed way that has been smoothed, so that a corner turns within about three nodes. They go to the
-  /// corners. Of one of few nodes, which has not been smoothed, those where it turns by over 60°.
-  [[nodiscard]] std::vector<std::size_t> corners_of(const std::vector<Index>& nodes, std::vector<Vector3>& way) const {
-    const std::size_t count = way.size();
-    const auto edge = [&](std::size_t k) -> Vector3 { return way[(k + 1) % count] - way[k % count]; };
-    const auto turn = [&](std::size_t k, std::size_t l) {
-      return std::atan2(edge(k).cross(edge(l)).norm(), edge(k).dot(edge(l)));
-    };
-    std::vector<std::size_t> corners;
-    for (std::size_t k = 0; k < count && count < fewest_nodes; ++k) {
-      if (turn(k + count - 1, k) > turn_of_few) corners.push_back(k);
-    }
-    if (count < fewest_nodes) return corners;
-    std::vector<double> excess(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      // Three nodes, and two to either side of them.
-      const double beside = turn(k + count - 4, k + count - 2) + turn(k + 1, k + 3);
-      excess[k] = turn(k + count - 2, k + 1) - 0.75 * beside;
-    }
-    for (std::size_t k = 0; k < count; ++k) {
-      const auto is_less = [&](std::size_t step) {
-        const std::size_t other = (k + step) % count;
-        return std::pair(excess[other], other) < std::pair(excess[k], k);
-      };
-      if (!(excess[k] > least_turn) || !is_less(1) || !is_less(2) || !is_less(count - 1) || !is_less(count - 2))
-        continue;
-      corners.push_back(put_at_corner(nodes, k, way));
-    }
-    return corners;
-  }
-
-  /// Where the edges about three places of a way would meet: that of them which is nearest goes there, or one beside it
-  /// that has fewer faces, as others would have straight angles in theirs.
-  std::size_t put_at_corner(const std::vector<Index>& nodes, std::size_t about, std::vector<Vector3>& way) const {
-    const std::size_t count = way.size();
-    const auto step = [&](std::size_t k, std::size_t by) { return (k + by) % count; };
-    const Vector3& before = way[step(about, count - 1)];
-    const Vector3& after = way[step(about, 1)];
-    const Vector3 in = (before - way[step(about, count - 2)]).normalized();
-    const Vector3 out = (after - way[step(about, 2)]).normalized();
-    // The middle between two lines, where these are nearest to each other.
-    const double cosine = in.dot(out);
-    const double sine2 = 1 - cosine * cosine;
-    if (!(sine2 > least_sine2)) return about;
-    const Vector3 gap = after - before;
-    const double way_in = (gap.dot(in) - cosine * gap.dot(out)) / sine2;
-    const double way_out = (cosine * gap.dot(in) - gap.dot(out)) / sine2;
-    const Vector3 corner = (before + way_in * in + after + way_out * out) / 2;
-    if (!(4 * (corner - way[about]).squaredNorm() < gap.squaredNorm())) return about;
-    const auto distance = [&](std::size_t k) { return (way[k] - corner).squaredNorm(); };
-    std::size_t nearest = about;
-    for (const std::size_t by : {count - 1, std::size_t{1}}) {
-      if (distance(step(about, by)) < distance(nearest)) nearest = step(about, by);
-    }
-    std::size_t chosen = nearest;
-    const auto faces = [&](std::size_t k) { return incidence_.corners(nodes[k]).size(); };
-    for (const std::size_t by : {count - 1, std::size_t{1}}) {
-      if (faces(step(nearest, by)) >= faces(chosen)) continue;
-      chosen = step(nearest, by);
-      // The nearest one makes room.
-      way[nearest] = (corner + way[step(nearest, count - by)]) / 2;
-    }
-    way[chosen] = corner;
-    return chosen;
-  }
-
-  /// Takes the noise out of the distances along a closed way, between nodes that are held or corners.
-  static void space_out(const Constraints& held, std::vector<Vector3>& way) {
-    const std::size_t count = way.size();
-    const auto stays = [&](std::size_t k) {
-      const auto node = static_cast<Index>(k % count);
-      return held.position_fixed(node) || held.corner(node);
-    };
-    std::size_t first = 0;
-    while (first < count && !stays(first)) ++first;
-    if (first == count) first = 0;
-    const std::vector<Vector3> before = way;
-    for (std::size_t begin = first; begin < first + count;) {
-      std::size_t end = begin + 1;
-      while (end < first + count && !stays(end)) ++end;
-      space_out_between(before, begin, end, way);
-      begin = end;
-    }
-  }
-
-  static void space_out_between(const std::vector<Vector3>& before, std::size_t begin, std::size_t end,
-                                std::vector<Vector3>& way) {
-    const auto at = [&](std::size_t k) { return before[k % before.size()]; };
-    std::vector<double> lengths;
-    for (std::size_t k = begin; k < end; ++k) lengths.push_back((at(k + 1) - at(k)).norm());
-    std::vector<double> even = lengths;
-    for (int turn = 0; turn < turns_of_spacing; ++turn) {
-      const std::vector<double> last = even;
-      for (std::size_t k = 0; k < even.size(); ++k)
-        even[k] = (last[k > 0 ? k - 1 : k] + last[k] + last[std::min(k + 1, even.size() - 1)]) / 3;
-    }
-    // The sum stays.
-    double wanted = 0;
-    double passed = 0;
-    std::size_t edge = 0;
-    for (std::size_t k = 0; k + 1 < even.size(); ++k) {
-      wanted += even[k];
-      while (edge + 1 < lengths.size() && passed + lengths[edge] < wanted) passed += lengths[edge++];
-      const double share = lengths[edge] > 0 ? std::clamp((wanted - passed) / lengths[edge], 0.0, 1.0) : 0;
-      way[(begin + k + 1) % way.size()] = at(begin + edge) + share * (at(begin + edge + 1) - at(begin + edge));
-    }
   }
 
   const PolygonMesh& mesh_;

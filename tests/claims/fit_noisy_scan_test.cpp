@@ -91,7 +91,7 @@ TEST(FitNoisyScan, NoiseIsTakenOffOnEveryKindOfFace) {
 }
 
 TEST(FitNoisyScan, ASmoothShapeIsFoundFromNoiseOfItsEdges) {
-  // In docs/notes/fit.md, on a torus like this one, fits with a weight at every node left 0.17 of such noise.
+  // In docs/notes/fit.md, on a torus like this one, fits by a smoothing length left 0.16 of such noise.
   const PolygonMesh torus = generate::torus({.columns = 64, .rows = 48, .jitter = 0.2}, 1, minor_radius);
   const double deviation = 0.02;
   const PolygonMesh noisy = generate::add_noise(torus, std::sqrt(5.0) * deviation, 1);

@@ -1,5 +1,6 @@
 // How far the equilibrium is from a cylinder whose boundary it is held by, positions and normals, on meshes of many
-// kinds, refined: 120° of radius 1, 2 high, lifted by a fifth in the middle. Prints a table of docs/notes/springs.md.
+// kinds, refined: 120° of radius 1, 2 high, lifted by a fifth in the middle. Prints a table; docs/notes/springs.md has
+// a part.
 
 #include <fmt/format.h>
 

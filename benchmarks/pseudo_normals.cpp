@@ -1,5 +1,5 @@
 // The error of each kind of pseudo-normal on curved shapes of every kind of polygon, and how isotropic the V-Spring
-// operator is that it makes on a square grid. Prints the tables of docs/pseudo-normals.md and docs/notes/fairness.md.
+// operator is that it makes on a square grid. Prints the tables of docs/pseudo-normals.md.
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // Noise taken off: smooth shapes, and every mesh of the folder that is named, get noise of 0.3 edges. They are fitted
 // to their own noisy nodes, which keep their distribution, at several smoothing lengths, boundaries and non-manifold
-// spots held, and smoothed by VTK's windowed sinc filter at many settings, of which the best counts. Prints the table
-// of docs/notes/fit.md: root mean square distances between the result and the mesh without noise, of the nodes of
+// spots held, and smoothed by VTK's windowed sinc filter at many settings, of which the best counts. Prints a table:
+// root mean square distances between the result and the mesh without noise, of the nodes of
 // either from the other, the greater of both, in per cent of the mean edge; † where no equilibrium was found.
 
 #include <fmt/format.h>

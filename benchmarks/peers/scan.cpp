@@ -2,9 +2,10 @@
 // is taken off by fair with FitOptions::noise as estimated, or told the noise with rms of it or within three times as
 // much, or by the smoothing length that does, by VTK's windowed sinc, by Taubin's filter and by OpenMesh's smoother,
 // which are told nothing and of whose settings the best counts. Boundaries and non-manifold spots
-// stay. Prints the table of docs/notes/fit.md: root mean square distances between result and true shape, of the nodes
-// of either from the other, the greater of both, in per cent of the median edge; the greatest turn; how far the noisy
-// nodes are from the result, in noise; processor time on one thread, also in plain iterations of the same mesh.
+// stay. Prints a table, which docs/notes/fit.md sums up: root mean square distances between result and true shape, of
+// the nodes of either from the other, the greater of both, in per cent of the median edge; the greatest turn; how far
+// the noisy nodes are from the result, in noise; processor time on one thread, also in plain iterations of the same
+// mesh.
 
 #include <fmt/format.h>
 

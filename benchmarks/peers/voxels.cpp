@@ -1,7 +1,7 @@
 // Steps of voxels taken off: a ball, a ring and boxes of voxels of 1 × 1 × 1 and 1 × 1 × 3, as the sides of their
 // voxels (quads) and as marching cubes leave their masks (triangles), by vspring as fair with --noise auto does it, by
 // VTK's windowed sinc and by the smoothing of surface nets. All get the same mesh; VTK takes quads as they are. Prints
-// the figures of docs/notes/peers.md, for each mask as it is and as each leaves it: the distance of the nodes from the
+// the figures of docs/peers.md, for each mask as it is and as each leaves it: the distance of the nodes from the
 // true shape, root mean square and greatest; the change of volume; the share of nodes further than half a voxel, across
 // the shape, from where they were; how far nodes inside flat sides of the upright box are from these; seconds on one
 // thread. Lengths are in shorter sides of voxels.
